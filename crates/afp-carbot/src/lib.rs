@@ -1,0 +1,1 @@
+//! The Carbot: robot traits and the templates written against them.

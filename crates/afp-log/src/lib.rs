@@ -1,0 +1,1 @@
+//! MCAP logs of plans and robots.

@@ -1,0 +1,1 @@
+//! The macros `plan!` and `toolbox!`, thin over `afp-dsl`.

@@ -1,0 +1,1 @@
+//! What `afpc run` and every generated binary share: options, timeline, summary, pictures.

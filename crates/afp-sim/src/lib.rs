@@ -1,0 +1,1 @@
+//! The simulated Carbot: a planar rapier world in virtual time.

@@ -1,0 +1,1 @@
+//! The `std` toolbox: templates that need no robot.

@@ -1,0 +1,1 @@
+//! The built-in toolbox files and their icons, as data.

@@ -1,0 +1,2 @@
+//! The command line of Action Flow Plans.
+fn main() {}

@@ -1,0 +1,2 @@
+//! Chores of the project: test, bench, nightly.
+fn main() {}
