@@ -1,1 +1,92 @@
 //! The built-in toolbox files and their icons, as data.
+//!
+//! Whoever runs the compiler passes these texts to it, so that `use std` and `use carbot` need no
+//! files beside the program.
+
+/// A toolbox that is embedded wherever the compiler runs.
+#[derive(Clone, Copy, Debug)]
+pub struct Builtin {
+    /// The name by which `use` finds it.
+    pub name: &'static str,
+    /// The name of its file, for diagnostics.
+    pub file_name: &'static str,
+    /// The text of its file.
+    pub text: &'static str,
+    /// The Rust crate that implements it.
+    pub rust_path: &'static str,
+}
+
+/// Every built-in toolbox.
+pub const ALL: &[Builtin] = &[
+    Builtin {
+        name: "std",
+        file_name: "std.afp",
+        text: include_str!("../toolboxes/std.afp"),
+        rust_path: "afp_std",
+    },
+    Builtin {
+        name: "carbot",
+        file_name: "carbot.afp",
+        text: include_str!("../toolboxes/carbot.afp"),
+        rust_path: "afp_carbot",
+    },
+];
+
+macro_rules! icons {
+    ($($name:literal),* $(,)?) => {
+        /// Every icon: the name that templates give, and the SVG text (24 x 24, drawn in
+        /// `currentColor`).
+        pub const ICONS: &[(&str, &str)] =
+            &[$(($name, include_str!(concat!("../icons/", $name, ".svg")))),*];
+    };
+}
+
+icons! {
+    "assign",
+    "check_driving_lane",
+    "check_escape_button",
+    "check_timeout",
+    "check_touch_sensor",
+    "check_value",
+    "compare",
+    "count",
+    "forward",
+    "log",
+    "search_wall",
+    "turn",
+    "wait",
+    "wall_forward",
+}
+
+/// The SVG text of an icon; `None` for a name that is not built in.
+pub fn icon(name: &str) -> Option<&'static str> {
+    ICONS.iter().find(|(known, _)| *known == name).map(|(_, svg)| *svg)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ALL, ICONS, icon};
+
+    #[test]
+    fn every_icon_named_by_a_toolbox_is_embedded() {
+        for toolbox in ALL {
+            let names = toolbox.text.lines().filter_map(|line| line.trim().strip_prefix("icon \""));
+            for name in names.map(|rest| rest.trim_end_matches('"')) {
+                assert!(icon(name).is_some(), "{}: no icon '{name}'", toolbox.file_name);
+            }
+        }
+    }
+
+    #[test]
+    fn icons_are_24_by_24_in_the_current_colour() {
+        for (name, svg) in ICONS {
+            assert!(svg.contains("viewBox=\"0 0 24 24\""), "{name}");
+            assert!(svg.contains("currentColor"), "{name}");
+        }
+    }
+
+    #[test]
+    fn an_unknown_icon_is_none() {
+        assert!(icon("teapot").is_none());
+    }
+}
