@@ -1,0 +1,141 @@
+//! What a template's author writes: actors, supervisors, computations.
+//!
+//! The template traits (`ActorTemplate` and its siblings) are implemented by marker types that
+//! `toolbox!` makes from a toolbox file; the component traits by the author. States and events
+//! carry their outputs as payload, so "written only on that state" follows from the types.
+
+use crate::fault::Fault;
+use crate::time::Instant;
+
+/// What every platform offers, whatever devices it has.
+pub trait Environment {
+    /// Gives the stop command to everything that moves and returns at once.
+    fn stop(&mut self, now: Instant);
+
+    /// Stops by the strongest means there is; called when the run cannot be trusted any more.
+    /// May be called several times and without a clock.
+    fn emergency_stop(&mut self);
+}
+
+/// The events of a supervisor that lead somewhere, by position in its template.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Events(u64);
+
+impl Events {
+    /// A set from its bits: bit `n` is the template's `n`-th event.
+    pub const fn from_bits(bits: u64) -> Self {
+        Events(bits)
+    }
+
+    /// Whether the template's `n`-th event leads somewhere.
+    pub const fn contains(self, n: u16) -> bool {
+        n < 64 && self.0 >> n & 1 == 1
+    }
+}
+
+/// What a poll of an actor says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Poll<S> {
+    /// Go on.
+    Pending,
+    /// The actor has finished in this state.
+    Ready(S),
+}
+
+/// The ports and states of an actor, as its toolbox file declares them.
+pub trait ActorTemplate {
+    /// Inputs read once, before the start.
+    type Inputs<'a>;
+    /// Inputs read again before every poll.
+    type Live<'a>;
+    /// The states with the outputs that each carries.
+    type State;
+}
+
+/// The ports and events of a supervisor, as its toolbox file declares them.
+pub trait SupervisorTemplate {
+    /// Inputs read once, before the start.
+    type Inputs<'a>;
+    /// Inputs read again before every poll.
+    type Live<'a>;
+    /// The events with the outputs that each carries.
+    type Event;
+}
+
+/// The ports and states of a computation, as its toolbox file declares them.
+pub trait ComputationTemplate {
+    /// Its inputs.
+    type Inputs<'a>;
+    /// The states with the outputs that each carries.
+    type State;
+}
+
+/// A running actor of template `T` on platform `E`.
+///
+/// ```text
+///   start --Ok--> running --poll: Ready--> finished
+///     |              |  \---poll: Err----> interrupt, then gone
+///    Err: gone       \------interrupted--> interrupt, then gone
+/// ```
+pub trait Actor<T: ActorTemplate, E: ?Sized>: Sized {
+    /// Begins to act. The first poll comes one period later.
+    ///
+    /// # Errors
+    /// A fault means that nothing runs; the scheduler calls [`Environment::stop`], not
+    /// `interrupt`.
+    fn start(inputs: T::Inputs<'_>, env: &mut E, now: Instant) -> Result<Self, Fault>;
+
+    /// Goes on without blocking. An actor that is ready leaves the robot as safe as an
+    /// interrupted one.
+    ///
+    /// # Errors
+    /// A fault means that the actor cannot go on; `interrupt` follows.
+    fn poll(
+        &mut self,
+        live: T::Live<'_>,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Poll<T::State>, Fault>;
+
+    /// Gives the stop command and returns. Called exactly once for an actor that was started and
+    /// did not finish, before anything else starts.
+    ///
+    /// # Errors
+    /// A fault ends the whole run: what cannot be stopped must not be followed.
+    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault>;
+}
+
+/// A watching supervisor of template `T` on platform `E`.
+pub trait Supervisor<T: SupervisorTemplate, E: ?Sized>: Sized {
+    /// Begins to watch for the `wanted` events.
+    ///
+    /// # Errors
+    /// A supervisor that cannot see is not "all clear": its actor goes to `Error`.
+    fn start(
+        inputs: T::Inputs<'_>,
+        wanted: Events,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Self, Fault>;
+
+    /// Looks without blocking; reports a wanted event or none, the first declared one where
+    /// several hold.
+    ///
+    /// # Errors
+    /// As for [`Supervisor::start`].
+    fn poll(
+        &mut self,
+        live: T::Live<'_>,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Option<T::Event>, Fault>;
+}
+
+/// A computation of template `T`: no environment, so no side effect.
+pub trait Computation<T: ComputationTemplate> {
+    /// Computes at once.
+    ///
+    /// # Errors
+    /// A fault takes the computation's `Error` edge.
+    fn compute(inputs: T::Inputs<'_>) -> Result<T::State, Fault>;
+}

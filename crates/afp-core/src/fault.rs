@@ -1,0 +1,84 @@
+//! Why something cannot go on.
+
+use core::fmt;
+
+/// A reason why a component failed. One pointer, so that results of polls stay in registers.
+#[derive(Clone, Copy)]
+pub struct Fault(&'static Reason);
+
+/// What a [`Fault`] points to; a template declares its own as constants.
+///
+/// ```
+/// use afp_core::{Fault, Reason};
+/// const NO_ECHO: Fault = Fault::new(&Reason { code: "no-echo", text: "no valid range for 500 ms" });
+/// assert_eq!(NO_ECHO.code(), "no-echo");
+/// ```
+#[derive(Debug, PartialEq, Eq)]
+pub struct Reason {
+    /// A short name in kebab case, stable over versions.
+    pub code: &'static str,
+    /// What happened, for people.
+    pub text: &'static str,
+}
+
+macro_rules! faults {
+    ($($(#[$doc:meta])* $name:ident = $code:literal, $text:literal;)*) => {
+        impl Fault {$(
+            $(#[$doc])*
+            pub const $name: Fault = Fault(&Reason { code: $code, text: $text });
+        )*}
+    };
+}
+
+faults! {
+    /// Overflow, `% 0`, or a result that is not finite.
+    ARITHMETIC = "arithmetic", "a formula overflowed or has no finite value";
+    /// A value outside its port's range.
+    RANGE = "range", "a value is outside its port's range";
+    /// A text that does not read as the type it is converted to.
+    CONVERSION = "conversion", "a text does not read as the value it should become";
+    /// A text of more than 64 bytes.
+    TOO_LONG = "too-long", "a text is longer than 64 bytes";
+    /// An object that nobody has written yet.
+    UNSET = "unset", "an object is read before it was written";
+    /// More than `MAX_TRANSITIONS_PER_STEP` edges in one step.
+    LIVELOCK = "livelock", "the plan takes edge after edge without time passing";
+    /// A component panicked.
+    PANIC = "panic", "a component panicked";
+    /// The run time met a state that the compiler rules out.
+    INTERNAL = "internal", "the run time met an impossible state";
+}
+
+impl Fault {
+    /// A fault with a reason of one's own.
+    pub const fn new(reason: &'static Reason) -> Self {
+        Fault(reason)
+    }
+
+    /// The reason's short name.
+    pub const fn code(self) -> &'static str {
+        self.0.code
+    }
+}
+
+impl PartialEq for Fault {
+    fn eq(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+}
+
+impl Eq for Fault {}
+
+impl fmt::Debug for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Fault({})", self.0.code)
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0.text)
+    }
+}
+
+impl core::error::Error for Fault {}
