@@ -5,14 +5,27 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+mod clock;
 mod component;
 mod fault;
+mod machine;
 pub mod quantity;
+#[doc(hidden)]
+pub mod rt;
+mod scheduler;
 mod time;
+pub mod trace;
+mod value;
 
+pub use clock::{Clock, StillClock};
 pub use component::{
     Actor, ActorTemplate, Computation, ComputationTemplate, Environment, Events, Poll, Supervisor,
     SupervisorTemplate,
 };
 pub use fault::{Fault, Reason};
+pub use machine::MAX_TRANSITIONS_PER_STEP;
+pub use rt::{PlanState, WriteError};
+pub use scheduler::{MAX_WRITES_PER_STEP, Scheduler, StartError, Wake};
 pub use time::{Duration, Instant};
+pub use trace::Ending;
+pub use value::{TEXT_CAPACITY, Text, Value, ValueRef};

@@ -1,0 +1,456 @@
+//! The scheduler of one level: a plan or a sub-plan.
+//!
+//! ```text
+//!            start ---> enter(first element)
+//!
+//!   step:    sweep the supervisors in their fixed order
+//!              an event is taken   -> interrupt, commit, follow
+//!            else poll the active element, if due
+//!              it reached a state  -> commit, follow
+//!              it failed           -> interrupt, follow its `Error` edge
+//!
+//!   follow:  take edges until an element is active or the plan ends
+//!   enter:   start its supervisors, look, read its inputs, start it
+//! ```
+//!
+//! A sub-plan is an element whose poll is the step of a machine of its own. The recursion polls
+//! outer plans first and interrupts innermost first.
+
+mod enter;
+mod sweep;
+
+use crate::clock::Clock;
+use crate::component::Environment;
+use crate::fault::Fault;
+use crate::rt::{
+    Committer, Cx, ElementKind, ElementRow, Plan, PlanState, PlanTable, Polled, Slot, Tables,
+    Target,
+};
+use crate::time::Instant;
+use crate::trace::{Author, ComponentId, Ending, Record, Sink};
+use sweep::Seen;
+
+/// Edges that one step may take, all levels together. A plan that needs more lets no time pass.
+pub const MAX_TRANSITIONS_PER_STEP: u32 = 1000;
+
+/// How a level stands after its start or its step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Flow {
+    /// An element is active; nothing is due before this instant.
+    Running(Instant),
+    /// The plan has ended.
+    Ended(Ending),
+    /// The whole run has to end: livelock or a failed interrupt.
+    Fatal(Fault),
+}
+
+/// A plan, its rows and the state of its scheduling.
+pub struct Machine<P: PlanState> {
+    tables: P::Tables,
+    level: Level<P>,
+}
+
+/// All of a machine but the rows, so that those can be read meanwhile.
+struct Level<P: PlanState> {
+    plan: P,
+    slots: P::Slots,
+    active: Option<u16>,
+    due: Instant,
+}
+
+/// An edge about to be followed.
+#[derive(Clone, Copy)]
+struct Edge {
+    target: Target,
+    /// How the plan ends if the edge leads to `terminate`.
+    ending: Ending,
+}
+
+/// How following an edge may end short of an active element.
+enum Stop {
+    /// The plan ends.
+    Plan(Ending),
+    /// The run ends.
+    Run(Fault),
+}
+
+impl<P: PlanState> Machine<P> {
+    /// A machine that has not started.
+    pub fn new(plan: P) -> Self {
+        let (tables, slots) = (plan.tables(), plan.slots());
+        Machine { tables, level: Level { plan, slots, active: None, due: Instant::MAX } }
+    }
+
+    /// The plan.
+    pub fn plan(&self) -> &P {
+        &self.level.plan
+    }
+
+    /// The plan, to set its entries before the start.
+    pub fn plan_mut(&mut self) -> &mut P {
+        &mut self.level.plan
+    }
+
+    /// The active element, by position; `None` before the start and after the end.
+    pub fn active(&self) -> Option<u16> {
+        self.level.active
+    }
+
+    /// Starts afresh: initial values, global supervisors, first element.
+    pub fn start<E, S, C>(&mut self, cx: &mut Cx<'_, E, S, C>) -> Flow
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        self.level.start(self.tables.table(), cx)
+    }
+
+    /// Does everything that is due.
+    #[inline]
+    pub fn step<E, S, C>(&mut self, cx: &mut Cx<'_, E, S, C>) -> Flow
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        self.level.step(self.tables.table(), cx)
+    }
+
+    /// Interrupts whatever is active, innermost first, and drops all components.
+    ///
+    /// # Errors
+    /// The fault of an `interrupt`: the whole run must end.
+    pub fn interrupt<E, S, C>(&mut self, cx: &mut Cx<'_, E, S, C>) -> Result<(), Fault>
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        let result = self.level.interrupt_active(self.tables.table(), cx);
+        self.level.plan.end();
+        result
+    }
+
+    /// Commits what is staged from outside.
+    pub(crate) fn commit<E: ?Sized, S: Sink, C>(
+        &mut self,
+        author: Author,
+        cx: &mut Cx<'_, E, S, C>,
+    ) {
+        self.level.commit(author, cx);
+    }
+}
+
+impl<P: PlanState> Level<P> {
+    fn start<E, S, C>(&mut self, t: PlanTable<'_>, cx: &mut Cx<'_, E, S, C>) -> Flow
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        self.active = None;
+        self.due = Instant::MAX;
+        if let Err(fault) = self.plan.initialise() {
+            return self.fail(cx.place.plan, fault, cx);
+        }
+        self.trace_entries(t, cx);
+        for supervisor in 0..t.globals {
+            if let Err(fault) = self.start_supervisor(t, supervisor, cx) {
+                return self.end(Ending::Error(fault), cx);
+            }
+        }
+        match self.enter(t, t.start, cx) {
+            Ok(None) => Flow::Running(self.wake(t)),
+            Ok(Some(edge)) => self.follow(t, edge, cx),
+            Err(stop) => self.stop(stop, cx),
+        }
+    }
+
+    #[inline]
+    fn step<E, S, C>(&mut self, t: PlanTable<'_>, cx: &mut Cx<'_, E, S, C>) -> Flow
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        let Some((element, row)) = self.active.and_then(|e| Some((e, t.element(e)?))) else {
+            return Flow::Fatal(Fault::INTERNAL);
+        };
+        let wake = match self.sweep(t, element, row, cx) {
+            Seen::Nothing(wake) => wake,
+            Seen::Something(found) => return self.interrupted(t, element, row, found, cx),
+        };
+        if self.due > cx.now {
+            return Flow::Running(wake.min(self.due));
+        }
+        cx.place.component = component(cx, element);
+        match self.plan.poll_element(element, cx) {
+            Polled::Pending => {
+                self.due = next_on_grid(self.due, row, cx.now);
+                Flow::Running(wake.min(self.due))
+            }
+            Polled::SubPlan(Flow::Running(due)) => {
+                self.due = due;
+                Flow::Running(wake.min(due))
+            }
+            polled => self.left(t, element, row, polled, cx),
+        }
+    }
+
+    /// The active element has finished or failed.
+    fn left<E, S, C>(
+        &mut self,
+        t: PlanTable<'_>,
+        element: u16,
+        row: &ElementRow,
+        polled: Polled,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Flow
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        let edge = match polled {
+            Polled::Done(state) => self.finished(t, element, row, state, cx),
+            Polled::Failed(fault) => {
+                if row.kind == ElementKind::SubPlan {
+                    // It ended by itself and interrupted what was active inside.
+                    self.active = None;
+                } else {
+                    cx.trace(&Record::Faulted { component: component(cx, element), fault });
+                }
+                self.plan.discard();
+                match self.interrupt_active(t, cx) {
+                    Ok(()) => self.error_edge(element, row, fault),
+                    Err(fault) => Err(Stop::Run(fault)),
+                }
+            }
+            Polled::SubPlan(Flow::Fatal(fault)) => Err(Stop::Run(fault)),
+            Polled::Pending | Polled::SubPlan(_) => Err(Stop::Run(Fault::INTERNAL)),
+        };
+        match edge {
+            Ok(edge) => self.follow(t, edge, cx),
+            Err(stop) => self.stop(stop, cx),
+        }
+    }
+
+    /// Takes edges until an element is active or the plan ends.
+    fn follow<E, S, C>(
+        &mut self,
+        t: PlanTable<'_>,
+        mut edge: Edge,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Flow
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        loop {
+            match cx.step.edges_left.checked_sub(1) {
+                Some(left) => cx.step.edges_left = left,
+                None => return Flow::Fatal(Fault::LIVELOCK),
+            }
+            let element = match edge.target {
+                Target::Element(element) => element,
+                Target::Terminate => return self.end(edge.ending, cx),
+                Target::Ignore | Target::None => return Flow::Fatal(Fault::INTERNAL),
+            };
+            match self.enter(t, element, cx) {
+                Ok(None) => return Flow::Running(self.wake(t)),
+                Ok(Some(next)) => edge = next,
+                Err(stop) => return self.stop(stop, cx),
+            }
+        }
+    }
+
+    /// An element reached a state: its outputs are staged.
+    fn finished<E, S, C>(
+        &mut self,
+        t: PlanTable<'_>,
+        element: u16,
+        row: &ElementRow,
+        state: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<Edge, Stop>
+    where
+        E: ?Sized,
+        S: Sink,
+        P: Plan<E>,
+    {
+        let id = component(cx, element);
+        self.active = None;
+        cx.trace(&Record::Finished { element: id, state });
+        self.commit(Author::Component(id), cx);
+        self.plan.leave(element);
+        Ok(Edge { target: t.edge(row.states, state), ending: Ending::Ok })
+    }
+
+    /// The edge of an element that failed; unconnected, the plan ends.
+    fn error_edge<E: ?Sized>(
+        &mut self,
+        element: u16,
+        row: &ElementRow,
+        fault: Fault,
+    ) -> Result<Edge, Stop>
+    where
+        P: Plan<E>,
+    {
+        self.plan.leave(element);
+        match row.on_error {
+            Target::None => Err(Stop::Plan(Ending::Error(fault))),
+            target => Ok(Edge { target, ending: Ending::Ok }),
+        }
+    }
+
+    /// Interrupts the active element, if there is one, and drops it.
+    fn interrupt_active<E, S, C>(
+        &mut self,
+        t: PlanTable<'_>,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), Fault>
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        let Some(element) = self.active.take() else { return Ok(()) };
+        let id = component(cx, element);
+        cx.place.component = id;
+        let result = self.plan.interrupt_element(element, cx);
+        match result {
+            Ok(()) => cx.trace(&Record::Interrupted { element: id }),
+            Err(fault) if t.element(element).is_some_and(|row| row.kind == ElementKind::Actor) => {
+                cx.trace(&Record::Faulted { component: id, fault });
+            }
+            Err(_) => {}
+        }
+        self.plan.leave(element);
+        result
+    }
+
+    fn stop<E, S, C>(&mut self, stop: Stop, cx: &mut Cx<'_, E, S, C>) -> Flow
+    where
+        E: ?Sized,
+        S: Sink,
+        P: Plan<E>,
+    {
+        match stop {
+            Stop::Plan(ending) => self.end(ending, cx),
+            Stop::Run(fault) => Flow::Fatal(fault),
+        }
+    }
+
+    /// A fault that is not an element's ends the plan.
+    fn fail<E, S, C>(&mut self, who: ComponentId, fault: Fault, cx: &mut Cx<'_, E, S, C>) -> Flow
+    where
+        E: ?Sized,
+        S: Sink,
+        P: Plan<E>,
+    {
+        if S::ENABLED {
+            cx.sink.record(cx.now, &Record::Faulted { component: who, fault });
+        }
+        self.end(Ending::Error(fault), cx)
+    }
+
+    fn end<E, S, C>(&mut self, ending: Ending, cx: &mut Cx<'_, E, S, C>) -> Flow
+    where
+        E: ?Sized,
+        S: Sink,
+        P: Plan<E>,
+    {
+        self.active = None;
+        self.plan.discard();
+        self.plan.end();
+        if S::ENABLED {
+            cx.sink.record(cx.now, &Record::Ended { plan: cx.place.plan, ending });
+        }
+        Flow::Ended(ending)
+    }
+
+    #[inline]
+    fn commit<E: ?Sized, S: Sink, C>(&mut self, author: Author, cx: &mut Cx<'_, E, S, C>) {
+        cx.step.commits = cx.step.commits.wrapping_add(1);
+        self.plan.commit(&mut Committer {
+            sink: &mut *cx.sink,
+            at: cx.now,
+            author,
+            entries: cx.place.entries,
+            number: cx.step.commits,
+        });
+    }
+
+    fn trace_entries<E: ?Sized, S: Sink, C>(&mut self, t: PlanTable<'_>, cx: &mut Cx<'_, E, S, C>) {
+        if !S::ENABLED {
+            return;
+        }
+        let mut committer = Committer {
+            sink: &mut *cx.sink,
+            at: cx.now,
+            author: Author::Component(cx.place.plan),
+            entries: cx.place.entries,
+            number: cx.step.commits,
+        };
+        for entry in 0..t.entries {
+            match self.plan.entry(entry) {
+                crate::value::ValueRef::Unset => {}
+                value => committer.wrote(entry, crate::value::ValueRef::Unset, value),
+            }
+        }
+    }
+
+    /// The next instant at which anything of this level is due.
+    fn wake(&self, t: PlanTable<'_>) -> Instant {
+        let row = self.active.and_then(|element| t.element(element));
+        let sweep = row.map_or(&[][..], |row| t.sweep(row));
+        let slots = sweep.iter().filter_map(|id| self.slots.as_ref().get(slot(t, *id)?));
+        slots.map(|slot: &Slot| slot.next).fold(self.due, Instant::min)
+    }
+}
+
+/// The slot of a supervisor.
+fn slot(t: PlanTable<'_>, supervisor: u16) -> Option<usize> {
+    t.supervisor(supervisor).map(|row| usize::from(row.slot))
+}
+
+/// The id of an element.
+#[inline]
+fn component<E: ?Sized, S, C>(cx: &Cx<'_, E, S, C>, element: u16) -> ComponentId {
+    ComponentId(cx.place.components.saturating_add(u32::from(element)))
+}
+
+/// The id of a supervisor.
+#[inline]
+fn supervisor_id<E: ?Sized, S, C>(
+    t: PlanTable<'_>,
+    cx: &Cx<'_, E, S, C>,
+    supervisor: u16,
+) -> ComponentId {
+    let elements = t.elements.len() as u32;
+    ComponentId(cx.place.components.saturating_add(elements).saturating_add(u32::from(supervisor)))
+}
+
+/// The next poll of an actor, on the grid of its period; polls that passed are skipped.
+#[inline]
+fn next_on_grid(due: Instant, row: &ElementRow, now: Instant) -> Instant {
+    let next = due + row.period;
+    if next > now { next } else { skip(due, row, now) }
+}
+
+#[cold]
+fn skip(due: Instant, row: &ElementRow, now: Instant) -> Instant {
+    let period = row.period.as_nanos().max(1);
+    let periods = (now - due).as_nanos() / period + 1;
+    Instant::from_nanos(due.as_nanos().saturating_add(periods.saturating_mul(period)))
+}

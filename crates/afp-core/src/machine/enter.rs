@@ -1,0 +1,181 @@
+//! Entering an element: its supervisors start, everybody looks, then it starts.
+
+use super::sweep::{Found, Moment, What};
+use super::{Edge, Level, Stop, component, supervisor_id};
+use crate::clock::Clock;
+use crate::component::Environment;
+use crate::fault::Fault;
+use crate::machine::Flow;
+use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, PlanTable, Started};
+use crate::trace::{Record, Sink};
+
+impl<P: PlanState> Level<P> {
+    /// Enters an element. `None` when it is active now, else the edge by which it was left.
+    pub(super) fn enter<E, S, C>(
+        &mut self,
+        t: PlanTable<'_>,
+        element: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<Option<Edge>, Stop>
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        let Some(row) = t.element(element) else { return Err(Stop::Run(Fault::INTERNAL)) };
+        if row.kind != ElementKind::Computation {
+            for local in row.locals.first..row.locals.first.saturating_add(row.locals.len) {
+                if let Err(fault) = self.start_supervisor(t, local, cx) {
+                    return self.error_edge(element, row, fault).map(Some);
+                }
+            }
+            if let Some(found) = self.look(t, element, row, cx) {
+                return self.diverted(t, element, row, found, cx).map(Some);
+            }
+        }
+        self.start_element(t, element, row, cx)
+    }
+
+    /// Starts a supervisor; it is due at once.
+    pub(super) fn start_supervisor<E, S, C>(
+        &mut self,
+        t: PlanTable<'_>,
+        supervisor: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), Fault>
+    where
+        E: ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        let slot = t.supervisor(supervisor).map_or(usize::MAX, |row| usize::from(row.slot));
+        if let Some(slot) = self.slots.as_mut().get_mut(slot) {
+            slot.next = cx.now;
+        }
+        let id = supervisor_id(t, cx, supervisor);
+        cx.place.component = id;
+        let result = self.plan.start_supervisor(supervisor, cx);
+        cx.trace(&match result {
+            Ok(()) => Record::Started { component: id },
+            Err(fault) => Record::Faulted { component: id, fault },
+        });
+        result
+    }
+
+    /// Looks before the start: due global supervisors first, then the element's own.
+    fn look<E, S, C>(
+        &mut self,
+        t: PlanTable<'_>,
+        element: u16,
+        row: &ElementRow,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Option<Found>
+    where
+        E: ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        let moment = Moment { element, look: true };
+        for global in [true, false] {
+            for &supervisor in t.sweep(row) {
+                let Some(row) = t.supervisor(supervisor) else { continue };
+                if (supervisor < t.globals) != global {
+                    continue;
+                }
+                if let Err(what) = self.poll_if_due(t, supervisor, row, moment, cx) {
+                    return Some(Found { supervisor, what });
+                }
+            }
+        }
+        None
+    }
+
+    /// The look found a reason not to start.
+    fn diverted<E, S, C>(
+        &mut self,
+        t: PlanTable<'_>,
+        element: u16,
+        row: &ElementRow,
+        found: Found,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<Edge, Stop>
+    where
+        E: ?Sized,
+        S: Sink,
+        P: Plan<E>,
+    {
+        let supervisor = supervisor_id(t, cx, found.supervisor);
+        match found.what {
+            What::Event(event, _) => {
+                let element = component(cx, element);
+                cx.trace(&Record::Event { supervisor, event });
+                cx.trace(&Record::Diverted { element, supervisor, event });
+            }
+            What::Fault(fault) => {
+                self.plan.discard();
+                cx.trace(&Record::Faulted { component: supervisor, fault });
+            }
+        }
+        self.after_supervisor(t, element, row, found, cx)
+    }
+
+    /// Reads the inputs and starts the element itself.
+    fn start_element<E, S, C>(
+        &mut self,
+        t: PlanTable<'_>,
+        element: u16,
+        row: &ElementRow,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<Option<Edge>, Stop>
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        let id = component(cx, element);
+        cx.place.component = id;
+        match self.plan.start_element(element, cx) {
+            Started::Running => {
+                cx.trace(&Record::Started { component: id });
+                self.active = Some(element);
+                self.due = cx.now + row.period;
+                Ok(None)
+            }
+            Started::SubPlan(Flow::Running(due)) => {
+                self.active = Some(element);
+                self.due = due;
+                Ok(None)
+            }
+            Started::SubPlan(Flow::Fatal(fault)) => Err(Stop::Run(fault)),
+            Started::SubPlan(Flow::Ended(_)) => Err(Stop::Run(Fault::INTERNAL)),
+            Started::Done(state) => self.finished(t, element, row, state, cx).map(Some),
+            Started::Failed(fault) => self.start_failed(element, row, fault, cx).map(Some),
+        }
+    }
+
+    /// Nothing runs: the platform stops, the element's `Error` edge is taken.
+    fn start_failed<E, S, C>(
+        &mut self,
+        element: u16,
+        row: &ElementRow,
+        fault: Fault,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<Edge, Stop>
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        self.plan.discard();
+        cx.trace(&Record::Faulted { component: component(cx, element), fault });
+        if row.kind == ElementKind::Actor {
+            cx.env.stop(cx.now);
+        }
+        self.error_edge(element, row, fault)
+    }
+}

@@ -1,0 +1,27 @@
+//! The whole contract between a plan and the scheduler.
+//!
+//! Code made by `plan!`, `toolbox!` and `afpc build`, and plans loaded at run time, use this module
+//! and nothing else of the crate's inside. It is public for them alone; no other code should name it.
+
+mod formula;
+mod plan;
+mod ports;
+mod store;
+mod table;
+
+pub use formula::{
+    Scale, Unit, bool_to_float, bool_to_int, float_to_int, int_add, int_mul, int_neg, int_rem,
+    int_sub, int_to_float, join, parse_bool, parse_choice, parse_float, parse_int, print_quantity,
+    rem,
+};
+pub use plan::{Committer, Cx, Fired, Plan, PlanState, Polled, Slot, Started, WriteError};
+pub(crate) use plan::{Place, StepState};
+pub use ports::{Args, FromArgs, Outcome, Outputs, Ports, Registry};
+pub use store::{Any, Choice, Entry, Number, Object, Stored};
+pub use table::{Child, ElementKind, ElementRow, PlanTable, Range, SupervisorRow, Tables, Target};
+
+pub use crate::component::{
+    Actor, ActorTemplate, Computation, ComputationTemplate, Environment, Events, Poll, Supervisor,
+    SupervisorTemplate,
+};
+pub use crate::machine::{Flow, Machine};

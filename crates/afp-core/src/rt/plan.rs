@@ -1,0 +1,359 @@
+//! What the scheduler asks of a plan, and what it lends it meanwhile.
+
+use crate::clock::Clock;
+use crate::component::Environment;
+use crate::fault::Fault;
+use crate::machine::{Flow, Machine};
+use crate::rt::ports::Ports;
+use crate::rt::store::{Entry, Stored};
+use crate::rt::table::{Child, Tables};
+use crate::time::Instant;
+use crate::trace::{Author, ComponentId, Ending, Record, Sink, TraceEntryId};
+use crate::value::{Value, ValueRef};
+
+/// The part of a plan that knows no platform: rows, entries, staged outputs.
+pub trait PlanState {
+    /// Its rows.
+    type Tables: Tables;
+    /// Storage for the releases of its supervisors, [`crate::rt::PlanTable::slots`] of them.
+    type Slots: AsRef<[Slot]> + AsMut<[Slot]>;
+
+    /// Its rows.
+    fn tables(&self) -> Self::Tables;
+
+    /// Fresh storage for releases.
+    fn slots(&self) -> Self::Slots;
+
+    /// The number of the first `in` entry that has neither a value nor a default.
+    fn missing_input(&self) -> Option<u16>;
+
+    /// Gives every entry but the `in` ones that were set its initial value, or makes it unset.
+    ///
+    /// # Errors
+    /// The fault of a formula; the plan then ends in `Error`.
+    fn initialise(&mut self) -> Result<(), Fault>;
+
+    /// An entry's committed value.
+    fn entry(&self, entry: u16) -> ValueRef<'_>;
+
+    /// Whether a writer from outside may give an entry this value.
+    ///
+    /// # Errors
+    /// Why not.
+    fn accepts(&self, entry: u16, value: &Value) -> Result<(), WriteError>;
+
+    /// Stages a value that [`PlanState::accepts`] let pass.
+    fn stage(&mut self, entry: u16, value: &Value);
+
+    /// Writes everything that is staged, in the order of the entries.
+    fn commit<S: Sink>(&mut self, to: &mut Committer<'_, S>);
+
+    /// Forgets everything that is staged.
+    fn discard(&mut self);
+}
+
+/// A plan on platform `E`: its components.
+///
+/// Polls stage the outputs of what they report; the scheduler then commits or discards them.
+pub trait Plan<E: ?Sized>: PlanState {
+    /// Starts a supervisor: inputs, then the component.
+    ///
+    /// # Errors
+    /// The fault of an input or of the component.
+    fn start_supervisor<S: Sink, C: Clock>(
+        &mut self,
+        supervisor: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), Fault>;
+
+    /// Polls a supervisor.
+    fn poll_supervisor<S: Sink, C: Clock>(
+        &mut self,
+        supervisor: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Fired;
+
+    /// Starts an element: inputs, then the component; runs a computation.
+    fn start_element<S: Sink, C: Clock>(
+        &mut self,
+        element: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Started;
+
+    /// Polls the active element.
+    fn poll_element<S: Sink, C: Clock>(&mut self, element: u16, cx: &mut Cx<'_, E, S, C>)
+    -> Polled;
+
+    /// Interrupts the active element.
+    ///
+    /// # Errors
+    /// A failed interrupt ends the whole run.
+    fn interrupt_element<S: Sink, C: Clock>(
+        &mut self,
+        element: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), Fault>;
+
+    /// Drops an element's instance and its supervisors.
+    fn leave(&mut self, element: u16);
+
+    /// Drops everything that is left when the plan ends.
+    fn end(&mut self);
+}
+
+/// When a supervisor is due.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Slot {
+    pub(crate) next: Instant,
+}
+
+/// What a poll of a supervisor brought. A fault beside an event is one of its outputs.
+#[derive(Clone, Copy, Debug)]
+pub struct Fired {
+    pub(crate) event: Option<u16>,
+    pub(crate) fault: Option<Fault>,
+}
+
+/// What starting an element brought.
+#[derive(Clone, Copy, Debug)]
+pub enum Started {
+    /// It acts.
+    Running,
+    /// It is a sub-plan; this is how its own start went.
+    SubPlan(Flow),
+    /// It was a computation, or a sub-plan that ended at once: its state, outputs staged.
+    Done(u16),
+    /// It failed and does not run.
+    Failed(Fault),
+}
+
+/// What a poll of an element brought.
+#[derive(Clone, Copy, Debug)]
+pub enum Polled {
+    /// It goes on.
+    Pending,
+    /// It is a sub-plan; this is how its step went.
+    SubPlan(Flow),
+    /// It reached a state, outputs staged.
+    Done(u16),
+    /// It failed and has to be interrupted.
+    Failed(Fault),
+}
+
+/// Why a write from outside was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WriteError {
+    /// The plan has no such entry.
+    Unknown,
+    /// `const` and `out` entries cannot be written from outside.
+    ReadOnly,
+    /// The value is of another type.
+    Type,
+    /// The number is not finite.
+    NotFinite,
+    /// Too many writes since the last step.
+    QueueFull,
+    /// The plan has ended.
+    Ended,
+}
+
+impl core::fmt::Display for WriteError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            WriteError::Unknown => "the plan has no such entry",
+            WriteError::ReadOnly => "only 'in' and 'var' entries can be written from outside",
+            WriteError::Type => "the value does not have the entry's type",
+            WriteError::NotFinite => "the value is not finite",
+            WriteError::QueueFull => "too many writes since the last step",
+            WriteError::Ended => "the plan has ended",
+        })
+    }
+}
+
+impl core::error::Error for WriteError {}
+
+/// What a step carries through all levels of a plan.
+pub struct Cx<'a, E: ?Sized, S, C> {
+    /// The platform.
+    pub env: &'a mut E,
+    /// The time of the step.
+    pub now: Instant,
+    pub(crate) sink: &'a mut S,
+    pub(crate) clock: &'a C,
+    pub(crate) step: &'a mut StepState,
+    pub(crate) place: Place,
+}
+
+/// What all levels of one step count together.
+#[derive(Debug, Default)]
+pub(crate) struct StepState {
+    /// Edges that may still be taken.
+    pub edges_left: u32,
+    /// The latest reading of the clock.
+    pub clock: Instant,
+    /// Commits so far in the run.
+    pub commits: u32,
+    /// Deadlines missed so far in the run, skipped releases included.
+    pub misses: u64,
+}
+
+/// Where a level's ids begin.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    /// The plan itself.
+    pub plan: ComponentId,
+    /// Its first element.
+    pub components: u32,
+    /// Its first entry.
+    pub entries: u32,
+    /// The component that is being started.
+    pub component: ComponentId,
+}
+
+impl Place {
+    /// The outermost plan.
+    pub const OUTERMOST: Place =
+        Place { plan: ComponentId(0), components: 1, entries: 0, component: ComponentId(0) };
+}
+
+impl Fired {
+    /// Nothing happened.
+    pub const NOTHING: Fired = Fired { event: None, fault: None };
+
+    /// An event, by position in the template, and how staging its outputs went.
+    #[inline]
+    pub fn event(event: u16, staged: Result<(), Fault>) -> Self {
+        Fired { event: Some(event), fault: staged.err() }
+    }
+
+    /// The supervisor failed.
+    #[inline]
+    pub fn fault(fault: Fault) -> Self {
+        Fired { event: None, fault: Some(fault) }
+    }
+}
+
+impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
+    /// Traces and checks the inputs of the component that is being started.
+    ///
+    /// # Errors
+    /// A value that is not finite or out of range.
+    pub fn read<I: Ports>(&mut self, inputs: I) -> Result<I, Fault> {
+        if S::ENABLED {
+            let (component, at) = (self.place.component, self.now);
+            let sink = &mut *self.sink;
+            inputs.each(&mut |port, value| {
+                sink.record(at, &Record::Input { component, port, value });
+            });
+        }
+        inputs.check()?;
+        Ok(inputs)
+    }
+
+    /// Runs a sub-plan's machine at its own place: its start, its step, its interruption.
+    #[inline]
+    pub fn inside<R>(&mut self, child: Child, run: impl FnOnce(&mut Cx<'_, E, S, C>) -> R) -> R {
+        run(&mut Cx {
+            env: &mut *self.env,
+            now: self.now,
+            sink: &mut *self.sink,
+            clock: self.clock,
+            step: &mut *self.step,
+            place: Place {
+                plan: self.place.component,
+                components: self.place.components.saturating_add(child.components),
+                entries: self.place.entries.saturating_add(child.entries),
+                component: self.place.component,
+            },
+        })
+    }
+
+    /// Starts a sub-plan whose `in` entries are set.
+    pub fn start_sub_plan<P: Plan<E>>(&mut self, child: Child, machine: &mut Machine<P>) -> Flow
+    where
+        E: Environment,
+    {
+        self.trace(&Record::Started { component: self.place.component });
+        self.inside(child, |cx| machine.start(cx))
+    }
+}
+
+impl<E: ?Sized, S: Sink, C> Cx<'_, E, S, C> {
+    #[inline]
+    pub(crate) fn trace(&mut self, record: &Record<'_>) {
+        if S::ENABLED {
+            self.sink.record(self.now, record);
+        }
+    }
+}
+
+/// Writes one commit.
+pub struct Committer<'a, S> {
+    pub(crate) sink: &'a mut S,
+    pub(crate) at: Instant,
+    pub(crate) author: Author,
+    pub(crate) entries: u32,
+    pub(crate) number: u32,
+}
+
+impl<S: Sink> Committer<'_, S> {
+    /// Writes one entry of the plan.
+    #[inline]
+    pub fn write<T: Stored>(&mut self, entry: u16, to: &mut Entry<T>, mut value: T) {
+        value.committed(self.number);
+        if S::ENABLED {
+            self.record(entry, to.as_value(), value.as_value());
+        }
+        to.set(value);
+    }
+
+    fn record(&mut self, entry: u16, old: ValueRef<'_>, new: ValueRef<'_>) {
+        let entry = TraceEntryId(self.entries.saturating_add(u32::from(entry)));
+        let record = Record::Committed { author: self.author, entry, old, new };
+        self.sink.record(self.at, &record);
+    }
+
+    /// For plans that keep their entries themselves: traces one entry of the commit.
+    pub fn wrote(&mut self, entry: u16, old: ValueRef<'_>, new: ValueRef<'_>) {
+        if S::ENABLED {
+            self.record(entry, old, new);
+        }
+    }
+
+    /// The number of this commit, by which objects are known.
+    pub fn number(&self) -> u32 {
+        self.number
+    }
+}
+
+impl Started {
+    /// What a sub-plan's start brought; `stage` stages its results.
+    pub fn sub_plan(flow: Flow, stage: impl FnOnce() -> Result<(), Fault>) -> Self {
+        match ended(flow, stage) {
+            None => Started::SubPlan(flow),
+            Some(Ok(state)) => Started::Done(state),
+            Some(Err(fault)) => Started::Failed(fault),
+        }
+    }
+}
+
+impl Polled {
+    /// What a sub-plan's step brought; `stage` stages its results.
+    pub fn sub_plan(flow: Flow, stage: impl FnOnce() -> Result<(), Fault>) -> Self {
+        match ended(flow, stage) {
+            None => Polled::SubPlan(flow),
+            Some(Ok(state)) => Polled::Done(state),
+            Some(Err(fault)) => Polled::Failed(fault),
+        }
+    }
+}
+
+/// The state that a sub-plan reached, if it ended: `OK` is 0, `Interrupted` 1.
+fn ended(flow: Flow, stage: impl FnOnce() -> Result<(), Fault>) -> Option<Result<u16, Fault>> {
+    match flow {
+        Flow::Ended(Ending::Ok) => Some(stage().map(|()| 0)),
+        Flow::Ended(Ending::Interrupted) => Some(stage().map(|()| 1)),
+        Flow::Ended(Ending::Error(fault)) => Some(Err(fault)),
+        Flow::Running(_) | Flow::Fatal(_) => None,
+    }
+}

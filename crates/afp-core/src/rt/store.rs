@@ -1,0 +1,182 @@
+//! Entries of the configuration as generated plans hold them.
+
+use core::cmp::Ordering;
+
+use crate::fault::Fault;
+use crate::quantity::Quantity;
+use crate::value::{Text, Value, ValueRef};
+
+/// A value that an entry can hold. The default is what unset storage holds.
+pub trait Stored: Default {
+    /// The value as a trace shows it.
+    fn as_value(&self) -> ValueRef<'_>;
+
+    /// Called once when a commit writes the value, with the number of that commit.
+    fn committed(&mut self, _commit: u32) {}
+}
+
+/// What stands for a port of type `any`.
+pub trait Any: Stored + Clone + PartialEq {}
+
+/// What stands for a port of type `number`: an `int`, a `float` or a quantity.
+pub trait Number: Any + PartialOrd {}
+
+/// An enum of a toolbox or a plan.
+pub trait Choice: Copy + Default {
+    /// The value's position.
+    fn index(self) -> u16;
+
+    /// The value at a position.
+    fn from_index(index: u16) -> Option<Self>;
+}
+
+/// One entry: its value, and whether anybody has written it.
+#[derive(Clone, Debug, Default)]
+pub struct Entry<T> {
+    value: T,
+    is_set: bool,
+}
+
+/// An object entry: empty until written, then known by the number of the commit that wrote it.
+#[derive(Clone, Debug)]
+pub struct Object<T> {
+    value: Option<T>,
+    commit: u32,
+}
+
+impl<T: Stored> Entry<T> {
+    /// The value; the type's zero while unset.
+    #[inline]
+    pub fn get(&self) -> &T {
+        &self.value
+    }
+
+    /// Writes the value.
+    #[inline]
+    pub fn set(&mut self, value: T) {
+        self.value = value;
+        self.is_set = true;
+    }
+
+    /// Makes the entry unset.
+    pub fn clear(&mut self) {
+        *self = Entry::default();
+    }
+
+    /// Whether anybody has written it.
+    #[inline]
+    pub fn is_set(&self) -> bool {
+        self.is_set
+    }
+
+    /// The value, if anybody has written it.
+    pub fn value(&self) -> Option<&T> {
+        self.is_set.then_some(&self.value)
+    }
+
+    /// The value as a trace shows it.
+    pub fn as_value(&self) -> ValueRef<'_> {
+        if self.is_set { self.value.as_value() } else { ValueRef::Unset }
+    }
+}
+
+impl<T> Object<T> {
+    /// An object fresh from the component that made it.
+    pub fn new(value: T) -> Self {
+        Object { value: Some(value), commit: 0 }
+    }
+
+    /// The object.
+    ///
+    /// # Errors
+    /// [`Fault::UNSET`] while nobody has written it.
+    pub fn get(&self) -> Result<&T, Fault> {
+        self.value.as_ref().ok_or(Fault::UNSET)
+    }
+}
+
+impl<T> Default for Object<T> {
+    fn default() -> Self {
+        Object { value: None, commit: 0 }
+    }
+}
+
+impl<T> Stored for Object<T> {
+    fn as_value(&self) -> ValueRef<'_> {
+        ValueRef::Object(self.commit)
+    }
+
+    fn committed(&mut self, commit: u32) {
+        self.commit = commit;
+    }
+}
+
+macro_rules! stored {
+    ($($ty:ty => $variant:ident),*) => {$(
+        impl Stored for $ty {
+            #[inline]
+            fn as_value(&self) -> ValueRef<'_> {
+                ValueRef::$variant(*self)
+            }
+        }
+        impl Any for $ty {}
+    )*};
+}
+
+stored!(bool => Bool, i64 => Int, f64 => Float);
+
+impl Number for i64 {}
+impl Number for f64 {}
+
+impl<const M: i8, const KG: i8, const S: i8, const RAD: i8, const K: i8, const V: i8> Stored
+    for Quantity<M, KG, S, RAD, K, V>
+{
+    #[inline]
+    fn as_value(&self) -> ValueRef<'_> {
+        ValueRef::Float(self.si())
+    }
+}
+
+impl<const M: i8, const KG: i8, const S: i8, const RAD: i8, const K: i8, const V: i8> Any
+    for Quantity<M, KG, S, RAD, K, V>
+{
+}
+
+impl<const M: i8, const KG: i8, const S: i8, const RAD: i8, const K: i8, const V: i8> Number
+    for Quantity<M, KG, S, RAD, K, V>
+{
+}
+
+impl Stored for Text {
+    fn as_value(&self) -> ValueRef<'_> {
+        ValueRef::Text(self.as_str())
+    }
+}
+
+impl Any for Text {}
+
+impl Stored for Value {
+    fn as_value(&self) -> ValueRef<'_> {
+        self.borrow()
+    }
+
+    fn committed(&mut self, commit: u32) {
+        if let Value::Object(number) = self {
+            *number = commit;
+        }
+    }
+}
+
+impl Any for Value {}
+impl Number for Value {}
+
+impl PartialOrd for Value {
+    /// Numbers of one kind compare; the compiler gives all `number` ports of a component one type.
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        match (self, other) {
+            (Value::Int(a), Value::Int(b)) => a.partial_cmp(b),
+            (Value::Float(a), Value::Float(b)) => a.partial_cmp(b),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,285 @@
+//! What a plan tells about itself while it runs.
+//!
+//! A step hands each record to a [`Sink`]. Records speak in ids; [`Names`] turns them into the
+//! paths that people know. With [`NoTrace`] the compiler removes all of it.
+
+mod display;
+
+use crate::fault::Fault;
+use crate::time::{Duration, Instant};
+use crate::value::ValueRef;
+
+pub use display::Line;
+
+/// A component of a running plan, sub-plans unfolded: 0 is the outermost plan itself, then its
+/// elements and supervisors, then those of its sub-plans.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ComponentId(pub u32);
+
+/// An entry of a running plan, sub-plans unfolded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct TraceEntryId(pub u32);
+
+/// The outcome number that stands for `DeadlineMissed` of a supervisor.
+pub const DEADLINE_MISSED: u16 = u16::MAX;
+/// The outcome number that stands for the `Error` of an element.
+pub const ERROR: u16 = u16::MAX - 1;
+
+/// How a plan ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// By a state or a computation.
+    Ok,
+    /// By an event, a missed deadline or a stop request.
+    Interrupted,
+    /// By a fault.
+    Error(Fault),
+}
+
+/// Who wrote or stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Author {
+    /// A component that ended the activity.
+    Component(ComponentId),
+    /// Whoever runs the plan.
+    Outside,
+}
+
+/// What a supervisor's poll said.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Nothing.
+    Clear,
+    /// This event, by position in the template.
+    Event(u16),
+    /// It failed.
+    Fault(Fault),
+}
+
+/// Why a deadline was missed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// The poll began too late to keep it.
+    LateRelease,
+    /// The poll took too long.
+    LongPoll,
+}
+
+/// One thing that happened. The order within a step is fixed: outside commit; for each polled
+/// supervisor its poll and its miss; event; interrupts, innermost first; commits, inner first;
+/// starts of supervisors; diverted or started.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Record<'a> {
+    /// A step was asked for an earlier time than the one before; it ran at the time of that one.
+    ClockWentBack {
+        /// The time asked for.
+        asked: Instant,
+    },
+    /// Somebody asked the plan to stop.
+    StopRequested,
+    /// A supervisor was polled.
+    Polled {
+        /// The supervisor.
+        supervisor: ComponentId,
+        /// What it said.
+        verdict: Verdict,
+    },
+    /// A supervisor's poll ended after its deadline, or releases passed without a poll.
+    Missed {
+        /// The supervisor.
+        supervisor: ComponentId,
+        /// Time after the deadline; zero when only earlier releases were skipped.
+        lateness: Duration,
+        /// Why.
+        cause: Cause,
+        /// Releases that passed entirely.
+        skipped: u64,
+    },
+    /// An event was taken.
+    Event {
+        /// The supervisor.
+        supervisor: ComponentId,
+        /// The event, or [`DEADLINE_MISSED`].
+        event: u16,
+    },
+    /// An event was not taken, because it leads to the element that is already active or being
+    /// entered.
+    AlreadyThere {
+        /// The supervisor.
+        supervisor: ComponentId,
+        /// The event, or [`DEADLINE_MISSED`].
+        event: u16,
+    },
+    /// An actor or sub-plan was interrupted.
+    Interrupted {
+        /// The element.
+        element: ComponentId,
+    },
+    /// An element reached a state; for a sub-plan 0 is `OK` and 1 `Interrupted`.
+    Finished {
+        /// The element.
+        element: ComponentId,
+        /// The state.
+        state: u16,
+    },
+    /// An entry changed; all entries of one commit follow one another.
+    Committed {
+        /// Who wrote it.
+        author: Author,
+        /// The entry.
+        entry: TraceEntryId,
+        /// Its value before.
+        old: ValueRef<'a>,
+        /// Its value now.
+        new: ValueRef<'a>,
+    },
+    /// An input that a component is about to start with.
+    Input {
+        /// The component.
+        component: ComponentId,
+        /// The port, by position among the template's input ports.
+        port: u16,
+        /// What it reads.
+        value: ValueRef<'a>,
+    },
+    /// A component started.
+    Started {
+        /// The component.
+        component: ComponentId,
+    },
+    /// An event taken in the look replaced the start of an element.
+    Diverted {
+        /// The element that did not start.
+        element: ComponentId,
+        /// The supervisor that saw a reason.
+        supervisor: ComponentId,
+        /// The event.
+        event: u16,
+    },
+    /// A component failed.
+    Faulted {
+        /// The component.
+        component: ComponentId,
+        /// Why.
+        fault: Fault,
+    },
+    /// A plan ended; a sub-plan goes by the id of its element.
+    Ended {
+        /// The plan.
+        plan: ComponentId,
+        /// How.
+        ending: Ending,
+    },
+}
+
+/// Receives records. Called within a step: it must neither block nor allocate where the step
+/// must not.
+pub trait Sink {
+    /// Whether records are wanted at all; `false` removes the code that makes them.
+    const ENABLED: bool = true;
+
+    /// Takes one record; `at` is the time of the step.
+    fn record(&mut self, at: Instant, record: &Record<'_>);
+}
+
+/// No trace, no cost.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoTrace;
+
+impl Sink for NoTrace {
+    const ENABLED: bool = false;
+
+    fn record(&mut self, _: Instant, _: &Record<'_>) {}
+}
+
+impl<S: Sink + ?Sized> Sink for &mut S {
+    const ENABLED: bool = S::ENABLED;
+
+    fn record(&mut self, at: Instant, record: &Record<'_>) {
+        (**self).record(at, record);
+    }
+}
+
+/// Each record goes to both.
+impl<A: Sink, B: Sink> Sink for (A, B) {
+    const ENABLED: bool = A::ENABLED || B::ENABLED;
+
+    fn record(&mut self, at: Instant, record: &Record<'_>) {
+        self.0.record(at, record);
+        self.1.record(at, record);
+    }
+}
+
+/// What a component is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The outermost plan.
+    Plan,
+    /// An actor.
+    Actor,
+    /// A computation.
+    Computation,
+    /// A sub-plan.
+    SubPlan,
+    /// A supervisor.
+    Supervisor,
+}
+
+/// A component as people know it. All names are those of the text.
+#[derive(Clone, Copy, Debug)]
+pub struct ComponentName<'a> {
+    /// Dotted path from the outermost plan (`patrol.avoid.turnLeft.touch`); the plan's own name
+    /// for id 0.
+    pub path: &'a str,
+    /// What it is.
+    pub kind: Kind,
+    /// Name of its template, of its plan for a sub-plan.
+    pub template: &'a str,
+}
+
+/// An entry as people know it.
+#[derive(Clone, Copy, Debug)]
+pub struct EntryName<'a> {
+    /// Dotted path from the outermost plan.
+    pub path: &'a str,
+    /// Who may set it.
+    pub kind: EntryKind,
+    /// Its type as in the text (`length`, `int`, `Side`).
+    pub ty: &'a str,
+    /// The SI unit of its values, empty for plain numbers and everything else.
+    pub unit: &'a str,
+}
+
+/// Who may set an entry.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EntryKind {
+    /// Set by whoever starts the plan.
+    In,
+    /// A result of the plan.
+    Out,
+    /// Inner data.
+    Var,
+    /// Never changes.
+    Const,
+}
+
+/// The names behind the ids of a plan. Unknown ids have empty names.
+pub trait Names {
+    /// How many components there are.
+    fn components(&self) -> u32;
+    /// A component.
+    fn component(&self, id: ComponentId) -> ComponentName<'_>;
+    /// A state or event of a component, by position in its template; `DeadlineMissed` and `Error`
+    /// go by their own numbers.
+    fn outcome(&self, id: ComponentId, outcome: u16) -> &str;
+    /// Where an outcome leads: an element's name, `terminate`, `ignore`; empty where unconnected.
+    fn target(&self, id: ComponentId, outcome: u16) -> &str;
+    /// An input port of a component.
+    fn input(&self, id: ComponentId, port: u16) -> &str;
+    /// How many entries there are.
+    fn entries(&self) -> u32;
+    /// An entry.
+    fn entry(&self, id: TraceEntryId) -> EntryName<'_>;
+    /// The text of an enum entry's value; empty for other entries.
+    fn choice(&self, id: TraceEntryId, value: u16) -> &str;
+}

@@ -1,0 +1,124 @@
+//! Records as lines of text: the form in which traces are compared and read.
+
+use core::fmt;
+
+use super::{Author, Cause, ComponentId, Ending, Names, Record, TraceEntryId, Verdict};
+use crate::time::Instant;
+use crate::value::ValueRef;
+
+/// One record as a line: time in seconds, component, what happened.
+///
+/// ```text
+/// 2.431000 searchFirstWall.touch event TouchSensorPressed -> backupCollision
+/// ```
+pub struct Line<'a, N: ?Sized> {
+    /// The time of the step.
+    pub at: Instant,
+    /// What happened.
+    pub record: &'a Record<'a>,
+    /// The names of the plan.
+    pub names: &'a N,
+}
+
+impl<N: Names + ?Sized> Line<'_, N> {
+    fn path(&self, id: ComponentId) -> &str {
+        self.names.component(id).path
+    }
+
+    fn value(
+        &self,
+        f: &mut fmt::Formatter<'_>,
+        id: TraceEntryId,
+        value: ValueRef<'_>,
+    ) -> fmt::Result {
+        let entry = self.names.entry(id);
+        match value {
+            ValueRef::Choice(choice) => {
+                write!(f, "{}.{}", entry.ty, self.names.choice(id, choice))
+            }
+            ValueRef::Object(commit) => write!(f, "{}#{commit}", entry.ty),
+            ValueRef::Float(number) if !entry.unit.is_empty() => {
+                write!(f, "{number} {}", entry.unit)
+            }
+            other => write!(f, "{other}"),
+        }
+    }
+
+    fn outcome(&self, f: &mut fmt::Formatter<'_>, id: ComponentId, outcome: u16) -> fmt::Result {
+        f.write_str(self.names.outcome(id, outcome))?;
+        match self.names.target(id, outcome) {
+            "" => Ok(()),
+            target => write!(f, " -> {target}"),
+        }
+    }
+
+    fn author(&self, author: Author) -> &str {
+        match author {
+            Author::Component(id) => self.path(id),
+            Author::Outside => "outside",
+        }
+    }
+}
+
+impl<N: Names + ?Sized> fmt::Display for Line<'_, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ", self.at)?;
+        match *self.record {
+            Record::ClockWentBack { asked } => write!(f, "clock went back to {asked}"),
+            Record::StopRequested => f.write_str("stop requested"),
+            Record::Polled { supervisor, verdict } => {
+                write!(f, "{} polled: ", self.path(supervisor))?;
+                match verdict {
+                    Verdict::Clear => f.write_str("clear"),
+                    Verdict::Event(event) => f.write_str(self.names.outcome(supervisor, event)),
+                    Verdict::Fault(fault) => write!(f, "fault {}", fault.code()),
+                }
+            }
+            Record::Missed { supervisor, lateness, cause, skipped } => {
+                let cause = match cause {
+                    Cause::LateRelease => "late release",
+                    Cause::LongPoll => "long poll",
+                };
+                let path = self.path(supervisor);
+                write!(f, "{path} missed its deadline by {lateness} ({cause}, {skipped} skipped)")
+            }
+            Record::Event { supervisor, event } => {
+                write!(f, "{} event ", self.path(supervisor))?;
+                self.outcome(f, supervisor, event)
+            }
+            Record::AlreadyThere { supervisor, event } => {
+                write!(f, "{} already there: ", self.path(supervisor))?;
+                self.outcome(f, supervisor, event)
+            }
+            Record::Interrupted { element } => write!(f, "{} interrupted", self.path(element)),
+            Record::Finished { element, state } => {
+                write!(f, "{} finished ", self.path(element))?;
+                self.outcome(f, element, state)
+            }
+            Record::Committed { author, entry, old, new } => {
+                write!(f, "{} commits {}: ", self.author(author), self.names.entry(entry).path)?;
+                self.value(f, entry, old)?;
+                f.write_str(" -> ")?;
+                self.value(f, entry, new)
+            }
+            Record::Input { component, port, value } => {
+                let name = self.names.input(component, port);
+                write!(f, "{} reads {name} = {value}", self.path(component))
+            }
+            Record::Started { component } => write!(f, "{} started", self.path(component)),
+            Record::Diverted { element, supervisor, .. } => {
+                write!(f, "{} diverted by {}", self.path(element), self.path(supervisor))
+            }
+            Record::Faulted { component, fault } => {
+                write!(f, "{} fault {}: {fault}", self.path(component), fault.code())
+            }
+            Record::Ended { plan, ending } => match ending {
+                Ending::Ok => write!(f, "{} ended OK", self.path(plan)),
+                Ending::Interrupted => write!(f, "{} ended Interrupted", self.path(plan)),
+                Ending::Error(fault) => {
+                    write!(f, "{} ended Error({})", self.path(plan), fault.code())
+                }
+            },
+        }
+    }
+}
