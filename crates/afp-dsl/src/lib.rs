@@ -1,1 +1,11 @@
 //! The compiler of Action Flow Plans: text in; diagnostics, static graph, Rust and drawings out.
+//!
+//! It does no I/O and depends on nothing else in the workspace.
+
+pub mod diagnostics;
+pub mod graph;
+pub mod source;
+pub mod syntax;
+pub mod toolbox;
+pub mod types;
+pub mod unfold;

@@ -1,0 +1,129 @@
+//! The table of all codes.
+//!
+//! What `afpc explain` prints and what `docs/errors/` shows is the same text, embedded here. A code
+//! without a page does not compile; a code without a case fails the suite.
+
+use crate::diagnostics::Severity;
+
+macro_rules! codes {
+    ($($code:ident $severity:ident $title:literal)*) => {
+        /// Which rule a diagnostic is about.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Code {
+            $(#[doc = $title] $code,)*
+        }
+
+        impl Code {
+            /// Every code in order.
+            pub const ALL: &'static [Code] = &[$(Code::$code),*];
+
+            /// The code as it is printed, such as `E0203`.
+            pub fn as_str(self) -> &'static str {
+                match self {
+                    $(Code::$code => stringify!($code),)*
+                }
+            }
+
+            /// The rule in a few words.
+            pub fn title(self) -> &'static str {
+                match self {
+                    $(Code::$code => $title,)*
+                }
+            }
+
+            /// How bad a violation is.
+            pub fn severity(self) -> Severity {
+                match self {
+                    $(Code::$code => Severity::$severity,)*
+                }
+            }
+
+            /// The page of `docs/errors/`, in Markdown: what it means, an example, how to mend it.
+            pub fn explanation(self) -> &'static str {
+                match self {
+                    $(Code::$code => {
+                        include_str!(concat!("../../../../docs/errors/", stringify!($code), ".md"))
+                    })*
+                }
+            }
+        }
+    };
+}
+
+codes! {
+    E0101 Error "unexpected character"
+    E0102 Error "unexpected text"
+    E0103 Error "missing closing bracket"
+    E0104 Error "text that is not closed, or an unknown escape"
+    E0105 Error "block comment"
+    E0106 Error "decimal comma"
+    E0107 Error "unit sign that is not ASCII"
+    E0108 Error "wrong arrow"
+    E0109 Error "edge without a target"
+    E0110 Warning "help text stands above what it describes"
+    E0111 Error "nested too deeply"
+    E0112 Error "reserved for later"
+    E0113 Error "name that is not ASCII"
+    E0114 Error "item in a place where it cannot stand"
+    E0115 Error "number that is not written well"
+    E0201 Error "unknown template or plan"
+    E0202 Error "unknown port"
+    E0203 Error "bare number where a unit is needed"
+    E0204 Error "wrong dimension"
+    E0205 Error "operands of different dimensions"
+    E0206 Error "no conversion between the types"
+    E0207 Note "conversion that changes the value"
+    E0208 Warning "conversion that may fail at run time"
+    E0209 Error "unknown entry"
+    E0210 Error "unknown state or event"
+    E0211 Error "state or event left unconnected"
+    E0212 Error "name used twice"
+    E0213 Error "name that cannot be used"
+    E0214 Error "state or event declared under a reserved name"
+    E0215 Error "not exactly one 'start'"
+    E0216 Error "unknown target"
+    E0217 Error "keyword that does not fit"
+    E0218 Error "computation with a supervisor"
+    E0219 Error "output that cannot go there"
+    E0220 Error "two outputs to one entry"
+    E0221 Error "'ignore' on a state"
+    E0222 Error "plan that contains itself"
+    E0223 Error "one resource commanded twice"
+    E0224 Error "value out of range"
+    E0225 Error "input without a value"
+    E0226 Error "bound or connected twice"
+    E0227 Error "input and output mixed up"
+    E0228 Error "formula that has no value"
+    E0229 Error "initial value that is not known yet"
+    E0230 Error "text too long"
+    E0231 Error "formula too large"
+    E0232 Error "unknown type"
+    E0233 Error "'Interrupted' left unconnected"
+    E0235 Error "Celsius inside a formula"
+    E0236 Error "unknown unit"
+    E0237 Error "name found in two toolboxes"
+    E0238 Error "unknown toolbox"
+    E0239 Error "unknown value of an enum"
+    E0240 Warning "entry named like a unit"
+    E0241 Error "type that nothing decides"
+    E0242 Error "operation that the type does not have"
+    E0401 Error "time that cannot be used"
+    E0402 Error "deadline longer than the period"
+    E0501 Error "plans of other files"
+    E0502 Warning "scenarios are not run yet"
+    E0503 Error "no plan in the file"
+    E0504 Error "no plan of that name"
+    E0505 Error "version of the language"
+    E0510 Error "part that does not belong in the template"
+    E0511 Error "part given twice"
+    E0512 Error "template without states or events"
+    E0513 Error "range that cannot be"
+    E0514 Error "port that cannot be declared so"
+}
+
+impl Code {
+    /// The code of that name (`E0203`), `None` when there is none.
+    pub fn parse(text: &str) -> Option<Code> {
+        Code::ALL.iter().copied().find(|code| code.as_str().eq_ignore_ascii_case(text))
+    }
+}

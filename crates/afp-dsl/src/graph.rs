@@ -1,0 +1,281 @@
+//! The static graph: what a checked plan is.
+//!
+//! Interpreter, Rust back end, drawings, editor and language server read this and nothing else.
+//! Everything is resolved: names are indices, conversions are nodes of the formulas, defaults are
+//! filled in, polling order is fixed. A plan with errors has no graph.
+
+use std::sync::Arc;
+
+use crate::source::Span;
+use crate::toolbox::{Template, Toolbox};
+use crate::types::{Conversion, Type};
+
+macro_rules! index {
+    ($($(#[$doc:meta])* $name:ident),* $(,)?) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub struct $name(pub u16);
+
+        impl $name {
+            /// The index, to be used on the table it belongs to.
+            pub fn index(self) -> usize {
+                usize::from(self.0)
+            }
+        }
+    )*};
+}
+
+index! {
+    /// A plan of [`Graph::plans`].
+    PlanId,
+    /// An entry of [`Plan::entries`].
+    EntryId,
+    /// An element of [`Plan::elements`].
+    ElementId,
+    /// A supervisor of [`Plan::supervisors`].
+    SupervisorId,
+    /// A toolbox of [`Graph::toolboxes`].
+    ToolboxId,
+}
+
+/// All plans that one plan needs, itself included.
+#[derive(Clone, Debug)]
+pub struct Graph {
+    /// Sub-plans stand before the plans that use them.
+    pub plans: Vec<Plan>,
+    /// The plan that runs.
+    pub main: PlanId,
+    /// The toolboxes in use, in the order in which the files name them.
+    pub toolboxes: Vec<Arc<Toolbox>>,
+}
+
+/// One plan: elements, supervisors, entries.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Its name in the text.
+    pub name: String,
+    /// Its `///` lines, without the slashes.
+    pub doc: String,
+    /// Entries as written.
+    pub entries: Vec<Entry>,
+    /// Actors, computations and sub-plans as written.
+    pub elements: Vec<Element>,
+    /// The global supervisors as written, then the local ones, element by element.
+    pub supervisors: Vec<Supervisor>,
+    /// How many of [`Plan::supervisors`] are global.
+    pub globals: u16,
+    /// The first element.
+    pub start: ElementId,
+    /// Whether an event or `DeadlineMissed` edge leads to `terminate`, so that the plan can end as
+    /// `Interrupted`.
+    pub interruptible: bool,
+    /// The name in the text.
+    pub span: Span,
+}
+
+/// A named value of the configuration.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// Its name.
+    pub name: String,
+    /// Its `///` lines.
+    pub doc: String,
+    /// Who may set it.
+    pub kind: EntryKind,
+    /// Its type; never `any` or `number`.
+    pub ty: Type,
+    /// Its initial value, of type [`Entry::ty`].
+    pub init: Option<Formula>,
+    /// The name in the text.
+    pub span: Span,
+}
+
+/// Who may set an entry.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EntryKind {
+    /// Set by whoever starts the plan.
+    In,
+    /// A result of the plan.
+    Out,
+    /// Inner data.
+    Var,
+    /// Never changes.
+    Const,
+}
+
+/// An actor, a computation or a sub-plan.
+#[derive(Clone, Debug)]
+pub struct Element {
+    /// Its name.
+    pub name: String,
+    /// Its `///` lines.
+    pub doc: String,
+    /// What it is made from.
+    pub component: Component,
+    /// The type that stands for `any` or `number` in its template.
+    pub generic: Option<Type>,
+    /// One formula for each input port of the template (for each `in` entry of a sub-plan), in
+    /// their order, of the port's type.
+    pub inputs: Vec<Formula>,
+    /// The connected outputs.
+    pub outputs: Vec<Output>,
+    /// One target for each state of the template, in its order; of a sub-plan `OK` and
+    /// `Interrupted`, the latter `None` where it cannot happen and was not connected.
+    pub states: Vec<Option<Target>>,
+    /// Where `Error` leads; unconnected it ends the plan.
+    pub on_error: Option<Target>,
+    /// Its local supervisors, as written.
+    pub supervisors: Vec<SupervisorId>,
+    /// The name in the text.
+    pub span: Span,
+}
+
+/// What an element is made from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Component {
+    /// An actor template.
+    Actor(TemplateId),
+    /// A computation template.
+    Computation(TemplateId),
+    /// A plan used like an actor.
+    SubPlan(PlanId),
+}
+
+/// A template of a toolbox.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct TemplateId {
+    /// Which toolbox.
+    pub toolbox: ToolboxId,
+    /// Which of [`Toolbox::templates`].
+    pub index: u16,
+}
+
+/// A supervisor, global or local.
+#[derive(Clone, Debug)]
+pub struct Supervisor {
+    /// Its name.
+    pub name: String,
+    /// Its `///` lines.
+    pub doc: String,
+    /// The element it belongs to; `None` for a global one.
+    pub owner: Option<ElementId>,
+    /// What it is made from.
+    pub template: TemplateId,
+    /// The type that stands for `any` or `number` in its template.
+    pub generic: Option<Type>,
+    /// One formula for each input port of the template.
+    pub inputs: Vec<Formula>,
+    /// The connected outputs.
+    pub outputs: Vec<Output>,
+    /// One target for each event of the template.
+    pub events: Vec<Target>,
+    /// Where `DeadlineMissed` leads.
+    pub on_miss: Option<Target>,
+    /// Poll period in nanoseconds.
+    pub every: u64,
+    /// Deadline after each release in nanoseconds.
+    pub deadline: u64,
+    /// The name in the text.
+    pub span: Span,
+}
+
+/// Where an edge leads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// To an element of the same plan.
+    Element(ElementId),
+    /// The plan ends.
+    Terminate,
+    /// The event is not taken; events only.
+    Ignore,
+}
+
+/// An output port bound to an entry.
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// Index of the template's output port (of the sub-plan's `out` entries, counted among
+    /// themselves).
+    pub port: u16,
+    /// What it writes.
+    pub entry: EntryId,
+    /// How the port's value becomes the entry's.
+    pub conversion: Option<Conversion>,
+}
+
+/// A typed formula.
+#[derive(Clone, Debug)]
+pub struct Formula {
+    /// What it computes.
+    pub kind: FormulaKind,
+    /// The type of its value.
+    pub ty: Type,
+    /// Where it stands; the port's declaration for a default.
+    pub span: Span,
+}
+
+/// What a formula computes. Operands have the types that the operation needs: conversions are
+/// nodes of their own.
+#[derive(Clone, Debug)]
+pub enum FormulaKind {
+    /// `true` or `false`.
+    Bool(bool),
+    /// An integer.
+    Int(i64),
+    /// A number or a quantity in SI units.
+    Float(f64),
+    /// A text of at most 64 bytes.
+    Text(String),
+    /// A value of an enum, by position.
+    Choice(u16),
+    /// The value of an entry of the same plan.
+    Entry(EntryId),
+    /// Sign change.
+    Neg(Box<Formula>),
+    /// An operation on two operands; on texts, `+` joins.
+    Binary(Operator, Box<Formula>, Box<Formula>),
+    /// A conversion.
+    Convert(Conversion, Box<Formula>),
+}
+
+/// An operation on two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operator {
+    /// `+`
+    Add,
+    /// `-`
+    Sub,
+    /// `*`
+    Mul,
+    /// `/`, always on floats
+    Div,
+    /// `%`, with the sign of the dividend
+    Rem,
+}
+
+impl Graph {
+    /// The plan that runs.
+    pub fn main(&self) -> &Plan {
+        &self.plans[self.main.index()]
+    }
+
+    /// A plan by index.
+    pub fn plan(&self, id: PlanId) -> &Plan {
+        &self.plans[id.index()]
+    }
+
+    /// A template by index.
+    pub fn template(&self, id: TemplateId) -> &Template {
+        &self.toolboxes[id.toolbox.index()].templates[usize::from(id.index)]
+    }
+}
+
+impl Plan {
+    /// The supervisors that are polled while `element` is active: its own and the global ones,
+    /// shorter declared deadline first, then global before local, then as written.
+    pub fn sweep(&self, element: &Element) -> Vec<SupervisorId> {
+        let globals = (0..self.globals).map(SupervisorId);
+        let mut order: Vec<_> = globals.chain(element.supervisors.iter().copied()).collect();
+        order.sort_by_key(|id| self.supervisors[id.index()].deadline);
+        order
+    }
+}

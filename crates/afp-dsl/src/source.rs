@@ -1,0 +1,122 @@
+//! Texts and places in them.
+
+use std::sync::Arc;
+
+/// A range of bytes in one file of a compilation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Span {
+    /// The file, an index into the compilation's sources.
+    pub file: u16,
+    /// First byte.
+    pub start: u32,
+    /// Byte after the last.
+    pub end: u32,
+}
+
+impl Span {
+    /// The range from the start of `self` to the end of `last`, in the file of `self`.
+    pub fn to(self, last: Span) -> Span {
+        Span { end: last.end.max(self.start), ..self }
+    }
+
+    /// The empty range at the end of `self`.
+    pub fn after(self) -> Span {
+        Span { start: self.end, ..self }
+    }
+
+    /// The empty range at the start of `self`.
+    pub fn before(self) -> Span {
+        Span { end: self.start, ..self }
+    }
+
+    /// Whether `other` lies in `self`, borders included.
+    pub fn contains(self, other: Span) -> bool {
+        self.file == other.file && self.start <= other.start && other.end <= self.end
+    }
+}
+
+/// A text and the name under which diagnostics show it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Source {
+    /// The file's path as the user wrote it.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+}
+
+impl Source {
+    /// A text to be compiled.
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Source {
+        Source { name: name.into(), text: text.into() }
+    }
+
+    /// Line and column of a byte, both counted from 1; columns count characters.
+    ///
+    /// An offset past the end or inside a character stands for the nearest one before it.
+    pub fn line_column(&self, offset: u32) -> (usize, usize) {
+        let mut end = self.text.len().min(offset as usize);
+        while !self.text.is_char_boundary(end) {
+            end -= 1;
+        }
+        let before = &self.text[..end];
+        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+        (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+    }
+}
+
+/// The files of a compilation; [`Span::file`] is an index into them.
+#[derive(Clone, Debug, Default)]
+pub struct Sources {
+    files: Vec<Arc<Source>>,
+}
+
+impl Sources {
+    /// Adds a file and returns its index, `None` when 65,536 files are there already.
+    pub fn add(&mut self, source: Arc<Source>) -> Option<u16> {
+        let index = u16::try_from(self.files.len()).ok()?;
+        self.files.push(source);
+        Some(index)
+    }
+
+    /// How many files there are.
+    pub fn len(&self) -> usize {
+        self.files.len()
+    }
+
+    /// Whether there is no file at all.
+    pub fn is_empty(&self) -> bool {
+        self.files.is_empty()
+    }
+
+    /// A file by [`Span::file`].
+    pub fn get(&self, file: u16) -> Option<&Source> {
+        self.files.get(usize::from(file)).map(|source| &**source)
+    }
+
+    /// The text that a span covers; empty when it fits no file.
+    pub fn text(&self, span: Span) -> &str {
+        self.get(span.file)
+            .and_then(|source| source.text.get(span.start as usize..span.end as usize))
+            .unwrap_or("")
+    }
+
+    /// All files in order.
+    pub fn iter(&self) -> impl Iterator<Item = &Source> {
+        self.files.iter().map(|source| &**source)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Source;
+
+    #[test]
+    fn lines_and_columns_count_characters_from_one() {
+        let source = Source::new("x", "ab\nä°c\n");
+        assert_eq!(source.line_column(0), (1, 1));
+        assert_eq!(source.line_column(3), (2, 1));
+        assert_eq!(source.line_column(7), (2, 3));
+        assert_eq!(source.line_column(4), (2, 1));
+        assert_eq!(source.line_column(99), (3, 1));
+    }
+}

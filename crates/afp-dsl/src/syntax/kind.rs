@@ -1,0 +1,233 @@
+//! The kinds of tokens and nodes of the lossless tree.
+
+macro_rules! kinds {
+    ($($(#[$doc:meta])* $kind:ident)*) => {
+        /// What a token or a node is.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[repr(u16)]
+        pub enum Kind {
+            $($(#[$doc])* $kind,)*
+        }
+
+        impl Kind {
+            const ALL: &'static [Kind] = &[$(Kind::$kind),*];
+        }
+    };
+}
+
+kinds! {
+    /// Blanks and line breaks.
+    Whitespace
+    /// `// ...` to the end of the line.
+    Comment
+    /// `/// ...` to the end of the line.
+    Doc
+    /// `/* ... */`, diagnosed.
+    BlockComment
+    /// A name, or a word that could be one.
+    Name
+    /// A word of the grammar where the grammar expects it.
+    Keyword
+    /// Digits.
+    Int
+    /// Digits with a point or an exponent.
+    Float
+    /// A unit on its number's line.
+    Unit
+    /// A text in double quotes.
+    Text
+    /// `(`
+    OpenParen
+    /// `)`
+    CloseParen
+    /// `{`
+    OpenBrace
+    /// `}`
+    CloseBrace
+    /// `[`, reserved
+    OpenBracket
+    /// `]`, reserved
+    CloseBracket
+    /// `@`, reserved
+    At
+    /// `,`
+    Comma
+    /// `:`
+    Colon
+    /// `.`
+    Dot
+    /// `=`
+    Equal
+    /// `=>`
+    FatArrow
+    /// `->`
+    Arrow
+    /// `+`
+    Plus
+    /// `-`
+    Minus
+    /// `*`
+    Star
+    /// `/`
+    Slash
+    /// `%`
+    Percent
+    /// `^`
+    Caret
+    /// `|`
+    Pipe
+    /// `==`
+    EqualEqual
+    /// `!=`
+    NotEqual
+    /// `<`
+    Less
+    /// `<=`
+    LessEqual
+    /// `>`
+    Greater
+    /// `>=`
+    GreaterEqual
+    /// Characters that the language does not know, diagnosed.
+    Unknown
+    /// The end of the file; never in a tree.
+    End
+
+    /// Text that fits nowhere, diagnosed.
+    Error
+    /// A whole file.
+    File
+    /// `afp 1`
+    Version
+    /// `use carbot as c`
+    Use
+    /// `as c`
+    Alias
+    /// A plan.
+    Plan
+    /// `in`, `out`, `var`, `const`
+    Entry
+    /// `start first`
+    Start
+    /// An actor, a computation or a sub-plan of a plan.
+    Element
+    /// A supervisor of a plan.
+    Guard
+    /// `every 10 ms` or another time.
+    Timing
+    /// `State -> target`
+    Edge
+    /// What an edge or an output leads to.
+    Target
+    /// `(...)` behind a reference.
+    Args
+    /// `port = formula`
+    BindIn
+    /// `port => entry`
+    BindOut
+    /// The head and the tools of a toolbox.
+    Toolbox
+    /// `object Map`
+    Object
+    /// An enum.
+    Enum
+    /// A value of an enum.
+    Variant
+    /// A template.
+    Template
+    /// `icon "name"`
+    Icon
+    /// `uses navigator`
+    Uses
+    /// `state S` or `event E`
+    Outcome
+    /// `in live port: type = formula from formula to formula`
+    InPort
+    /// `out port: type on S | T`
+    OutPort
+    /// `from formula to formula`
+    Range
+    /// `on S | T`
+    On
+    /// A scenario.
+    Scenario
+    /// `world "file"`
+    World
+    /// `seed 7`
+    Seed
+    /// `set path = formula`
+    Set
+    /// `robot at (x, y) heading angle`
+    Robot
+    /// `at 2 s: action`
+    Stimulus
+    /// `press touch`
+    Action
+    /// `expect` or `never` with a claim and bounds.
+    Expect
+    /// What is expected.
+    Claim
+    /// `always`, `within 3 ms` and so on.
+    Bound
+    /// `until 60 s`
+    Until
+    /// `a.b.c`
+    Path
+    /// A type.
+    Type
+    /// A factor of a type.
+    Factor
+    /// `name` or `home.name`
+    Ref
+    /// Terms with `+` and `-`.
+    Sum
+    /// Operands with `*`, `/` and `%`.
+    Product
+    /// `-operand`
+    Negation
+    /// A formula in brackets.
+    Brackets
+    /// A number, quantity, text or truth value.
+    Literal
+}
+
+impl Kind {
+    /// Whether tokens of this kind carry no meaning.
+    pub fn is_trivia(self) -> bool {
+        matches!(self, Kind::Whitespace | Kind::Comment | Kind::Doc | Kind::BlockComment)
+    }
+
+    /// How a diagnostic names a token that is expected.
+    pub(super) fn describe(self) -> &'static str {
+        match self {
+            Kind::Name => "a name",
+            Kind::Int => "a whole number",
+            Kind::Text => "a text in double quotes",
+            Kind::OpenParen => "'('",
+            Kind::CloseParen => "')'",
+            Kind::OpenBrace => "'{'",
+            Kind::CloseBrace => "'}'",
+            Kind::Colon => "':'",
+            Kind::Comma => "','",
+            Kind::Equal => "'='",
+            Kind::Arrow => "'->'",
+            _ => "something else",
+        }
+    }
+}
+
+/// The language of the tree, for rowan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Afp {}
+
+impl rowan::Language for Afp {
+    type Kind = Kind;
+
+    fn kind_from_raw(raw: rowan::SyntaxKind) -> Kind {
+        Kind::ALL.get(usize::from(raw.0)).copied().unwrap_or(Kind::Error)
+    }
+
+    fn kind_to_raw(kind: Kind) -> rowan::SyntaxKind {
+        rowan::SyntaxKind(kind as u16)
+    }
+}

@@ -1,0 +1,126 @@
+//! What a toolbox file declares: templates with their ports, timing, help and icons.
+
+use crate::source::Span;
+use crate::types::{Enum, Object, Type};
+use std::sync::Arc;
+
+/// A checked toolbox file.
+#[derive(Clone, Debug)]
+pub struct Toolbox {
+    /// The name by which `use` finds it.
+    pub name: String,
+    /// Its version text, empty where none is given.
+    pub version: String,
+    /// Its `///` lines.
+    pub doc: String,
+    /// The templates as written.
+    pub templates: Vec<Template>,
+    /// The enums as written.
+    pub enums: Vec<Arc<Enum>>,
+    /// The object types as written.
+    pub objects: Vec<Arc<Object>>,
+    /// The Rust crate (a path such as `afp_carbot`) that implements it.
+    pub rust_path: String,
+}
+
+/// One actor, supervisor or computation that plans can use.
+#[derive(Clone, Debug)]
+pub struct Template {
+    /// What it is.
+    pub kind: TemplateKind,
+    /// Its name.
+    pub name: String,
+    /// Its `///` lines.
+    pub doc: String,
+    /// The name of its icon, without folder and ending.
+    pub icon: Option<String>,
+    /// The resources that it commands exclusively.
+    pub uses: Vec<String>,
+    /// Input ports as written.
+    pub inputs: Vec<InPort>,
+    /// Output ports as written.
+    pub outputs: Vec<OutPort>,
+    /// States, or a supervisor's events, as written.
+    pub outcomes: Vec<Outcome>,
+    /// Poll period in nanoseconds (10 ms where none is written).
+    pub every: u64,
+    /// Deadline in nanoseconds, where written.
+    pub deadline: Option<u64>,
+    /// Bound of one poll in nanoseconds, where written.
+    pub budget: Option<u64>,
+    /// Time from interruption to standstill in nanoseconds, where written.
+    pub stop: Option<u64>,
+    /// The name in the text.
+    pub span: Span,
+}
+
+/// What a template is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TemplateKind {
+    /// Acts over time, ends in a state.
+    Actor,
+    /// Watches, reports events.
+    Supervisor,
+    /// Computes at once, ends in a state.
+    Computation,
+}
+
+/// An input port.
+#[derive(Clone, Debug)]
+pub struct InPort {
+    /// Its name.
+    pub name: String,
+    /// Its `///` lines.
+    pub doc: String,
+    /// Its type, perhaps `any` or `number`.
+    pub ty: Type,
+    /// Whether it is read again at every poll.
+    pub live: bool,
+    /// The value of an unbound port.
+    pub default: Option<Constant>,
+    /// Least and greatest allowed value (`int`, `float` and quantities, in SI units).
+    pub range: Option<(f64, f64)>,
+    /// The name in the text.
+    pub span: Span,
+}
+
+/// An output port.
+#[derive(Clone, Debug)]
+pub struct OutPort {
+    /// Its name.
+    pub name: String,
+    /// Its `///` lines.
+    pub doc: String,
+    /// Its type, perhaps `any` or `number`.
+    pub ty: Type,
+    /// The outcomes that carry it, by position; all of them where no `on` is written.
+    pub on: Vec<u16>,
+    /// The name in the text.
+    pub span: Span,
+}
+
+/// A state or an event.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// Its name.
+    pub name: String,
+    /// Its `///` lines.
+    pub doc: String,
+    /// The name in the text.
+    pub span: Span,
+}
+
+/// A value known when a toolbox is read, already of its port's type.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Constant {
+    /// A truth value.
+    Bool(bool),
+    /// An integer.
+    Int(i64),
+    /// A number or a quantity in SI units.
+    Float(f64),
+    /// A text.
+    Text(String),
+    /// A value of an enum, by position.
+    Choice(u16),
+}

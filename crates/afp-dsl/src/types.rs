@@ -1,0 +1,116 @@
+//! Types of entries, ports and formulas.
+
+pub mod dimension;
+pub mod literal;
+pub mod units;
+
+use std::fmt;
+use std::sync::Arc;
+
+use crate::source::Span;
+
+pub use dimension::Dimension;
+
+/// The type of an entry, a port or a formula.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Type {
+    /// `bool`
+    Bool,
+    /// `int`, 64 bit
+    Int,
+    /// A `float` (dimensionless) or a quantity, 64 bit in SI units.
+    Quantity(Dimension),
+    /// `string`, at most 64 bytes of UTF-8
+    Text,
+    /// An enum; equal by name and home.
+    Enum(Arc<Enum>),
+    /// An object type; equal by name and home.
+    Object(Arc<Object>),
+    /// `any`, in ports of toolboxes only
+    Any,
+    /// `number`, in ports of toolboxes only
+    Number,
+}
+
+/// An enum of a toolbox or of a plan file.
+#[derive(Clone, Debug)]
+pub struct Enum {
+    /// Its name.
+    pub name: String,
+    /// Its `///` lines.
+    pub doc: String,
+    /// The toolbox that declares it; `None` for one of a plan file.
+    pub toolbox: Option<String>,
+    /// The names of its values.
+    pub variants: Vec<String>,
+    /// The name in the text.
+    pub span: Span,
+}
+
+/// An opaque type of a toolbox.
+#[derive(Clone, Debug)]
+pub struct Object {
+    /// Its name.
+    pub name: String,
+    /// Its `///` lines.
+    pub doc: String,
+    /// The toolbox that declares it.
+    pub toolbox: String,
+    /// The name in the text.
+    pub span: Span,
+}
+
+/// How a value of one type becomes one of another.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Conversion {
+    /// `int` to `float`, exact up to 2^53.
+    IntToFloat,
+    /// `float` to `int`, toward zero; out of range is a fault.
+    FloatToInt,
+    /// `bool` to `int`: 0 or 1.
+    BoolToInt,
+    /// `bool` to `float`: 0 or 1.
+    BoolToFloat,
+    /// Anything but an object to text; quantities print SI value and SI unit.
+    ToText(Type),
+    /// Text to a type, by the literal grammar of that type, unit included.
+    FromText(Type),
+}
+
+impl PartialEq for Enum {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.name, &self.toolbox) == (&other.name, &other.toolbox)
+    }
+}
+
+impl PartialEq for Object {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.name, &self.toolbox) == (&other.name, &other.toolbox)
+    }
+}
+
+impl Type {
+    /// `float`.
+    pub const FLOAT: Type = Type::Quantity(Dimension::NONE);
+
+    /// Whether formulas can compute with it.
+    pub fn is_numeric(&self) -> bool {
+        matches!(self, Type::Int | Type::Quantity(_) | Type::Number)
+    }
+}
+
+impl fmt::Display for Type {
+    /// As written in a plan: `length`, `int`, `Side`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Type::Bool => f.write_str("bool"),
+            Type::Int => f.write_str("int"),
+            Type::Quantity(dimension) => f.write_str(&dimension.name()),
+            Type::Text => f.write_str("string"),
+            Type::Enum(choices) => f.write_str(&choices.name),
+            Type::Object(object) => f.write_str(&object.name),
+            Type::Any => f.write_str("any"),
+            Type::Number => f.write_str("number"),
+        }
+    }
+}

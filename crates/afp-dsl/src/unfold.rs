@@ -1,0 +1,191 @@
+//! Numbers for everything in a running plan, sub-plans unfolded.
+//!
+//! A trace speaks in these numbers. Generated code, plans loaded at run time and readers of logs
+//! take them from here, so they cannot disagree: 0 is the outermost plan; then come its elements
+//! and its supervisors, then, element by element, the blocks of its sub-plans, laid out alike.
+//! Entries are numbered the same way.
+
+use crate::graph::{Component, EntryKind, Graph, Plan, PlanId, Target};
+use crate::types::Type;
+
+/// What a component is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The outermost plan.
+    Plan,
+    /// An actor.
+    Actor,
+    /// A computation.
+    Computation,
+    /// A sub-plan.
+    SubPlan,
+    /// A supervisor.
+    Supervisor,
+}
+
+/// A component with the names that a trace needs.
+#[derive(Clone, Debug)]
+pub struct ComponentNames {
+    /// Dotted path from the outermost plan; the plan's own name for the outermost.
+    pub path: String,
+    /// What it is.
+    pub kind: Kind,
+    /// Name of its template or plan.
+    pub template: String,
+    /// States or events with where they lead (empty where unconnected), by position.
+    pub outcomes: Vec<(String, String)>,
+    /// Where its `Error` (elements) or `DeadlineMissed` (supervisors) leads; empty where
+    /// unconnected.
+    pub special: String,
+    /// Input ports, by position.
+    pub inputs: Vec<String>,
+}
+
+/// An entry with the names that a trace needs.
+#[derive(Clone, Debug)]
+pub struct EntryNames {
+    /// Dotted path from the outermost plan.
+    pub path: String,
+    /// Who may set it.
+    pub kind: EntryKind,
+    /// Its type.
+    pub ty: Type,
+}
+
+/// All components and entries of a running plan, by number.
+#[derive(Clone, Debug, Default)]
+pub struct Unfolded {
+    /// The components.
+    pub components: Vec<ComponentNames>,
+    /// The entries.
+    pub entries: Vec<EntryNames>,
+}
+
+/// How many numbers a plan takes, and where those of its sub-plans begin.
+#[derive(Clone, Debug, Default)]
+pub struct Block {
+    /// Components, those of sub-plans included, itself excluded.
+    pub components: u32,
+    /// Entries, those of sub-plans included.
+    pub entries: u32,
+    /// For each element that is a sub-plan, where its components and entries begin, counted from
+    /// the first of this plan; zero for the others.
+    pub children: Vec<(u32, u32)>,
+}
+
+/// The block of each plan of a graph.
+pub fn blocks(graph: &Graph) -> Vec<Block> {
+    let mut blocks: Vec<Block> = Vec::with_capacity(graph.plans.len());
+    for plan in &graph.plans {
+        let mut block = Block {
+            components: (plan.elements.len() + plan.supervisors.len()) as u32,
+            entries: plan.entries.len() as u32,
+            children: Vec::with_capacity(plan.elements.len()),
+        };
+        for element in &plan.elements {
+            // Sub-plans stand before the plans that use them.
+            let child = match element.component {
+                Component::SubPlan(id) => blocks.get(id.index()),
+                Component::Actor(_) | Component::Computation(_) => None,
+            };
+            let begin = child.map_or((0, 0), |_| (block.components, block.entries));
+            block.children.push(begin);
+            block.components += child.map_or(0, |child| child.components);
+            block.entries += child.map_or(0, |child| child.entries);
+        }
+        blocks.push(block);
+    }
+    blocks
+}
+
+/// Names for all numbers of the plan that runs.
+pub fn unfold(graph: &Graph) -> Unfolded {
+    let main = graph.main();
+    let mut all = Unfolded::default();
+    all.components.push(ComponentNames {
+        path: main.name.clone(),
+        kind: Kind::Plan,
+        template: main.name.clone(),
+        outcomes: Vec::new(),
+        special: String::new(),
+        inputs: Vec::new(),
+    });
+    add(graph, graph.main, "", &mut all);
+    all
+}
+
+fn add(graph: &Graph, id: PlanId, prefix: &str, all: &mut Unfolded) {
+    let plan = graph.plan(id);
+    for entry in &plan.entries {
+        let path = format!("{prefix}{}", entry.name);
+        all.entries.push(EntryNames { path, kind: entry.kind, ty: entry.ty.clone() });
+    }
+    for index in 0..plan.elements.len() {
+        all.components.push(element(graph, plan, index, prefix));
+    }
+    for index in 0..plan.supervisors.len() {
+        all.components.push(supervisor(graph, plan, index, prefix));
+    }
+    for element in &plan.elements {
+        if let Component::SubPlan(child) = element.component {
+            add(graph, child, &format!("{prefix}{}.", element.name), all);
+        }
+    }
+}
+
+fn element(graph: &Graph, plan: &Plan, index: usize, prefix: &str) -> ComponentNames {
+    let element = &plan.elements[index];
+    let (kind, template, states, inputs) = match element.component {
+        Component::Actor(id) | Component::Computation(id) => {
+            let template = graph.template(id);
+            let kind = match element.component {
+                Component::Actor(_) => Kind::Actor,
+                _ => Kind::Computation,
+            };
+            let states = template.outcomes.iter().map(|state| state.name.clone()).collect();
+            let inputs = template.inputs.iter().map(|port| port.name.clone()).collect();
+            (kind, template.name.clone(), states, inputs)
+        }
+        Component::SubPlan(id) => {
+            let child = graph.plan(id);
+            let inputs = child.entries.iter().filter(|entry| entry.kind == EntryKind::In);
+            let inputs = inputs.map(|entry| entry.name.clone()).collect();
+            let states = vec!["OK".to_owned(), "Interrupted".to_owned()];
+            (Kind::SubPlan, child.name.clone(), states, inputs)
+        }
+    };
+    let targets = element.states.iter().map(|state| target(plan, *state));
+    ComponentNames {
+        path: format!("{prefix}{}", element.name),
+        kind,
+        template,
+        outcomes: states.into_iter().zip(targets).collect(),
+        special: target(plan, element.on_error),
+        inputs,
+    }
+}
+
+fn supervisor(graph: &Graph, plan: &Plan, index: usize, prefix: &str) -> ComponentNames {
+    let supervisor = &plan.supervisors[index];
+    let template = graph.template(supervisor.template);
+    let owner = supervisor.owner.map(|id| format!("{}.", plan.elements[id.index()].name));
+    let targets = supervisor.events.iter().map(|event| target(plan, Some(*event)));
+    ComponentNames {
+        path: format!("{prefix}{}{}", owner.unwrap_or_default(), supervisor.name),
+        kind: Kind::Supervisor,
+        template: template.name.clone(),
+        outcomes: template.outcomes.iter().map(|event| event.name.clone()).zip(targets).collect(),
+        special: target(plan, supervisor.on_miss),
+        inputs: template.inputs.iter().map(|port| port.name.clone()).collect(),
+    }
+}
+
+/// A target as the text names it.
+fn target(plan: &Plan, target: Option<Target>) -> String {
+    match target {
+        Some(Target::Element(id)) => plan.elements[id.index()].name.clone(),
+        Some(Target::Terminate) => "terminate".to_owned(),
+        Some(Target::Ignore) => "ignore".to_owned(),
+        None => String::new(),
+    }
+}
