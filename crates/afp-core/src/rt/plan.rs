@@ -250,6 +250,20 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
         Ok(inputs)
     }
 
+    /// For plans that keep their components in boxes: lends the platform, and what shows the
+    /// inputs to the trace, if there is one.
+    pub fn show_inputs<R>(
+        &mut self,
+        run: impl FnOnce(Option<&mut dyn FnMut(u16, ValueRef<'_>)>, &mut E, Instant) -> R,
+    ) -> R {
+        let (component, at) = (self.place.component, self.now);
+        let sink = &mut *self.sink;
+        let mut see = |port: u16, value: ValueRef<'_>| {
+            sink.record(at, &Record::Input { component, port, value });
+        };
+        run(if S::ENABLED { Some(&mut see) } else { None }, &mut *self.env, at)
+    }
+
     /// Runs a sub-plan's machine at its own place: its start, its step, its interruption.
     #[inline]
     pub fn inside<R>(&mut self, child: Child, run: impl FnOnce(&mut Cx<'_, E, S, C>) -> R) -> R {

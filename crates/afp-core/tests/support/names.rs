@@ -1,0 +1,123 @@
+//! The names of a plan made from data, sub-plans unfolded.
+
+use afp_core::rt::ElementKind;
+use afp_core::trace::{
+    ComponentId, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Kind, Names,
+    TraceEntryId,
+};
+
+use super::build::Spec;
+
+#[derive(Default)]
+pub struct SpecNames {
+    components: Vec<Component>,
+    entries: Vec<(String, EntryKind)>,
+}
+
+struct Component {
+    path: String,
+    kind: Kind,
+    outcomes: Vec<(String, String)>,
+    special: (&'static str, &'static str),
+}
+
+impl SpecNames {
+    pub fn new(spec: &Spec) -> Self {
+        let mut names = SpecNames::default();
+        names.components.push(Component {
+            path: spec.name.clone(),
+            kind: Kind::Plan,
+            outcomes: Vec::new(),
+            special: ("", ""),
+        });
+        names.add(spec, "");
+        names
+    }
+
+    fn add(&mut self, spec: &Spec, prefix: &str) {
+        for entry in &spec.entries {
+            self.entries.push((format!("{prefix}{}", entry.name), entry.kind));
+        }
+        for (index, element) in spec.elements.iter().enumerate() {
+            let kind = match element.kind {
+                ElementKind::Actor => Kind::Actor,
+                ElementKind::Computation => Kind::Computation,
+                ElementKind::SubPlan => Kind::SubPlan,
+            };
+            self.components.push(Component {
+                path: format!("{prefix}{}", element.name),
+                kind,
+                outcomes: owned(&element.states),
+                special: ("Error", spec.error_target(index)),
+            });
+        }
+        for (index, guard) in spec.supervisors.iter().enumerate() {
+            let owner = spec.owner(index as u16).map(|owner| spec.elements[owner].name);
+            let path = match owner {
+                Some(owner) => format!("{prefix}{owner}.{}", guard.name),
+                None => format!("{prefix}{}", guard.name),
+            };
+            self.components.push(Component {
+                path,
+                kind: Kind::Supervisor,
+                outcomes: owned(&guard.events),
+                special: ("DeadlineMissed", spec.miss_target(index)),
+            });
+        }
+        for element in &spec.elements {
+            if let Some(plan) = &element.plan {
+                self.add(plan, &format!("{prefix}{}.", element.name));
+            }
+        }
+    }
+
+    fn get(&self, id: ComponentId) -> &Component {
+        &self.components[id.0 as usize]
+    }
+}
+
+fn owned(outcomes: &[(&str, &str)]) -> Vec<(String, String)> {
+    outcomes.iter().map(|(name, target)| ((*name).to_owned(), (*target).to_owned())).collect()
+}
+
+impl Names for SpecNames {
+    fn components(&self) -> u32 {
+        self.components.len() as u32
+    }
+
+    fn component(&self, id: ComponentId) -> ComponentName<'_> {
+        let component = self.get(id);
+        ComponentName { path: &component.path, kind: component.kind, template: "" }
+    }
+
+    fn outcome(&self, id: ComponentId, outcome: u16) -> &str {
+        match outcome {
+            DEADLINE_MISSED | ERROR => self.get(id).special.0,
+            outcome => &self.get(id).outcomes[usize::from(outcome)].0,
+        }
+    }
+
+    fn target(&self, id: ComponentId, outcome: u16) -> &str {
+        match outcome {
+            DEADLINE_MISSED | ERROR => self.get(id).special.1,
+            outcome => &self.get(id).outcomes[usize::from(outcome)].1,
+        }
+    }
+
+    fn input(&self, _: ComponentId, _: u16) -> &str {
+        ""
+    }
+
+    fn entries(&self) -> u32 {
+        self.entries.len() as u32
+    }
+
+    fn entry(&self, id: TraceEntryId) -> EntryName<'_> {
+        let (path, kind) = &self.entries[id.0 as usize];
+        EntryName { path, kind: *kind, ty: "int", unit: "" }
+    }
+
+    fn choice(&self, _: TraceEntryId, _: u16) -> &str {
+        ""
+    }
+}

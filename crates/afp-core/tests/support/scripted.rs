@@ -1,0 +1,295 @@
+//! A plan over rows made at run time, its components answered for by the [`World`].
+
+use std::rc::Rc;
+
+use afp_core::rt::{
+    Committer, Cx, ElementKind, Events, Fired, Machine, Plan, PlanState, PlanTable, Polled, Slot,
+    Started, Tables,
+};
+use afp_core::trace::{EntryKind, Sink};
+use afp_core::{Clock, Fault, Value, ValueRef, WriteError};
+
+use super::build::{ElementSpec, Spec};
+use super::world::{Phase, World};
+
+/// Rows behind a counted pointer.
+#[derive(Clone)]
+pub struct SharedTables(Rc<Spec>);
+
+impl Tables for SharedTables {
+    fn table(&self) -> PlanTable<'_> {
+        self.0.table()
+    }
+}
+
+pub struct Scripted {
+    spec: Rc<Spec>,
+    entries: Vec<Value>,
+    staged: Vec<Option<Value>>,
+    children: Vec<Option<Machine<Scripted>>>,
+    /// The element that was started and has not been left.
+    running: Option<u16>,
+    watching: Vec<bool>,
+}
+
+impl Scripted {
+    pub fn new(spec: Rc<Spec>) -> Self {
+        let child = |element: &ElementSpec| {
+            element.plan.as_ref().map(|plan| Machine::new(Scripted::new(plan.clone())))
+        };
+        Scripted {
+            entries: spec.entries.iter().map(|_| Value::Unset).collect(),
+            staged: spec.entries.iter().map(|_| None).collect(),
+            children: spec.elements.iter().map(child).collect(),
+            running: None,
+            watching: vec![false; spec.supervisors.len()],
+            spec,
+        }
+    }
+
+    pub fn set(&mut self, entry: &str, value: Value) {
+        let index = self.spec.entry(entry);
+        self.entries[usize::from(index)] = value;
+    }
+
+    pub fn get(&self, entry: &str) -> Value {
+        self.entries[usize::from(self.spec.entry(entry))].clone()
+    }
+
+    pub fn spec(&self) -> &Rc<Spec> {
+        &self.spec
+    }
+
+    fn stage_writes(&mut self, writes: &[(&str, &str, Value)], outcome: &str) {
+        for (_, entry, value) in writes.iter().filter(|(on, ..)| *on == outcome) {
+            self.staged[usize::from(self.spec.entry(entry))] = Some(value.clone());
+        }
+    }
+
+    fn see<S, C>(&self, live: Option<&'static str>, who: &str, cx: &mut Cx<'_, World, S, C>) {
+        if let Some(entry) = live {
+            let value = format!("{}", self.entries[usize::from(self.spec.entry(entry))].borrow());
+            cx.env.saw(cx.now, who, &value);
+        }
+    }
+
+    /// Runs a sub-plan's machine, then hands the `out` entries that it set to `take`.
+    fn with_child<R>(
+        &mut self,
+        element: u16,
+        run: impl FnOnce(&mut Self, &mut Machine<Self>) -> R,
+    ) -> R {
+        let index = usize::from(element);
+        let mut machine = self.children[index].take().expect("a sub-plan");
+        let result = run(self, &mut machine);
+        self.children[index] = Some(machine);
+        result
+    }
+
+    fn stage_results(&mut self, element: &ElementSpec, inner: &Scripted) -> Result<(), Fault> {
+        for (from, to) in &element.outs {
+            match inner.get(from) {
+                Value::Unset => {}
+                // A value that does not convert, for tests of just that.
+                Value::Int(666) => return Err(Fault::CONVERSION),
+                value => self.staged[usize::from(self.spec.entry(to))] = Some(value),
+            }
+        }
+        Ok(())
+    }
+}
+
+impl PlanState for Scripted {
+    type Tables = SharedTables;
+    type Slots = Vec<Slot>;
+
+    fn tables(&self) -> SharedTables {
+        SharedTables(self.spec.clone())
+    }
+
+    fn slots(&self) -> Vec<Slot> {
+        vec![Slot::default(); self.spec.table().slots()]
+    }
+
+    fn missing_input(&self) -> Option<u16> {
+        let mut entries = self.spec.entries.iter().zip(&self.entries);
+        let missing = entries.position(|(spec, value)| {
+            spec.kind == EntryKind::In && *value == Value::Unset && spec.init == Value::Unset
+        });
+        missing.map(|index| index as u16)
+    }
+
+    fn initialise(&mut self) -> Result<(), Fault> {
+        for (spec, value) in self.spec.entries.iter().zip(&mut self.entries) {
+            if spec.broken {
+                return Err(Fault::ARITHMETIC);
+            }
+            if spec.kind != EntryKind::In || *value == Value::Unset {
+                *value = spec.init.clone();
+            }
+        }
+        Ok(())
+    }
+
+    fn entry(&self, entry: u16) -> ValueRef<'_> {
+        self.entries[usize::from(entry)].borrow()
+    }
+
+    fn accepts(&self, entry: u16, value: &Value) -> Result<(), WriteError> {
+        let spec = self.spec.entries.get(usize::from(entry)).ok_or(WriteError::Unknown)?;
+        match (spec.kind, value) {
+            (EntryKind::Const | EntryKind::Out, _) => Err(WriteError::ReadOnly),
+            (_, Value::Int(_)) => Ok(()),
+            _ => Err(WriteError::Type),
+        }
+    }
+
+    fn stage(&mut self, entry: u16, value: &Value) {
+        self.staged[usize::from(entry)] = Some(value.clone());
+    }
+
+    fn commit<S: Sink>(&mut self, to: &mut Committer<'_, S>) {
+        for (index, staged) in self.staged.iter_mut().enumerate() {
+            if let Some(new) = staged.take() {
+                to.wrote(index as u16, self.entries[index].borrow(), new.borrow());
+                self.entries[index] = new;
+            }
+        }
+    }
+
+    fn discard(&mut self) {
+        self.staged.fill(None);
+    }
+}
+
+impl Plan<World> for Scripted {
+    fn start_supervisor<S: Sink, C: Clock>(
+        &mut self,
+        supervisor: u16,
+        cx: &mut Cx<'_, World, S, C>,
+    ) -> Result<(), Fault> {
+        let name = self.spec.supervisors[usize::from(supervisor)].name;
+        let watching = &mut self.watching[usize::from(supervisor)];
+        assert!(!*watching, "{name} is started while it watches");
+        cx.env.call(name, Phase::Start, cx.now)?;
+        *watching = true;
+        Ok(())
+    }
+
+    fn poll_supervisor<S: Sink, C: Clock>(
+        &mut self,
+        supervisor: u16,
+        cx: &mut Cx<'_, World, S, C>,
+    ) -> Fired {
+        let spec = self.spec.clone();
+        let index = usize::from(supervisor);
+        let guard = &spec.supervisors[index];
+        assert!(self.watching[index], "{} is polled but does not watch", guard.name);
+        if let Err(fault) = cx.env.call(guard.name, Phase::Poll, cx.now) {
+            return Fired::fault(fault);
+        }
+        self.see(guard.live, guard.name, cx);
+        let wanted = spec.supervisor_rows[index].wanted;
+        let Some(event) = cx.env.outcome(guard.name, wanted, cx.now) else {
+            return Fired::NOTHING;
+        };
+        self.stage_writes(&guard.writes, guard.events[usize::from(event)].0);
+        Fired::event(event, cx.env.output(guard.name, cx.now))
+    }
+
+    fn start_element<S: Sink, C: Clock>(
+        &mut self,
+        element: u16,
+        cx: &mut Cx<'_, World, S, C>,
+    ) -> Started {
+        assert_eq!(self.running, None, "two elements run at once");
+        let spec = self.spec.clone();
+        let row = &spec.elements[usize::from(element)];
+        for entry in &row.reads {
+            let value = format!("{}", self.entries[usize::from(self.spec.entry(entry))].borrow());
+            cx.env.saw(cx.now, row.name, &value);
+        }
+        if row.kind == ElementKind::SubPlan {
+            let child = spec.element_rows[usize::from(element)].child;
+            self.running = Some(element);
+            return self.with_child(element, |plan, machine| {
+                for (inner, outer) in &row.ins {
+                    machine.plan_mut().set(inner, plan.get(outer));
+                }
+                let flow = cx.start_sub_plan(child, machine);
+                Started::sub_plan(flow, || plan.stage_results(row, machine.plan()))
+            });
+        }
+        if let Err(fault) = cx.env.call(row.name, Phase::Start, cx.now) {
+            return Started::Failed(fault);
+        }
+        self.running = Some(element);
+        if row.kind == ElementKind::Actor {
+            return Started::Running;
+        }
+        let all = Events::from_bits(u64::MAX);
+        let state = cx.env.outcome(row.name, all, cx.now).unwrap_or(0);
+        self.stage_writes(&row.writes, row.states[usize::from(state)].0);
+        match cx.env.output(row.name, cx.now) {
+            Ok(()) => Started::Done(state),
+            Err(fault) => Started::Failed(fault),
+        }
+    }
+
+    fn poll_element<S: Sink, C: Clock>(
+        &mut self,
+        element: u16,
+        cx: &mut Cx<'_, World, S, C>,
+    ) -> Polled {
+        let spec = self.spec.clone();
+        let row = &spec.elements[usize::from(element)];
+        assert_eq!(self.running, Some(element), "{} is polled but does not run", row.name);
+        if row.kind == ElementKind::SubPlan {
+            let child = spec.element_rows[usize::from(element)].child;
+            return self.with_child(element, |plan, machine| {
+                let flow = cx.inside(child, |cx| machine.step(cx));
+                Polled::sub_plan(flow, || plan.stage_results(row, machine.plan()))
+            });
+        }
+        if let Err(fault) = cx.env.call(row.name, Phase::Poll, cx.now) {
+            return Polled::Failed(fault);
+        }
+        self.see(row.live, row.name, cx);
+        let Some(state) = cx.env.outcome(row.name, Events::from_bits(u64::MAX), cx.now) else {
+            return Polled::Pending;
+        };
+        self.stage_writes(&row.writes, row.states[usize::from(state)].0);
+        match cx.env.output(row.name, cx.now) {
+            Ok(()) => Polled::Done(state),
+            Err(fault) => Polled::Failed(fault),
+        }
+    }
+
+    fn interrupt_element<S: Sink, C: Clock>(
+        &mut self,
+        element: u16,
+        cx: &mut Cx<'_, World, S, C>,
+    ) -> Result<(), Fault> {
+        let spec = self.spec.clone();
+        let row = &spec.elements[usize::from(element)];
+        assert_eq!(self.running, Some(element), "{} is interrupted but does not run", row.name);
+        if row.kind == ElementKind::SubPlan {
+            let child = spec.element_rows[usize::from(element)].child;
+            return self
+                .with_child(element, |_, machine| cx.inside(child, |cx| machine.interrupt(cx)));
+        }
+        cx.env.call(row.name, Phase::Interrupt, cx.now)
+    }
+
+    fn leave(&mut self, element: u16) {
+        self.running = None;
+        let locals = self.spec.element_rows[usize::from(element)].locals;
+        let first = usize::from(locals.first);
+        self.watching[first..first + usize::from(locals.len)].fill(false);
+    }
+
+    fn end(&mut self) {
+        self.running = None;
+        self.watching.fill(false);
+    }
+}

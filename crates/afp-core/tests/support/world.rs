@@ -1,0 +1,152 @@
+//! A platform whose components answer by script.
+
+use std::cell::Cell;
+use std::ops::Range;
+use std::rc::Rc;
+
+use afp_core::{Clock, Duration, Environment, Events, Fault, Instant, Reason};
+
+use super::ms;
+
+/// The fault that scripts cause.
+pub const SCRIPTED: Fault = Fault::new(&Reason { code: "scripted", text: "as the script says" });
+
+/// A part of a component's life.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    Start,
+    Poll,
+    Interrupt,
+    /// An output that cannot be converted.
+    Output,
+}
+
+#[derive(Clone, Copy)]
+enum Act {
+    Outcome(u16),
+    Fault,
+    Cost(Duration),
+}
+
+struct Rule {
+    who: &'static str,
+    phase: Phase,
+    during: Range<Instant>,
+    act: Act,
+}
+
+/// Time that polls took, which the clock shows.
+#[derive(Clone, Default)]
+pub struct CostClock(Rc<Cell<Instant>>);
+
+impl Clock for CostClock {
+    fn now(&self, step: Instant) -> Instant {
+        self.0.get().max(step)
+    }
+}
+
+/// The platform: rules for what components answer, and a record of what was asked of them.
+#[derive(Default)]
+pub struct World {
+    rules: Vec<Rule>,
+    /// Everything that was called, as `5 interrupt go`.
+    pub calls: Vec<String>,
+    /// Nothing is recorded.
+    pub quiet: bool,
+    pub clock: CostClock,
+}
+
+impl World {
+    /// From `during.start` until before `during.end` (milliseconds) a poll brings this outcome.
+    pub fn says(self, who: &'static str, outcome: u16, during: Range<u64>) -> Self {
+        self.rule(who, Phase::Poll, during, Act::Outcome(outcome))
+    }
+
+    pub fn fails(self, who: &'static str, phase: Phase, during: Range<u64>) -> Self {
+        self.rule(who, phase, during, Act::Fault)
+    }
+
+    /// Polls take so many milliseconds.
+    pub fn costs(self, who: &'static str, phase: Phase, cost: u64, during: Range<u64>) -> Self {
+        self.rule(who, phase, during, Act::Cost(Duration::from_millis(cost)))
+    }
+
+    fn rule(mut self, who: &'static str, phase: Phase, during: Range<u64>, act: Act) -> Self {
+        let during = ms(during.start)..ms(during.end);
+        self.rules.push(Rule { who, phase, during, act });
+        self
+    }
+
+    fn holding(&self, who: &str, phase: Phase, now: Instant) -> impl Iterator<Item = Act> {
+        self.rules
+            .iter()
+            .filter(move |rule| {
+                rule.who == who && rule.phase == phase && rule.during.contains(&now)
+            })
+            .map(|rule| rule.act)
+    }
+
+    fn note(&mut self, now: Instant, what: &str, who: &str) {
+        if !self.quiet {
+            let millis = now.as_nanos() / 1_000_000;
+            self.calls.push(format!("{millis} {what} {who}").trim_end().to_owned());
+        }
+    }
+
+    /// A component is started, polled or interrupted.
+    pub fn call(&mut self, who: &'static str, phase: Phase, now: Instant) -> Result<(), Fault> {
+        let what = match phase {
+            Phase::Start => "start",
+            Phase::Poll => "poll",
+            Phase::Interrupt => "interrupt",
+            Phase::Output => return Ok(()),
+        };
+        self.note(now, what, who);
+        let mut cost = Duration::ZERO;
+        let mut result = Ok(());
+        for act in self.holding(who, phase, now) {
+            match act {
+                Act::Cost(more) => cost = cost + more,
+                Act::Fault => result = Err(SCRIPTED),
+                Act::Outcome(_) => {}
+            }
+        }
+        let clock = &self.clock.0;
+        clock.set(clock.get().max(now) + cost);
+        result
+    }
+
+    /// How handing over outputs goes; nothing is noted.
+    pub fn output(&self, who: &str, now: Instant) -> Result<(), Fault> {
+        match self.holding(who, Phase::Output, now).next() {
+            Some(_) => Err(SCRIPTED),
+            None => Ok(()),
+        }
+    }
+
+    /// A value that a component read at a poll.
+    pub fn saw(&mut self, now: Instant, who: &str, value: &str) {
+        self.note(now, &format!("see {value}"), who);
+    }
+
+    /// The outcome of a poll: the first declared one that holds and is wanted.
+    pub fn outcome(&self, who: &str, wanted: Events, now: Instant) -> Option<u16> {
+        let outcomes = self.holding(who, Phase::Poll, now).filter_map(|act| match act {
+            Act::Outcome(outcome) if wanted.contains(outcome) => Some(outcome),
+            _ => None,
+        });
+        outcomes.min()
+    }
+}
+
+impl Environment for World {
+    fn stop(&mut self, now: Instant) {
+        self.note(now, "stop", "");
+    }
+
+    fn emergency_stop(&mut self) {
+        if !self.quiet {
+            self.calls.push("emergency stop".to_owned());
+        }
+    }
+}

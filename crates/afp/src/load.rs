@@ -1,0 +1,18 @@
+//! Plans loaded at run time: the same scheduler over boxed components.
+//!
+//! A [`Registry`] knows the Rust implementation of each template; [`LoadedPlan::new`] makes an
+//! instance of a checked graph. Everything is allocated then; a step allocates nothing.
+
+mod config;
+mod element;
+mod formula;
+mod names;
+mod outputs;
+mod plan;
+mod registry;
+mod slots;
+mod tables;
+
+pub use names::PlanNames;
+pub use plan::{InputError, LoadError, LoadedPlan};
+pub use registry::Registry;

@@ -1,0 +1,150 @@
+//! One element of a loaded plan: its formulas, its bindings, and what runs in it.
+
+use afp_core::rt::{Child, Cx, Flow, Machine, Plan, PlanState, Polled, Started};
+use afp_core::trace::Sink;
+use afp_core::{Clock, Environment, Fault};
+use afp_dsl::graph::{self, FormulaKind, Output};
+
+use super::config::Config;
+use super::formula;
+use super::outputs::{Inputs, Stage};
+use super::plan::LoadedPlan;
+use super::slots::{ActorSlot, ComputationSlot};
+
+/// An element of a loaded plan.
+pub struct ElementSlot<E: ?Sized + 'static> {
+    inputs: Inputs,
+    outputs: Vec<Output>,
+    running: Running<E>,
+}
+
+/// What runs in an element.
+pub enum Running<E: ?Sized + 'static> {
+    /// An actor.
+    Actor(Box<dyn ActorSlot<E>>),
+    /// A computation.
+    Computation(Box<dyn ComputationSlot>),
+    /// A sub-plan, made at load and started afresh at each activation.
+    SubPlan {
+        /// Where its ids begin.
+        child: Child,
+        /// Its scheduler.
+        machine: Box<Machine<LoadedPlan<E>>>,
+    },
+}
+
+impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
+    /// An element that does not run.
+    pub fn new(element: &graph::Element, running: Running<E>) -> Self {
+        let inputs = Inputs::new(element.inputs.clone());
+        ElementSlot { inputs, outputs: element.outputs.clone(), running }
+    }
+
+    /// Starts it: inputs, then the component.
+    pub fn start<S: Sink, C: Clock>(
+        &mut self,
+        config: &mut Config,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Started {
+        let started = match &mut self.running {
+            Running::Actor(actor) => {
+                let args = self.inputs.pull(&config.values);
+                let start = cx.show_inputs(|see, env, now| actor.start(&args, see, env, now));
+                start.map(|()| Started::Running)
+            }
+            Running::Computation(computation) => {
+                let mut stage = Stage::new(&self.outputs, &mut config.staged);
+                let args = self.inputs.pull(&config.values);
+                let state = cx.show_inputs(|see, _, _| computation.compute(&args, see, &mut stage));
+                state.and_then(|state| stage.result().map(|()| Started::Done(state)))
+            }
+            Running::SubPlan { child, machine } => {
+                pass_inputs(&self.inputs, config, machine.plan_mut()).map(|()| {
+                    let flow = cx.start_sub_plan(*child, machine);
+                    let plan = machine.plan();
+                    Started::sub_plan(flow, || stage_results(plan, &self.outputs, config))
+                })
+            }
+        };
+        started.unwrap_or_else(Started::Failed)
+    }
+
+    /// Polls it.
+    #[inline]
+    pub fn poll<S: Sink, C: Clock>(
+        &mut self,
+        config: &mut Config,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Polled {
+        match &mut self.running {
+            Running::Actor(actor) => {
+                let mut stage = Stage::new(&self.outputs, &mut config.staged);
+                let args = self.inputs.pull(&config.values);
+                match actor.poll(&args, &mut stage, cx.env, cx.now) {
+                    Ok(None) => Polled::Pending,
+                    Ok(Some(state)) => match stage.result() {
+                        Ok(()) => Polled::Done(state),
+                        Err(fault) => Polled::Failed(fault),
+                    },
+                    Err(fault) => Polled::Failed(fault),
+                }
+            }
+            Running::Computation(_) => Polled::Failed(Fault::INTERNAL),
+            Running::SubPlan { child, machine } => {
+                let flow: Flow = cx.inside(*child, |cx| machine.step(cx));
+                Polled::sub_plan(flow, || stage_results(machine.plan(), &self.outputs, config))
+            }
+        }
+    }
+
+    /// Interrupts it, innermost first.
+    pub fn interrupt<S: Sink, C: Clock>(&mut self, cx: &mut Cx<'_, E, S, C>) -> Result<(), Fault> {
+        match &mut self.running {
+            Running::Actor(actor) => actor.interrupt(cx.env, cx.now),
+            Running::Computation(_) => Err(Fault::INTERNAL),
+            Running::SubPlan { child, machine } => cx.inside(*child, |cx| machine.interrupt(cx)),
+        }
+    }
+
+    /// Drops what runs in it.
+    pub fn clear(&mut self) {
+        match &mut self.running {
+            Running::Actor(actor) => actor.clear(),
+            Running::Computation(_) => {}
+            Running::SubPlan { machine, .. } => Plan::<E>::end(machine.plan_mut()),
+        }
+    }
+}
+
+/// Evaluates the inputs of a sub-plan into its `in` entries.
+fn pass_inputs<E: Environment + ?Sized + 'static>(
+    inputs: &Inputs,
+    config: &Config,
+    plan: &mut LoadedPlan<E>,
+) -> Result<(), Fault> {
+    for (port, formula) in inputs.formulas().iter().enumerate() {
+        let value = formula::finite(formula, &config.values)?;
+        let object = match formula.kind {
+            FormulaKind::Entry(entry) => config.values.cell(entry.0),
+            _ => None,
+        };
+        plan.pass(port, value, object);
+    }
+    Ok(())
+}
+
+/// Stages the `out` entries of a sub-plan that were written or initialised.
+fn stage_results<E: Environment + ?Sized + 'static>(
+    plan: &LoadedPlan<E>,
+    outputs: &[Output],
+    config: &mut Config,
+) -> Result<(), Fault> {
+    let mut stage = Stage::new(outputs, &mut config.staged);
+    for (port, entry) in plan.results() {
+        match plan.cell(entry) {
+            Some(cell) => stage.put_object(port, |to| to.copy(cell)),
+            None => stage.put(port, plan.entry(entry).to_owned()),
+        }
+    }
+    stage.result()
+}

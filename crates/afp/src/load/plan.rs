@@ -1,0 +1,432 @@
+//! An instance of a graph: the interpreter's side of the contract with the scheduler.
+
+use std::fmt;
+
+use afp_core::rt::{
+    Child, Committer, Cx, Events, Fired, Machine, Plan, Polled, Slot, Started, Tables, int_to_float,
+};
+use afp_core::trace::Sink;
+use afp_core::{Clock, Environment, Fault, PlanState, Value, ValueRef, WriteError};
+use afp_dsl::graph::{self, Component, EntryKind, Formula, Graph, Output, PlanId};
+use afp_dsl::types::Type;
+use afp_dsl::unfold::{self, Block};
+
+use super::config::{Config, ObjectCell};
+use super::element::{ElementSlot, Running};
+use super::formula;
+use super::outputs::{Inputs, Stage};
+use super::registry::Registry;
+use super::slots::SupervisorSlot;
+use super::tables::LoadedTables;
+
+/// A plan loaded at run time, for platform `E`.
+pub struct LoadedPlan<E: ?Sized + 'static> {
+    tables: LoadedTables,
+    config: Config,
+    entries: Vec<EntryInfo>,
+    /// Entries with an initial value, in the order in which they get it.
+    initial: Vec<(u16, Formula)>,
+    elements: Vec<ElementSlot<E>>,
+    supervisors: Vec<WatchSlot<E>>,
+}
+
+struct EntryInfo {
+    name: String,
+    kind: EntryKind,
+}
+
+struct WatchSlot<E: ?Sized + 'static> {
+    inputs: Inputs,
+    outputs: Vec<Output>,
+    wanted: Events,
+    slot: Box<dyn SupervisorSlot<E>>,
+}
+
+/// Why a graph cannot be loaded.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum LoadError {
+    /// No Rust type was registered for a template.
+    NoComponent {
+        /// The toolbox.
+        toolbox: String,
+        /// The template.
+        template: String,
+    },
+    /// No Rust type was registered for an object type.
+    NoObject {
+        /// The toolbox.
+        toolbox: String,
+        /// The object type.
+        name: String,
+    },
+}
+
+/// Why an input of a plan cannot be set.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum InputError {
+    /// The plan has no such entry.
+    Unknown(String),
+    /// The entry is there, but not with this value.
+    Refused(String, WriteError),
+}
+
+impl fmt::Display for LoadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            LoadError::NoComponent { toolbox, template } => {
+                write!(f, "no implementation of '{toolbox}.{template}' is registered")
+            }
+            LoadError::NoObject { toolbox, name } => {
+                write!(f, "no Rust type of object '{toolbox}.{name}' is registered")
+            }
+        }
+    }
+}
+
+impl std::error::Error for LoadError {}
+
+impl fmt::Display for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            InputError::Unknown(name) => write!(f, "the plan has no entry '{name}'"),
+            InputError::Refused(name, why) => write!(f, "'{name}': {why}"),
+        }
+    }
+}
+
+impl std::error::Error for InputError {}
+
+impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
+    /// Makes an instance of the graph's main plan and of all its sub-plans.
+    ///
+    /// # Errors
+    /// A template or object type that the registry does not know.
+    pub fn new(graph: &Graph, registry: &Registry<E>) -> Result<Self, LoadError> {
+        Loader { graph, registry, blocks: unfold::blocks(graph) }.plan(graph.main)
+    }
+
+    /// The number of an entry.
+    pub fn entry_number(&self, name: &str) -> Option<u16> {
+        self.entries.iter().position(|entry| entry.name == name).map(|index| index as u16)
+    }
+
+    /// The names of the entries, in their order.
+    pub fn entry_names(&self) -> impl Iterator<Item = &str> {
+        self.entries.iter().map(|entry| entry.name.as_str())
+    }
+
+    /// The value of an entry; `Unset` while nobody has written it, `None` where there is none.
+    pub fn get(&self, name: &str) -> Option<ValueRef<'_>> {
+        self.entry_number(name).map(|entry| self.config.values.show(entry))
+    }
+
+    /// Sets an `in` entry before the start.
+    ///
+    /// # Errors
+    /// No such entry, or not such a value.
+    pub fn set_input(&mut self, name: &str, value: &Value) -> Result<(), InputError> {
+        let entry = self.entry_number(name).ok_or_else(|| InputError::Unknown(name.to_owned()))?;
+        let refused = |why| InputError::Refused(name.to_owned(), why);
+        if self.entries[usize::from(entry)].kind != EntryKind::In {
+            return Err(refused(WriteError::ReadOnly));
+        }
+        self.accepts(entry, value).map_err(refused)?;
+        let value = fit(self.config.values.ty(entry), value);
+        self.config.values.set(entry, value, None);
+        Ok(())
+    }
+
+    /// Gives the `port`-th `in` entry its value for the next activation.
+    pub(super) fn pass(&mut self, port: usize, value: Value, object: Option<&dyn ObjectCell>) {
+        let mut inputs = (0..).zip(&self.entries).filter(|(_, entry)| entry.kind == EntryKind::In);
+        if let Some((entry, _)) = inputs.nth(port) {
+            self.config.values.set(entry, value, object);
+        }
+    }
+
+    /// The `out` entries that are set, each with its position among the `out` entries.
+    pub(super) fn results(&self) -> impl Iterator<Item = (u16, u16)> {
+        let outs = (0..).zip(&self.entries).filter(|(_, entry)| entry.kind == EntryKind::Out);
+        let outs = (0..).zip(outs).map(|(port, (entry, _))| (port, entry));
+        outs.filter(|(_, entry)| self.config.values.is_set(*entry))
+    }
+
+    /// The cell of an object entry.
+    pub(super) fn cell(&self, entry: u16) -> Option<&dyn ObjectCell> {
+        self.config.values.cell(entry)
+    }
+}
+
+/// Loads a graph, plan by plan.
+struct Loader<'a, E: ?Sized + 'static> {
+    graph: &'a Graph,
+    registry: &'a Registry<E>,
+    blocks: Vec<Block>,
+}
+
+impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
+    fn plan(&self, id: PlanId) -> Result<LoadedPlan<E>, LoadError> {
+        let plan = self.graph.plan(id);
+        let tables = LoadedTables::new(self.graph, plan, &self.blocks[id.index()]);
+        self.check_objects(plan)?;
+        let elements = plan.elements.iter().enumerate();
+        Ok(LoadedPlan {
+            config: Config::new(&plan.entries, |ty| match ty {
+                Type::Object(object) => self.registry.object_cell(&object.toolbox, &object.name),
+                _ => None,
+            }),
+            entries: plan
+                .entries
+                .iter()
+                .map(|entry| EntryInfo { name: entry.name.clone(), kind: entry.kind })
+                .collect(),
+            initial: initial(plan),
+            elements: elements
+                .map(|(index, element)| {
+                    let child = tables.table().elements[index].child;
+                    self.element(element, child)
+                })
+                .collect::<Result<_, _>>()?,
+            supervisors: plan
+                .supervisors
+                .iter()
+                .enumerate()
+                .map(|(index, supervisor)| {
+                    let wanted = tables.table().supervisors[index].wanted;
+                    self.supervisor(supervisor, wanted)
+                })
+                .collect::<Result<_, _>>()?,
+            tables,
+        })
+    }
+
+    fn check_objects(&self, plan: &graph::Plan) -> Result<(), LoadError> {
+        for entry in &plan.entries {
+            let Type::Object(object) = &entry.ty else { continue };
+            if self.registry.object_cell(&object.toolbox, &object.name).is_none() {
+                let (toolbox, name) = (object.toolbox.clone(), object.name.clone());
+                return Err(LoadError::NoObject { toolbox, name });
+            }
+        }
+        Ok(())
+    }
+
+    fn element(&self, element: &graph::Element, child: Child) -> Result<ElementSlot<E>, LoadError> {
+        let component = match element.component {
+            Component::Actor(id) => Running::Actor(self.find(id, Registry::new_actor)?),
+            Component::Computation(id) => {
+                Running::Computation(self.find(id, Registry::new_computation)?)
+            }
+            Component::SubPlan(id) => {
+                Running::SubPlan { child, machine: Box::new(Machine::new(self.plan(id)?)) }
+            }
+        };
+        Ok(ElementSlot::new(element, component))
+    }
+
+    fn supervisor(
+        &self,
+        supervisor: &graph::Supervisor,
+        wanted: Events,
+    ) -> Result<WatchSlot<E>, LoadError> {
+        Ok(WatchSlot {
+            inputs: Inputs::new(supervisor.inputs.clone()),
+            outputs: supervisor.outputs.clone(),
+            wanted,
+            slot: self.find(supervisor.template, Registry::new_supervisor)?,
+        })
+    }
+
+    fn find<T>(
+        &self,
+        id: graph::TemplateId,
+        new: impl FnOnce(&Registry<E>, &str, &str) -> Option<T>,
+    ) -> Result<T, LoadError> {
+        let toolbox = &self.graph.toolboxes[id.toolbox.index()].name;
+        let template = &self.graph.template(id).name;
+        new(self.registry, toolbox, template).ok_or_else(|| LoadError::NoComponent {
+            toolbox: toolbox.clone(),
+            template: template.clone(),
+        })
+    }
+}
+
+/// A value of the entry's own type: an `int` given to a `float` becomes one.
+fn fit(ty: Option<&Type>, value: &Value) -> Value {
+    match (ty, value) {
+        (Some(Type::Quantity(_)), Value::Int(int)) => Value::Float(int_to_float(*int)),
+        _ => value.clone(),
+    }
+}
+
+/// Initial values in the order in which they may refer to one another: `const`, `in`, the rest.
+fn initial(plan: &graph::Plan) -> Vec<(u16, Formula)> {
+    let rank = |kind| match kind {
+        EntryKind::Const => 0,
+        EntryKind::In => 1,
+        EntryKind::Var | EntryKind::Out => 2,
+    };
+    let mut order: Vec<_> = plan.entries.iter().enumerate().collect();
+    order.sort_by_key(|(_, entry)| rank(entry.kind));
+    let formulas = order
+        .into_iter()
+        .filter_map(|(index, entry)| entry.init.clone().map(|init| (index as u16, init)));
+    formulas.collect()
+}
+
+impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {
+    type Tables = LoadedTables;
+    type Slots = Box<[Slot]>;
+
+    fn tables(&self) -> LoadedTables {
+        self.tables.clone()
+    }
+
+    fn slots(&self) -> Box<[Slot]> {
+        vec![Slot::default(); self.tables.table().slots()].into_boxed_slice()
+    }
+
+    fn missing_input(&self) -> Option<u16> {
+        let missing = |(index, entry): &(usize, &EntryInfo)| {
+            let index = *index as u16;
+            entry.kind == EntryKind::In
+                && !self.config.values.is_set(index)
+                && !self.initial.iter().any(|(with, _)| *with == index)
+        };
+        self.entries.iter().enumerate().find(missing).map(|(index, _)| index as u16)
+    }
+
+    fn initialise(&mut self) -> Result<(), Fault> {
+        for (index, entry) in self.entries.iter().enumerate() {
+            if entry.kind != EntryKind::In {
+                self.config.values.clear(index as u16);
+            }
+        }
+        for (entry, formula) in &self.initial {
+            let given = self.entries[usize::from(*entry)].kind == EntryKind::In
+                && self.config.values.is_set(*entry);
+            if !given {
+                let value = formula::finite(formula, &self.config.values)?;
+                self.config.values.set(*entry, value, None);
+            }
+        }
+        Ok(())
+    }
+
+    fn entry(&self, entry: u16) -> ValueRef<'_> {
+        self.config.values.show(entry)
+    }
+
+    fn accepts(&self, entry: u16, value: &Value) -> Result<(), WriteError> {
+        let info = self.entries.get(usize::from(entry)).ok_or(WriteError::Unknown)?;
+        let ty = self.config.values.ty(entry).ok_or(WriteError::Unknown)?;
+        if matches!(info.kind, EntryKind::Const | EntryKind::Out) {
+            return Err(WriteError::ReadOnly);
+        }
+        match (ty, value) {
+            (Type::Bool, Value::Bool(_)) | (Type::Text, Value::Text(_)) => Ok(()),
+            (Type::Int | Type::Quantity(_), Value::Int(_)) => Ok(()),
+            (Type::Quantity(_), Value::Float(number)) if number.is_finite() => Ok(()),
+            (Type::Quantity(_), Value::Float(_)) => Err(WriteError::NotFinite),
+            (Type::Enum(choices), Value::Choice(index))
+                if usize::from(*index) < choices.variants.len() =>
+            {
+                Ok(())
+            }
+            _ => Err(WriteError::Type),
+        }
+    }
+
+    fn stage(&mut self, entry: u16, value: &Value) {
+        let value = fit(self.config.values.ty(entry), value);
+        self.config.staged.put(entry, value);
+    }
+
+    #[inline]
+    fn commit<S: Sink>(&mut self, to: &mut Committer<'_, S>) {
+        self.config.commit(to);
+    }
+
+    #[inline]
+    fn discard(&mut self) {
+        self.config.staged.discard();
+    }
+}
+
+impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
+    fn start_supervisor<S: Sink, C: Clock>(
+        &mut self,
+        supervisor: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), Fault> {
+        let watch = self.supervisors.get_mut(usize::from(supervisor)).ok_or(Fault::INTERNAL)?;
+        let args = watch.inputs.pull(&self.config.values);
+        cx.show_inputs(|see, env, now| watch.slot.start(&args, watch.wanted, see, env, now))
+    }
+
+    #[inline]
+    fn poll_supervisor<S: Sink, C: Clock>(
+        &mut self,
+        supervisor: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Fired {
+        let Some(watch) = self.supervisors.get_mut(usize::from(supervisor)) else {
+            return Fired::fault(Fault::INTERNAL);
+        };
+        let mut stage = Stage::new(&watch.outputs, &mut self.config.staged);
+        let args = watch.inputs.pull(&self.config.values);
+        match watch.slot.poll(&args, &mut stage, cx.env, cx.now) {
+            Ok(None) => Fired::NOTHING,
+            Ok(Some(event)) => Fired::event(event, stage.result()),
+            Err(fault) => Fired::fault(fault),
+        }
+    }
+
+    fn start_element<S: Sink, C: Clock>(
+        &mut self,
+        element: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Started {
+        let Some(slot) = self.elements.get_mut(usize::from(element)) else {
+            return Started::Failed(Fault::INTERNAL);
+        };
+        slot.start(&mut self.config, cx)
+    }
+
+    fn poll_element<S: Sink, C: Clock>(
+        &mut self,
+        element: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Polled {
+        let Some(slot) = self.elements.get_mut(usize::from(element)) else {
+            return Polled::Failed(Fault::INTERNAL);
+        };
+        slot.poll(&mut self.config, cx)
+    }
+
+    fn interrupt_element<S: Sink, C: Clock>(
+        &mut self,
+        element: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), Fault> {
+        let slot = self.elements.get_mut(usize::from(element)).ok_or(Fault::INTERNAL)?;
+        slot.interrupt(cx)
+    }
+
+    fn leave(&mut self, element: u16) {
+        if let Some(slot) = self.elements.get_mut(usize::from(element)) {
+            slot.clear();
+        }
+        let locals = self.tables.table().element(element).map(|row| row.locals);
+        for local in locals.map_or(0..0, |range| range.first..range.first + range.len) {
+            if let Some(watch) = self.supervisors.get_mut(usize::from(local)) {
+                watch.slot.clear();
+            }
+        }
+    }
+
+    fn end(&mut self) {
+        self.elements.iter_mut().for_each(ElementSlot::clear);
+        self.supervisors.iter_mut().for_each(|watch| watch.slot.clear());
+    }
+}

@@ -1,0 +1,179 @@
+//! Boxed homes of running components: made at load, filled and emptied by the scheduler.
+
+use std::marker::PhantomData;
+
+use afp_core::rt::{Args, FromArgs, Outcome, Outputs};
+use afp_core::{
+    Actor, ActorTemplate, Computation, ComputationTemplate, Events, Fault, Instant, Poll,
+    Supervisor, SupervisorTemplate, ValueRef,
+};
+
+/// Shows the inputs of a component to the trace.
+pub type See<'a> = Option<&'a mut dyn FnMut(u16, ValueRef<'_>)>;
+
+/// The home of an actor.
+pub trait ActorSlot<E: ?Sized> {
+    fn start(
+        &mut self,
+        args: &dyn Args,
+        see: See<'_>,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<(), Fault>;
+    /// The state reached, its outputs handed over.
+    fn poll(
+        &mut self,
+        args: &dyn Args,
+        to: &mut dyn Outputs,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Option<u16>, Fault>;
+    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault>;
+    fn clear(&mut self);
+}
+
+/// The home of a supervisor.
+pub trait SupervisorSlot<E: ?Sized> {
+    fn start(
+        &mut self,
+        args: &dyn Args,
+        wanted: Events,
+        see: See<'_>,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<(), Fault>;
+    /// The event seen, its outputs handed over.
+    fn poll(
+        &mut self,
+        args: &dyn Args,
+        to: &mut dyn Outputs,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Option<u16>, Fault>;
+    fn clear(&mut self);
+}
+
+/// A computation, which needs no home.
+pub trait ComputationSlot {
+    fn compute(&self, args: &dyn Args, see: See<'_>, to: &mut dyn Outputs) -> Result<u16, Fault>;
+}
+
+/// The home of a component of type `A` and template `T`.
+pub struct Home<T, A> {
+    running: Option<A>,
+    template: PhantomData<T>,
+}
+
+impl<T, A> Home<T, A> {
+    pub fn new() -> Self {
+        Home { running: None, template: PhantomData }
+    }
+}
+
+/// Pulls the inputs, shows them, checks them.
+fn inputs<'a, I: FromArgs<'a>>(args: &'a dyn Args, see: See<'_>) -> Result<I, Fault> {
+    let inputs = I::from_args(args)?;
+    if let Some(see) = see {
+        inputs.each(see);
+    }
+    inputs.check()?;
+    Ok(inputs)
+}
+
+fn give(outcome: impl Outcome, to: &mut dyn Outputs) -> u16 {
+    let index = outcome.index();
+    outcome.give(to);
+    index
+}
+
+impl<T, A, E: ?Sized> ActorSlot<E> for Home<T, A>
+where
+    T: ActorTemplate,
+    A: Actor<T, E>,
+    for<'a> T::Inputs<'a>: FromArgs<'a>,
+    for<'a> T::Live<'a>: FromArgs<'a>,
+    T::State: Outcome,
+{
+    fn start(
+        &mut self,
+        args: &dyn Args,
+        see: See<'_>,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<(), Fault> {
+        self.running = Some(A::start(inputs(args, see)?, env, now)?);
+        Ok(())
+    }
+
+    fn poll(
+        &mut self,
+        args: &dyn Args,
+        to: &mut dyn Outputs,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Option<u16>, Fault> {
+        let actor = self.running.as_mut().ok_or(Fault::INTERNAL)?;
+        match actor.poll(inputs(args, None)?, env, now)? {
+            Poll::Pending => Ok(None),
+            Poll::Ready(state) => Ok(Some(give(state, to))),
+        }
+    }
+
+    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        self.running.as_mut().ok_or(Fault::INTERNAL)?.interrupt(env, now)
+    }
+
+    fn clear(&mut self) {
+        self.running = None;
+    }
+}
+
+impl<T, A, E: ?Sized> SupervisorSlot<E> for Home<T, A>
+where
+    T: SupervisorTemplate,
+    A: Supervisor<T, E>,
+    for<'a> T::Inputs<'a>: FromArgs<'a>,
+    for<'a> T::Live<'a>: FromArgs<'a>,
+    T::Event: Outcome,
+{
+    fn start(
+        &mut self,
+        args: &dyn Args,
+        wanted: Events,
+        see: See<'_>,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<(), Fault> {
+        self.running = Some(A::start(inputs(args, see)?, wanted, env, now)?);
+        Ok(())
+    }
+
+    #[inline]
+    fn poll(
+        &mut self,
+        args: &dyn Args,
+        to: &mut dyn Outputs,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Option<u16>, Fault> {
+        let supervisor = self.running.as_mut().ok_or(Fault::INTERNAL)?;
+        let event = supervisor.poll(inputs(args, None)?, env, now)?;
+        Ok(event.map(|event| give(event, to)))
+    }
+
+    fn clear(&mut self) {
+        self.running = None;
+    }
+}
+
+impl<T, A> ComputationSlot for Home<T, A>
+where
+    T: ComputationTemplate,
+    A: Computation<T>,
+    for<'a> T::Inputs<'a>: FromArgs<'a>,
+    T::State: Outcome,
+{
+    fn compute(&self, args: &dyn Args, see: See<'_>, to: &mut dyn Outputs) -> Result<u16, Fault> {
+        A::compute(inputs(args, see)?).map(|state| give(state, to))
+    }
+}
