@@ -1,1 +1,70 @@
-//! The Carbot: robot traits and the templates written against them.
+//! The Carbot: its devices as traits, and the templates written against them.
+//!
+//! Templates see a robot through these traits only, so the simulator, the real robot and a
+//! recorded run are interchangeable.
+//!
+//! Frames: x forward, y left, angles counter-clockwise, SI units. The body's frame has its origin
+//! at the turning centre.
+//!
+//! Two rules hold for every template here. A reading that is invalid or too old is never taken
+//! for free space: the template waits, and faults when nothing usable came for
+//! [`guard::PATIENCE`]. And an actor that is ready has brought the robot to a standstill, so a
+//! finished actor is as safe as an interrupted one.
+#![no_std]
+#![forbid(unsafe_code)]
+
+#[cfg(test)]
+extern crate std;
+
+mod check_driving_lane;
+mod check_escape_button;
+mod check_touch_sensor;
+pub mod devices;
+mod forward;
+pub mod guard;
+mod line_fit;
+mod motion;
+mod search_wall;
+pub mod templates;
+mod turn;
+mod wall_forward;
+
+#[cfg(test)]
+mod fake;
+
+pub use check_driving_lane::CheckDrivingLane;
+pub use check_escape_button::CheckEscapeButton;
+pub use check_touch_sensor::CheckTouchSensor;
+pub use forward::Forward;
+pub use search_wall::SearchWall;
+pub use turn::Turn;
+pub use wall_forward::WallForward;
+
+use afp_core::Environment;
+use devices::{Buttons, Navigator, Odometry, RotatingTelemetry, Rotator, TouchSensor, Ultrasonic};
+
+/// A robot that can follow walls: every device that the templates of the toolbox use.
+pub trait Carbot:
+    Environment
+    + Navigator
+    + Odometry
+    + Ultrasonic
+    + Rotator
+    + RotatingTelemetry
+    + TouchSensor
+    + Buttons
+{
+}
+
+impl<E> Carbot for E where
+    E: Environment
+        + Navigator
+        + Odometry
+        + Ultrasonic
+        + Rotator
+        + RotatingTelemetry
+        + TouchSensor
+        + Buttons
+        + ?Sized
+{
+}

@@ -1,1 +1,22 @@
-//! The simulated Carbot: a planar rapier world in virtual time.
+//! The simulated Carbot: a planar world in virtual time.
+//!
+//! A [`World`] is read from TOML; a [`Simulation`] puts the robot into it and implements the
+//! device traits of `afp-carbot`, so that templates cannot tell it from the real robot. What only
+//! a judge may know (true pose, contacts, distance to the wall) is behind
+//! [`Simulation::truth`], which no device trait reaches.
+//!
+//! The same world, seed, commands and instants give the same run, bit for bit, on every platform:
+//! physics steps on its own grid of [`STEP`], rapier runs with its cross-platform determinism,
+//! trigonometry goes through `libm`, and every noise has a stream of its own.
+#![forbid(unsafe_code)]
+
+mod noise;
+mod robot;
+mod simulation;
+mod truth;
+pub mod world;
+
+pub use robot::{HALF_LENGTH, HALF_WIDTH};
+pub use simulation::{STEP, Simulation, Snapshot, Sonar};
+pub use truth::{Collision, Pose, Truth};
+pub use world::{World, WorldError};

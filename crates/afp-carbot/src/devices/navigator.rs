@@ -1,0 +1,33 @@
+//! The drive: speeds in, motion out.
+
+use afp_core::Instant;
+use afp_core::quantity::{AngularSpeed, Length, Speed};
+
+/// The outline of the body, measured from the turning centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body {
+    /// To the foremost point.
+    pub front: Length,
+    /// To the rearmost point.
+    pub rear: Length,
+    /// To either side.
+    pub half_width: Length,
+}
+
+/// The drive controller.
+///
+/// It keeps a commanded motion only for its dead-man time: a driver that stops sending commands
+/// stops the robot. Whether the robot really stands is [`super::Odometry`]'s to tell.
+pub trait Navigator {
+    /// Asks for a speed ahead (negative: backwards) and a turn rate, until further notice or the
+    /// end of the dead-man time. Values beyond what the robot can do are reduced.
+    fn drive(&mut self, speed: Speed, turn: AngularSpeed, now: Instant);
+
+    /// Asks for a standstill.
+    fn halt(&mut self, now: Instant) {
+        self.drive(Speed::from_si(0.0), AngularSpeed::from_si(0.0), now);
+    }
+
+    /// The robot's outline.
+    fn body(&self) -> Body;
+}

@@ -1,0 +1,75 @@
+//! Drive straight ahead or back.
+
+use crate::devices::{Motion, Navigator, Odometry};
+use crate::guard::{Guard, NO_ODOMETRY};
+use crate::motion::Ramp;
+use crate::templates;
+use crate::templates::forward::{Inputs, Live, State};
+use afp_core::quantity::{AngularSpeed, Length, Speed};
+use afp_core::{Actor, Fault, Instant, Poll};
+
+/// Speed is gained and lost at this many metres a second squared.
+const ACCELERATION: f64 = 0.5;
+/// The way counts as driven when less than this is left.
+const CLOSE: f64 = 0.004;
+/// How sharply the heading is held: turn rate per radian off.
+const HOLD: f64 = 2.5;
+
+/// Drives a distance on the heading it starts with, by odometry.
+#[derive(Debug)]
+pub struct Forward {
+    distance: f64,
+    speed: f64,
+    ramp: Ramp,
+    odometry: Guard,
+    /// Where the drive began; none until the first reading.
+    from: Option<Motion>,
+}
+
+impl<E: Navigator + Odometry + ?Sized> Actor<templates::Forward, E> for Forward {
+    fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
+        let mut odometry = Guard::new(NO_ODOMETRY, now);
+        let from = odometry.current(env.motion(), now)?;
+        Ok(Forward {
+            distance: inputs.distance.si(),
+            speed: inputs.speed.si(),
+            ramp: Ramp::new(ACCELERATION, now),
+            odometry,
+            from,
+        })
+    }
+
+    fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
+        let Some(motion) = self.odometry.current(env.motion(), now)? else {
+            env.halt(now);
+            return Ok(Poll::Pending);
+        };
+        let from = *self.from.get_or_insert(motion);
+        let driven = along(&from, &motion);
+        let ahead = if self.distance < 0.0 { -1.0 } else { 1.0 };
+        let rest = ahead * (self.distance - driven);
+        if rest < CLOSE {
+            env.halt(now);
+            return Ok(if motion.stands() {
+                Poll::Ready(State::ForwardSuccessful { driven: Length::from_si(driven) })
+            } else {
+                Poll::Pending
+            });
+        }
+        let rate = self.ramp.rate(rest, self.speed, now);
+        let turn = HOLD * (from.heading - motion.heading).si();
+        env.drive(Speed::from_si(ahead * rate), AngularSpeed::from_si(turn), now);
+        Ok(Poll::Pending)
+    }
+
+    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        env.halt(now);
+        Ok(())
+    }
+}
+
+/// The way from `from` to `to` along the heading at `from`, in metres.
+fn along(from: &Motion, to: &Motion) -> f64 {
+    let (sin, cos) = libm::sincos(from.heading.si());
+    (to.x - from.x).si() * cos + (to.y - from.y).si() * sin
+}

@@ -1,0 +1,133 @@
+//! What a template does about sensors that fall silent.
+
+use crate::devices::Reading;
+use afp_core::{Duration, Fault, Instant, Reason};
+
+/// How long a template waits for a usable reading before it faults.
+pub const PATIENCE: Duration = Duration::from_millis(500);
+
+/// The wheels' counters say nothing usable.
+pub const NO_ODOMETRY: Fault = Fault::new(&Reason {
+    code: "no-odometry",
+    text: "the odometry gave no valid reading for 500 ms",
+});
+/// The range sensor says nothing usable.
+pub const NO_RANGE: Fault = Fault::new(&Reason {
+    code: "no-range",
+    text: "the range sensor gave no valid reading for 500 ms",
+});
+/// The bumper says nothing usable.
+pub const NO_TOUCH: Fault = Fault::new(&Reason {
+    code: "no-touch",
+    text: "the touch sensor gave no valid reading for 500 ms",
+});
+/// A button says nothing usable.
+pub const NO_BUTTON: Fault =
+    Fault::new(&Reason { code: "no-button", text: "the button gave no valid reading for 500 ms" });
+/// The rotator does not get where it should.
+pub const STUCK_ROTATOR: Fault = Fault::new(&Reason {
+    code: "stuck-rotator",
+    text: "the rotator did not reach its bearing within 1 s",
+});
+
+/// The age up to which the continuous sensors (odometry, bumper, buttons, rotator) are current.
+const CURRENT: Duration = Duration::from_millis(100);
+
+/// Patience with one sensor: counts the time since its last usable reading.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Guard {
+    usable: Instant,
+    fault: Fault,
+}
+
+impl Guard {
+    /// Begins at `now`, with full patience; `fault` is what its end is called.
+    pub(crate) fn new(fault: Fault, now: Instant) -> Self {
+        Guard { usable: now, fault }
+    }
+
+    /// The current value, none while the sensor is silent but not yet for too long.
+    ///
+    /// # Errors
+    /// This guard's fault after [`PATIENCE`] without a usable reading.
+    pub(crate) fn current<T: Copy>(
+        &mut self,
+        reading: Reading<T>,
+        now: Instant,
+    ) -> Result<Option<T>, Fault> {
+        let value = reading.fresh(now, CURRENT);
+        if value.is_some() {
+            self.usable = now;
+        }
+        self.patient(now)?;
+        Ok(value)
+    }
+
+    /// The value of a reading that was measured after `last`; the caller keeps `last`.
+    ///
+    /// # Errors
+    /// This guard's fault after [`PATIENCE`] without a new valid reading.
+    pub(crate) fn next<T: Copy>(
+        &mut self,
+        reading: Reading<T>,
+        last: Instant,
+        now: Instant,
+    ) -> Result<Option<T>, Fault> {
+        let value = reading.fresh(now, PATIENCE).filter(|_| reading.time > last);
+        if value.is_some() {
+            self.usable = now;
+        }
+        self.patient(now)?;
+        Ok(value)
+    }
+
+    fn patient(&self, now: Instant) -> Result<(), Fault> {
+        if now.since(self.usable) > PATIENCE { Err(self.fault) } else { Ok(()) }
+    }
+}
+
+/// Patience with the rotator: it must get near its target within a second of being sent there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Arrival {
+    since: Instant,
+}
+
+impl Arrival {
+    /// The rotator has just been sent somewhere.
+    pub(crate) fn new(now: Instant) -> Self {
+        Arrival { since: now }
+    }
+
+    /// # Errors
+    /// [`STUCK_ROTATOR`] when this has been going on for more than a second.
+    pub(crate) fn check(&self, now: Instant) -> Result<(), Fault> {
+        if now.since(self.since) > Duration::from_secs(1) { Err(STUCK_ROTATOR) } else { Ok(()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::devices::Invalid;
+
+    #[test]
+    fn patience_ends_after_half_a_second_and_not_before() {
+        let mut guard = Guard::new(NO_RANGE, Instant::ZERO);
+        let dead = Reading::<f64>::invalid(Invalid::NoAnswer, Instant::ZERO);
+        let at = |ms| Instant::ZERO + Duration::from_millis(ms);
+        assert_eq!(guard.current(dead, at(500)), Ok(None));
+        assert_eq!(guard.current(Reading::valid(1.0, at(500)), at(500)), Ok(Some(1.0)));
+        assert_eq!(guard.current(dead, at(1000)), Ok(None));
+        assert_eq!(guard.current(dead, at(1001)), Err(NO_RANGE));
+    }
+
+    #[test]
+    fn the_same_reading_again_is_no_news() {
+        let mut guard = Guard::new(NO_RANGE, Instant::ZERO);
+        let at = |ms| Instant::ZERO + Duration::from_millis(ms);
+        let frozen = Reading::valid(2.0, at(10));
+        assert_eq!(guard.next(frozen, at(0), at(20)), Ok(Some(2.0)));
+        assert_eq!(guard.next(frozen, at(10), at(30)), Ok(None));
+        assert_eq!(guard.next(frozen, at(10), at(521)), Err(NO_RANGE));
+    }
+}

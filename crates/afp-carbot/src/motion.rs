@@ -1,0 +1,71 @@
+//! Speed profiles that start and end gently.
+
+use afp_core::{Duration, Instant};
+
+/// A speed that ramps up, holds, and ramps down before the end of a known way.
+///
+/// Works alike for lengths and angles: the unit is that of the way.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ramp {
+    rate: f64,
+    acceleration: f64,
+    last: Instant,
+}
+
+/// The end of a way is approached no faster than this share of the rest a second, so that the
+/// motors' lag does not carry the robot past it.
+const APPROACH: f64 = 5.0;
+
+/// A gap between polls counts for no more than this, so that a late poll does not jerk.
+const LONGEST_GAP: Duration = Duration::from_millis(50);
+
+impl Ramp {
+    /// From standstill at `now`.
+    pub(crate) fn new(acceleration: f64, now: Instant) -> Self {
+        Ramp { rate: 0.0, acceleration, last: now }
+    }
+
+    /// The rate to command now with `rest` of the way to go; never negative.
+    pub(crate) fn rate(&mut self, rest: f64, cruise: f64, now: Instant) -> f64 {
+        let gap = now.since(self.last).min(LONGEST_GAP).as_secs_f64();
+        self.last = now;
+        let rest = rest.max(0.0);
+        let braking = libm::sqrt(2.0 * self.acceleration * rest);
+        self.rate =
+            (self.rate + self.acceleration * gap).min(cruise).min(braking).min(APPROACH * rest);
+        self.rate
+    }
+}
+
+/// `angle` as the same direction within half a turn of zero.
+pub(crate) fn wrap(angle: f64) -> f64 {
+    let turns = libm::round(angle / core::f64::consts::TAU);
+    angle - turns * core::f64::consts::TAU
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ramp_drives_the_way_and_stops_at_its_end() {
+        let mut now = Instant::ZERO;
+        let mut ramp = Ramp::new(0.5, now);
+        let (mut way, mut fastest, mut last) = (0.0, 0.0_f64, 0.0_f64);
+        for _ in 0..600 {
+            now = now + Duration::from_millis(10);
+            let rate = ramp.rate(1.0 - way, 0.2, now);
+            assert!(rate - last <= 0.5 * 0.01 + 1e-12, "jerk at {now}");
+            (fastest, last) = (fastest.max(rate), rate);
+            way += rate * 0.01;
+        }
+        assert_eq!(fastest, 0.2);
+        assert!((way - 1.0).abs() < 0.001, "{way}");
+    }
+
+    #[test]
+    fn wrapped_angles_lie_within_half_a_turn() {
+        assert!((wrap(4.0) - (4.0 - core::f64::consts::TAU)).abs() < 1e-12);
+        assert_eq!(wrap(-3.0), -3.0);
+    }
+}

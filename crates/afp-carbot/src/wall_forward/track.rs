@@ -1,0 +1,155 @@
+//! The wall on the right as a line through the latest echoes, in the frame of the odometry.
+//!
+//! The odometry drifts, but little over the stretch that is remembered.
+
+use crate::devices::Motion;
+
+/// So many echoes are remembered.
+const MEMORY: usize = 32;
+/// An echo this far off the line is something else, metres.
+const OUTLIER: f64 = 0.05;
+/// So many of them in a row are a new wall.
+const NEW_WALL: u8 = 3;
+/// How firmly the line keeps its direction, square metres: the square of an echo's deviation
+/// over that of the direction's change from one echo to the next.
+const FIRMNESS: f64 = 0.02;
+
+/// One echo that came square from the wall: where the sensor was, and how far the wall.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sounding {
+    x: f64,
+    y: f64,
+    distance: f64,
+}
+
+/// The line.
+#[derive(Debug)]
+pub(super) struct Track {
+    /// Direction of the wall, in the robot's way of driving.
+    heading: f64,
+    /// A point of the wall; none before the first echo.
+    anchor: Option<(f64, f64)>,
+    soundings: [Sounding; MEMORY],
+    count: usize,
+    next: usize,
+    outliers: u8,
+}
+
+impl Track {
+    /// A wall whose direction is known and whose distance is not.
+    pub(super) fn new(heading: f64) -> Self {
+        Track {
+            heading,
+            anchor: None,
+            soundings: [Sounding::default(); MEMORY],
+            count: 0,
+            next: 0,
+            outliers: 0,
+        }
+    }
+
+    /// The wall's direction.
+    pub(super) fn heading(&self) -> f64 {
+        self.heading
+    }
+
+    /// Perpendicular distance from the turning centre to the wall; none before the first echo.
+    pub(super) fn distance(&self, motion: &Motion) -> Option<f64> {
+        let (x, y) = self.anchor?;
+        let (sin, cos) = libm::sincos(self.heading);
+        Some((x - motion.x.si()) * sin - (y - motion.y.si()) * cos)
+    }
+
+    /// What `distance` from a sensor that is mounted `forward` of the turning centre means for
+    /// the centre.
+    pub(super) fn of_centre(&self, motion: &Motion, forward: f64, distance: f64) -> f64 {
+        distance + forward * libm::sin(self.heading - motion.heading.si())
+    }
+
+    /// Takes an echo from perpendicular distance `distance` into the line.
+    pub(super) fn add(&mut self, motion: &Motion, forward: f64, distance: f64) {
+        let expected = self.distance(motion);
+        let found = self.of_centre(motion, forward, distance);
+        if expected.is_some_and(|expected| (found - expected).abs() > OUTLIER) {
+            self.outliers += 1;
+            if self.outliers < NEW_WALL {
+                return;
+            }
+            (self.count, self.next) = (0, 0);
+        }
+        self.outliers = 0;
+        let (sin, cos) = libm::sincos(motion.heading.si());
+        self.soundings[self.next] = Sounding {
+            x: motion.x.si() + forward * cos,
+            y: motion.y.si() + forward * sin,
+            distance,
+        };
+        self.next = (self.next + 1) % MEMORY;
+        self.count = (self.count + 1).min(MEMORY);
+        self.fit();
+    }
+
+    /// Lays the line through the soundings, least squares with the direction held back.
+    fn fit(&mut self) {
+        let (sin, cos) = libm::sincos(self.heading);
+        let soundings = &self.soundings[..self.count];
+        let along = |s: &Sounding| s.x * cos + s.y * sin;
+        let aside = |s: &Sounding| s.x * sin - s.y * cos + s.distance;
+        let share = 1.0 / self.count as f64;
+        let mean_along = share * soundings.iter().map(along).sum::<f64>();
+        let mean_aside = share * soundings.iter().map(aside).sum::<f64>();
+        let (mut square, mut product) = (FIRMNESS, 0.0);
+        for s in soundings {
+            let (a, b) = (along(s) - mean_along, aside(s) - mean_aside);
+            square += a * a;
+            product += a * b;
+        }
+        self.anchor =
+            Some((mean_along * cos + mean_aside * sin, mean_along * sin - mean_aside * cos));
+        self.heading -= libm::atan(product / square);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use afp_core::quantity::{Angle, Length};
+
+    fn at(x: f64, y: f64, heading: f64) -> Motion {
+        Motion {
+            x: Length::from_si(x),
+            y: Length::from_si(y),
+            heading: Angle::from_si(heading),
+            ..Motion::default()
+        }
+    }
+
+    #[test]
+    fn a_slanted_wall_is_found_from_its_distances() {
+        // A wall through (0, -0.5) that rises by 4 degrees; the robot drives along the x axis.
+        let slope = 4.0_f64.to_radians();
+        let mut track = Track::new(0.0);
+        for step in 0..40 {
+            let x = f64::from(step) * 0.015;
+            let distance = (0.5 + (x + 0.1) * slope.tan() * -1.0) * slope.cos();
+            track.add(&at(x, 0.0, 0.0), 0.1, distance);
+        }
+        assert!((track.heading() - slope).abs() < 0.005, "{}", track.heading());
+        let there = track.distance(&at(0.585, 0.0, 0.0)).unwrap();
+        assert!((there - (0.5 - 0.585 * slope.tan()) * slope.cos()).abs() < 0.003, "{there}");
+    }
+
+    #[test]
+    fn one_outlier_is_dropped_and_three_are_a_new_wall() {
+        let mut track = Track::new(0.0);
+        for step in 0..10 {
+            track.add(&at(f64::from(step) * 0.01, 0.0, 0.0), 0.1, 0.5);
+        }
+        let here = at(0.1, 0.0, 0.0);
+        track.add(&here, 0.1, 0.65);
+        assert!((track.distance(&here).unwrap() - 0.5).abs() < 1e-9);
+        track.add(&here, 0.1, 0.65);
+        track.add(&here, 0.1, 0.65);
+        assert!((track.distance(&here).unwrap() - 0.65).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,75 @@
+//! Dead reckoning from the wheels' counters.
+//!
+//! It errs as a real one does: the wheels are not exactly as large and as far apart as the
+//! controller believes, they slip, and the counts are noisy.
+
+use super::drive::{WHEEL_X, WHEEL_Y, Wheel};
+use crate::noise::{Noise, Source};
+use afp_carbot::devices::Motion;
+use afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
+
+/// Standard deviations of what differs from robot to robot: wheel size and track width.
+const SCALE: f64 = 0.006;
+const TRACK: f64 = 0.008;
+/// Standard deviation of the counts of one step, as a share of the speed.
+const COUNTS: f64 = 0.03;
+
+/// The counted motion.
+#[derive(Debug)]
+pub(crate) struct Odometer {
+    noise: Noise,
+    scale: f64,
+    turn_scale: f64,
+    x: f64,
+    y: f64,
+    heading: f64,
+    speed: f64,
+    turn: f64,
+}
+
+impl Odometer {
+    pub(crate) fn new(seed: u64, build: &mut Noise) -> Self {
+        let scale = 1.0 + SCALE * build.normal();
+        Odometer {
+            noise: Noise::new(seed, Source::Odometry),
+            scale,
+            turn_scale: scale * (1.0 + TRACK * build.normal()),
+            x: 0.0,
+            y: 0.0,
+            heading: 0.0,
+            speed: 0.0,
+            turn: 0.0,
+        }
+    }
+
+    /// Counts `dt` seconds of the wheels' motion.
+    pub(crate) fn step(&mut self, wheels: &[Wheel; 2], dt: f64) {
+        let ((left_x, left_y), (right_x, right_y)) = (wheels[0].velocity(), wheels[1].velocity());
+        // The body's motion that explains both wheels best.
+        let across = WHEEL_Y * (right_x - left_x) + WHEEL_X * (left_y + right_y);
+        let turn = across / (2.0 * (WHEEL_X * WHEEL_X + WHEEL_Y * WHEEL_Y));
+        let speed = (left_x + right_x) / 2.0;
+        if speed == 0.0 && turn == 0.0 {
+            (self.speed, self.turn) = (0.0, 0.0);
+            return;
+        }
+        self.speed = speed * self.scale;
+        self.turn = turn * self.turn_scale;
+        let way = self.speed * dt * (1.0 + COUNTS * self.noise.normal());
+        let angle = self.turn * dt * (1.0 + COUNTS * self.noise.normal());
+        let (sin, cos) = libm::sincos(self.heading + angle / 2.0);
+        self.x += way * cos;
+        self.y += way * sin;
+        self.heading += angle;
+    }
+
+    pub(crate) fn motion(&self) -> Motion {
+        Motion {
+            x: Length::from_si(self.x),
+            y: Length::from_si(self.y),
+            heading: Angle::from_si(self.heading),
+            speed: Speed::from_si(self.speed),
+            turn: AngularSpeed::from_si(self.turn),
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! A servo that moves towards its target at a limited rate.
+
+/// A position servo.
+#[derive(Debug)]
+pub(crate) struct Servo {
+    position: f64,
+    target: f64,
+    reach: f64,
+    rate: f64,
+}
+
+impl Servo {
+    /// At zero; `reach` to either side, `rate` a second.
+    pub(crate) fn new(reach: f64, rate: f64) -> Self {
+        Servo { position: 0.0, target: 0.0, reach, rate }
+    }
+
+    /// Sets the target, reduced to what can be reached; nonsense is no command.
+    pub(crate) fn aim(&mut self, target: f64) {
+        if target.is_finite() {
+            self.target = target.clamp(-self.reach, self.reach);
+        }
+    }
+
+    /// Stays where it is.
+    pub(crate) fn hold(&mut self) {
+        self.target = self.position;
+    }
+
+    /// Moves for `dt` seconds; says whether it moved.
+    pub(crate) fn step(&mut self, dt: f64) -> bool {
+        let way = self.target - self.position;
+        self.position += way.clamp(-self.rate * dt, self.rate * dt);
+        way != 0.0
+    }
+
+    pub(crate) fn position(&self) -> f64 {
+        self.position
+    }
+}

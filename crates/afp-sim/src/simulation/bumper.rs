@@ -1,0 +1,36 @@
+//! Contacts: what the bumper feels, and what the judge counts.
+
+use super::Simulation;
+use crate::robot::HALF_LENGTH;
+use afp_core::Instant;
+use rapier2d::parry::query;
+
+/// Nearer than this is a touch, metres.
+const TOUCH: f32 = 0.001;
+/// The bumper covers the front face and this much of the sides, metres.
+const WRAP: f64 = 0.02;
+
+impl Simulation {
+    /// Looks at what the robot touches after a step.
+    ///
+    /// The engine keeps a pair's contact points over several steps, so the distance is computed
+    /// afresh for the few pairs that are near.
+    pub(super) fn feel(&mut self, now: Instant) {
+        self.touched = false;
+        for pair in self.physics.narrow_phase.contact_pairs_with(self.collider) {
+            if !pair.has_any_active_contact() {
+                continue;
+            }
+            let other =
+                if pair.collider1 == self.collider { pair.collider2 } else { pair.collider1 };
+            let colliders = &self.physics.colliders;
+            let (robot, other) = (&colliders[self.collider], &colliders[other]);
+            let (at, there) = (robot.position(), other.position());
+            let contact = query::contact(at, robot.shape(), there, other.shape(), TOUCH);
+            let Ok(Some(contact)) = contact else { continue };
+            self.collisions.touch(other.user_data as usize, now);
+            let ahead = at.inverse_transform_point(contact.point1).x;
+            self.touched |= f64::from(ahead) > HALF_LENGTH - WRAP;
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! What only a judge may know.
+//!
+//! Nothing here is reachable through a device trait, so no template can use it.
+
+use crate::robot::{HALF_LENGTH, HALF_WIDTH, SONAR_HEIGHT};
+use crate::world::Obstacle;
+use afp_core::Instant;
+use rapier2d::math::{Pose as Isometry, Vector};
+use rapier2d::parry::query;
+use rapier2d::parry::shape::{Segment, SharedShape};
+
+/// A true pose in the world's frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pose {
+    /// Metres.
+    pub x: f64,
+    /// Metres.
+    pub y: f64,
+    /// Radians, within half a turn of zero.
+    pub heading: f64,
+}
+
+/// A stretch of time in which the robot touched one obstacle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Collision {
+    /// The obstacle, by its place in [`crate::World::obstacles`].
+    pub obstacle: usize,
+    /// When they first touched.
+    pub begin: Instant,
+    /// When they last touched.
+    pub end: Instant,
+}
+
+/// Touches of one obstacle that are no farther apart than this are one collision, nanoseconds.
+const APART: u64 = 300_000_000;
+
+/// The collisions so far, oldest first.
+#[derive(Debug, Default)]
+pub(crate) struct Collisions(Vec<Collision>);
+
+impl Collisions {
+    pub(crate) fn touch(&mut self, obstacle: usize, now: Instant) {
+        let last = self.0.iter_mut().rev().find(|c| c.obstacle == obstacle);
+        match last {
+            Some(last) if now.since(last.end).as_nanos() <= APART => last.end = now,
+            _ => self.0.push(Collision { obstacle, begin: now, end: now }),
+        }
+    }
+}
+
+/// The truth about a running simulation.
+#[derive(Clone, Copy, Debug)]
+pub struct Truth<'a> {
+    pub(crate) position: &'a Isometry,
+    pub(crate) obstacles: &'a [Obstacle],
+    pub(crate) shapes: &'a [(Isometry, SharedShape)],
+    pub(crate) collisions: &'a Collisions,
+}
+
+impl<'a> Truth<'a> {
+    /// Where the robot's centre is.
+    pub fn pose(&self) -> Pose {
+        let (at, turn) = (self.position.translation, self.position.rotation);
+        Pose {
+            x: f64::from(at.x),
+            y: f64::from(at.y),
+            heading: libm::atan2(f64::from(turn.im), f64::from(turn.re)),
+        }
+    }
+
+    /// Every collision so far, in the order of their beginnings.
+    pub fn collisions(&self) -> &'a [Collision] {
+        &self.collisions.0
+    }
+
+    /// Distance from the body's right side to the nearest obstacle that is high enough for the
+    /// range sensor, metres; none in an empty world.
+    pub fn right_side_gap(&self) -> Option<f64> {
+        let y = -HALF_WIDTH as f32;
+        let side =
+            Segment::new(Vector::new(-HALF_LENGTH as f32, y), Vector::new(HALF_LENGTH as f32, y));
+        let gaps = self.obstacles.iter().zip(self.shapes).filter_map(|(obstacle, (at, shape))| {
+            let high = obstacle.height >= SONAR_HEIGHT;
+            high.then(|| query::distance(self.position, &side, at, &**shape).ok()).flatten()
+        });
+        gaps.map(|gap| f64::from(gap.distance)).reduce(f64::min)
+    }
+}
