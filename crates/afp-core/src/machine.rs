@@ -221,11 +221,10 @@ impl<P: PlanState> Level<P> {
         let edge = match polled {
             Polled::Done(state) => self.finished(t, element, row, state, cx),
             Polled::Failed(fault) => {
+                cx.trace(&Record::Faulted { component: component(cx, element), fault });
                 if row.kind == ElementKind::SubPlan {
                     // It ended by itself and interrupted what was active inside.
                     self.active = None;
-                } else {
-                    cx.trace(&Record::Faulted { component: component(cx, element), fault });
                 }
                 self.plan.discard();
                 match self.interrupt_active(t, cx) {

@@ -2,7 +2,9 @@
 
 use core::fmt;
 
-use super::{Author, Cause, ComponentId, Ending, Names, Record, TraceEntryId, Verdict};
+use super::{
+    Author, Cause, ComponentId, ERROR, Ending, Kind, Names, Record, TraceEntryId, Verdict,
+};
 use crate::time::Instant;
 use crate::value::ValueRef;
 
@@ -49,6 +51,15 @@ impl<N: Names + ?Sized> Line<'_, N> {
         match self.names.target(id, outcome) {
             "" => Ok(()),
             target => write!(f, " -> {target}"),
+        }
+    }
+
+    /// Where the `Error` edge of a failed element leads; a supervisor has none.
+    fn error_target(&self, f: &mut fmt::Formatter<'_>, id: ComponentId) -> fmt::Result {
+        let supervisor = self.names.component(id).kind == Kind::Supervisor;
+        match self.names.target(id, ERROR) {
+            target if !supervisor && !target.is_empty() => write!(f, " -> {target}"),
+            _ => Ok(()),
         }
     }
 
@@ -110,7 +121,8 @@ impl<N: Names + ?Sized> fmt::Display for Line<'_, N> {
                 write!(f, "{} diverted by {}", self.path(element), self.path(supervisor))
             }
             Record::Faulted { component, fault } => {
-                write!(f, "{} fault {}: {fault}", self.path(component), fault.code())
+                write!(f, "{} fault {}: {fault}", self.path(component), fault.code())?;
+                self.error_target(f, component)
             }
             Record::Ended { plan, ending } => match ending {
                 Ending::Ok => write!(f, "{} ended OK", self.path(plan)),
