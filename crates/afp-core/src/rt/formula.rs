@@ -7,9 +7,9 @@ use crate::value::Text;
 
 /// A unit that a text may carry.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Unit {
+pub struct Unit<'a> {
     /// How it is written.
-    pub name: &'static str,
+    pub name: &'a str,
     /// How its numbers become SI.
     pub scale: Scale,
 }
@@ -142,34 +142,53 @@ pub fn parse_int(text: &str) -> Result<i64, Fault> {
     i64::try_from(if sign { -value } else { value }).map_err(|_| Fault::CONVERSION)
 }
 
-/// A number with one of `units` (none at all for a plain `float`) from a text, in SI units: the
-/// double nearest to the exact decimal value where the unit is a decimal one.
+/// A `float` from a text.
 ///
 /// # Errors
 /// [`Fault::CONVERSION`].
-pub fn parse_float(text: &str, units: &[Unit]) -> Result<f64, Fault> {
+pub fn parse_float(text: &str) -> Result<f64, Fault> {
     let (negative, rest) = split_sign(text.trim());
-    let (digits, unit) = rest.split_at_checked(number_len(rest)).ok_or(Fault::CONVERSION)?;
-    let unit = unit.trim_start();
-    let scale = match units {
-        [] if unit.is_empty() => Scale::Decimal(0),
-        units => units.iter().find(|known| known.name == unit).ok_or(Fault::CONVERSION)?.scale,
-    };
-    let value = apply(digits, scale)?;
-    if value.is_finite() {
-        Ok(if negative { -value } else { value })
-    } else {
-        Err(Fault::CONVERSION)
+    if number_len(rest) < rest.len() {
+        return Err(Fault::CONVERSION);
     }
+    signed(negative, apply(rest, Scale::Decimal(0))?)
+}
+
+/// A number with one of `units` from a text, in SI units: the double nearest to the exact decimal
+/// value where the unit is a decimal one.
+///
+/// # Errors
+/// [`Fault::CONVERSION`].
+pub fn parse_quantity<'u>(
+    text: &str,
+    units: impl IntoIterator<Item = Unit<'u>>,
+) -> Result<f64, Fault> {
+    let (negative, rest) = split_sign(text.trim());
+    let (digits, name) = rest.split_at_checked(number_len(rest)).ok_or(Fault::CONVERSION)?;
+    let mut units = units.into_iter();
+    let unit = units.find(|unit| unit.name == name.trim_start()).ok_or(Fault::CONVERSION)?;
+    signed(negative, apply(digits, unit.scale)?)
 }
 
 /// A value of an enum from its name, by position.
 ///
 /// # Errors
 /// [`Fault::CONVERSION`].
-pub fn parse_choice(text: &str, names: &[&str]) -> Result<u16, Fault> {
-    let index = names.iter().position(|name| *name == text.trim()).ok_or(Fault::CONVERSION)?;
+pub fn parse_choice<'n>(
+    text: &str,
+    names: impl IntoIterator<Item = &'n str>,
+) -> Result<u16, Fault> {
+    let mut names = names.into_iter();
+    let index = names.position(|name| name == text.trim()).ok_or(Fault::CONVERSION)?;
     u16::try_from(index).map_err(|_| Fault::CONVERSION)
+}
+
+fn signed(negative: bool, value: f64) -> Result<f64, Fault> {
+    match value.is_finite() {
+        true if negative => Ok(-value),
+        true => Ok(value),
+        false => Err(Fault::CONVERSION),
+    }
 }
 
 /// Splits off a leading minus.

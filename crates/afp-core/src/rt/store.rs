@@ -1,9 +1,12 @@
 //! Entries of the configuration as generated plans hold them.
 
 use core::cmp::Ordering;
+use core::fmt;
 
 use crate::fault::Fault;
 use crate::quantity::Quantity;
+use crate::rt::formula::int_to_float;
+use crate::rt::plan::WriteError;
 use crate::value::{Text, Value, ValueRef};
 
 /// A value that an entry can hold. The default is what unset storage holds.
@@ -21,8 +24,20 @@ pub trait Any: Stored + Clone + PartialEq {}
 /// What stands for a port of type `number`: an `int`, a `float` or a quantity.
 pub trait Number: Any + PartialOrd {}
 
+/// What a writer from outside can give.
+pub trait Writable: Stored {
+    /// The value, where it fits the type; an `int` given to a `float` becomes one.
+    ///
+    /// # Errors
+    /// [`WriteError::Type`] or [`WriteError::NotFinite`].
+    fn from_value(value: &Value) -> Result<Self, WriteError>;
+}
+
 /// An enum of a toolbox or a plan.
 pub trait Choice: Copy + Default {
+    /// The names of its values, by position.
+    const NAMES: &'static [&'static str];
+
     /// The value's position.
     fn index(self) -> u16;
 
@@ -38,7 +53,7 @@ pub struct Entry<T> {
 }
 
 /// An object entry: empty until written, then known by the number of the commit that wrote it.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Object<T> {
     value: Option<T>,
     commit: u32,
@@ -111,6 +126,13 @@ impl<T> Stored for Object<T> {
     }
 }
 
+impl<T> fmt::Debug for Object<T> {
+    /// Its number; nobody but its templates knows the inside.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "object#{}", self.commit)
+    }
+}
+
 macro_rules! stored {
     ($($ty:ty => $variant:ident),*) => {$(
         impl Stored for $ty {
@@ -127,6 +149,52 @@ stored!(bool => Bool, i64 => Int, f64 => Float);
 
 impl Number for i64 {}
 impl Number for f64 {}
+
+impl Writable for bool {
+    fn from_value(value: &Value) -> Result<Self, WriteError> {
+        match value {
+            Value::Bool(value) => Ok(*value),
+            _ => Err(WriteError::Type),
+        }
+    }
+}
+
+impl Writable for i64 {
+    fn from_value(value: &Value) -> Result<Self, WriteError> {
+        match value {
+            Value::Int(value) => Ok(*value),
+            _ => Err(WriteError::Type),
+        }
+    }
+}
+
+impl Writable for f64 {
+    fn from_value(value: &Value) -> Result<Self, WriteError> {
+        match value {
+            Value::Int(value) => Ok(int_to_float(*value)),
+            Value::Float(value) if value.is_finite() => Ok(*value),
+            Value::Float(_) => Err(WriteError::NotFinite),
+            _ => Err(WriteError::Type),
+        }
+    }
+}
+
+impl Writable for Text {
+    fn from_value(value: &Value) -> Result<Self, WriteError> {
+        match value {
+            Value::Text(value) => Ok(value.clone()),
+            _ => Err(WriteError::Type),
+        }
+    }
+}
+
+impl<const M: i8, const KG: i8, const S: i8, const RAD: i8, const K: i8, const V: i8> Writable
+    for Quantity<M, KG, S, RAD, K, V>
+{
+    fn from_value(value: &Value) -> Result<Self, WriteError> {
+        f64::from_value(value).map(Self::from_si)
+    }
+}
 
 impl<const M: i8, const KG: i8, const S: i8, const RAD: i8, const K: i8, const V: i8> Stored
     for Quantity<M, KG, S, RAD, K, V>

@@ -3,18 +3,17 @@
 use afp_core::rt::{Child, Cx, Flow, Machine, Plan, PlanState, Polled, Started};
 use afp_core::trace::Sink;
 use afp_core::{Clock, Environment, Fault};
-use afp_dsl::graph::{self, FormulaKind, Output};
+use afp_dsl::graph;
 
 use super::config::Config;
-use super::formula;
-use super::outputs::{Inputs, Stage};
+use super::outputs::{Binding, Inputs, Stage};
 use super::plan::LoadedPlan;
 use super::slots::{ActorSlot, ComputationSlot};
 
 /// An element of a loaded plan.
 pub struct ElementSlot<E: ?Sized + 'static> {
     inputs: Inputs,
-    outputs: Vec<Output>,
+    outputs: Vec<Binding>,
     running: Running<E>,
 }
 
@@ -36,8 +35,8 @@ pub enum Running<E: ?Sized + 'static> {
 impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
     /// An element that does not run.
     pub fn new(element: &graph::Element, running: Running<E>) -> Self {
-        let inputs = Inputs::new(element.inputs.clone());
-        ElementSlot { inputs, outputs: element.outputs.clone(), running }
+        let (inputs, outputs) = (Inputs::new(&element.inputs), Binding::all(&element.outputs));
+        ElementSlot { inputs, outputs, running }
     }
 
     /// Starts it: inputs, then the component.
@@ -123,11 +122,8 @@ fn pass_inputs<E: Environment + ?Sized + 'static>(
     plan: &mut LoadedPlan<E>,
 ) -> Result<(), Fault> {
     for (port, formula) in inputs.formulas().iter().enumerate() {
-        let value = formula::finite(formula, &config.values)?;
-        let object = match formula.kind {
-            FormulaKind::Entry(entry) => config.values.cell(entry.0),
-            _ => None,
-        };
+        let value = formula.finite(&config.values)?;
+        let object = formula.entry().and_then(|entry| config.values.cell(entry));
         plan.pass(port, value, object);
     }
     Ok(())
@@ -136,7 +132,7 @@ fn pass_inputs<E: Environment + ?Sized + 'static>(
 /// Stages the `out` entries of a sub-plan that were written or initialised.
 fn stage_results<E: Environment + ?Sized + 'static>(
     plan: &LoadedPlan<E>,
-    outputs: &[Output],
+    outputs: &[Binding],
     config: &mut Config,
 ) -> Result<(), Fault> {
     let mut stage = Stage::new(outputs, &mut config.staged);

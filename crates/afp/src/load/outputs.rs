@@ -4,16 +4,15 @@ use std::any::Any;
 
 use afp_core::rt::{Args, Outputs};
 use afp_core::{Fault, Text, Value};
-use afp_dsl::graph::{Formula, FormulaKind, Output};
-use afp_dsl::types::Type;
+use afp_dsl::graph;
 
 use super::config::{ObjectCell, Staged, Values};
-use super::formula;
+use super::formula::{Converter, Formula, check_finite};
 
-/// The bound formulas of a component, and room for the texts that they compute.
+/// The bound formulas of a component, and room for the texts that they make.
 pub struct Inputs {
     formulas: Vec<Formula>,
-    texts: Vec<Option<Result<Text, Fault>>>,
+    texts: Vec<(u16, Result<Text, Fault>)>,
 }
 
 /// Formulas with the configuration that they read.
@@ -22,17 +21,38 @@ pub struct Pull<'a> {
     values: &'a Values,
 }
 
+/// An output port bound to an entry.
+pub struct Binding {
+    port: u16,
+    entry: u16,
+    converter: Option<Converter>,
+}
+
 /// Stages outputs by the bindings of a component.
 pub struct Stage<'a> {
-    outputs: &'a [Output],
+    bindings: &'a [Binding],
     staged: &'a mut Staged,
     /// The first fault of a conversion.
     fault: Option<Fault>,
 }
 
+impl Binding {
+    /// The bindings of a component.
+    pub fn all(outputs: &[graph::Output]) -> Vec<Binding> {
+        let bindings = outputs.iter().map(|output| Binding {
+            port: output.port,
+            entry: output.entry.0,
+            converter: output.conversion.as_ref().map(Converter::new),
+        });
+        bindings.collect()
+    }
+}
+
 impl Inputs {
-    pub fn new(formulas: Vec<Formula>) -> Self {
-        let texts = formulas.iter().map(|_| None).collect();
+    pub fn new(formulas: &[graph::Formula]) -> Self {
+        let formulas: Vec<_> = formulas.iter().map(Formula::new).collect();
+        let makers = (0..).zip(&formulas).filter(|(_, formula)| formula.makes_text());
+        let texts = makers.map(|(port, _)| (port, Ok(Text::new()))).collect();
         Inputs { formulas, texts }
     }
 
@@ -40,16 +60,12 @@ impl Inputs {
         &self.formulas
     }
 
-    /// Computes the texts that no entry holds, then lends the formulas.
+    /// Computes the texts that stand nowhere, then lends the formulas.
     #[inline]
     pub fn pull<'a>(&'a mut self, values: &'a Values) -> Pull<'a> {
-        for (formula, text) in self.formulas.iter().zip(&mut self.texts) {
-            let computed = matches!(
-                (&formula.ty, &formula.kind),
-                (Type::Text, FormulaKind::Binary(..) | FormulaKind::Convert(..))
-            );
-            if computed {
-                *text = Some(formula::text(formula, values));
+        for (port, text) in &mut self.texts {
+            if let Some(formula) = self.formulas.get(usize::from(*port)) {
+                *text = formula.text(values);
             }
         }
         Pull { inputs: self, values }
@@ -65,72 +81,71 @@ impl Pull<'_> {
 
 impl Args for Pull<'_> {
     fn bool(&self, port: u16) -> Result<bool, Fault> {
-        formula::bool(self.formula(port)?, self.values)
+        self.formula(port)?.bool(self.values)
     }
 
     fn int(&self, port: u16) -> Result<i64, Fault> {
-        formula::int(self.formula(port)?, self.values)
+        self.formula(port)?.int(self.values)
     }
 
     #[inline]
     fn float(&self, port: u16) -> Result<f64, Fault> {
-        formula::float(self.formula(port)?, self.values)
+        self.formula(port)?.float(self.values)
     }
 
     fn text(&self, port: u16) -> Result<&str, Fault> {
-        match &self.formula(port)?.kind {
-            FormulaKind::Text(text) => Ok(text),
-            FormulaKind::Entry(entry) => match self.values.get(entry.0) {
-                Value::Text(text) => Ok(text.as_str()),
-                _ => Err(Fault::INTERNAL),
-            },
-            _ => match self.inputs.texts.get(usize::from(port)) {
-                Some(Some(Ok(text))) => Ok(text.as_str()),
-                Some(Some(Err(fault))) => Err(*fault),
-                _ => Err(Fault::INTERNAL),
-            },
+        if let Some(text) = self.formula(port)?.borrow_text(self.values) {
+            return Ok(text);
+        }
+        let made = self.inputs.texts.iter().find(|(maker, _)| *maker == port);
+        match made {
+            Some((_, Ok(text))) => Ok(text.as_str()),
+            Some((_, Err(fault))) => Err(*fault),
+            None => Err(Fault::INTERNAL),
         }
     }
 
     fn choice(&self, port: u16) -> Result<u16, Fault> {
-        formula::choice(self.formula(port)?, self.values)
+        self.formula(port)?.choice(self.values)
     }
 
     fn object(&self, port: u16) -> Result<&dyn Any, Fault> {
-        match &self.formula(port)?.kind {
-            FormulaKind::Entry(entry) => self.values.object(entry.0),
-            _ => Err(Fault::INTERNAL),
-        }
+        let entry = self.formula(port)?.entry().ok_or(Fault::INTERNAL)?;
+        self.values.object(entry)
     }
 
     fn value(&self, port: u16) -> Result<Value, Fault> {
-        formula::value(self.formula(port)?, self.values)
+        self.formula(port)?.value(self.values)
     }
 }
 
 impl<'a> Stage<'a> {
-    pub fn new(outputs: &'a [Output], staged: &'a mut Staged) -> Self {
-        Stage { outputs, staged, fault: None }
+    pub fn new(bindings: &'a [Binding], staged: &'a mut Staged) -> Self {
+        Stage { bindings, staged, fault: None }
     }
 
     /// Stages one output, converted for its entry.
     pub fn put(&mut self, port: u16, value: Value) {
-        let Some(output) = self.outputs.iter().find(|output| output.port == port) else { return };
-        let converted = match &output.conversion {
+        let Some(binding) = self.binding(port) else { return };
+        let converted = match &binding.converter {
             None => Ok(value),
-            Some(conversion) => formula::convert(conversion, value),
+            Some(converter) => converter.convert(value),
         };
-        match converted.and_then(formula::check_finite) {
-            Ok(value) => self.staged.put(output.entry.0, value),
+        match converted.and_then(check_finite) {
+            Ok(value) => self.staged.put(binding.entry, value),
             Err(fault) => self.fault = self.fault.or(Some(fault)),
         }
     }
 
     /// Stages one object output: `fill` puts it into the shadow cell.
     pub fn put_object(&mut self, port: u16, fill: impl FnOnce(&mut dyn ObjectCell)) {
-        if let Some(output) = self.outputs.iter().find(|output| output.port == port) {
-            self.staged.put_object(output.entry.0, fill);
+        if let Some(binding) = self.binding(port) {
+            self.staged.put_object(binding.entry, fill);
         }
+    }
+
+    fn binding(&self, port: u16) -> Option<&'a Binding> {
+        self.bindings.iter().find(|binding| binding.port == port)
     }
 
     /// How it went.

@@ -7,14 +7,14 @@ use afp_core::rt::{
 };
 use afp_core::trace::Sink;
 use afp_core::{Clock, Environment, Fault, PlanState, Value, ValueRef, WriteError};
-use afp_dsl::graph::{self, Component, EntryKind, Formula, Graph, Output, PlanId};
+use afp_dsl::graph::{self, Component, EntryKind, Graph, PlanId};
 use afp_dsl::types::Type;
 use afp_dsl::unfold::{self, Block};
 
 use super::config::{Config, ObjectCell};
 use super::element::{ElementSlot, Running};
-use super::formula;
-use super::outputs::{Inputs, Stage};
+use super::formula::Formula;
+use super::outputs::{Binding, Inputs, Stage};
 use super::registry::Registry;
 use super::slots::SupervisorSlot;
 use super::tables::LoadedTables;
@@ -37,7 +37,7 @@ struct EntryInfo {
 
 struct WatchSlot<E: ?Sized + 'static> {
     inputs: Inputs,
-    outputs: Vec<Output>,
+    outputs: Vec<Binding>,
     wanted: Events,
     slot: Box<dyn SupervisorSlot<E>>,
 }
@@ -230,8 +230,8 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
         wanted: Events,
     ) -> Result<WatchSlot<E>, LoadError> {
         Ok(WatchSlot {
-            inputs: Inputs::new(supervisor.inputs.clone()),
-            outputs: supervisor.outputs.clone(),
+            inputs: Inputs::new(&supervisor.inputs),
+            outputs: Binding::all(&supervisor.outputs),
             wanted,
             slot: self.find(supervisor.template, Registry::new_supervisor)?,
         })
@@ -268,9 +268,9 @@ fn initial(plan: &graph::Plan) -> Vec<(u16, Formula)> {
     };
     let mut order: Vec<_> = plan.entries.iter().enumerate().collect();
     order.sort_by_key(|(_, entry)| rank(entry.kind));
-    let formulas = order
-        .into_iter()
-        .filter_map(|(index, entry)| entry.init.clone().map(|init| (index as u16, init)));
+    let formulas = order.into_iter().filter_map(|(index, entry)| {
+        entry.init.as_ref().map(|init| (index as u16, Formula::new(init)))
+    });
     formulas.collect()
 }
 
@@ -306,7 +306,7 @@ impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {
             let given = self.entries[usize::from(*entry)].kind == EntryKind::In
                 && self.config.values.is_set(*entry);
             if !given {
-                let value = formula::finite(formula, &self.config.values)?;
+                let value = formula.finite(&self.config.values)?;
                 self.config.values.set(*entry, value, None);
             }
         }

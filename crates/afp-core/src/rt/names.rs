@@ -1,0 +1,117 @@
+//! The names of a plan as static rows, and plans that can be addressed by name.
+
+use crate::rt::plan::{PlanState, WriteError};
+use crate::trace::{
+    ComponentId, ComponentName, DEADLINE_MISSED, ERROR, EntryName, Names, TraceEntryId,
+};
+use crate::value::Value;
+
+/// The names of a generated plan, sub-plans unfolded.
+#[derive(Clone, Copy, Debug)]
+pub struct NameTable {
+    /// The components, by id.
+    pub components: &'static [ComponentRow],
+    /// The entries, by id.
+    pub entries: &'static [EntryRow],
+}
+
+/// The names of one component.
+#[derive(Clone, Copy, Debug)]
+pub struct ComponentRow {
+    /// Path, kind and template.
+    pub name: ComponentName<'static>,
+    /// States or events, each with where it leads.
+    pub outcomes: &'static [(&'static str, &'static str)],
+    /// Where `Error` or `DeadlineMissed` leads.
+    pub special: &'static str,
+    /// The input ports.
+    pub inputs: &'static [&'static str],
+}
+
+/// The names of one entry.
+#[derive(Clone, Copy, Debug)]
+pub struct EntryRow {
+    /// Path, kind, type and unit.
+    pub name: EntryName<'static>,
+    /// The values of an enum.
+    pub choices: &'static [&'static str],
+}
+
+/// A plan that people address by name: generated or loaded.
+pub trait NamedPlan: PlanState {
+    /// The names behind its ids.
+    type Names: Names;
+
+    /// The names, to be kept apart from the running plan.
+    fn names(&self) -> Self::Names;
+
+    /// Sets an `in` entry, by position, before the start.
+    ///
+    /// # Errors
+    /// Why not.
+    fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError>;
+
+    /// The position of an entry of the plan itself.
+    fn entry_named(&self, name: &str) -> Option<u16> {
+        let names = self.names();
+        let mut ids = (0..names.entries()).map(TraceEntryId);
+        let found = ids.find(|id| names.entry(*id).path == name)?;
+        u16::try_from(found.0).ok().filter(|_| !name.contains('.'))
+    }
+}
+
+impl NameTable {
+    fn row(&self, id: ComponentId) -> Option<&'static ComponentRow> {
+        self.components.get(usize::try_from(id.0).ok()?)
+    }
+
+    fn entry_row(&self, id: TraceEntryId) -> Option<&'static EntryRow> {
+        self.entries.get(usize::try_from(id.0).ok()?)
+    }
+}
+
+impl Names for NameTable {
+    fn components(&self) -> u32 {
+        self.components.len() as u32
+    }
+
+    fn component(&self, id: ComponentId) -> ComponentName<'_> {
+        self.row(id).map_or(ComponentName::NONE, |row| row.name)
+    }
+
+    fn outcome(&self, id: ComponentId, outcome: u16) -> &str {
+        match outcome {
+            DEADLINE_MISSED => "DeadlineMissed",
+            ERROR => "Error",
+            _ => {
+                let row = self.row(id).and_then(|row| row.outcomes.get(usize::from(outcome)));
+                row.map_or("", |(name, _)| name)
+            }
+        }
+    }
+
+    fn target(&self, id: ComponentId, outcome: u16) -> &str {
+        let Some(row) = self.row(id) else { return "" };
+        match outcome {
+            DEADLINE_MISSED | ERROR => row.special,
+            _ => row.outcomes.get(usize::from(outcome)).map_or("", |(_, target)| target),
+        }
+    }
+
+    fn input(&self, id: ComponentId, port: u16) -> &str {
+        self.row(id).and_then(|row| row.inputs.get(usize::from(port))).map_or("", |name| name)
+    }
+
+    fn entries(&self) -> u32 {
+        self.entries.len() as u32
+    }
+
+    fn entry(&self, id: TraceEntryId) -> EntryName<'_> {
+        self.entry_row(id).map_or(EntryName::NONE, |row| row.name)
+    }
+
+    fn choice(&self, id: TraceEntryId, value: u16) -> &str {
+        let row = self.entry_row(id).and_then(|row| row.choices.get(usize::from(value)));
+        row.map_or("", |name| name)
+    }
+}

@@ -1,0 +1,260 @@
+//! What typed components and typed plans need of the scheduler: the steps of a component's life
+//! as one call each, so that generated code reads as a list of what is started and polled.
+
+use crate::clock::Clock;
+use crate::component::{
+    Actor, ActorTemplate, Computation, ComputationTemplate, Events, Poll, Supervisor,
+    SupervisorTemplate,
+};
+use crate::fault::Fault;
+use crate::rt::formula::parse_choice;
+use crate::rt::plan::{Cx, Fired, Polled, Started, WriteError};
+use crate::rt::ports::{Outcome, Ports};
+use crate::rt::store::{Choice, Stored, Writable};
+use crate::trace::Sink;
+use crate::value::{Text, Value, ValueRef};
+
+impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
+    /// Starts an actor with its inputs.
+    ///
+    /// # Errors
+    /// The fault of an input or of the actor.
+    #[inline]
+    pub fn start_actor<'i, T, A>(
+        &mut self,
+        inputs: Result<T::Inputs<'i>, Fault>,
+    ) -> Result<A, Fault>
+    where
+        T: ActorTemplate,
+        T::Inputs<'i>: Ports,
+        A: Actor<T, E>,
+    {
+        let inputs = self.read(inputs?)?;
+        A::start(inputs, self.env, self.now)
+    }
+
+    /// Polls an actor.
+    ///
+    /// # Errors
+    /// The fault of a live input or of the actor.
+    #[inline]
+    pub fn poll_actor<'i, T, A>(
+        &mut self,
+        actor: &mut A,
+        live: Result<T::Live<'i>, Fault>,
+    ) -> Result<Poll<T::State>, Fault>
+    where
+        T: ActorTemplate,
+        T::Live<'i>: Ports,
+        A: Actor<T, E>,
+    {
+        let live = live?;
+        live.check()?;
+        actor.poll(live, self.env, self.now)
+    }
+
+    /// Interrupts an actor.
+    ///
+    /// # Errors
+    /// The fault of the actor.
+    pub fn interrupt_actor<T, A>(&mut self, actor: &mut A) -> Result<(), Fault>
+    where
+        T: ActorTemplate,
+        A: Actor<T, E>,
+    {
+        actor.interrupt(self.env, self.now)
+    }
+
+    /// Starts a supervisor with its inputs.
+    ///
+    /// # Errors
+    /// The fault of an input or of the supervisor.
+    #[inline]
+    pub fn start_supervisor<'i, T, A>(
+        &mut self,
+        inputs: Result<T::Inputs<'i>, Fault>,
+        wanted: Events,
+    ) -> Result<Option<A>, Fault>
+    where
+        T: SupervisorTemplate,
+        T::Inputs<'i>: Ports,
+        A: Supervisor<T, E>,
+    {
+        let inputs = self.read(inputs?)?;
+        A::start(inputs, wanted, self.env, self.now).map(Some)
+    }
+
+    /// Polls a supervisor.
+    ///
+    /// # Errors
+    /// The fault of a live input or of the supervisor.
+    #[inline]
+    pub fn poll_supervisor<'i, T, A>(
+        &mut self,
+        supervisor: &mut Option<A>,
+        live: Result<T::Live<'i>, Fault>,
+    ) -> Result<Option<T::Event>, Fault>
+    where
+        T: SupervisorTemplate,
+        T::Live<'i>: Ports,
+        A: Supervisor<T, E>,
+    {
+        let supervisor = supervisor.as_mut().ok_or(Fault::INTERNAL)?;
+        let live = live?;
+        live.check()?;
+        supervisor.poll(live, self.env, self.now)
+    }
+
+    /// Runs a computation.
+    ///
+    /// # Errors
+    /// The fault of an input or of the computation.
+    pub fn compute<'i, T, A>(
+        &mut self,
+        inputs: Result<T::Inputs<'i>, Fault>,
+    ) -> Result<T::State, Fault>
+    where
+        T: ComputationTemplate,
+        T::Inputs<'i>: Ports,
+        A: Computation<T>,
+    {
+        let inputs = self.read(inputs?)?;
+        A::compute(inputs)
+    }
+}
+
+impl Started {
+    /// What a computation brought; `stage` stages its outputs.
+    pub fn computed<O: Outcome>(
+        computed: Result<O, Fault>,
+        stage: impl FnOnce(O) -> Result<(), Fault>,
+    ) -> Self {
+        let done = computed.and_then(|state| {
+            let index = state.index();
+            stage(state).map(|()| index)
+        });
+        done.map_or_else(Started::Failed, Started::Done)
+    }
+}
+
+impl Polled {
+    /// What an actor's poll brought; `stage` stages its outputs.
+    #[inline]
+    pub fn actor<O: Outcome>(
+        polled: Result<Poll<O>, Fault>,
+        stage: impl FnOnce(O) -> Result<(), Fault>,
+    ) -> Self {
+        match polled {
+            Ok(Poll::Pending) => Polled::Pending,
+            Ok(Poll::Ready(state)) => {
+                let index = state.index();
+                stage(state).map_or_else(Polled::Failed, |()| Polled::Done(index))
+            }
+            Err(fault) => Polled::Failed(fault),
+        }
+    }
+}
+
+impl Fired {
+    /// What a supervisor's poll brought; `stage` stages its outputs.
+    #[inline]
+    pub fn supervisor<O: Outcome>(
+        polled: Result<Option<O>, Fault>,
+        stage: impl FnOnce(O) -> Result<(), Fault>,
+    ) -> Self {
+        match polled {
+            Ok(None) => Fired::NOTHING,
+            Ok(Some(event)) => {
+                let index = event.index();
+                Fired::event(index, stage(event))
+            }
+            Err(fault) => Fired::fault(fault),
+        }
+    }
+}
+
+/// The value, unless it is a number that is not finite.
+///
+/// # Errors
+/// [`Fault::ARITHMETIC`].
+#[inline]
+pub fn finite<T: Stored>(value: T) -> Result<T, Fault> {
+    within_value(value.as_value()).map(|()| value)
+}
+
+/// Checks that a number is finite and in its port's range.
+///
+/// # Errors
+/// [`Fault::ARITHMETIC`] or [`Fault::RANGE`].
+#[inline]
+pub fn within(value: f64, least: f64, greatest: f64) -> Result<(), Fault> {
+    if !value.is_finite() {
+        Err(Fault::ARITHMETIC)
+    } else if (least..=greatest).contains(&value) {
+        Ok(())
+    } else {
+        Err(Fault::RANGE)
+    }
+}
+
+/// Checks that an integer is in its port's range.
+///
+/// # Errors
+/// [`Fault::RANGE`].
+#[inline]
+pub fn within_int(value: i64, least: i64, greatest: i64) -> Result<(), Fault> {
+    if (least..=greatest).contains(&value) { Ok(()) } else { Err(Fault::RANGE) }
+}
+
+/// Checks that a value is no number or a finite one.
+///
+/// # Errors
+/// [`Fault::ARITHMETIC`].
+#[inline]
+pub fn within_value(value: ValueRef<'_>) -> Result<(), Fault> {
+    match value {
+        ValueRef::Float(number) if !number.is_finite() => Err(Fault::ARITHMETIC),
+        _ => Ok(()),
+    }
+}
+
+/// Keeps a computed text in `room` while inputs borrow it.
+pub fn hold(room: &mut Text, text: Text) -> &str {
+    *room = text;
+    room.as_str()
+}
+
+/// The name of an enum's value.
+///
+/// # Errors
+/// [`Fault::TOO_LONG`].
+pub fn print_choice<T: Choice>(value: T) -> Result<Text, Fault> {
+    let name = T::NAMES.get(usize::from(value.index())).ok_or(Fault::INTERNAL)?;
+    Text::try_from(*name)
+}
+
+/// The value of an enum that a text names.
+///
+/// # Errors
+/// [`Fault::CONVERSION`].
+pub fn read_choice<T: Choice>(text: &str) -> Result<T, Fault> {
+    let index = parse_choice(text, T::NAMES.iter().copied())?;
+    T::from_index(index).ok_or(Fault::INTERNAL)
+}
+
+/// Stages a value from outside that [`Writable::from_value`] lets pass.
+pub fn stage_outside<T: Writable>(staged: &mut Option<T>, value: &Value) {
+    if let Ok(value) = T::from_value(value) {
+        *staged = Some(value);
+    }
+}
+
+impl WriteError {
+    /// Whether `value` fits an entry of type `T`.
+    ///
+    /// # Errors
+    /// Why not.
+    pub fn check<T: Writable>(value: &Value) -> Result<(), WriteError> {
+        T::from_value(value).map(|_| ())
+    }
+}

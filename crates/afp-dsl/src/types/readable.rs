@@ -1,0 +1,136 @@
+//! The units that a text may carry when it becomes a quantity at run time.
+//!
+//! A running plan does not know the grammar of units; for each dimension that it reads it gets a
+//! list of all spellings with a scale. Interpreter and generated code take the same list.
+
+use crate::types::Dimension;
+use crate::types::units::{RADIANS_PER_DEGREE, Unit};
+
+/// Above this number of spellings only the SI unit is readable.
+const MAX_SPELLINGS: usize = 256;
+
+/// One spelling.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReadableUnit {
+    /// How the unit is written.
+    pub name: String,
+    /// How its numbers become SI.
+    pub scale: Scale,
+}
+
+/// How a number in some unit becomes SI; mirrors the run time's type of the same name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scale {
+    /// Shift the decimal point.
+    Decimal(i8),
+    /// Multiply.
+    Factor(f64),
+    /// Multiply by the first, then divide by the second.
+    Ratio(f64, f64),
+    /// Add.
+    Offset(f64),
+}
+
+/// All spellings of units of a dimension; none for a plain number.
+pub fn readable(dimension: Dimension) -> Vec<ReadableUnit> {
+    if dimension == Dimension::NONE {
+        return Vec::new();
+    }
+    let singles = Unit::symbols().map(str::to_owned);
+    let mut names: Vec<String> = singles.filter(|name| measures(name, dimension)).collect();
+    for name in products(dimension) {
+        if !names.contains(&name) && measures(&name, dimension) {
+            names.push(name);
+        }
+    }
+    let units = names.into_iter().filter_map(|name| {
+        let scale = scale(Unit::parse(&name)?)?;
+        Some(ReadableUnit { name, scale })
+    });
+    units.collect()
+}
+
+fn measures(name: &str, dimension: Dimension) -> bool {
+    Unit::parse(name).is_some_and(|unit| unit.dimension == dimension)
+}
+
+/// Products of single units of the base dimensions: `cm/s^2`.
+fn products(dimension: Dimension) -> Vec<String> {
+    let bases = [
+        ("length", dimension.length),
+        ("mass", dimension.mass),
+        ("angle", dimension.angle),
+        ("temperature", dimension.temperature),
+        ("voltage", dimension.voltage),
+        ("duration", dimension.time),
+    ];
+    let mut names = vec![String::new()];
+    // Positive exponents first, so that a spelling does not begin with a division.
+    for positive in [true, false] {
+        for (base, exponent) in bases {
+            if exponent == 0 || (exponent > 0) != positive {
+                continue;
+            }
+            let Some(base) = Dimension::named(base) else { continue };
+            let symbols: Vec<_> = Unit::symbols().filter(|name| measures(name, base)).collect();
+            let joined = |name: &String| {
+                symbols.iter().map(|symbol| join(name, symbol, exponent)).collect::<Vec<_>>()
+            };
+            names = names.iter().flat_map(joined).collect();
+        }
+    }
+    if names.len() > MAX_SPELLINGS { vec![dimension.si_unit()] } else { names }
+}
+
+fn join(name: &str, symbol: &str, exponent: i8) -> String {
+    match (name, exponent) {
+        ("", 1) => symbol.to_owned(),
+        ("", _) => format!("{symbol}^{exponent}"),
+        (_, 1) => format!("{name}*{symbol}"),
+        (_, -1) => format!("{name}/{symbol}"),
+        (_, 1..) => format!("{name}*{symbol}^{exponent}"),
+        (_, _) => format!("{name}/{symbol}^{}", exponent.unsigned_abs()),
+    }
+}
+
+fn scale(unit: Unit) -> Option<Scale> {
+    if unit.celsius {
+        return Some(Scale::Offset(273.15));
+    }
+    if unit.degrees == 0 && unit.numerator == unit.denominator {
+        return i8::try_from(unit.exponent).ok().map(Scale::Decimal);
+    }
+    let degrees = (0..unit.degrees.unsigned_abs()).fold(1.0, |all, _| all * RADIANS_PER_DEGREE);
+    let ten = 10f64.powi(unit.exponent.abs());
+    let up = |condition: bool, value: f64| if condition { value } else { 1.0 };
+    let times = unit.numerator as f64 * up(unit.exponent > 0, ten) * up(unit.degrees > 0, degrees);
+    let by = unit.denominator as f64 * up(unit.exponent < 0, ten) * up(unit.degrees < 0, degrees);
+    Some(if by == 1.0 { Scale::Factor(times) } else { Scale::Ratio(times, by) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Scale, readable};
+    use crate::types::Dimension;
+
+    fn scale_of(dimension: &str, name: &str) -> Option<Scale> {
+        let units = readable(Dimension::named(dimension).unwrap());
+        units.into_iter().find(|unit| unit.name == name).map(|unit| unit.scale)
+    }
+
+    #[test]
+    fn single_and_composed_units_are_readable() {
+        assert_eq!(scale_of("length", "cm"), Some(Scale::Decimal(-2)));
+        assert_eq!(scale_of("duration", "min"), Some(Scale::Factor(60.0)));
+        assert_eq!(scale_of("speed", "km/h"), Some(Scale::Ratio(1000.0, 3600.0)));
+        assert_eq!(scale_of("acceleration", "m/s^2"), Some(Scale::Decimal(0)));
+        assert_eq!(scale_of("temperature", "degC"), Some(Scale::Offset(273.15)));
+        assert_eq!(scale_of("frequency", "Hz"), Some(Scale::Decimal(0)));
+        assert_eq!(scale_of("length", "s"), None);
+    }
+
+    #[test]
+    fn plain_numbers_carry_no_unit() {
+        assert!(readable(Dimension::NONE).is_empty());
+    }
+}

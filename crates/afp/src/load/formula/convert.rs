@@ -1,0 +1,115 @@
+//! Conversions between types, with what they need to know of them.
+
+use afp_core::rt::{
+    Scale, Unit, bool_to_float, bool_to_int, float_to_int, int_to_float, parse_bool, parse_choice,
+    parse_float, parse_int, parse_quantity, print_quantity,
+};
+use afp_core::{Fault, Text, Value};
+use afp_dsl::types::readable::{self, readable};
+use afp_dsl::types::{Conversion, Type};
+
+/// A conversion ready to be applied.
+pub enum Converter {
+    IntToFloat,
+    FloatToInt,
+    BoolToInt,
+    BoolToFloat,
+    /// A quantity prints with its SI unit.
+    PrintQuantity(String),
+    /// A value of an enum prints its name.
+    PrintChoice(Vec<String>),
+    /// Everything else prints as it stands.
+    Print,
+    ReadBool,
+    ReadInt,
+    ReadFloat,
+    ReadQuantity(Vec<(String, Scale)>),
+    ReadChoice(Vec<String>),
+    ReadText,
+    /// The checker lets no such conversion pass.
+    Never,
+}
+
+impl Converter {
+    /// Looks up what the conversion needs.
+    pub fn new(conversion: &Conversion) -> Self {
+        match conversion {
+            Conversion::IntToFloat => Converter::IntToFloat,
+            Conversion::FloatToInt => Converter::FloatToInt,
+            Conversion::BoolToInt => Converter::BoolToInt,
+            Conversion::BoolToFloat => Converter::BoolToFloat,
+            Conversion::ToText(from) => match from {
+                Type::Quantity(dimension) => Converter::PrintQuantity(dimension.si_unit()),
+                Type::Enum(choices) => Converter::PrintChoice(choices.variants.clone()),
+                _ => Converter::Print,
+            },
+            Conversion::FromText(to) => match to {
+                Type::Bool => Converter::ReadBool,
+                Type::Int => Converter::ReadInt,
+                Type::Text => Converter::ReadText,
+                &Type::FLOAT => Converter::ReadFloat,
+                Type::Quantity(dimension) => {
+                    let units = readable(*dimension).into_iter();
+                    Converter::ReadQuantity(units.map(|u| (u.name, scale(u.scale))).collect())
+                }
+                Type::Enum(choices) => Converter::ReadChoice(choices.variants.clone()),
+                Type::Object(_) | Type::Any | Type::Number => Converter::Never,
+            },
+        }
+    }
+
+    /// Applies it.
+    ///
+    /// # Errors
+    /// The fault of the conversion.
+    pub fn convert(&self, value: Value) -> Result<Value, Fault> {
+        match (self, value) {
+            (Converter::IntToFloat, Value::Int(value)) => Ok(Value::Float(int_to_float(value))),
+            (Converter::FloatToInt, Value::Float(value)) => float_to_int(value).map(Value::Int),
+            (Converter::BoolToInt, Value::Bool(value)) => Ok(Value::Int(bool_to_int(value))),
+            (Converter::BoolToFloat, Value::Bool(value)) => Ok(Value::Float(bool_to_float(value))),
+            (_, Value::Text(text)) => self.read(text),
+            (_, value) => self.print(&value).map(Value::Text),
+        }
+    }
+
+    fn print(&self, value: &Value) -> Result<Text, Fault> {
+        match (self, value) {
+            (Converter::PrintQuantity(unit), Value::Float(value)) => print_quantity(*value, unit),
+            (Converter::PrintChoice(names), Value::Choice(value)) => {
+                let name = names.get(usize::from(*value)).ok_or(Fault::INTERNAL)?;
+                Text::try_from(name.as_str())
+            }
+            (Converter::Print, Value::Bool(value)) => Text::print(value),
+            (Converter::Print, Value::Int(value)) => Text::print(value),
+            _ => Err(Fault::INTERNAL),
+        }
+    }
+
+    fn read(&self, text: Text) -> Result<Value, Fault> {
+        let read = text.as_str();
+        match self {
+            Converter::ReadBool => parse_bool(read).map(Value::Bool),
+            Converter::ReadInt => parse_int(read).map(Value::Int),
+            Converter::ReadFloat => parse_float(read).map(Value::Float),
+            Converter::ReadQuantity(units) => {
+                let units = units.iter().map(|(name, scale)| Unit { name, scale: *scale });
+                parse_quantity(read, units).map(Value::Float)
+            }
+            Converter::ReadChoice(names) => {
+                parse_choice(read, names.iter().map(String::as_str)).map(Value::Choice)
+            }
+            Converter::ReadText | Converter::Print => Ok(Value::Text(text)),
+            _ => Err(Fault::INTERNAL),
+        }
+    }
+}
+
+fn scale(scale: readable::Scale) -> Scale {
+    match scale {
+        readable::Scale::Decimal(shift) => Scale::Decimal(shift),
+        readable::Scale::Factor(factor) => Scale::Factor(factor),
+        readable::Scale::Ratio(times, by) => Scale::Ratio(times, by),
+        readable::Scale::Offset(offset) => Scale::Offset(offset),
+    }
+}
