@@ -12,7 +12,8 @@ const ARRIVED: f64 = 3.0 / 180.0 * core::f64::consts::PI;
 
 /// Swings the range sensor over the lane and reports an echo from inside of it.
 ///
-/// An echo is taken to come from the beam's axis; `margin` covers the rest of the beam. The
+/// An echo is taken to come from the beam's axis; `margin` covers the rest of the beam. A wall
+/// square ahead is so reported up to 4 cm early, when the sensor looks aside. The
 /// sensor looks left, ahead, right, ahead and so on, one ping at least at each.
 #[derive(Debug)]
 pub struct CheckDrivingLane {
@@ -76,5 +77,74 @@ impl CheckDrivingLane {
         let (sin, cos) = libm::sincos(echo.bearing.si());
         let (ahead, aside) = (distance.si() * cos, distance.si() * sin);
         ahead <= reach && aside.abs() <= self.halfwidth
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fake::{Fake, Plane, plane};
+    use crate::guard::STUCK_ROTATOR;
+    use afp_core::quantity::Length;
+
+    type Template = templates::CheckDrivingLane;
+
+    /// Watches for two seconds a lane that must be free for 30 + 10 cm, 35 cm to either side.
+    fn watch(robot: &mut Fake, wanted: u64) -> Result<Option<Event>, Fault> {
+        let inputs = Inputs {
+            clearance: Length::from_si(0.1),
+            margin: Length::from_si(0.1),
+            halfwidth: Length::from_si(0.25),
+        };
+        let (now, wanted) = (robot.now, Events::from_bits(wanted));
+        let mut lane: CheckDrivingLane =
+            Supervisor::<Template, Fake>::start(inputs, wanted, robot, now)?;
+        for _ in 0..200 {
+            robot.tick();
+            let (now, live) = (robot.now, Live { distance: Length::from_si(0.3) });
+            let event = Supervisor::<Template, Fake>::poll(&mut lane, live, robot, now)?;
+            if event.is_some() {
+                return Ok(event);
+            }
+        }
+        Ok(None)
+    }
+
+    fn free(walls: &[Plane]) -> bool {
+        watch(&mut Fake::new(walls), 1) == Ok(None)
+    }
+
+    #[test]
+    fn the_lane_ends_forty_centimetres_before_the_front() {
+        assert!(!free(&[plane(0.0, 0.59)]));
+        assert!(free(&[plane(0.0, 0.65)]));
+    }
+
+    #[test]
+    fn a_wall_that_runs_beside_the_lane_does_not_block_it() {
+        assert!(free(&[plane(-90.0, 0.475)]));
+        assert!(free(&[]));
+    }
+
+    #[test]
+    fn what_is_not_heard_straight_ahead_is_found_by_swinging() {
+        let slanted = [plane(-50.0, 0.45)];
+        assert!(!free(&slanted));
+    }
+
+    #[test]
+    fn an_ignored_event_is_not_reported() {
+        assert_eq!(watch(&mut Fake::new(&[plane(0.0, 0.4)]), 0), Ok(None));
+    }
+
+    #[test]
+    fn a_dead_sensor_and_a_stuck_rotator_are_faults_and_not_free_space() {
+        let mut robot = Fake::new(&[]);
+        robot.dead_range = true;
+        assert_eq!(watch(&mut robot, 1), Err(NO_RANGE));
+        let mut robot = Fake::new(&[]);
+        robot.rotator = 0.5;
+        robot.stuck_rotator = true;
+        assert_eq!(watch(&mut robot, 1), Err(STUCK_ROTATOR));
     }
 }

@@ -23,3 +23,38 @@ impl<E: TouchSensor + ?Sized> Supervisor<templates::CheckTouchSensor, E> for Che
         Ok((pressed && self.wanted).then_some(Event::TouchSensorPressed))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fake::Fake;
+    use afp_core::Duration;
+
+    type Template = templates::CheckTouchSensor;
+
+    fn poll(robot: &mut Fake, wanted: u64, after: u64) -> Result<Option<Event>, Fault> {
+        let now = robot.now;
+        let mut watch: CheckTouchSensor =
+            Supervisor::<Template, Fake>::start(Inputs {}, Events::from_bits(wanted), robot, now)?;
+        let now = now + Duration::from_millis(after);
+        robot.now = now;
+        Supervisor::<Template, Fake>::poll(&mut watch, Live {}, robot, now)
+    }
+
+    #[test]
+    fn reports_a_wanted_press_only() {
+        let mut robot = Fake::new(&[]);
+        assert_eq!(poll(&mut robot, 1, 5), Ok(None));
+        robot.touched = true;
+        assert_eq!(poll(&mut robot, 1, 5), Ok(Some(Event::TouchSensorPressed)));
+        assert_eq!(poll(&mut robot, 0, 5), Ok(None));
+    }
+
+    #[test]
+    fn a_dead_switch_is_a_fault_after_half_a_second() {
+        let mut robot = Fake::new(&[]);
+        robot.dead_switches = true;
+        assert_eq!(poll(&mut robot, 1, 500), Ok(None));
+        assert_eq!(poll(&mut robot, 1, 501), Err(NO_TOUCH));
+    }
+}

@@ -1,1 +1,216 @@
+//! A robot for tests: it moves exactly as commanded among plane walls, and its devices can fail.
 
+use crate::devices::{
+    Beam, Body, Button, Buttons, Echo, Invalid, Motion, Navigator, Odometry, Reading,
+    RotatingTelemetry, Rotator, TouchSensor, Ultrasonic,
+};
+use crate::motion::wrap;
+use afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
+use afp_core::{Actor, ActorTemplate, Duration, Environment, Fault, Instant, Poll};
+use std::vec::Vec;
+
+/// A plane wall: the direction of its normal, away from the origin, and its distance from there.
+#[derive(Clone, Copy)]
+pub(crate) struct Plane {
+    pub(crate) normal: f64,
+    pub(crate) distance: f64,
+    /// It ends where x gets greater than this.
+    pub(crate) end: f64,
+}
+
+/// A wall without an end.
+pub(crate) fn plane(normal_deg: f64, distance: f64) -> Plane {
+    Plane { normal: normal_deg.to_radians(), distance, end: f64::INFINITY }
+}
+
+/// The robot. It starts at the origin and looks along the x axis.
+pub(crate) struct Fake {
+    pub(crate) now: Instant,
+    pub(crate) walls: Vec<Plane>,
+    pub(crate) motion: Motion,
+    pub(crate) rotator: f64,
+    pub(crate) touched: bool,
+    pub(crate) escape: bool,
+    pub(crate) dead_odometry: bool,
+    pub(crate) dead_range: bool,
+    pub(crate) dead_switches: bool,
+    pub(crate) stuck_rotator: bool,
+    /// Pings sent from this many milliseconds on hear nothing, for so many pings.
+    pub(crate) lost_pings: (u64, u64),
+    target: f64,
+    command: (f64, f64),
+    commanded: Instant,
+    echo: Reading<Echo>,
+}
+
+const FORWARD: f64 = 0.1;
+const HALF_BEAM: f64 = 15.0 / 180.0 * core::f64::consts::PI;
+
+impl Fake {
+    pub(crate) fn new(walls: &[Plane]) -> Self {
+        Fake {
+            now: Instant::ZERO,
+            walls: walls.to_vec(),
+            motion: Motion::default(),
+            rotator: 0.0,
+            touched: false,
+            escape: false,
+            dead_odometry: false,
+            dead_range: false,
+            dead_switches: false,
+            stuck_rotator: false,
+            lost_pings: (u64::MAX, 0),
+            target: 0.0,
+            command: (0.0, 0.0),
+            commanded: Instant::ZERO,
+            echo: Reading::invalid(Invalid::NotYet, Instant::ZERO),
+        }
+    }
+
+    /// What it is commanded to do: speed and turn rate.
+    pub(crate) fn command(&self) -> (f64, f64) {
+        self.command
+    }
+
+    pub(crate) fn millis(&self) -> u64 {
+        self.now.as_nanos() / 1_000_000
+    }
+
+    /// Lets ten milliseconds pass.
+    pub(crate) fn tick(&mut self) {
+        self.now = self.now + Duration::from_millis(10);
+        if self.now.since(self.commanded) > Duration::from_millis(200) {
+            self.command = (0.0, 0.0);
+        }
+        let (speed, turn) = self.command;
+        let heading = self.motion.heading.si() + turn * 0.01;
+        self.motion = Motion {
+            x: self.motion.x + Length::from_si(speed * 0.01 * heading.cos()),
+            y: self.motion.y + Length::from_si(speed * 0.01 * heading.sin()),
+            heading: Angle::from_si(heading),
+            speed: Speed::from_si(speed),
+            turn: AngularSpeed::from_si(turn),
+        };
+        if !self.stuck_rotator {
+            self.rotator += (self.target - self.rotator).clamp(-0.05, 0.05);
+        }
+        if self.millis().is_multiple_of(50) && !self.dead_range {
+            let (from, count) = self.lost_pings;
+            let lost = self.millis() >= from && self.millis() < from.saturating_add(count * 50);
+            let distance = if lost { None } else { self.hear() };
+            let echo = Echo { distance, bearing: Angle::from_si(self.rotator) };
+            self.echo = Reading::valid(echo, self.now);
+        }
+    }
+
+    fn hear(&self) -> Option<Length> {
+        let heading = self.motion.heading.si();
+        let x = self.motion.x.si() + FORWARD * heading.cos();
+        let y = self.motion.y.si() + FORWARD * heading.sin();
+        let ranges = self.walls.iter().filter(|wall| x <= wall.end).filter_map(|wall| {
+            let slant = wrap(heading + self.rotator - wall.normal).abs();
+            let square = wall.distance - x * wall.normal.cos() - y * wall.normal.sin();
+            let beyond = (slant - HALF_BEAM).max(0.0);
+            (slant < 0.75 && square > 0.0).then(|| square / beyond.cos())
+        });
+        ranges.filter(|range| *range < 4.0).reduce(f64::min).map(Length::from_si)
+    }
+
+    /// Runs an actor until it is ready, at most `seconds`; checks that it then stands.
+    pub(crate) fn run<'a, T: ActorTemplate, A: Actor<T, Fake>>(
+        &mut self,
+        inputs: T::Inputs<'_>,
+        live: impl Fn() -> T::Live<'a>,
+        seconds: u64,
+    ) -> Result<Option<T::State>, Fault> {
+        let now = self.now;
+        let mut actor = A::start(inputs, self, now)?;
+        for _ in 0..seconds * 100 {
+            self.tick();
+            let now = self.now;
+            if let Poll::Ready(state) = actor.poll(live(), self, now)? {
+                assert!(self.motion.stands(), "ready while moving: {:?}", self.motion);
+                assert_eq!(self.command, (0.0, 0.0), "ready while commanding");
+                return Ok(Some(state));
+            }
+        }
+        actor.interrupt(self, self.now)?;
+        assert_eq!(self.command, (0.0, 0.0), "interrupt does not stop");
+        Ok(None)
+    }
+}
+
+impl Environment for Fake {
+    fn stop(&mut self, now: Instant) {
+        self.halt(now);
+    }
+
+    fn emergency_stop(&mut self) {
+        self.command = (0.0, 0.0);
+    }
+}
+
+impl Navigator for Fake {
+    fn drive(&mut self, speed: Speed, turn: AngularSpeed, now: Instant) {
+        self.command = (speed.si(), turn.si());
+        self.commanded = now;
+    }
+
+    fn body(&self) -> Body {
+        Body {
+            front: Length::from_si(0.2),
+            rear: Length::from_si(0.2),
+            half_width: Length::from_si(0.175),
+        }
+    }
+}
+
+/// A reading of a device that may be dead.
+fn reading<T: Copy>(dead: bool, value: T, now: Instant) -> Reading<T> {
+    if dead { Reading::invalid(Invalid::NoAnswer, now) } else { Reading::valid(value, now) }
+}
+
+impl Odometry for Fake {
+    fn motion(&self) -> Reading<Motion> {
+        reading(self.dead_odometry, self.motion, self.now)
+    }
+}
+
+impl Ultrasonic for Fake {
+    fn echo(&self) -> Reading<Echo> {
+        self.echo
+    }
+
+    fn beam(&self) -> Beam {
+        Beam {
+            forward: Length::from_si(FORWARD),
+            opening: Angle::from_si(2.0 * HALF_BEAM),
+            min: Length::from_si(0.03),
+            max: Length::from_si(4.0),
+        }
+    }
+}
+
+impl Rotator for Fake {
+    fn point(&mut self, bearing: Angle, _: Instant) {
+        self.target = bearing.si();
+    }
+}
+
+impl RotatingTelemetry for Fake {
+    fn bearing(&self) -> Reading<Angle> {
+        Reading::valid(Angle::from_si(self.rotator), self.now)
+    }
+}
+
+impl TouchSensor for Fake {
+    fn touched(&self) -> Reading<bool> {
+        reading(self.dead_switches, self.touched, self.now)
+    }
+}
+
+impl Buttons for Fake {
+    fn pressed(&self, _: Button) -> Reading<bool> {
+        reading(self.dead_switches, self.escape, self.now)
+    }
+}

@@ -73,3 +73,40 @@ fn along(from: &Motion, to: &Motion) -> f64 {
     let (sin, cos) = libm::sincos(from.heading.si());
     (to.x - from.x).si() * cos + (to.y - from.y).si() * sin
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fake::Fake;
+
+    fn drive(robot: &mut Fake, distance: f64, seconds: u64) -> Result<Option<State>, Fault> {
+        let inputs = Inputs { distance: Length::from_si(distance), speed: Speed::from_si(0.2) };
+        robot.run::<templates::Forward, Forward>(inputs, || Live {}, seconds)
+    }
+
+    #[test]
+    fn drives_the_distance_ahead_and_back() {
+        for distance in [1.0, -0.3] {
+            let mut robot = Fake::new(&[]);
+            let state = drive(&mut robot, distance, 10);
+            let Ok(Some(State::ForwardSuccessful { driven })) = state else { panic!("{state:?}") };
+            assert!((driven.si() - distance).abs() < 0.01, "{driven:?}");
+            assert!((robot.motion.x.si() - distance).abs() < 0.01);
+        }
+    }
+
+    #[test]
+    fn an_interrupt_stops_in_the_middle() {
+        let mut robot = Fake::new(&[]);
+        assert_eq!(drive(&mut robot, 5.0, 2), Ok(None));
+        assert!(robot.motion.x.si() > 0.2);
+    }
+
+    #[test]
+    fn stands_still_without_odometry_and_faults_after_half_a_second() {
+        let mut robot = Fake::new(&[]);
+        robot.dead_odometry = true;
+        assert_eq!(drive(&mut robot, 1.0, 5), Err(NO_ODOMETRY));
+        assert_eq!((robot.command(), robot.millis()), ((0.0, 0.0), 510));
+    }
+}

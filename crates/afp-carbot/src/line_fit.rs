@@ -173,7 +173,7 @@ mod tests {
         let returns = (-12..=12).map(|step| {
             let bearing = f64::from(step * 5).to_radians();
             let slant = (bearing - normal_deg.to_radians()).abs();
-            let ripple = 0.004 * f64::from((step * 7).rem_euclid(3) - 1);
+            let ripple = 0.004 * f64::from((step * 7_i32).rem_euclid(3) - 1);
             (
                 slant,
                 Return { bearing, range: distance / (slant - HALF_BEAM).max(0.0).cos() + ripple },

@@ -11,7 +11,7 @@ use afp_core::{Actor, Fault, Instant, Poll};
 /// Turn rate is gained and lost at this many radians a second squared.
 const ACCELERATION: f64 = 3.0;
 /// The angle counts as turned when less than this many radians are left.
-const CLOSE: f64 = 0.008;
+const CLOSE: f64 = 0.005;
 
 /// Turns by an angle against the heading it starts with, by odometry.
 #[derive(Debug)]
@@ -61,5 +61,35 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Turn, E> for Turn {
     fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
         env.halt(now);
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fake::Fake;
+
+    fn turn(robot: &mut Fake, degrees: f64) -> Result<Option<State>, Fault> {
+        let speed = AngularSpeed::from_si(0.8);
+        let inputs = Inputs { angle: Angle::from_deg(degrees), speed };
+        robot.run::<templates::Turn, Turn>(inputs, || Live {}, 20)
+    }
+
+    #[test]
+    fn turns_to_either_side_and_past_half_a_turn() {
+        for degrees in [90.0, -60.0, 270.0] {
+            let mut robot = Fake::new(&[]);
+            let state = turn(&mut robot, degrees);
+            let Ok(Some(State::TurnSuccessful { turned })) = state else { panic!("{state:?}") };
+            assert!((turned.si().to_degrees() - degrees).abs() < 1.0, "{turned:?}");
+            assert_eq!(robot.motion.x.si(), 0.0);
+        }
+    }
+
+    #[test]
+    fn faults_without_odometry() {
+        let mut robot = Fake::new(&[]);
+        robot.dead_odometry = true;
+        assert_eq!(turn(&mut robot, 90.0), Err(NO_ODOMETRY));
     }
 }

@@ -8,6 +8,9 @@
 mod glance;
 mod track;
 
+#[cfg(test)]
+mod tests;
+
 use crate::devices::{Echo, Motion, Navigator, Odometry, Rotator, Ultrasonic};
 use crate::guard::{Arrival, Guard, NO_ODOMETRY, NO_RANGE};
 use crate::motion::{Ramp, wrap};

@@ -12,6 +12,8 @@ const ASIDE: f64 = 10.0 / 180.0 * core::f64::consts::PI;
 const ARRIVED: f64 = 4.0 / 180.0 * core::f64::consts::PI;
 /// Nothing farther than this is remembered, metres; silence counts as this.
 const FAR: f64 = 1.0;
+/// So many pings in a row must find silence before it is believed: one may just be lost.
+const SILENCES: u8 = 3;
 /// Speed lost in a second while braking, and how long the brakes take to bite.
 const BRAKING: f64 = 1.5;
 const LAG: f64 = 0.08;
@@ -23,12 +25,14 @@ pub(super) struct Glance {
     side: f64,
     /// Free space before the front at the last glance, and the way driven by then.
     seen: Option<(f64, f64)>,
+    /// Pings of this glance that found silence.
+    silences: u8,
 }
 
 impl Glance {
     /// Begins with a look.
     pub(super) fn new() -> Self {
-        Glance { looking: true, side: ASIDE, seen: None }
+        Glance { looking: true, side: ASIDE, seen: None, silences: 0 }
     }
 
     pub(super) fn looking(&self) -> bool {
@@ -61,11 +65,17 @@ impl Glance {
 
     /// Takes an echo that came from `bearing`, `free` metres before the front; none is silence.
     pub(super) fn hear(&mut self, bearing: f64, free: Option<f64>, driven: f64) {
-        if self.looking && (bearing - self.side).abs() < ARRIVED {
-            self.seen = Some((free.map_or(FAR, |free| free.min(FAR)), driven));
-            self.looking = false;
-            self.side = -self.side;
+        if !self.looking || (bearing - self.side).abs() >= ARRIVED {
+            return;
         }
+        self.silences = if free.is_none() { self.silences + 1 } else { 0 };
+        if free.is_none() && self.silences < SILENCES {
+            return;
+        }
+        self.seen = Some((free.map_or(FAR, |free| free.min(FAR)), driven));
+        self.silences = 0;
+        self.looking = false;
+        self.side = -self.side;
     }
 
     /// Whether braking must begin now to stand before `lanedist`.

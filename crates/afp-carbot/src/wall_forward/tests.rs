@@ -1,0 +1,106 @@
+//! Wall following among plane walls, with a robot that moves exactly as commanded.
+
+use super::*;
+use crate::fake::{Fake, Plane, plane};
+use crate::guard::STUCK_ROTATOR;
+use afp_core::quantity::Length;
+
+fn inputs(step: f64) -> Inputs {
+    Inputs {
+        walldist: Length::from_si(0.3),
+        lanedist: Length::from_si(0.3),
+        gain: 1.0,
+        tolerance: Length::from_si(0.2),
+        step: Length::from_si(step),
+        speed: Speed::from_si(0.2),
+    }
+}
+
+fn follow(robot: &mut Fake, step: f64) -> Result<Option<State>, Fault> {
+    robot.run::<templates::WallForward, WallForward>(inputs(step), || Live {}, 60)
+}
+
+/// A wall on the right, `distance` from the robot's centre.
+fn beside(distance: f64) -> Plane {
+    plane(-90.0, distance)
+}
+
+#[test]
+fn comes_to_the_distance_from_farther_and_from_nearer_and_ends_after_the_step() {
+    for start in [0.475 + 0.18, 0.475, 0.475 - 0.1] {
+        let mut robot = Fake::new(&[beside(start)]);
+        assert_eq!(follow(&mut robot, 2.0), Ok(Some(State::ForwardSuccessful)));
+        let gap = start + robot.motion.y.si() - 0.175;
+        assert!((gap - 0.3).abs() < 0.01, "from {start}: {gap}");
+        assert!(robot.motion.heading.si().abs() < 0.03, "{:?}", robot.motion);
+    }
+}
+
+#[test]
+fn follows_a_wall_that_it_was_not_quite_parallel_to() {
+    let mut robot = Fake::new(&[plane(-90.0 + 6.0, 0.475)]);
+    assert_eq!(follow(&mut robot, 3.0), Ok(Some(State::ForwardSuccessful)));
+    assert!((robot.motion.heading.si().to_degrees() - 6.0).abs() < 1.5, "{:?}", robot.motion);
+}
+
+#[test]
+fn stands_the_lane_distance_before_a_wall_ahead() {
+    let mut robot = Fake::new(&[beside(0.475), plane(0.0, 2.0)]);
+    assert_eq!(follow(&mut robot, 5.0), Ok(Some(State::LaneNotFree)));
+    let front = 2.0 - robot.motion.x.si() - 0.2;
+    assert!((0.28..0.36).contains(&front), "{front}");
+}
+
+#[test]
+fn lost_pings_do_not_open_the_lane() {
+    // Whichever two pings in a row are lost, the wall ahead is still seen in time.
+    for from in (0..9000).step_by(50) {
+        let mut robot = Fake::new(&[beside(0.475), plane(0.0, 1.5)]);
+        robot.lost_pings = (from, 2);
+        assert_eq!(follow(&mut robot, 5.0), Ok(Some(State::LaneNotFree)), "from {from}");
+        let front = 1.5 - robot.motion.x.si() - 0.2;
+        assert!(front > 0.24, "lost from {from}: {front}");
+    }
+}
+
+#[test]
+fn does_not_drive_into_what_stands_there_from_the_beginning() {
+    let mut robot = Fake::new(&[beside(0.475), plane(0.0, 0.45)]);
+    assert_eq!(follow(&mut robot, 5.0), Ok(Some(State::LaneNotFree)));
+    assert_eq!(robot.motion.x.si(), 0.0);
+}
+
+#[test]
+fn the_wall_is_lost_a_third_of_a_metre_after_its_end() {
+    let mut robot = Fake::new(&[Plane { end: 1.0, ..beside(0.475) }]);
+    assert_eq!(follow(&mut robot, 5.0), Ok(Some(State::WallLost)));
+    // The sensor is 10 cm before the centre.
+    assert!(
+        (0.9 + LOST - 0.02..0.9 + LOST + 0.1).contains(&robot.motion.x.si()),
+        "{:?}",
+        robot.motion
+    );
+    assert!(robot.motion.heading.si().abs() < 0.05);
+}
+
+#[test]
+fn a_wall_that_steps_back_is_lost_too() {
+    let near = Plane { end: 1.0, ..beside(0.475) };
+    let mut robot = Fake::new(&[near, beside(1.175)]);
+    assert_eq!(follow(&mut robot, 5.0), Ok(Some(State::WallLost)));
+}
+
+#[test]
+fn dead_devices_are_faults() {
+    let mut robot = Fake::new(&[beside(0.475)]);
+    robot.dead_range = true;
+    assert_eq!(follow(&mut robot, 5.0), Err(NO_RANGE));
+    assert_eq!(robot.motion.x.si(), 0.0, "drove without having seen the lane");
+    let mut robot = Fake::new(&[beside(0.475)]);
+    robot.dead_odometry = true;
+    assert_eq!(follow(&mut robot, 5.0), Err(NO_ODOMETRY));
+    let mut robot = Fake::new(&[beside(0.475)]);
+    robot.stuck_rotator = true;
+    robot.rotator = -1.57;
+    assert_eq!(follow(&mut robot, 5.0), Err(STUCK_ROTATOR));
+}
