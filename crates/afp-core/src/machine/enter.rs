@@ -79,6 +79,8 @@ impl<P: PlanState> Level<P> {
         P: Plan<E>,
     {
         let moment = Moment { element, look: true };
+        // Whatever ran since the last poll of a supervisor took its time too.
+        cx.step.clock = cx.clock.now(cx.now);
         for global in [true, false] {
             for &supervisor in t.sweep(row) {
                 let Some(row) = t.supervisor(supervisor) else { continue };

@@ -3,4 +3,14 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod already_there;
+mod deadlines;
+mod faults;
+mod life_cycle;
+mod livelock;
+mod look;
 mod order;
+mod outside;
+mod releases;
+mod sub_plans;
+mod trace_order;

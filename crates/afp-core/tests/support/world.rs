@@ -52,11 +52,16 @@ pub struct World {
     /// Everything that was called, as `5 interrupt go`.
     pub calls: Vec<String>,
     /// Nothing is recorded.
-    pub quiet: bool,
+    quiet: bool,
     pub clock: CostClock,
 }
 
 impl World {
+    /// A platform that records nothing.
+    pub fn quiet() -> Self {
+        World { quiet: true, ..World::default() }
+    }
+
     /// From `during.start` until before `during.end` (milliseconds) a poll brings this outcome.
     pub fn says(self, who: &'static str, outcome: u16, during: Range<u64>) -> Self {
         self.rule(who, Phase::Poll, during, Act::Outcome(outcome))

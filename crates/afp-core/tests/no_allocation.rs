@@ -1,0 +1,67 @@
+//! A million steps, transitions and commits among them, without one allocation.
+//!
+//! A test binary of its own, because it counts in the global allocator.
+#![allow(unsafe_code, reason = "a global allocator cannot be written without")]
+
+mod support;
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use afp_core::trace::NoTrace;
+use afp_core::{Scheduler, StillClock, Wake};
+
+use support::build::{actor, computation, guard, plan, sub_plan};
+use support::ms;
+use support::scripted::Scripted;
+use support::world::World;
+
+static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
+
+struct Counting;
+
+// Safety: every call goes to the system's allocator unchanged; counting touches no memory of it.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        // Safety: the caller keeps the contract of `alloc`.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, at: *mut u8, layout: Layout) {
+        // Safety: `at` came from `System` through `alloc`, with this layout.
+        unsafe { System.dealloc(at, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+#[test]
+fn a_million_steps_allocate_nothing() {
+    let inner = plan("Inner")
+        .guarded(guard("inner", 10).on("E", "terminate"))
+        .with(actor("work").on("Done", "terminate"));
+    let plan = plan("p")
+        .var("x")
+        .guarded(guard("global", 10).on("E", "terminate"))
+        .with(
+            actor("a").guarded(guard("local", 5).on("E", "c").writes("E", "x", 1)).on("Done", "c"),
+        )
+        .with(computation("c").on("Done", "s").writes("Done", "x", 2))
+        .with(sub_plan("s", inner).on("OK", "a").on("Interrupted", "a"));
+    let mut world = World::quiet()
+        .says("local", 0, 100_000..200_000)
+        .says("a", 0, 200_000..300_000)
+        .says("work", 0, 100_000..250_000)
+        .says("inner", 0, 250_000..300_000);
+    let mut scheduler = Scheduler::new(Scripted::new(plan.build()));
+    let started = scheduler.start(&mut world, &mut NoTrace, &StillClock, ms(0));
+    assert!(started.is_ok());
+    let before = ALLOCATIONS.load(Ordering::Relaxed);
+    for at in 1..=1_000_000 {
+        let wake = scheduler.step(&mut world, &mut NoTrace, &StillClock, ms(at));
+        assert!(matches!(wake, Wake::At(_)));
+    }
+    assert_eq!(ALLOCATIONS.load(Ordering::Relaxed) - before, 0);
+}

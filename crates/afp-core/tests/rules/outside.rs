@@ -1,0 +1,116 @@
+//! Writes and stop requests from outside.
+
+use afp_core::trace::{Ending, EntryKind};
+use afp_core::{MAX_WRITES_PER_STEP, StartError, Value, Wake, WriteError};
+
+use crate::support::build::{Builder, actor, guard, plan};
+use crate::support::run::{Run, assert_lines};
+use crate::support::world::{Phase, SCRIPTED, World};
+
+fn watched() -> Builder {
+    plan("p")
+        .entry("size", EntryKind::In, Value::Int(1))
+        .var("x")
+        .var("y")
+        .entry("fixed", EntryKind::Const, Value::Int(1))
+        .entry("result", EntryKind::Out, Value::Unset)
+        .with(actor("a").guarded(guard("g", 10).on("E", "a").live("x")).live("x").on("Done", "a"))
+}
+
+#[test]
+fn writes_are_one_commit_at_the_start_of_the_next_step_and_the_last_one_wins() {
+    let mut run = Run::started(watched(), World::default());
+    run.trace();
+    assert_eq!(run.write("y", 5), Ok(()));
+    assert_eq!(run.write("x", 6), Ok(()));
+    assert_eq!(run.write("x", 7), Ok(()));
+    assert_eq!(run.entry("x"), Value::Unset);
+    run.step(10);
+    assert_lines(
+        &run.trace(),
+        "0.010000 outside commits x: unset -> 7
+         0.010000 outside commits y: unset -> 5
+         0.010000 a.g polled: clear",
+    );
+    assert_eq!(run.calls("see"), ["0 see unset g", "10 see 7 g", "10 see 7 a"]);
+}
+
+#[test]
+fn a_write_is_committed_although_nothing_is_due() {
+    let mut run = Run::started(watched(), World::default());
+    run.write("size", 5).expect("it fits");
+    assert_eq!(run.step(3), Wake::At(crate::support::ms(10)));
+    assert_eq!(run.entry("size"), Value::Int(5));
+}
+
+#[test]
+fn a_write_that_does_not_fit_is_the_writers_error() {
+    let mut run = Run::started(watched(), World::default());
+    assert_eq!(run.write("fixed", 2), Err(WriteError::ReadOnly));
+    assert_eq!(run.write("result", 2), Err(WriteError::ReadOnly));
+    assert_eq!(run.scheduler.write(99, Value::Int(1)), Err(WriteError::Unknown));
+    assert_eq!(run.scheduler.write(1, Value::Bool(true)), Err(WriteError::Type));
+    run.trace();
+    run.step(5);
+    assert_eq!(run.trace(), [""; 0]);
+}
+
+#[test]
+fn a_full_queue_is_the_writers_error() {
+    let mut run = Run::started(watched(), World::default());
+    for value in 0..MAX_WRITES_PER_STEP {
+        assert_eq!(run.write("x", value as i64), Ok(()));
+    }
+    assert_eq!(run.write("x", 99), Err(WriteError::QueueFull));
+    run.step(5);
+    assert_eq!(run.entry("x"), Value::Int(MAX_WRITES_PER_STEP as i64 - 1));
+    assert_eq!(run.write("x", 99), Ok(()));
+}
+
+#[test]
+fn an_ended_plan_takes_no_writes() {
+    let mut run = Run::started(watched(), World::default());
+    run.scheduler.request_stop();
+    run.step(5);
+    assert_eq!(run.write("x", 1), Err(WriteError::Ended));
+}
+
+#[test]
+fn a_stop_request_comes_before_the_writes_and_interrupts() {
+    let mut run = Run::started(watched(), World::default().says("g", 0, 10..11));
+    run.trace();
+    run.write("x", 1).expect("it fits");
+    run.scheduler.request_stop();
+    assert_eq!(run.step(10), Wake::Ended(Ending::Interrupted));
+    assert_lines(
+        &run.trace(),
+        "0.010000 stop requested
+         0.010000 a interrupted
+         0.010000 p ended Interrupted",
+    );
+    assert_eq!((run.entry("x"), run.emergency_stops()), (Value::Unset, 0));
+}
+
+#[test]
+fn a_stop_request_whose_interrupt_fails_is_an_emergency() {
+    let mut run = Run::started(watched(), World::default().fails("a", Phase::Interrupt, 0..100));
+    run.scheduler.request_stop();
+    assert_eq!(run.step(10), Wake::Ended(Ending::Error(SCRIPTED)));
+    assert_eq!(run.emergency_stops(), 1);
+}
+
+#[test]
+fn an_input_without_value_keeps_the_plan_from_starting() {
+    let build = || {
+        plan("p")
+            .entry("size", EntryKind::In, Value::Unset)
+            .with(actor("a").reads("size").on("Done", "a"))
+    };
+    let mut run = Run::ready(build(), World::default());
+    assert_eq!(run.start(), Err(StartError::InputMissing(0)));
+    assert_eq!((run.world.calls.len(), run.trace().len()), (0, 0));
+    run.scheduler.plan_mut().set("size", Value::Int(4));
+    run.start().expect("the input is set");
+    assert_eq!(run.calls("see"), ["0 see 4 a"]);
+    assert_eq!(run.start(), Err(StartError::AlreadyStarted));
+}
