@@ -84,7 +84,7 @@ impl Simulation {
             physics.insert_collider(fixed(obstacle, at, shape.clone(), i), None);
             shapes.push((at, shape));
         }
-        let body = RigidBodyBuilder::dynamic().position(isometry(world.start)).can_sleep(false);
+        let body = RigidBodyBuilder::dynamic().pose(isometry(world.start)).can_sleep(false);
         let (body, collider) = physics.insert(body, robot());
         // Rays meet nothing before the first update of the search tree.
         physics.detect_collisions(&(), &());

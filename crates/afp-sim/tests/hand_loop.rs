@@ -45,6 +45,21 @@ fn run(seed: u64, seconds: u64) -> (Outcome, Vec<(f64, f64)>) {
         }
         let truth = sim.truth();
         let pose = truth.pose();
+        if std::env::var("DBG").is_ok()
+            && let Active::FollowWall { actor, .. } = plan.active()
+        {
+            println!(
+                "{ms} {:.3} {:.3} {:.1} gap {:.3} {:.300?}",
+                pose.x,
+                pose.y,
+                pose.heading.to_degrees(),
+                truth.right_side_gap().unwrap(),
+                format!("{:?}", sim.snapshot().sonar)
+                    + &format!("{actor:?}")
+                        .split_once("heard")
+                        .map_or(String::new(), |p| p.1.to_owned())
+            );
+        }
         trace.push((pose.x, pose.y));
         if let Active::FollowWall { since, .. } = plan.active()
             && now.since(*since) >= Duration::from_secs(2)
@@ -80,7 +95,8 @@ fn survey() {
     let world = World::parse(ROOM).unwrap();
     let seeds: u64 = std::env::var("SEEDS").map_or(3, |s| s.parse().unwrap());
     let seconds: u64 = std::env::var("SECS").map_or(60, |s| s.parse().unwrap());
-    for seed in 0..seeds {
+    let first: u64 = std::env::var("FIRST").map_or(0, |s| s.parse().unwrap());
+    for seed in first..first + seeds {
         let (out, trace) = run(seed, seconds);
         println!(
             "{seed}: bumps {} other {} mean {:.4} worst {:.3} counted {:.1} follows {}",

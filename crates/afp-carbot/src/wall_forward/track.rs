@@ -131,7 +131,7 @@ mod tests {
         let mut track = Track::new(0.0);
         for step in 0..40 {
             let x = f64::from(step) * 0.015;
-            let distance = (0.5 + (x + 0.1) * slope.tan() * -1.0) * slope.cos();
+            let distance = (0.5 - (x + 0.1) * slope.tan()) * slope.cos();
             track.add(&at(x, 0.0, 0.0), 0.1, distance);
         }
         assert!((track.heading() - slope).abs() < 0.005, "{}", track.heading());

@@ -177,8 +177,7 @@ impl Check<'_> {
     }
 
     fn near(&self, path: &[String], values: &[f64]) -> Result<(), WorldError> {
-        // Written so that NaN is refused too.
-        match values.iter().find(|value| !(value.abs() <= FARTHEST)) {
+        match values.iter().find(|value| !value.is_finite() || value.abs() > FARTHEST) {
             Some(value) => {
                 Err(self.error(path, &format!("{value} is not within {FARTHEST} of zero")))
             }

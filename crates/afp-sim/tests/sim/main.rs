@@ -1,0 +1,45 @@
+//! The simulated world and robot: what they promise to templates and judges.
+
+mod determinism;
+mod sensors;
+mod vehicle;
+mod world;
+
+use afp_carbot::devices::Navigator;
+use afp_core::quantity::{AngularSpeed, Speed};
+use afp_core::{Duration, Instant};
+use afp_sim::{Simulation, World};
+
+/// A simulation of a robot at the origin, looking along the x axis, among `obstacles` (TOML).
+fn among(obstacles: &str) -> Simulation {
+    let text = format!("version = 1\n[robot]\npose_m_deg = [0.0, 0.0, 0.0]\n{obstacles}");
+    let world = World::parse(&text).expect("the test's world is well-formed");
+    Simulation::new(&world, 1).expect("the test's world can be built")
+}
+
+/// A box of a height, by its middle and its size.
+fn the_box(middle: [f64; 2], size: [f64; 2], height: f64) -> String {
+    format!(
+        "[[box]]\npose_m_deg = [{}, {}, 0.0]\nsize_m = {size:?}\nheight_m = {height}\n",
+        middle[0], middle[1]
+    )
+}
+
+/// Lets time pass without commands.
+fn wait(sim: &mut Simulation, millis: u64) {
+    sim.advance_to(sim.now() + Duration::from_millis(millis));
+}
+
+/// Repeats a command every 10 ms for so long.
+fn drive(sim: &mut Simulation, speed: f64, turn: f64, millis: u64) {
+    for _ in 0..millis / 10 {
+        let now = sim.now();
+        sim.drive(Speed::from_si(speed), AngularSpeed::from_si(turn), now);
+        sim.advance_to(now + Duration::from_millis(10));
+    }
+}
+
+/// The instant so many milliseconds after zero.
+fn at(millis: u64) -> Instant {
+    Instant::ZERO + Duration::from_millis(millis)
+}
