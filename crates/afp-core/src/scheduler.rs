@@ -160,6 +160,39 @@ impl<P: PlanState> Scheduler<P> {
         }
     }
 
+    /// Drives the plan in virtual time up to and including `until`, from the start if it has not
+    /// started: before each step `advance` brings the platform to the step's instant.
+    ///
+    /// # Errors
+    /// [`StartError`] when it cannot start.
+    pub fn run<E, S, C>(
+        &mut self,
+        env: &mut E,
+        sink: &mut S,
+        clock: &C,
+        until: Instant,
+        mut advance: impl FnMut(&mut E, Instant),
+    ) -> Result<Wake, StartError>
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        let mut wake = match self.state {
+            State::Ready => self.start(env, sink, clock, self.last)?,
+            State::Running | State::Ended(_) => self.step(env, sink, clock, self.last),
+        };
+        while let Wake::At(at) = wake {
+            if at > until {
+                break;
+            }
+            advance(env, at);
+            wake = self.step(env, sink, clock, at);
+        }
+        Ok(wake)
+    }
+
     /// Stages a write to an `in` or `var` entry; the next step commits it.
     ///
     /// # Errors

@@ -192,6 +192,28 @@ impl Sink for NoTrace {
     fn record(&mut self, _: Instant, _: &Record<'_>) {}
 }
 
+/// Hands each record to a function.
+///
+/// ```
+/// use afp_core::trace::{Observe, Record};
+/// let mut starts = 0;
+/// let sink = Observe(|_, record: &Record<'_>| {
+///     starts += u32::from(matches!(record, Record::Started { .. }));
+/// });
+/// # let _ = sink;
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Observe<F>(
+    /// The function: time of the step, record.
+    pub F,
+);
+
+impl<F: FnMut(Instant, &Record<'_>)> Sink for Observe<F> {
+    fn record(&mut self, at: Instant, record: &Record<'_>) {
+        (self.0)(at, record);
+    }
+}
+
 impl<S: Sink + ?Sized> Sink for &mut S {
     const ENABLED: bool = S::ENABLED;
 
@@ -248,6 +270,18 @@ pub struct EntryName<'a> {
     pub ty: &'a str,
     /// The SI unit of its values, empty for plain numbers and everything else.
     pub unit: &'a str,
+}
+
+impl ComponentName<'_> {
+    /// What an unknown id is called.
+    pub const NONE: ComponentName<'static> =
+        ComponentName { path: "", kind: Kind::Actor, template: "" };
+}
+
+impl EntryName<'_> {
+    /// What an unknown id is called.
+    pub const NONE: EntryName<'static> =
+        EntryName { path: "", kind: EntryKind::Var, ty: "", unit: "" };
 }
 
 /// Who may set an entry.
