@@ -1,0 +1,44 @@
+//! The platform that everybody works on: four sensors and a motor.
+
+use afp_core::{Environment, Instant};
+
+/// Readings and a command, in memory that the optimiser cannot see into.
+#[derive(Clone, Debug)]
+pub struct Board {
+    /// One bit for each button.
+    pub buttons: u32,
+    /// Whether the bumper is pressed.
+    pub touched: bool,
+    /// Distance ahead in metres.
+    pub range: f64,
+    /// Volts.
+    pub battery: f64,
+    /// Metres driven since the start.
+    pub odometer: f64,
+    /// Speed commanded in metres a second.
+    pub command: f64,
+}
+
+impl Board {
+    /// A board on which nothing happens.
+    pub fn quiet() -> Self {
+        Board { buttons: 0, touched: false, range: 2.0, battery: 12.0, odometer: 1.0, command: 0.0 }
+    }
+}
+
+impl Environment for Board {
+    fn stop(&mut self, _: Instant) {
+        self.command = 0.0;
+    }
+
+    fn emergency_stop(&mut self) {
+        self.command = 0.0;
+    }
+}
+
+/// Drives on: the speed for the way that is left.
+#[inline]
+pub fn speed(left: f64, gain: f64) -> f64 {
+    let wanted = left * gain;
+    if wanted > 0.3 { 0.3 } else { wanted }
+}
