@@ -1,1 +1,28 @@
 //! MCAP logs of plans and robots.
+//!
+//! A [`Recorder`] takes trace records and robot data on the control path and writes them on a
+//! thread of its own; [`read`] reads a log back. The files are plain MCAP with the public Foxglove
+//! protobuf schemas and AFP's own (`proto/afp.proto`), readable without any code of ours.
+
+mod doctor;
+mod error;
+pub mod event;
+mod foxglove;
+mod names;
+pub mod proto;
+mod read;
+mod record;
+mod recorder;
+mod recover;
+pub mod robot;
+mod scan;
+pub mod statistics;
+mod write;
+
+pub use doctor::doctor;
+pub use error::LogError;
+pub use names::NameTable;
+pub use read::{LogData, TopicInfo, instant, read};
+pub use record::{Kept, OwnedRecord};
+pub use recorder::{About, FRAMES, Recorder, WhenFull, Written};
+pub use recover::{Recovered, recover, recovered_name};

@@ -1,0 +1,123 @@
+//! Finds what is wrong with a log.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use mcap::records::{MessageHeader, Record, Statistics};
+
+use crate::error::LogError;
+use crate::read::read;
+use crate::scan::{load, scan};
+
+/// Everything that is wrong with a log; empty for a sound one.
+///
+/// # Errors
+/// The file cannot be opened, or is no MCAP file from the first byte on.
+pub fn doctor(path: &Path) -> Result<Vec<String>, LogError> {
+    let bytes = load(path)?;
+    let mut doctor = Doctor::default();
+    let scanned = scan(&bytes, |record| {
+        doctor.look(record);
+        Ok(())
+    });
+    // Reading decodes AFP's own messages and knows why a log was cut short.
+    let log = read(path)?;
+    match (log.cut_short, scanned) {
+        (Some(cut), _) => doctor.found.push(cut),
+        (None, Err(error)) => doctor.found.push(error.to_string()),
+        (None, Ok(())) => doctor.compare(),
+    }
+    let lost: u64 = log.events.iter().map(|event| event.lost).sum();
+    if lost > 0 {
+        doctor.found.push(format!("{lost} records were lost while it was written"));
+    }
+    if log.facts.is_empty() {
+        doctor.found.push("it has no metadata record 'afp.run'".to_owned());
+    }
+    Ok(doctor.found)
+}
+
+#[derive(Default)]
+struct Doctor {
+    found: Vec<String>,
+    schemas: BTreeSet<u16>,
+    channels: BTreeMap<u16, Channel>,
+    messages: u64,
+    chunks: u64,
+    statistics: Option<Statistics>,
+}
+
+#[derive(Default)]
+struct Channel {
+    topic: String,
+    last: u64,
+    messages: u64,
+    went_back: bool,
+}
+
+impl Doctor {
+    fn look(&mut self, record: Record<'_>) {
+        match record {
+            Record::Header(header) if header.library.is_empty() => {
+                self.found.push("its header names no library".to_owned());
+            }
+            Record::Schema { header, .. } => {
+                if header.id == 0 {
+                    self.found.push(format!("schema '{}' has the id 0", header.name));
+                }
+                self.schemas.insert(header.id);
+            }
+            Record::Channel(channel) => {
+                let (id, topic, schema) = (channel.id, channel.topic, channel.schema_id);
+                if schema != 0 && !self.schemas.contains(&schema) {
+                    self.found.push(format!("channel {topic} names schema {schema}, unknown"));
+                }
+                self.channels.entry(id).or_insert(Channel { topic, ..Channel::default() });
+            }
+            Record::Message { header, .. } => self.message(&header),
+            Record::ChunkIndex(_) => self.chunks += 1,
+            Record::Statistics(statistics) => self.statistics = Some(statistics),
+            _ => {}
+        }
+    }
+
+    fn message(&mut self, header: &MessageHeader) {
+        self.messages += 1;
+        let Some(channel) = self.channels.get_mut(&header.channel_id) else {
+            let id = header.channel_id;
+            self.found.push(format!("a message stands before its channel {id}"));
+            return;
+        };
+        channel.messages += 1;
+        if header.log_time < channel.last && !channel.went_back {
+            channel.went_back = true;
+            self.found.push(format!("time goes back on {}", channel.topic));
+        }
+        channel.last = header.log_time;
+    }
+
+    /// The summary against what the file holds.
+    fn compare(&mut self) {
+        let Some(statistics) = &self.statistics else {
+            self.found.push("it has no statistics".to_owned());
+            return;
+        };
+        let (told, messages) = (statistics.message_count, self.messages);
+        if told != messages {
+            self.found.push(format!("its summary counts {told} messages, it holds {messages}"));
+        }
+        let (told, chunks) = (u64::from(statistics.chunk_count), self.chunks);
+        if told != chunks {
+            self.found.push(format!("its summary counts {told} chunks, its index {chunks}"));
+        }
+        for (id, channel) in &self.channels {
+            let told = statistics.channel_message_counts.get(id).copied().unwrap_or(0);
+            if told != channel.messages {
+                let Channel { topic, messages, .. } = channel;
+                self.found.push(format!(
+                    "its summary counts {told} messages on {topic}, it holds {messages}"
+                ));
+            }
+        }
+    }
+}

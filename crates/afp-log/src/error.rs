@@ -1,0 +1,59 @@
+//! Why a log cannot be written or read.
+
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+
+/// Why a log cannot be written or read.
+#[derive(Debug)]
+pub enum LogError {
+    /// The file cannot be created or given its name.
+    Create {
+        /// The log's final name.
+        path: PathBuf,
+        /// Why.
+        error: io::Error,
+    },
+    /// The file cannot be read.
+    Open {
+        /// Its name.
+        path: PathBuf,
+        /// Why.
+        error: io::Error,
+    },
+    /// The file is no MCAP file.
+    NotALog {
+        /// Its name.
+        path: PathBuf,
+    },
+    /// Writing failed, or the contents are damaged.
+    Mcap(mcap::McapError),
+    /// The writing thread died.
+    Writer,
+}
+
+impl fmt::Display for LogError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            LogError::Create { path, error } => {
+                write!(f, "cannot write the log '{}': {error}", path.display())
+            }
+            LogError::Open { path, error } => {
+                write!(f, "cannot read the log '{}': {error}", path.display())
+            }
+            LogError::NotALog { path } => {
+                write!(f, "'{}' is not an MCAP log", path.display())
+            }
+            LogError::Mcap(error) => write!(f, "the log failed: {error}"),
+            LogError::Writer => f.write_str("the thread that writes the log died"),
+        }
+    }
+}
+
+impl std::error::Error for LogError {}
+
+impl From<mcap::McapError> for LogError {
+    fn from(error: mcap::McapError) -> Self {
+        LogError::Mcap(error)
+    }
+}

@@ -1,0 +1,135 @@
+//! An owned copy of a plan's names, for threads that outlive the step that made a record.
+
+use afp_core::trace::{
+    ComponentId, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Kind, Names,
+    TraceEntryId,
+};
+
+/// A copy of all names of a plan.
+#[derive(Clone, Debug, Default)]
+pub struct NameTable {
+    components: Vec<Component>,
+    entries: Vec<Entry>,
+}
+
+#[derive(Clone, Debug)]
+struct Component {
+    path: String,
+    kind: Kind,
+    template: String,
+    /// Name and target of each outcome, then those of `DeadlineMissed` and `Error`.
+    outcomes: Vec<(String, String)>,
+    missed: (String, String),
+    error: (String, String),
+    inputs: Vec<String>,
+}
+
+#[derive(Clone, Debug)]
+struct Entry {
+    path: String,
+    kind: EntryKind,
+    ty: String,
+    unit: String,
+    choices: Vec<String>,
+}
+
+impl NameTable {
+    /// Copies the names of a plan.
+    pub fn new(names: &(impl Names + ?Sized)) -> Self {
+        let components = (0..names.components()).map(|id| Component::copy(names, ComponentId(id)));
+        let entries = (0..names.entries()).map(|id| Entry::copy(names, TraceEntryId(id)));
+        NameTable { components: components.collect(), entries: entries.collect() }
+    }
+
+    fn get(&self, id: ComponentId) -> Option<&Component> {
+        self.components.get(id.0 as usize)
+    }
+
+    fn outcomes(&self, id: ComponentId, outcome: u16) -> Option<&(String, String)> {
+        let component = self.get(id)?;
+        match outcome {
+            DEADLINE_MISSED => Some(&component.missed),
+            ERROR => Some(&component.error),
+            other => component.outcomes.get(usize::from(other)),
+        }
+    }
+}
+
+impl Component {
+    fn copy(names: &(impl Names + ?Sized), id: ComponentId) -> Self {
+        let ComponentName { path, kind, template } = names.component(id);
+        let both = |n| (names.outcome(id, n).to_owned(), names.target(id, n).to_owned());
+        Component {
+            path: path.to_owned(),
+            kind,
+            template: template.to_owned(),
+            outcomes: (0..ERROR).map(both).take_while(|(name, _)| !name.is_empty()).collect(),
+            missed: both(DEADLINE_MISSED),
+            error: both(ERROR),
+            inputs: until_empty(|port| names.input(id, port)),
+        }
+    }
+}
+
+impl Entry {
+    fn copy(names: &(impl Names + ?Sized), id: TraceEntryId) -> Self {
+        let EntryName { path, kind, ty, unit } = names.entry(id);
+        Entry {
+            path: path.to_owned(),
+            kind,
+            ty: ty.to_owned(),
+            unit: unit.to_owned(),
+            choices: until_empty(|value| names.choice(id, value)),
+        }
+    }
+}
+
+fn until_empty<'a>(name: impl Fn(u16) -> &'a str) -> Vec<String> {
+    (0..u16::MAX).map(name).take_while(|name| !name.is_empty()).map(str::to_owned).collect()
+}
+
+fn text(found: Option<&String>) -> &str {
+    found.map_or("", String::as_str)
+}
+
+impl Names for NameTable {
+    fn components(&self) -> u32 {
+        self.components.len() as u32
+    }
+
+    fn component(&self, id: ComponentId) -> ComponentName<'_> {
+        match self.get(id) {
+            Some(Component { path, kind, template, .. }) => {
+                ComponentName { path, kind: *kind, template }
+            }
+            None => ComponentName::NONE,
+        }
+    }
+
+    fn outcome(&self, id: ComponentId, outcome: u16) -> &str {
+        text(self.outcomes(id, outcome).map(|(name, _)| name))
+    }
+
+    fn target(&self, id: ComponentId, outcome: u16) -> &str {
+        text(self.outcomes(id, outcome).map(|(_, target)| target))
+    }
+
+    fn input(&self, id: ComponentId, port: u16) -> &str {
+        text(self.get(id).and_then(|component| component.inputs.get(usize::from(port))))
+    }
+
+    fn entries(&self) -> u32 {
+        self.entries.len() as u32
+    }
+
+    fn entry(&self, id: TraceEntryId) -> EntryName<'_> {
+        match self.entries.get(id.0 as usize) {
+            Some(Entry { path, kind, ty, unit, .. }) => EntryName { path, kind: *kind, ty, unit },
+            None => EntryName::NONE,
+        }
+    }
+
+    fn choice(&self, id: TraceEntryId, value: u16) -> &str {
+        text(self.entries.get(id.0 as usize).and_then(|e| e.choices.get(usize::from(value))))
+    }
+}

@@ -1,0 +1,149 @@
+//! Reads a log back, whole or cut short.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use afp_core::Instant;
+use mcap::records::Record;
+use prost::Message;
+use prost_types::Timestamp;
+
+use crate::error::LogError;
+use crate::proto::afp::{Configuration, PlanEvent, PlanTable};
+use crate::proto::foxglove::PoseInFrame;
+use crate::robot::Pose2;
+use crate::scan::{load, scan};
+
+/// What a log holds, as far as AFP knows it.
+#[derive(Clone, Debug, Default)]
+pub struct LogData {
+    /// The metadata record `afp.run`.
+    pub facts: BTreeMap<String, String>,
+    /// The attachments that are text, by name.
+    pub attachments: BTreeMap<String, String>,
+    /// What the plan consists of.
+    pub table: PlanTable,
+    /// What happened, in order.
+    pub events: Vec<PlanEvent>,
+    /// The configuration at the start and after each commit.
+    pub configurations: Vec<Configuration>,
+    /// Where the robot was.
+    pub poses: Vec<(Instant, Pose2)>,
+    /// The channels by topic.
+    pub topics: BTreeMap<String, TopicInfo>,
+    /// The size of the file in bytes.
+    pub bytes: u64,
+    /// The first and the last message.
+    pub span: Option<(Instant, Instant)>,
+    /// Why the log ends before its end, when it does.
+    pub cut_short: Option<String>,
+}
+
+/// What is known of a channel.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TopicInfo {
+    /// The name of its schema.
+    pub schema: String,
+    /// How many messages it has.
+    pub messages: u64,
+}
+
+/// Reads a log, as far as it goes: one that was cut short yields what it holds.
+///
+/// # Errors
+/// The file cannot be opened, or is no MCAP file from the first byte on.
+pub fn read(path: &Path) -> Result<LogData, LogError> {
+    let bytes = load(path)?;
+    let mut reader = Reader::default();
+    let scanned = scan(&bytes, |record| {
+        reader.take(record);
+        Ok(())
+    });
+    let mut log = reader.log;
+    log.bytes = bytes.len() as u64;
+    if let Err(error) = scanned {
+        let cut = match (reader.footer, error) {
+            (false, LogError::Mcap(mcap::McapError::UnexpectedEof)) => {
+                "it has no footer: the run ended before the log was closed".to_owned()
+            }
+            (_, error) => error.to_string(),
+        };
+        log.cut_short.get_or_insert(cut);
+    }
+    Ok(log)
+}
+
+/// The instant of a protobuf time stamp; one before zero counts as zero.
+pub fn instant(time: &Option<Timestamp>) -> Instant {
+    let Some(Timestamp { seconds, nanos }) = *time else { return Instant::ZERO };
+    let (seconds, nanos) = (u64::try_from(seconds), u64::try_from(nanos));
+    let (seconds, nanos) = (seconds.unwrap_or(0), nanos.unwrap_or(0));
+    Instant::from_nanos(seconds.saturating_mul(1_000_000_000).saturating_add(nanos))
+}
+
+#[derive(Default)]
+struct Reader {
+    log: LogData,
+    schemas: BTreeMap<u16, String>,
+    channels: BTreeMap<u16, String>,
+    footer: bool,
+}
+
+impl Reader {
+    fn take(&mut self, record: Record<'_>) {
+        match record {
+            Record::Schema { header, .. } => {
+                self.schemas.insert(header.id, header.name);
+            }
+            Record::Channel(channel) => {
+                let schema = self.schemas.get(&channel.schema_id).cloned().unwrap_or_default();
+                let topic = self.log.topics.entry(channel.topic.clone()).or_default();
+                topic.schema = schema;
+                self.channels.insert(channel.id, channel.topic);
+            }
+            Record::Message { header, data } => {
+                let Some(topic) = self.channels.get(&header.channel_id).cloned() else { return };
+                if let Some(info) = self.log.topics.get_mut(&topic) {
+                    info.messages += 1;
+                }
+                let at = Instant::from_nanos(header.log_time);
+                let (first, last) = self.log.span.unwrap_or((at, at));
+                self.log.span = Some((first.min(at), last.max(at)));
+                if let Err(error) = self.message(&topic, at, &data) {
+                    let said = format!("a message on {topic} does not decode: {error}");
+                    self.log.cut_short.get_or_insert(said);
+                }
+            }
+            Record::Metadata(metadata) if metadata.name == "afp.run" => {
+                self.log.facts = metadata.metadata;
+            }
+            Record::Attachment { header, data, .. } => {
+                if let Ok(text) = String::from_utf8(data.into_owned()) {
+                    self.log.attachments.insert(header.name, text);
+                }
+            }
+            Record::Footer(_) => self.footer = true,
+            _ => {}
+        }
+    }
+
+    fn message(&mut self, topic: &str, at: Instant, data: &[u8]) -> Result<(), prost::DecodeError> {
+        match topic {
+            "/plan/events" => self.log.events.push(PlanEvent::decode(data)?),
+            "/plan/configuration" => self.log.configurations.push(Configuration::decode(data)?),
+            "/plan/table" => self.log.table = PlanTable::decode(data)?,
+            "/robot/pose" => {
+                let message = PoseInFrame::decode(data)?;
+                self.log.poses.extend(pose(&message).map(|pose| (at, pose)));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+fn pose(message: &PoseInFrame) -> Option<Pose2> {
+    let pose = message.pose.as_ref()?;
+    let (at, turned) = (pose.position.as_ref()?, pose.orientation.as_ref()?);
+    Some(Pose2 { x: at.x, y: at.y, heading: 2.0 * libm::atan2(turned.z, turned.w) })
+}

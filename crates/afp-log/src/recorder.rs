@@ -1,0 +1,258 @@
+//! The control side of a log: a trace sink and a handful of robot channels, all behind one
+//! bounded queue.
+//!
+//! Recording copies a few hundred bytes into the queue and returns. A thread of its own turns
+//! them into messages and writes them.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration as Span, Instant as Wall};
+
+use afp_core::trace::{Record, Sink, TraceEntryId};
+use afp_core::{Instant, Value, ValueRef};
+use rtrb::{Consumer, Producer, PushError, RingBuffer};
+
+use crate::error::LogError;
+use crate::names::NameTable;
+use crate::record::OwnedRecord;
+use crate::robot::{Level, Pose2, Ranging, Shape, Transform};
+use crate::write::LogFile;
+
+/// Frames in one message of [`Recorder::transforms`].
+pub const FRAMES: usize = 3;
+
+/// Items that the queue holds: a second of a busy plan.
+const CAPACITY: usize = 8192;
+/// How often the file is brought up to date, so that a crash loses little.
+const FLUSH_EVERY: Span = Span::from_millis(250);
+/// How long the writer rests when there is nothing to do.
+const REST: Span = Span::from_micros(500);
+
+/// What to do when the writer cannot keep up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WhenFull {
+    /// Drop the item and count it: control must not wait for a disk.
+    Drop,
+    /// Wait for the writer: simulated time stands still meanwhile.
+    Wait,
+}
+
+/// What a log says of the run before its first message.
+#[derive(Clone, Debug, Default)]
+pub struct About {
+    /// The metadata record `afp.run`: `plan`, `plan_hash`, `seed`, `world` and so on.
+    pub facts: Vec<(String, String)>,
+    /// Name, media type and text of each attachment.
+    pub attachments: Vec<(String, &'static str, String)>,
+}
+
+/// A log that was closed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// Where it is.
+    pub path: PathBuf,
+    /// Its size.
+    pub bytes: u64,
+    /// Items that were dropped because the writer could not keep up.
+    pub lost: u64,
+}
+
+/// What goes through the queue.
+pub(crate) enum Item {
+    Record(OwnedRecord),
+    Initial { entry: TraceEntryId, value: Value },
+    Started(Instant),
+    Lost { at: Instant, count: u64 },
+    Transforms { at: Instant, transforms: [Transform; FRAMES] },
+    Pose { at: Instant, frame: &'static str, pose: Pose2 },
+    Ranging { at: Instant, ranging: Ranging },
+    Scene { at: Instant, shapes: Box<[Shape]> },
+    Text { at: Instant, level: Level, name: &'static str, text: Box<str> },
+}
+
+impl Item {
+    fn at(&self) -> Option<Instant> {
+        match self {
+            Item::Record(owned) => Some(owned.at),
+            Item::Initial { .. } => None,
+            Item::Started(at)
+            | Item::Lost { at, .. }
+            | Item::Transforms { at, .. }
+            | Item::Pose { at, .. }
+            | Item::Ranging { at, .. }
+            | Item::Scene { at, .. }
+            | Item::Text { at, .. } => Some(*at),
+        }
+    }
+}
+
+/// Records a run into an MCAP file.
+///
+/// The file is `NAME.part` until [`Recorder::finish`]; dropped without it, the file is closed in
+/// order but keeps that name.
+pub struct Recorder {
+    queue: Producer<Item>,
+    when_full: WhenFull,
+    lost: u64,
+    /// Of those, the ones that the log does not mention yet.
+    untold: u64,
+    end: Arc<End>,
+    thread: Option<JoinHandle<Outcome>>,
+}
+
+type Outcome = Result<(PathBuf, u64), LogError>;
+
+/// What the writer learns at the end.
+#[derive(Default)]
+struct End {
+    state: AtomicU8,
+    untold: AtomicU64,
+}
+
+const RUN: u8 = 0;
+const CLOSE: u8 = 1;
+const ABANDON: u8 = 2;
+
+impl Recorder {
+    /// Creates the log and starts its writer.
+    ///
+    /// # Errors
+    /// [`LogError::Create`] when the file cannot be made.
+    pub fn create(
+        path: &Path,
+        about: &About,
+        names: NameTable,
+        when_full: WhenFull,
+    ) -> Result<Self, LogError> {
+        let file = LogFile::create(path, about, names)?;
+        let (queue, items) = RingBuffer::new(CAPACITY);
+        let end = Arc::new(End::default());
+        let seen = Arc::clone(&end);
+        let thread = thread::Builder::new()
+            .name("afp-log".into())
+            .spawn(move || write_all(file, items, &seen))
+            .map_err(|error| LogError::Create { path: path.to_owned(), error })?;
+        Ok(Recorder { queue, when_full, lost: 0, untold: 0, end, thread: Some(thread) })
+    }
+
+    /// The value of an entry when the plan starts; call [`Recorder::started`] after the last.
+    pub fn initial(&mut self, entry: TraceEntryId, value: ValueRef<'_>) {
+        self.push(Item::Initial { entry, value: value.to_owned() }, Instant::ZERO);
+    }
+
+    /// Writes the configuration that the plan starts with.
+    pub fn started(&mut self, at: Instant) {
+        self.push(Item::Started(at), at);
+    }
+
+    /// Where the robot's frames stand.
+    pub fn transforms(&mut self, at: Instant, transforms: [Transform; FRAMES]) {
+        self.push(Item::Transforms { at, transforms }, at);
+    }
+
+    /// Where the robot is.
+    pub fn pose(&mut self, at: Instant, frame: &'static str, pose: Pose2) {
+        self.push(Item::Pose { at, frame, pose }, at);
+    }
+
+    /// What a range sensor says.
+    pub fn ranging(&mut self, at: Instant, ranging: Ranging) {
+        self.push(Item::Ranging { at, ranging }, at);
+    }
+
+    /// What stands in the room; allocates, so meant for the start.
+    pub fn scene(&mut self, at: Instant, shapes: Vec<Shape>) {
+        self.push(Item::Scene { at, shapes: shapes.into() }, at);
+    }
+
+    /// A line for people; allocates, so not for use within a step.
+    pub fn text(&mut self, at: Instant, level: Level, name: &'static str, text: &str) {
+        self.push(Item::Text { at, level, name, text: text.into() }, at);
+    }
+
+    /// Items dropped so far because the writer could not keep up.
+    pub fn lost(&self) -> u64 {
+        self.lost
+    }
+
+    /// Waits for the writer and gives the log its name.
+    ///
+    /// # Errors
+    /// The first failure of the writer; what it wrote before stays in `NAME.part`.
+    pub fn finish(mut self) -> Result<Written, LogError> {
+        let (path, bytes) = self.close(CLOSE).unwrap_or(Err(LogError::Writer))?;
+        Ok(Written { path, bytes, lost: self.lost })
+    }
+
+    fn push(&mut self, item: Item, at: Instant) {
+        if self.untold > 0 && self.queue.slots() > 1 {
+            let count = std::mem::take(&mut self.untold);
+            // There is room: only this thread fills the queue.
+            let _ = self.queue.push(Item::Lost { at, count });
+        }
+        let mut item = item;
+        while let Err(PushError::Full(back)) = self.queue.push(item) {
+            if self.when_full == WhenFull::Drop || self.queue.is_abandoned() {
+                self.lost += 1;
+                self.untold += 1;
+                return;
+            }
+            item = back;
+            thread::sleep(REST / 4);
+        }
+    }
+
+    /// `None` when there is no writer any more.
+    fn close(&mut self, how: u8) -> Option<Outcome> {
+        let thread = self.thread.take()?;
+        self.end.untold.store(self.untold, Ordering::Relaxed);
+        self.end.state.store(how, Ordering::Release);
+        Some(thread.join().unwrap_or(Err(LogError::Writer)))
+    }
+}
+
+impl Sink for Recorder {
+    fn record(&mut self, at: Instant, record: &Record<'_>) {
+        self.push(Item::Record(OwnedRecord::new(at, record)), at);
+    }
+}
+
+impl Drop for Recorder {
+    fn drop(&mut self) {
+        // Nobody is left to tell of a failure; whoever wants to know calls `finish`.
+        let _ = self.close(ABANDON);
+    }
+}
+
+/// The writer: the queue into the file until the recorder says that it is over.
+fn write_all(mut file: LogFile, mut items: Consumer<Item>, end: &End) -> Outcome {
+    let mut flushed = Wall::now();
+    let mut last = Instant::ZERO;
+    let mut failure = None;
+    loop {
+        let state = end.state.load(Ordering::Acquire);
+        let mut idle = true;
+        while let Ok(item) = items.pop() {
+            idle = false;
+            last = item.at().unwrap_or(last);
+            if failure.is_none() {
+                failure = file.write(&item).err();
+            }
+        }
+        if failure.is_none() && flushed.elapsed() >= FLUSH_EVERY {
+            failure = file.flush().err();
+            flushed = Wall::now();
+        }
+        if idle && state != RUN {
+            return match failure {
+                Some(failure) => Err(failure),
+                None => file.finish(state == CLOSE, last, end.untold.load(Ordering::Relaxed)),
+            };
+        }
+        if idle {
+            thread::sleep(REST);
+        }
+    }
+}

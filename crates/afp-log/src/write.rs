@@ -1,0 +1,233 @@
+//! The file side of a log: schemas, channels, attachments, and one method per kind of message.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use afp_core::Instant;
+use afp_core::trace::{Author, Names, Record, TraceEntryId};
+use mcap::records::{MessageHeader, Metadata};
+use mcap::{Attachment, Compression, WriteOptions, Writer};
+use prost::Message;
+
+use crate::error::LogError;
+use crate::names::NameTable;
+use crate::proto::afp::{Configuration, Entry, PlanEvent};
+use crate::proto::{AFP_SET, FOXGLOVE_SET};
+use crate::recorder::{About, Item};
+use crate::{event, foxglove};
+
+/// Uncompressed bytes after which a chunk is closed.
+const CHUNK: u64 = 256 * 1024;
+
+/// A channel of a log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Topic {
+    Events,
+    Configuration,
+    Table,
+    Transforms,
+    Pose,
+    Ultrasonic,
+    Scene,
+    Log,
+}
+
+/// Topic, schema and the descriptors that explain it, in the order of [`Topic`].
+const CHANNELS: [(&str, &str, &[u8]); 8] = [
+    ("/plan/events", "afp.PlanEvent", AFP_SET),
+    ("/plan/configuration", "afp.Configuration", AFP_SET),
+    ("/plan/table", "afp.PlanTable", AFP_SET),
+    ("/tf", "foxglove.FrameTransforms", FOXGLOVE_SET),
+    ("/robot/pose", "foxglove.PoseInFrame", FOXGLOVE_SET),
+    ("/robot/ultrasonic", "foxglove.LaserScan", FOXGLOVE_SET),
+    ("/scene", "foxglove.SceneUpdate", FOXGLOVE_SET),
+    ("/log", "foxglove.Log", FOXGLOVE_SET),
+];
+
+/// A log that is being written, under its name with `.part` appended.
+pub(crate) struct LogFile {
+    writer: Writer<BufWriter<File>>,
+    ids: [u16; CHANNELS.len()],
+    counts: [u32; CHANNELS.len()],
+    part: PathBuf,
+    path: PathBuf,
+    names: NameTable,
+    entries: Vec<Entry>,
+    /// The commit whose entries are being collected.
+    commit: Option<(Instant, Author)>,
+    buffer: Vec<u8>,
+}
+
+impl LogFile {
+    pub(crate) fn create(path: &Path, about: &About, names: NameTable) -> Result<Self, LogError> {
+        let mut part = path.as_os_str().to_owned();
+        part.push(".part");
+        let part = PathBuf::from(part);
+        let failed = |error| LogError::Create { path: path.to_owned(), error };
+        let file = File::create(&part).map_err(failed)?;
+        let writer = WriteOptions::new()
+            .compression(Some(Compression::Lz4))
+            .chunk_size(Some(CHUNK))
+            .disable_seeking(true)
+            .library(concat!("afp ", env!("CARGO_PKG_VERSION")))
+            .create(BufWriter::new(file))?;
+        let unset = |id| event::entry(&names, TraceEntryId(id), afp_core::ValueRef::Unset);
+        let entries = (0..names.entries()).map(unset).collect();
+        let mut log = LogFile {
+            writer,
+            ids: [0; CHANNELS.len()],
+            counts: [0; CHANNELS.len()],
+            part,
+            path: path.to_owned(),
+            names,
+            entries,
+            commit: None,
+            buffer: Vec::new(),
+        };
+        log.describe(about)?;
+        Ok(log)
+    }
+
+    /// Schemas, channels, what ran and from what text; all before the first message, so that a
+    /// log cut short still has them.
+    fn describe(&mut self, about: &About) -> Result<(), LogError> {
+        for (id, (topic, schema, set)) in self.ids.iter_mut().zip(CHANNELS) {
+            let schema = self.writer.add_schema(schema, "protobuf", set)?;
+            *id = self.writer.add_channel(schema, topic, "protobuf", &BTreeMap::new())?;
+        }
+        let metadata = about.facts.iter().cloned().collect();
+        self.writer.write_metadata(&Metadata { name: "afp.run".into(), metadata })?;
+        for (name, media_type, text) in &about.attachments {
+            self.writer.attach(&Attachment {
+                log_time: 0,
+                create_time: 0,
+                name: name.clone(),
+                media_type: (*media_type).to_owned(),
+                data: text.as_bytes().into(),
+            })?;
+        }
+        self.send(Topic::Table, Instant::ZERO, &event::table(&self.names))?;
+        self.flush()
+    }
+
+    pub(crate) fn write(&mut self, item: &Item) -> Result<(), LogError> {
+        match item {
+            Item::Record(owned) => self.record(owned.at, &owned.get()),
+            Item::Initial { entry, value } => {
+                self.set(*entry, value.borrow());
+                Ok(())
+            }
+            Item::Started(at) => self.configuration(*at, String::new()),
+            Item::Lost { at, count } => self.lost(*at, *count),
+            Item::Transforms { at, transforms } => {
+                self.send(Topic::Transforms, *at, &foxglove::transforms(*at, transforms))
+            }
+            Item::Pose { at, frame, pose } => {
+                self.send(Topic::Pose, *at, &foxglove::pose(*at, frame, *pose))
+            }
+            Item::Ranging { at, ranging } => {
+                self.send(Topic::Ultrasonic, *at, &foxglove::ranging(*at, ranging))
+            }
+            Item::Scene { at, shapes } => {
+                self.send(Topic::Scene, *at, &foxglove::scene(*at, shapes))
+            }
+            Item::Text { at, level, name, text } => {
+                self.send(Topic::Log, *at, &foxglove::text(*at, *level, name, text))
+            }
+        }
+    }
+
+    fn record(&mut self, at: Instant, record: &Record<'_>) -> Result<(), LogError> {
+        match *record {
+            Record::Committed { author, entry, new, .. } => {
+                if self.commit.is_some_and(|open| open != (at, author)) {
+                    self.close_commit()?;
+                }
+                self.set(entry, new);
+                self.commit = Some((at, author));
+            }
+            _ => self.close_commit()?,
+        }
+        self.send(Topic::Events, at, &event::describe(at, record, &self.names))
+    }
+
+    fn set(&mut self, entry: TraceEntryId, value: afp_core::ValueRef<'_>) {
+        let new = event::entry(&self.names, entry, value);
+        if let Some(kept) = self.entries.get_mut(entry.0 as usize) {
+            *kept = new;
+        }
+    }
+
+    fn close_commit(&mut self) -> Result<(), LogError> {
+        match self.commit.take() {
+            None => Ok(()),
+            Some((at, author)) => self.configuration(at, event::author(&self.names, author)),
+        }
+    }
+
+    fn configuration(&mut self, at: Instant, author: String) -> Result<(), LogError> {
+        let entries = self.entries.clone();
+        let time = Some(event::timestamp(at));
+        self.send(Topic::Configuration, at, &Configuration { time, author, entries })
+    }
+
+    fn lost(&mut self, at: Instant, count: u64) -> Result<(), LogError> {
+        let lost = PlanEvent {
+            time: Some(event::timestamp(at)),
+            kind: crate::proto::afp::plan_event::Kind::Lost.into(),
+            lost: count,
+            ..PlanEvent::default()
+        };
+        self.send(Topic::Events, at, &lost)
+    }
+
+    fn send(&mut self, topic: Topic, at: Instant, message: &impl Message) -> Result<(), LogError> {
+        self.buffer.clear();
+        // A Vec grows as needed; only a fixed buffer could be too short.
+        let _ = message.encode(&mut self.buffer);
+        let time = at.as_nanos();
+        let sequence = &mut self.counts[topic as usize];
+        let header = MessageHeader {
+            channel_id: self.ids[topic as usize],
+            sequence: *sequence,
+            log_time: time,
+            publish_time: time,
+        };
+        *sequence = sequence.wrapping_add(1);
+        Ok(self.writer.write_to_known_channel(&header, &self.buffer)?)
+    }
+
+    /// Closes the open chunk and hands it to the operating system.
+    pub(crate) fn flush(&mut self) -> Result<(), LogError> {
+        Ok(self.writer.flush()?)
+    }
+
+    /// Writes the index and, when the run ended in order, gives the log its name.
+    ///
+    /// `untold` records got lost after those that the log already mentions. Returns the file's
+    /// path and its size in bytes.
+    pub(crate) fn finish(
+        mut self,
+        in_order: bool,
+        last: Instant,
+        untold: u64,
+    ) -> Result<(PathBuf, u64), LogError> {
+        self.close_commit()?;
+        if untold > 0 {
+            self.lost(last, untold)?;
+        }
+        self.writer.finish()?;
+        let mut file = self.writer.into_inner();
+        let failed = |error| LogError::Create { path: self.path.clone(), error };
+        file.flush().map_err(failed)?;
+        file.get_ref().sync_data().map_err(failed)?;
+        if in_order {
+            fs::rename(&self.part, &self.path).map_err(failed)?;
+        }
+        let path = if in_order { self.path.clone() } else { self.part.clone() };
+        let bytes = fs::metadata(&path).map_err(failed)?.len();
+        Ok((path, bytes))
+    }
+}

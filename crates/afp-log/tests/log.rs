@@ -1,0 +1,268 @@
+//! A log is written, read back, cut short, recovered.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use afp_core::trace::{
+    Author, Cause, ComponentId, ComponentName, Ending, EntryKind, EntryName, Kind, Names, Record,
+    Sink, TraceEntryId, Verdict,
+};
+use afp_core::{Duration, Instant, ValueRef};
+use afp_log::proto::afp::plan_event;
+use afp_log::robot::{Level, Pose2, Ranging, Shape, Transform};
+use afp_log::statistics::statistics;
+use afp_log::{
+    About, LogError, NameTable, Recorder, WhenFull, doctor, read, recover, recovered_name,
+};
+
+/// A plan of one actor with one supervisor and two entries.
+struct Names1;
+
+impl Names for Names1 {
+    fn components(&self) -> u32 {
+        3
+    }
+
+    fn component(&self, id: ComponentId) -> ComponentName<'_> {
+        let (path, kind, template) = match id.0 {
+            0 => ("Walk", Kind::Plan, "Walk"),
+            1 => ("go", Kind::Actor, "Forward"),
+            2 => ("go.touch", Kind::Supervisor, "CheckTouchSensor"),
+            _ => return ComponentName::NONE,
+        };
+        ComponentName { path, kind, template }
+    }
+
+    fn outcome(&self, id: ComponentId, outcome: u16) -> &str {
+        match (id.0, outcome) {
+            (1, 0) => "ForwardSuccessful",
+            (2, 0) => "TouchSensorPressed",
+            _ => "",
+        }
+    }
+
+    fn target(&self, id: ComponentId, outcome: u16) -> &str {
+        match (id.0, outcome) {
+            (1, 0) => "terminate",
+            (2, 0) => "go",
+            _ => "",
+        }
+    }
+
+    fn input(&self, id: ComponentId, port: u16) -> &str {
+        if (id.0, port) == (1, 0) { "distance" } else { "" }
+    }
+
+    fn entries(&self) -> u32 {
+        2
+    }
+
+    fn entry(&self, id: TraceEntryId) -> EntryName<'_> {
+        match id.0 {
+            0 => EntryName { path: "far", kind: EntryKind::In, ty: "length", unit: "m" },
+            1 => EntryName { path: "side", kind: EntryKind::Var, ty: "Side", unit: "" },
+            _ => EntryName::NONE,
+        }
+    }
+
+    fn choice(&self, id: TraceEntryId, value: u16) -> &str {
+        match (id.0, value) {
+            (1, 0) => "left",
+            (1, 1) => "right",
+            _ => "",
+        }
+    }
+}
+
+fn about() -> About {
+    let facts = [("plan", "Walk"), ("seed", "7")];
+    About {
+        facts: facts.map(|(key, value)| (key.to_owned(), value.to_owned())).to_vec(),
+        attachments: vec![("walk.afp".into(), "text/plain", "plan Walk {}".into())],
+    }
+}
+
+fn at(millis: u64) -> Instant {
+    Instant::from_nanos(millis * 1_000_000)
+}
+
+fn run(log: &mut Recorder) {
+    let (go, touch) = (ComponentId(1), ComponentId(2));
+    log.initial(TraceEntryId(0), ValueRef::Float(0.3));
+    log.started(at(0));
+    let square = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let (id, frame, color) = ("box".into(), "world", [0.5, 0.5, 0.5, 1.0]);
+    log.scene(at(0), vec![Shape { id, frame, outline: square, height: 0.4, color }]);
+    log.record(at(0), &Record::Started { component: go });
+    for n in 1..=2000 {
+        let now = at(n);
+        log.record(now, &Record::Polled { supervisor: touch, verdict: Verdict::Clear });
+        let pose = Pose2 { x: n as f64 * 0.001, y: 0.5, heading: 0.25 };
+        if n % 50 == 0 {
+            log.pose(now, "world", pose);
+            let frames = ["odom", "base", "sonar"];
+            log.transforms(
+                now,
+                frames.map(|child| Transform { parent: "world", child, pose, height: 0.1 }),
+            );
+            let range = (n % 100 == 0).then_some(1.5);
+            log.ranging(now, Ranging { frame: "sonar", half_angle: 0.13, range });
+        }
+    }
+    let (lateness, cause) = (Duration::from_millis(3), Cause::LongPoll);
+    log.record(at(2001), &Record::Missed { supervisor: touch, lateness, cause, skipped: 2 });
+    log.record(at(2001), &Record::Event { supervisor: touch, event: 0 });
+    log.record(at(2001), &Record::Interrupted { element: go });
+    let author = Author::Component(touch);
+    let old = ValueRef::Unset;
+    let (entry, new) = (TraceEntryId(1), ValueRef::Choice(1));
+    log.record(at(2001), &Record::Committed { author, entry, old, new });
+    log.record(at(2001), &Record::Started { component: go });
+    log.record(at(3001), &Record::Finished { element: go, state: 0 });
+    log.record(at(3001), &Record::Ended { plan: ComponentId(0), ending: Ending::Ok });
+    log.text(at(3001), Level::Info, "afp", "done");
+}
+
+fn create(path: &Path) -> Recorder {
+    Recorder::create(path, &about(), NameTable::new(&Names1), WhenFull::Wait).unwrap()
+}
+
+fn written(dir: &Path) -> PathBuf {
+    let path = dir.join("a.mcap");
+    let mut log = create(&path);
+    run(&mut log);
+    let written = log.finish().unwrap();
+    assert_eq!((written.path.as_path(), written.lost), (path.as_path(), 0));
+    assert!(!dir.join("a.mcap.part").exists());
+    path
+}
+
+#[test]
+fn what_is_written_is_read() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = written(dir.path());
+    let log = read(&path).unwrap();
+    assert_eq!(log.cut_short, None);
+    assert_eq!(log.facts["seed"], "7");
+    assert_eq!(log.attachments["walk.afp"], "plan Walk {}");
+    assert_eq!(log.span, Some((at(0), at(3001))));
+    assert_eq!(log.topics["/tf"].schema, "foxglove.FrameTransforms");
+    assert_eq!(log.topics["/robot/ultrasonic"].messages, 40);
+    assert_eq!(log.table.components[1].outcomes[0].target, "terminate");
+    assert_eq!(log.events.len(), 2008);
+    let event = &log.events[2002];
+    assert_eq!(event.kind(), plan_event::Kind::Event);
+    assert_eq!(
+        (&*event.component, &*event.outcome, &*event.target),
+        ("go.touch", "TouchSensorPressed", "go")
+    );
+    let (time, pose) = log.poses[39];
+    assert_eq!(time, at(2000));
+    assert!((pose.x - 2.0).abs() < 1e-9 && (pose.heading - 0.25).abs() < 1e-9);
+    assert_eq!(log.configurations.len(), 2);
+    let values = log.configurations[1].entries.iter().map(|entry| format!("{:?}", entry.value));
+    let values: Vec<_> = values.collect();
+    assert!(values[0].contains("Number(0.3)") && values[1].contains("Choice(\"Side.right\")"));
+    assert_eq!(doctor(&path).unwrap(), [""; 0]);
+}
+
+#[test]
+fn statistics_count_misses_interruptions_and_coverage() {
+    let dir = tempfile::tempdir().unwrap();
+    let found = statistics(&read(&written(dir.path())).unwrap());
+    let touch = &found.supervisors[0];
+    assert_eq!((touch.polls, touch.events, touch.long_polls, touch.skipped), (2000, 1, 1, 2));
+    assert_eq!(touch.worst_lateness, Duration::from_millis(3));
+    let go = &found.elements[0];
+    assert_eq!((go.activations, go.interruptions), (2, 1));
+    assert_eq!(go.active, Duration::from_millis(3001));
+    assert_eq!((found.covered, found.uncovered.len()), (2, 0));
+}
+
+#[test]
+fn the_same_run_makes_the_same_messages() {
+    let dir = tempfile::tempdir().unwrap();
+    let one = read(&written(dir.path())).unwrap();
+    let two = read(&written(dir.path())).unwrap();
+    assert_eq!(one.events, two.events);
+    assert_eq!(one.poses, two.poses);
+}
+
+#[test]
+fn a_log_cut_anywhere_is_read_as_far_as_it_goes() {
+    let dir = tempfile::tempdir().unwrap();
+    let bytes = fs::read(written(dir.path())).unwrap();
+    let part = dir.path().join("b.mcap.part");
+    let mut most = 0;
+    for cut in (8..bytes.len()).step_by(997) {
+        fs::write(&part, &bytes[..cut]).unwrap();
+        let log = read(&part).unwrap();
+        assert!(log.cut_short.is_some(), "cut at {cut}");
+        assert!(!doctor(&part).unwrap().is_empty());
+        most = most.max(log.events.len());
+    }
+    assert_eq!(most, 2008, "a missing summary costs no message");
+    let saved = recover(&part, &recovered_name(&part)).unwrap();
+    assert!(saved.damage.is_some());
+    assert_eq!(saved.path, dir.path().join("b.recovered.mcap"));
+    assert_eq!(doctor(&saved.path).unwrap(), [""; 0]);
+    assert_eq!(read(&saved.path).unwrap().facts["plan"], "Walk");
+}
+
+#[test]
+fn a_flipped_byte_is_found() {
+    let dir = tempfile::tempdir().unwrap();
+    let bytes = fs::read(written(dir.path())).unwrap();
+    let bad = dir.path().join("bad.mcap");
+    for at in (100..bytes.len() - 40).step_by(1709) {
+        let mut bytes = bytes.clone();
+        bytes[at] ^= 0x10;
+        fs::write(&bad, &bytes).unwrap();
+        assert!(!doctor(&bad).unwrap().is_empty(), "byte {at}");
+    }
+}
+
+#[test]
+fn an_abandoned_log_keeps_its_part_name() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.mcap");
+    let mut log = create(&path);
+    run(&mut log);
+    drop(log);
+    assert!(!path.exists());
+    let part = dir.path().join("a.mcap.part");
+    assert_eq!(read(&part).unwrap().cut_short, None);
+}
+
+#[test]
+fn what_cannot_be_written_or_read_is_said() {
+    let dir = tempfile::tempdir().unwrap();
+    let nowhere = dir.path().join("no/such/folder/a.mcap");
+    let failed = Recorder::create(&nowhere, &about(), NameTable::default(), WhenFull::Drop);
+    let said = failed.err().unwrap().to_string();
+    assert!(said.starts_with("cannot write the log '") && said.contains("a.mcap'"), "{said}");
+    let text = dir.path().join("text");
+    fs::write(&text, "no log").unwrap();
+    assert!(matches!(read(&text), Err(LogError::NotALog { .. })));
+    assert!(matches!(read(&nowhere), Err(LogError::Open { .. })));
+}
+
+#[test]
+fn a_full_queue_is_counted_and_told() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.mcap");
+    let mut log =
+        Recorder::create(&path, &about(), NameTable::new(&Names1), WhenFull::Drop).unwrap();
+    let record = Record::Polled { supervisor: ComponentId(2), verdict: Verdict::Clear };
+    for n in 0..200_000 {
+        log.record(at(n), &record);
+    }
+    let lost = log.lost();
+    assert!(lost > 0, "the writer cannot be faster than this loop");
+    assert_eq!(log.finish().unwrap().lost, lost);
+    let log = read(&path).unwrap();
+    assert_eq!(log.events.iter().map(|event| event.lost).sum::<u64>(), lost);
+    let kept = log.events.iter().filter(|event| event.kind() == plan_event::Kind::Polled).count();
+    assert_eq!(kept as u64 + lost, 200_000);
+    assert!(doctor(&path).unwrap()[0].contains("were lost"));
+}
