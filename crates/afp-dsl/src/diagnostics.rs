@@ -152,6 +152,14 @@ impl Diagnostics {
         self.list.dedup();
     }
 
+    /// The places in `span` at which the text could not be read.
+    pub(crate) fn syntax_errors_within(&self, span: Span) -> impl Iterator<Item = Span> {
+        let errors = self.list.iter().filter(|diagnostic| {
+            diagnostic.code < Code::E0201 && diagnostic.severity == Severity::Error
+        });
+        errors.map(|diagnostic| diagnostic.span).filter(move |place| span.contains(*place))
+    }
+
     /// Whether an error lies in `span`.
     pub(crate) fn error_within(&self, span: Span) -> bool {
         self.list.iter().any(|diagnostic| {

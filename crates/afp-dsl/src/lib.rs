@@ -2,6 +2,8 @@
 //!
 //! It does no I/O and depends on nothing else in the workspace.
 
+mod check;
+mod compile;
 pub mod diagnostics;
 pub mod graph;
 pub mod source;
@@ -9,3 +11,6 @@ pub mod syntax;
 pub mod toolbox;
 pub mod types;
 pub mod unfold;
+mod words;
+
+pub use compile::{Compiled, compile, compile_plan};

@@ -1,8 +1,13 @@
 //! What a toolbox file declares: templates with their ports, timing, help and icons.
 
+mod read;
+mod set;
+
 use crate::source::Span;
 use crate::types::{Enum, Object, Type};
 use std::sync::Arc;
+
+pub use set::Toolboxes;
 
 /// A checked toolbox file.
 #[derive(Clone, Debug)]

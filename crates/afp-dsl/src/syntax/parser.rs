@@ -379,7 +379,7 @@ impl<'t, 'd> Parser<'t, 'd> {
             "use" => matches!(self.nth(1), Kind::Name | Kind::Text),
             "scenario" => self.nth(1) == Kind::Text,
             "plan" | "enum" => self.nth(1) == Kind::Name && self.nth(2) == Kind::OpenBrace,
-            "toolbox" => self.nth(1) == Kind::Name && self.word(2) != "",
+            "toolbox" => self.nth(1) == Kind::Name && !self.word(2).is_empty(),
             _ => false,
         }
     }
@@ -387,13 +387,12 @@ impl<'t, 'd> Parser<'t, 'd> {
     fn use_item(&mut self) {
         self.open_item(Kind::Use);
         self.keyword();
-        if !self.eat(Kind::Text) && self.name("name a toolbox, such as 'use carbot'") {
-            if self.at_word("as") {
-                self.open(Kind::Alias);
-                self.keyword();
-                self.name("give the short name, such as 'use carbot as c'");
-                self.close();
-            }
+        let named = !self.eat(Kind::Text) && self.name("name a toolbox, such as 'use carbot'");
+        if named && self.at_word("as") {
+            self.open(Kind::Alias);
+            self.keyword();
+            self.name("give the short name, such as 'use carbot as c'");
+            self.close();
         }
         self.close_item();
     }

@@ -1,0 +1,145 @@
+//! Which types become which, and with what warning.
+
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::graph::{Formula, FormulaKind};
+use crate::source::Span;
+use crate::types::{Conversion, Dimension, Type};
+use crate::words::{a_dimension, a_type};
+
+/// How a value of type `from` becomes one of type `to`: `Ok(None)` without doing anything, `Err`
+/// not at all.
+pub(crate) fn conversion(from: &Type, to: &Type) -> Result<Option<Conversion>, ()> {
+    if from == to {
+        return Ok(None);
+    }
+    let plain = Type::FLOAT;
+    Ok(Some(match (from, to) {
+        (Type::Int, to) if *to == plain => Conversion::IntToFloat,
+        (from, Type::Int) if *from == plain => Conversion::FloatToInt,
+        (Type::Bool, Type::Int) => Conversion::BoolToInt,
+        (Type::Bool, to) if *to == plain => Conversion::BoolToFloat,
+        (Type::Bool | Type::Int | Type::Quantity(_) | Type::Enum(_), Type::Text) => {
+            Conversion::ToText(from.clone())
+        }
+        (Type::Text, Type::Int | Type::Quantity(_)) => Conversion::FromText(to.clone()),
+        _ => return Err(()),
+    }))
+}
+
+/// The formula as one of type `want`; reports what cannot be converted and what deserves a word.
+///
+/// `text` is the formula as written.
+pub(crate) fn coerce(
+    formula: Formula,
+    want: &Type,
+    text: &str,
+    diags: &mut Diagnostics,
+) -> Option<Formula> {
+    let span = formula.span;
+    match conversion(&formula.ty, want) {
+        Ok(None) => Some(formula),
+        Ok(Some(conversion)) => {
+            remark(&conversion, span, diags);
+            let kind = FormulaKind::Convert(conversion, Box::new(formula));
+            Some(Formula { kind, ty: want.clone(), span })
+        }
+        Err(()) => {
+            diags.push(mismatch(&formula, want, text));
+            None
+        }
+    }
+}
+
+/// Says that a conversion changes the value or may fail.
+pub(crate) fn remark(conversion: &Conversion, span: Span, diags: &mut Diagnostics) {
+    let diagnostic = match conversion {
+        Conversion::IntToFloat => return,
+        Conversion::FloatToInt => {
+            Diagnostic::new(Code::E0207, span, "the float becomes an int, rounded toward zero")
+                .help("make the entry or the number an int where that is not wanted")
+        }
+        Conversion::BoolToInt | Conversion::BoolToFloat => {
+            Diagnostic::new(Code::E0207, span, "the bool becomes a number, 0 or 1")
+                .help("use a number where that is not wanted")
+        }
+        Conversion::ToText(from) => {
+            let message = format!("{} becomes a text", a_type(from));
+            let help = match from {
+                Type::Quantity(dimension) if *dimension != Dimension::NONE => {
+                    format!(
+                        "it is shown in '{}'; divide by a unit for the bare number",
+                        dimension.si_unit()
+                    )
+                }
+                _ => "use a text where that is not wanted".to_owned(),
+            };
+            Diagnostic::new(Code::E0207, span, message).help(help)
+        }
+        Conversion::FromText(to) => {
+            let message = format!("the text becomes {} at run time, which may fail", a_type(to));
+            Diagnostic::new(Code::E0208, span, message)
+                .help("connect 'Error' for the case that it fails, or use an entry of that type")
+        }
+    };
+    diags.push(diagnostic);
+}
+
+fn mismatch(formula: &Formula, want: &Type, text: &str) -> Diagnostic {
+    let span = formula.span;
+    let expected = format!("expected {}, found {}", a_type(want), a_type(&formula.ty));
+    match (&formula.ty, want) {
+        (Type::Int, Type::Quantity(dimension)) => unit_missing(formula, *dimension, text),
+        (Type::Quantity(Dimension::NONE), Type::Quantity(dimension)) => {
+            unit_missing(formula, *dimension, text)
+        }
+        (Type::Quantity(dimension), Type::Int | Type::Quantity(Dimension::NONE)) => {
+            let unit = dimension.usual_unit();
+            let whole = bracketed(formula, text);
+            Diagnostic::new(Code::E0204, span, expected)
+                .help(format!("write '{whole} / 1 {unit}' for the number of '{unit}'"))
+                .replace(format!("{whole} / 1 {unit}"))
+        }
+        (Type::Quantity(found), Type::Quantity(dimension)) => {
+            Diagnostic::new(Code::E0204, span, expected).help(format!(
+                "use {}, such as '1 {}', in place of {}",
+                a_dimension(*dimension),
+                dimension.usual_unit(),
+                a_dimension(*found)
+            ))
+        }
+        (_, want) => {
+            Diagnostic::new(Code::E0206, span, expected).help(format!("use {}", a_type(want)))
+        }
+    }
+}
+
+/// A bare number where a quantity is needed.
+pub(crate) fn unit_missing(formula: &Formula, dimension: Dimension, text: &str) -> Diagnostic {
+    let message = format!("expected {}, found a bare number", a_dimension(dimension));
+    let unit = dimension.usual_unit();
+    let better = match formula.kind {
+        FormulaKind::Int(_) | FormulaKind::Float(_) => format!("{text} {unit}"),
+        FormulaKind::Neg(ref inner)
+            if matches!(inner.kind, FormulaKind::Int(_) | FormulaKind::Float(_)) =>
+        {
+            format!("{text} {unit}")
+        }
+        _ => format!("{} * 1 {unit}", bracketed(formula, text)),
+    };
+    Diagnostic::new(Code::E0203, formula.span, message)
+        .help(format!("write '{better}'"))
+        .replace(better)
+}
+
+/// The text, in brackets where an operation behind it would bind tighter.
+fn bracketed(formula: &Formula, text: &str) -> String {
+    use crate::graph::Operator::{Add, Sub};
+    let loose = match &formula.kind {
+        FormulaKind::Binary(Add | Sub, ..) => true,
+        FormulaKind::Convert(_, inner) => {
+            matches!(inner.kind, FormulaKind::Binary(Add | Sub, ..))
+        }
+        _ => false,
+    };
+    if loose && !text.starts_with('(') { format!("({text})") } else { text.to_owned() }
+}

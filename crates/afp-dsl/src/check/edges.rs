@@ -1,0 +1,157 @@
+//! Where states and events lead: every one of them is connected, once, to something that is there.
+
+use crate::check::names::unknown;
+use crate::check::signature::{Signature, SignatureKind};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::graph::{ElementId, Target};
+use crate::source::Span;
+use crate::syntax::ast::{Edge, Name};
+use crate::words;
+
+/// The two edges that need no declaration.
+pub(crate) const ERROR: &str = "Error";
+/// The edge of a supervisor that was polled too late.
+pub(crate) const DEADLINE_MISSED: &str = "DeadlineMissed";
+
+/// The edges of one component.
+pub(crate) struct Connected {
+    /// One target for each state or event of the signature.
+    pub outcomes: Vec<Option<Target>>,
+    /// The target of `Error` or `DeadlineMissed`.
+    pub extra: Option<Target>,
+}
+
+/// A component whose edges are checked.
+pub(crate) struct Origin<'a> {
+    /// What it is made from.
+    pub signature: &'a Signature,
+    /// Its name in the plan.
+    pub name: Option<&'a Name>,
+    /// Where it stands, for what is missing.
+    pub span: Span,
+    /// Whether the text has syntax errors here.
+    pub broken: bool,
+    /// Whether it is a supervisor.
+    pub supervisor: bool,
+}
+
+/// Checks the edges of one component; `elements` are the names of the plan's elements by place.
+pub(crate) fn check(
+    origin: &Origin<'_>,
+    edges: &[Edge],
+    elements: &[Option<Name>],
+    diags: &mut Diagnostics,
+) -> Connected {
+    let signature = origin.signature;
+    let mut connected = Connected { outcomes: vec![None; signature.outcomes.len()], extra: None };
+    let mut seen: Vec<Name> = Vec::new();
+    let extra = if origin.supervisor { DEADLINE_MISSED } else { ERROR };
+    for edge in edges {
+        let Some(name) = edge.name() else { continue };
+        if let Some(first) = seen.iter().find(|known| known.text == name.text) {
+            diags.push(
+                Diagnostic::new(
+                    Code::E0226,
+                    name.span,
+                    format!("'{}' is connected twice", name.text),
+                )
+                .note(first.span, "first connected here")
+                .help("remove one of the edges"),
+            );
+            continue;
+        }
+        let target = edge.target().and_then(|to| target(&to, origin.supervisor, elements, diags));
+        match signature.outcomes.iter().position(|outcome| *outcome == name.text) {
+            Some(place) => connected.outcomes[place] = target,
+            None if name.text == extra => connected.extra = target,
+            None => {
+                diags.push(unknown_outcome(origin, &name, extra));
+                continue;
+            }
+        }
+        seen.push(name);
+    }
+    if !origin.broken {
+        report_missing(origin, &seen, diags);
+    }
+    connected
+}
+
+fn unknown_outcome(origin: &Origin<'_>, name: &Name, extra: &str) -> Diagnostic {
+    let word = if origin.supervisor { "event" } else { "state" };
+    let message = format!("'{}' has no {word} '{}'", origin.signature.name, name.text);
+    let known = origin.signature.outcomes.iter().map(String::as_str).chain([extra]);
+    unknown(Code::E0210, name.span, message, &name.text, known, "remove the edge")
+}
+
+fn target(
+    to: &Name,
+    supervisor: bool,
+    elements: &[Option<Name>],
+    diags: &mut Diagnostics,
+) -> Option<Target> {
+    match to.text.as_str() {
+        "terminate" => return Some(Target::Terminate),
+        "ignore" if supervisor => return Some(Target::Ignore),
+        "ignore" => {
+            diags.push(
+                Diagnostic::new(Code::E0221, to.span, "only events can be ignored")
+                    .help("name an element of the plan, or write 'terminate'"),
+            );
+            return None;
+        }
+        _ => {}
+    }
+    find(to, elements, diags).map(Target::Element)
+}
+
+/// The element of that name; reports when there is none.
+pub(crate) fn find(
+    to: &Name,
+    elements: &[Option<Name>],
+    diags: &mut Diagnostics,
+) -> Option<ElementId> {
+    let named = |name: &Option<Name>| name.as_ref().is_some_and(|name| name.text == to.text);
+    let Some(place) = elements.iter().position(named) else {
+        let names = elements.iter().flatten().map(|name| name.text.as_str());
+        let message = format!("the plan has no element '{}'", to.text);
+        let none = "add an element of that name, or write 'terminate'";
+        diags.push(unknown(Code::E0216, to.span, message, &to.text, names, none));
+        return None;
+    };
+    u16::try_from(place).ok().map(ElementId)
+}
+
+fn report_missing(origin: &Origin<'_>, seen: &[Name], diags: &mut Diagnostics) {
+    let signature = origin.signature;
+    let is_plan = matches!(signature.kind, SignatureKind::Plan(_));
+    let missing = signature.outcomes.iter().map(String::as_str).filter(|outcome| {
+        let allowed = is_plan && *outcome == "Interrupted";
+        !allowed && !seen.iter().any(|name| name.text == *outcome)
+    });
+    let missing: Vec<&str> = missing.collect();
+    let name = origin.name.map_or("", |name| name.text.as_str());
+    if !missing.is_empty() {
+        let verb = if missing.len() == 1 { "leads" } else { "lead" };
+        let message =
+            format!("{} of '{name}' {verb} nowhere", words::list(missing.iter().copied(), "and"));
+        let either = if origin.supervisor { "'terminate' or 'ignore'" } else { "or 'terminate'" };
+        let edges: Vec<_> = missing.iter().map(|state| format!("{state} -> ...")).collect();
+        diags.push(
+            Diagnostic::new(Code::E0211, origin.span, message)
+                .help(format!("add '{}' with an element, {either}", edges.join(", "))),
+        );
+    }
+    let interrupted = is_plan && !seen.iter().any(|name| name.text == "Interrupted");
+    if let Some(edge) = signature.interrupting.filter(|_| interrupted) {
+        diags.push(
+            Diagnostic::new(
+                Code::E0233,
+                origin.span,
+                format!("'Interrupted' of '{name}' leads nowhere"),
+            )
+            .note(edge, "this event ends the plan as interrupted")
+            .help("add 'Interrupted -> ...' with an element, or 'terminate'"),
+        );
+    }
+}

@@ -1,0 +1,138 @@
+//! Entries of a plan: their types and initial values, in the order in which values come to be
+//! known: `const`, then `in`, then the others.
+
+use crate::check::formula::Scope;
+use crate::check::types::Types;
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::graph::{EntryKind, Formula};
+use crate::syntax::ast;
+use crate::toolbox::Constant;
+use crate::types::Type;
+
+/// An entry, as far as it is understood.
+#[derive(Clone, Debug)]
+pub(crate) struct EntryDraft {
+    /// Its name.
+    pub name: ast::Name,
+    /// Its `///` lines.
+    pub doc: String,
+    /// Who may set it.
+    pub kind: EntryKind,
+    /// Its type, where that is known.
+    pub ty: Option<Type>,
+    /// Its initial value.
+    pub init: Option<Formula>,
+    /// Whether an initial value is written, right or wrong.
+    pub has_init: bool,
+    /// The initial value where it is the same in every run.
+    pub value: Option<Constant>,
+}
+
+/// The entries of a plan as written; those without a name are left out.
+pub(crate) fn read(
+    plan: &ast::Plan,
+    types: &Types,
+    text: &str,
+    diags: &mut Diagnostics,
+) -> Vec<EntryDraft> {
+    let written: Vec<_> =
+        plan.entries().into_iter().filter_map(|entry| Some((entry.name()?, entry))).collect();
+    let mut drafts: Vec<_> = written
+        .iter()
+        .map(|(name, entry)| EntryDraft {
+            name: name.clone(),
+            doc: entry.doc(),
+            kind: kind(entry),
+            ty: entry.ty().and_then(|ty| types.resolve(&ty, diags)),
+            init: None,
+            has_init: entry.init().is_some(),
+            value: None,
+        })
+        .collect();
+    for kinds in [&[EntryKind::Const][..], &[EntryKind::In], &[EntryKind::Var, EntryKind::Out]] {
+        for place in 0..drafts.len() {
+            if kinds.contains(&drafts[place].kind) {
+                initialise(place, &written[place].1, &mut drafts, types, text, diags);
+            }
+        }
+    }
+    drafts
+}
+
+fn kind(entry: &ast::Entry) -> EntryKind {
+    match entry.keyword().as_str() {
+        "in" => EntryKind::In,
+        "out" => EntryKind::Out,
+        "const" => EntryKind::Const,
+        _ => EntryKind::Var,
+    }
+}
+
+fn initialise(
+    place: usize,
+    entry: &ast::Entry,
+    drafts: &mut [EntryDraft],
+    types: &Types,
+    text: &str,
+    diags: &mut Diagnostics,
+) {
+    let own = &drafts[place];
+    let (kind, ty) = (own.kind, own.ty.clone());
+    let Some(formula) = entry.init() else {
+        return missing(own, entry, diags);
+    };
+    if let Some(Type::Object(home)) = &ty {
+        let message = format!("a '{}' cannot be written down", home.name);
+        diags.push(
+            Diagnostic::new(Code::E0242, formula.span(), message)
+                .help("remove the value; a component's output sets the entry"),
+        );
+        return;
+    }
+    let readable = |other: usize| match kind {
+        EntryKind::Const => drafts[other].kind == EntryKind::Const && other < place,
+        EntryKind::In => drafts[other].kind == EntryKind::Const,
+        EntryKind::Var | EntryKind::Out => {
+            matches!(drafts[other].kind, EntryKind::Const | EntryKind::In)
+        }
+    };
+    let unreadable = match kind {
+        EntryKind::Const => "a 'const' may use constants that stand above it",
+        EntryKind::In => "the default of an 'in' may use 'const' entries",
+        EntryKind::Var | EntryKind::Out => "an initial value may use 'const' and 'in' entries",
+    };
+    // A type that is written and unknown is reported once; the value is still looked at.
+    let scope = Scope { types, entries: drafts, readable: &readable, unreadable, text };
+    let checked = scope.check(&formula, ty.as_ref(), diags);
+    let needs_type = matches!(kind, EntryKind::In | EntryKind::Out) && entry.ty().is_none();
+    if needs_type {
+        untyped(own, diags);
+    }
+    let Some((formula, value)) = checked else { return };
+    let draft = &mut drafts[place];
+    if draft.ty.is_none() && entry.ty().is_none() && !needs_type {
+        draft.ty = Some(formula.ty.clone());
+    }
+    draft.value = value;
+    draft.init = Some(formula);
+}
+
+/// Checks an entry without a value.
+fn missing(own: &EntryDraft, entry: &ast::Entry, diags: &mut Diagnostics) {
+    if entry.ty().is_none() {
+        untyped(own, diags);
+    } else if own.kind == EntryKind::Const {
+        let message = format!("the constant '{}' has no value", own.name.text);
+        diags.push(
+            Diagnostic::new(Code::E0225, own.name.span, message).help("write '=' and its value"),
+        );
+    }
+}
+
+fn untyped(own: &EntryDraft, diags: &mut Diagnostics) {
+    let message = format!("the entry '{}' has no type", own.name.text);
+    diags.push(
+        Diagnostic::new(Code::E0241, own.name.span, message)
+            .help(format!("write its type, such as '{}: float'", own.name.text)),
+    );
+}

@@ -1,0 +1,39 @@
+//! Enums of a file or toolbox.
+
+use std::sync::Arc;
+
+use crate::check::names::Names;
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::syntax::ast;
+use crate::types::Enum;
+
+/// Reads an enum; `None` without a name.
+pub(crate) fn read(
+    node: &ast::Enum,
+    toolbox: Option<&str>,
+    diags: &mut Diagnostics,
+) -> Option<Arc<Enum>> {
+    let name = node.name()?;
+    let variants = node.variants();
+    let mut names = Names::default();
+    for variant in &variants {
+        names.declare(variant, diags);
+    }
+    if variants.is_empty() && !diags.error_within(node.span()) {
+        diags.push(
+            Diagnostic::new(
+                Code::E0225,
+                name.span,
+                format!("the enum '{}' has no values", name.text),
+            )
+            .help("list at least one name in its braces"),
+        );
+    }
+    Some(Arc::new(Enum {
+        doc: node.doc(),
+        toolbox: toolbox.map(str::to_owned),
+        variants: variants.into_iter().map(|variant| variant.text).collect(),
+        span: name.span,
+        name: name.text,
+    }))
+}

@@ -1,0 +1,297 @@
+//! Types of formulas: names become entries, conversions become nodes, dimensions are computed.
+
+mod literal;
+mod operation;
+
+use std::cell::Cell;
+
+use crate::check::constant::{self, Fault};
+use crate::check::convert::coerce;
+use crate::check::entries::EntryDraft;
+use crate::check::names::unknown;
+use crate::check::types::{Types, qualified};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::graph::{EntryId, EntryKind, Formula, FormulaKind};
+use crate::source::Span;
+use crate::syntax::ast;
+use crate::toolbox::Constant;
+use crate::types::Type;
+use crate::types::literal::MAX_TEXT;
+use crate::words;
+
+/// Greatest number of literals, entries and operations in one formula.
+const MAX_SIZE: usize = 256;
+
+/// What formulas of one place can name.
+pub(crate) struct Scope<'a> {
+    /// Enums.
+    pub types: &'a Types,
+    /// Entries of the plan.
+    pub entries: &'a [EntryDraft],
+    /// Which of them can be read here, by place.
+    pub readable: &'a dyn Fn(usize) -> bool,
+    /// Why the others cannot.
+    pub unreadable: &'a str,
+    /// The text of the file.
+    pub text: &'a str,
+}
+
+impl Scope<'_> {
+    /// The formula as one of type `want` (of whatever type without it), and its value where that
+    /// is known; reports everything that is wrong with it.
+    pub fn check(
+        &self,
+        formula: &ast::Formula,
+        want: Option<&Type>,
+        diags: &mut Diagnostics,
+    ) -> Option<(Formula, Option<Constant>)> {
+        let typed = self.infer(formula, diags)?;
+        self.finish(typed, want, diags)
+    }
+
+    /// The formula without a wanted type and without looking for its value.
+    pub fn infer(&self, formula: &ast::Formula, diags: &mut Diagnostics) -> Option<Formula> {
+        let typer = Typer { scope: self, size: Cell::new(0) };
+        let typed = typer.formula(formula, false, diags);
+        if typer.size.get() > MAX_SIZE {
+            let message = format!("the formula has more than {MAX_SIZE} parts");
+            diags.push(
+                Diagnostic::new(Code::E0231, formula.span(), message)
+                    .help("compute a part of it in an entry of its own"),
+            );
+            return None;
+        }
+        typed
+    }
+
+    /// Converts an inferred formula and evaluates it as far as possible.
+    pub fn finish(
+        &self,
+        typed: Formula,
+        want: Option<&Type>,
+        diags: &mut Diagnostics,
+    ) -> Option<(Formula, Option<Constant>)> {
+        let text = self.text_of(typed.span);
+        let typed = match want {
+            Some(want) => coerce(typed, want, text, diags)?,
+            None => typed,
+        };
+        let known = |entry: u16| {
+            self.entries.get(usize::from(entry)).and_then(|entry| entry.value_for_formulas())
+        };
+        match constant::evaluate(&typed, &known) {
+            Ok(value) => Some((typed, value)),
+            Err(fault) => {
+                diags.push(fault_diagnostic(fault, typed.span));
+                None
+            }
+        }
+    }
+
+    /// The text at a place of this file.
+    pub fn text_of(&self, span: Span) -> &str {
+        self.text.get(span.start as usize..span.end as usize).unwrap_or("")
+    }
+}
+
+/// A value as a formula.
+pub(crate) fn of_constant(value: Constant, ty: &Type, span: Span) -> Formula {
+    let kind = match value {
+        Constant::Bool(value) => FormulaKind::Bool(value),
+        Constant::Int(value) => FormulaKind::Int(value),
+        Constant::Float(value) => FormulaKind::Float(value),
+        Constant::Text(text) => FormulaKind::Text(text),
+        Constant::Choice(place) => FormulaKind::Choice(place),
+    };
+    Formula { kind, ty: ty.clone(), span }
+}
+
+struct Typer<'a> {
+    scope: &'a Scope<'a>,
+    size: Cell<usize>,
+}
+
+impl Typer<'_> {
+    /// `inside` tells whether the formula is an operand.
+    fn formula(
+        &self,
+        formula: &ast::Formula,
+        inside: bool,
+        diags: &mut Diagnostics,
+    ) -> Option<Formula> {
+        self.size.set(self.size.get() + 1);
+        if self.size.get() > MAX_SIZE {
+            return None;
+        }
+        let span = formula.span();
+        match formula.kind() {
+            ast::FormulaKind::Chain(first, rest) => self.chain(first, rest, diags),
+            ast::FormulaKind::Negation(operand) => self.negation(&operand?, span, inside, diags),
+            ast::FormulaKind::Brackets(inner) => {
+                let inner = self.formula(&inner?, inside, diags)?;
+                Some(Formula { span, ..inner })
+            }
+            ast::FormulaKind::Number { number, unit, whole, broken } => {
+                if broken {
+                    return None;
+                }
+                literal::number(&number, unit.as_ref(), whole, span, inside, diags)
+            }
+            ast::FormulaKind::Text(quoted) => {
+                let text = crate::check::text::unquote(&quoted, diags);
+                if text.len() > MAX_TEXT {
+                    diags.push(fault_diagnostic(Fault::TooLong, span));
+                    return None;
+                }
+                Some(Formula { kind: FormulaKind::Text(text), ty: Type::Text, span })
+            }
+            ast::FormulaKind::Bool(value) => {
+                Some(Formula { kind: FormulaKind::Bool(value), ty: Type::Bool, span })
+            }
+            ast::FormulaKind::Ref(reference) => match reference.home() {
+                Some(home) => self.choice(&home, &reference.name()?, span, diags),
+                None => self.entry(&reference.name()?, diags),
+            },
+            ast::FormulaKind::Hole => None,
+        }
+    }
+
+    fn chain(
+        &self,
+        first: Option<ast::Formula>,
+        rest: Vec<(ast::Sign, Option<ast::Formula>)>,
+        diags: &mut Diagnostics,
+    ) -> Option<Formula> {
+        let mut value = first.and_then(|first| self.formula(&first, true, diags));
+        for (sign, operand) in rest {
+            self.size.set(self.size.get() + 1);
+            // Every operand is looked at, so that all errors come at once.
+            let operand = operand.and_then(|operand| self.formula(&operand, true, diags));
+            value = match (value, operand) {
+                (Some(left), Some(right)) => {
+                    operation::binary(self.scope, sign, left, right, diags)
+                }
+                _ => None,
+            };
+        }
+        value
+    }
+
+    fn negation(
+        &self,
+        operand: &ast::Formula,
+        span: Span,
+        inside: bool,
+        diags: &mut Diagnostics,
+    ) -> Option<Formula> {
+        if let ast::FormulaKind::Number { number, unit, whole, broken: false } = operand.kind()
+            && let Some(kind) = literal::negative(&number, unit.as_ref(), whole, inside)
+        {
+            return Some(Formula { ty: kind.1, kind: kind.0, span });
+        }
+        let operand = self.formula(operand, true, diags)?;
+        operation::negate(operand, span, diags)
+    }
+
+    fn entry(&self, name: &ast::Name, diags: &mut Diagnostics) -> Option<Formula> {
+        let scope = self.scope;
+        let place = scope.entries.iter().position(|entry| entry.name.text == name.text);
+        let Some(place) = place else {
+            diags.push(self.unknown_entry(name));
+            return None;
+        };
+        let entry = &scope.entries[place];
+        if !(scope.readable)(place) {
+            let message = format!("'{}' has no value yet", name.text);
+            diags.push(
+                Diagnostic::new(Code::E0229, name.span, message)
+                    .note(entry.name.span, "declared here")
+                    .help(scope.unreadable),
+            );
+            return None;
+        }
+        let id = EntryId(u16::try_from(place).ok()?);
+        let ty = entry.ty.clone()?;
+        Some(Formula { kind: FormulaKind::Entry(id), ty, span: name.span })
+    }
+
+    fn unknown_entry(&self, name: &ast::Name) -> Diagnostic {
+        let scope = self.scope;
+        let message = format!("there is no entry '{}'", name.text);
+        let home = scope.types.enums.iter().find(|(_, home)| home.variants.contains(&name.text));
+        if let Some((_, home)) = home {
+            let better = format!("{}.{}", home.name, name.text);
+            return Diagnostic::new(Code::E0209, name.span, message)
+                .help(format!("write '{better}'"))
+                .replace(better);
+        }
+        let readable = scope.entries.iter().enumerate().filter(|(at, _)| (scope.readable)(*at));
+        let known = readable.map(|(_, entry)| entry.name.text.as_str());
+        unknown(Code::E0209, name.span, message, &name.text, known, "declare it in the plan")
+    }
+
+    /// A value of an enum.
+    fn choice(
+        &self,
+        home: &ast::Name,
+        name: &ast::Name,
+        span: Span,
+        diags: &mut Diagnostics,
+    ) -> Option<Formula> {
+        let enums = || self.scope.types.enums.iter().filter(|(_, each)| each.name == home.text);
+        if enums().count() > 1 {
+            let homes = enums().map(|(home, each)| qualified(home.as_deref(), &each.name));
+            let homes: Vec<_> = homes.collect();
+            let list = words::list(homes.iter().map(String::as_str), "and");
+            let message = format!("'{}' may be one of {list}", home.text);
+            diags.push(
+                Diagnostic::new(Code::E0237, home.span, message)
+                    .help("use only one of the toolboxes in this file"),
+            );
+            return None;
+        }
+        let Some((_, found)) = enums().next() else {
+            let known = self.scope.types.enums.iter().map(|(_, each)| each.name.as_str());
+            let message = format!("there is no enum '{}'", home.text);
+            let none = "declare it in the file, or write the name of an entry";
+            diags.push(unknown(Code::E0239, home.span, message, &home.text, known, none));
+            return None;
+        };
+        let Some(place) = found.variants.iter().position(|variant| *variant == name.text) else {
+            let known = found.variants.iter().map(String::as_str);
+            let message = format!("'{}' has no value '{}'", found.name, name.text);
+            diags.push(unknown(Code::E0239, name.span, message, &name.text, known, ""));
+            return None;
+        };
+        let kind = FormulaKind::Choice(u16::try_from(place).ok()?);
+        Some(Formula { kind, ty: Type::Enum(found.clone()), span })
+    }
+}
+
+fn fault_diagnostic(fault: Fault, span: Span) -> Diagnostic {
+    match fault {
+        Fault::Overflow => Diagnostic::new(Code::E0228, span, "the value does not fit an int")
+            .help("use floats, or smaller numbers"),
+        Fault::DivisionByZero => {
+            Diagnostic::new(Code::E0228, span, "the remainder of a division by zero")
+                .help("divide by something else")
+        }
+        Fault::NotFinite => {
+            Diagnostic::new(Code::E0228, span, "the value is infinite or not a number")
+                .help("do not divide by zero, and keep numbers below 1.8e308")
+        }
+        Fault::NotAValue => Diagnostic::new(Code::E0228, span, "the text is no value of the type")
+            .help("write a value of the type, unit included, without the quotes"),
+        Fault::TooLong => {
+            Diagnostic::new(Code::E0230, span, format!("the text is longer than {MAX_TEXT} bytes"))
+                .help(format!("shorten it to at most {MAX_TEXT} bytes of UTF-8"))
+        }
+    }
+}
+
+impl EntryDraft {
+    /// The value that every formula sees: only constants have one.
+    fn value_for_formulas(&self) -> Option<Constant> {
+        if self.kind == EntryKind::Const { self.value.clone() } else { None }
+    }
+}

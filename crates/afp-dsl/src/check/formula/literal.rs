@@ -1,0 +1,77 @@
+//! Numbers and quantities in formulas.
+
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::graph::{Formula, FormulaKind};
+use crate::source::Span;
+use crate::syntax::ast::Name;
+use crate::syntax::unit_of_token;
+use crate::types::Type;
+use crate::types::literal::Literal;
+
+/// A number with or without a unit; `inside` tells whether it is an operand.
+pub(super) fn number(
+    number: &Name,
+    unit: Option<&Name>,
+    whole: bool,
+    span: Span,
+    inside: bool,
+    diags: &mut Diagnostics,
+) -> Option<Formula> {
+    if whole && unit.is_none() {
+        let Ok(value) = number.text.parse() else {
+            let message = "the number does not fit an int";
+            diags.push(
+                Diagnostic::new(Code::E0115, span, message)
+                    .help("write a number below 9223372036854775808, or a float with a point"),
+            );
+            return None;
+        };
+        return Some(Formula { kind: FormulaKind::Int(value), ty: Type::Int, span });
+    }
+    let literal = read(number, unit)?;
+    if inside && literal.unit.is_some_and(|unit| unit.celsius) {
+        diags.push(
+            Diagnostic::new(Code::E0235, span, "a temperature in 'degC' cannot be computed with")
+                .help("use 'K' in formulas; differences are the same in both"),
+        );
+        return None;
+    }
+    let Some(value) = literal.value() else {
+        diags.push(
+            Diagnostic::new(Code::E0115, span, "the number is too large")
+                .help("write a number below 1.8e308"),
+        );
+        return None;
+    };
+    let ty = Type::Quantity(literal.dimension());
+    Some(Formula { kind: FormulaKind::Float(value), ty, span })
+}
+
+/// A number behind a minus sign, where the two are more than a number with its sign changed: the
+/// smallest int, and degrees Celsius.
+pub(super) fn negative(
+    number: &Name,
+    unit: Option<&Name>,
+    whole: bool,
+    inside: bool,
+) -> Option<(FormulaKind, Type)> {
+    if whole && unit.is_none() {
+        let value: i64 = format!("-{}", number.text).parse().ok()?;
+        return (value == i64::MIN).then_some((FormulaKind::Int(value), Type::Int));
+    }
+    let literal = read(number, unit)?;
+    if inside || !literal.unit.is_some_and(|unit| unit.celsius) {
+        return None;
+    }
+    let value = literal.negated().value()?;
+    Some((FormulaKind::Float(value), Type::Quantity(literal.dimension())))
+}
+
+fn read(number: &Name, unit: Option<&Name>) -> Option<Literal> {
+    let mut literal = Literal::parse(&number.text.replace(',', ".")).ok()?;
+    literal.unit = match unit {
+        Some(unit) => Some(unit_of_token(&unit.text)?),
+        None => None,
+    };
+    Some(literal)
+}

@@ -1,0 +1,134 @@
+//! The `use` lines of a file, and the order of its items.
+
+use std::sync::Arc;
+
+use crate::check::names::unknown;
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::syntax::ast::{File, Item, Use};
+use crate::toolbox::{Toolbox, Toolboxes};
+
+/// A toolbox that a file uses.
+pub(crate) struct Import {
+    /// The name that qualifies what is in it.
+    pub qualifier: String,
+    /// The toolbox.
+    pub toolbox: Arc<Toolbox>,
+}
+
+/// Resolves the `use` lines of a plan file.
+pub(crate) fn read(file: &File, toolboxes: &Toolboxes, diags: &mut Diagnostics) -> Vec<Import> {
+    let mut imports: Vec<(Import, crate::source::Span)> = Vec::new();
+    let uses = file.items().into_iter().filter_map(|item| match item {
+        Item::Use(line) => Some(line),
+        _ => None,
+    });
+    for line in uses {
+        let Some(import) = one(&line, toolboxes, diags) else { continue };
+        let span = line.span();
+        if let Some((_, first)) =
+            imports.iter().find(|(known, _)| known.qualifier == import.qualifier)
+        {
+            let message = format!("two toolboxes are used as '{}'", import.qualifier);
+            let message =
+                if imports.iter().any(|(known, _)| Arc::ptr_eq(&known.toolbox, &import.toolbox)) {
+                    format!("'{}' is used twice", import.qualifier)
+                } else {
+                    message
+                };
+            diags.push(
+                Diagnostic::new(Code::E0212, span, message)
+                    .note(*first, "first used here")
+                    .help("remove one of the lines, or give one a short name with 'as'"),
+            );
+            continue;
+        }
+        imports.push((import, span));
+    }
+    imports.into_iter().map(|(import, _)| import).collect()
+}
+
+fn one(line: &Use, toolboxes: &Toolboxes, diags: &mut Diagnostics) -> Option<Import> {
+    if let Some(path) = line.path() {
+        diags.push(
+            Diagnostic::new(Code::E0501, path.span, "plans of other files cannot be used yet")
+                .help("put the plans that belong together into one file"),
+        );
+        return None;
+    }
+    let name = line.toolbox()?;
+    let Some(toolbox) = toolboxes.get(&name.text) else {
+        // A toolbox with errors of its own has been reported with them.
+        if !toolboxes.is_broken(&name.text) {
+            let known = toolboxes.iter().map(|toolbox| toolbox.name.as_str());
+            let message = format!("there is no toolbox '{}'", name.text);
+            diags.push(unknown(
+                Code::E0238,
+                name.span,
+                message,
+                &name.text,
+                known,
+                "remove the line",
+            ));
+        }
+        return None;
+    };
+    let qualifier = line.alias().map_or(name.text, |alias| alias.text);
+    Some(Import { qualifier, toolbox: toolbox.clone() })
+}
+
+/// Reports items in places where they cannot stand: `use` below others, plans in a toolbox.
+pub(crate) fn check_order(file: &File, diags: &mut Diagnostics) {
+    let items = file.items();
+    let toolbox = items.iter().find_map(|item| match item {
+        Item::Toolbox(head) => Some(head.span()),
+        _ => None,
+    });
+    let mut others = false;
+    for item in &items {
+        let (span, what) = match item {
+            Item::Use(line) => {
+                if others {
+                    diags.push(
+                        Diagnostic::new(
+                            Code::E0114,
+                            line.span(),
+                            "a 'use' stands below other items",
+                        )
+                        .help("move it to the top of the file"),
+                    );
+                }
+                continue;
+            }
+            Item::Plan(plan) => {
+                (plan.name().map_or_else(|| plan.span(), |name| name.span), "a plan")
+            }
+            Item::Scenario(one) => {
+                (one.name().map_or_else(|| one.span(), |name| name.span), "a scenario")
+            }
+            _ => {
+                others = true;
+                continue;
+            }
+        };
+        others = true;
+        if let Some(head) = toolbox {
+            diags.push(
+                Diagnostic::new(Code::E0114, span, format!("{what} stands in a toolbox"))
+                    .note(head, "this makes the file a toolbox")
+                    .help("move it to a file of its own"),
+            );
+        }
+    }
+}
+
+/// Reports a version of the language that this compiler does not know.
+pub(crate) fn check_version(file: &File, diags: &mut Diagnostics) {
+    if let Some(version) = file.version().filter(|version| version.text != "1") {
+        let message = format!("version {} of the language is not known", version.text);
+        diags.push(
+            Diagnostic::new(Code::E0505, version.span, message)
+                .help("write 'afp 1', or use a newer compiler")
+                .replace("1"),
+        );
+    }
+}

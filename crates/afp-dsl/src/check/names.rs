@@ -1,0 +1,94 @@
+//! Names of one scope: each is used once, can be spelled in Rust, and differs in more than case.
+
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::source::Span;
+use crate::syntax::ast::Name;
+use crate::types::units::Unit;
+
+/// Names that Rust has no raw spelling for, or that mean something else wherever they stand.
+const REFUSED: &[&str] = &["self", "Self", "super", "crate", "true", "false"];
+
+/// The names declared in one scope so far.
+#[derive(Default)]
+pub(crate) struct Names {
+    declared: Vec<(String, Name)>,
+}
+
+impl Names {
+    /// Takes a name into the scope and reports what is wrong with it.
+    ///
+    /// Returns whether the name is new.
+    pub fn declare(&mut self, name: &Name, diags: &mut Diagnostics) -> bool {
+        let key = key(&name.text);
+        if REFUSED.contains(&name.text.as_str()) || !key.starts_with(|c: char| c.is_alphabetic()) {
+            refuse(name, diags);
+        }
+        let Some((_, first)) = self.declared.iter().find(|(known, _)| *known == key) else {
+            self.declared.push((key, name.clone()));
+            return true;
+        };
+        let clash = if first.text == name.text {
+            Diagnostic::new(Code::E0212, name.span, format!("'{}' is declared twice", name.text))
+                .help("give one of them another name")
+        } else {
+            let message =
+                format!("'{}' and '{}' differ only in case or '_'", name.text, first.text);
+            Diagnostic::new(Code::E0213, name.span, message)
+                .help("give one of them a name that differs in a letter")
+        };
+        diags.push(clash.note(first.span, "first declared here"));
+        first.text != name.text
+    }
+}
+
+/// Reports an element whose name means something else behind `->`.
+pub(crate) fn element(name: &Name, diags: &mut Diagnostics) {
+    if matches!(name.text.as_str(), "terminate" | "ignore") {
+        refuse(name, diags);
+    }
+}
+
+/// Warns of an entry that reads like a unit behind a number.
+pub(crate) fn entry(name: &Name, diags: &mut Diagnostics) {
+    if Unit::parse(&name.text).is_some() {
+        let message = format!("'{}' is also a unit", name.text);
+        diags.push(Diagnostic::new(Code::E0240, name.span, message).help(
+            "give the entry a longer name, so that '2 ".to_owned()
+                + &name.text
+                + "' cannot be misread",
+        ));
+    }
+}
+
+fn refuse(name: &Name, diags: &mut Diagnostics) {
+    let message = format!("'{}' cannot be a name here", name.text);
+    diags.push(Diagnostic::new(Code::E0213, name.span, message).help("choose another name"));
+}
+
+/// What is left of a name in every spelling of it.
+fn key(name: &str) -> String {
+    name.chars().filter(|each| *each != '_').collect::<String>().to_lowercase()
+}
+
+/// Builds the diagnostic for a name that is not there: says what was probably meant, or what there
+/// is.
+pub(crate) fn unknown<'a>(
+    code: Code,
+    span: Span,
+    message: String,
+    name: &str,
+    known: impl IntoIterator<Item = &'a str>,
+    none: &str,
+) -> Diagnostic {
+    let known: Vec<&str> = known.into_iter().collect();
+    let diagnostic = Diagnostic::new(code, span, message);
+    match crate::words::nearest(name, known.iter().copied()) {
+        Some(meant) => diagnostic.help(format!("write '{meant}'")).replace(meant),
+        None if known.is_empty() => diagnostic.help(none),
+        None if known.len() > 12 => {
+            let some = crate::words::list(known.into_iter().take(12), "or");
+            diagnostic.help(format!("write one of {some}, among others"))
+        }
+        None => diagnostic.help(format!("write {}", crate::words::list(known, "or"))),
+    }
+}

@@ -1,0 +1,193 @@
+//! One plan: elements, supervisors, `start`.
+
+mod component;
+
+use crate::check::formula::Scope;
+use crate::check::names::{self, Names};
+use crate::check::resources::Users;
+use crate::check::{Context, edges};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::graph::{self, Element, ElementId, Supervisor, SupervisorId};
+use crate::source::Span;
+use crate::syntax::ast;
+
+use component::Components;
+
+/// Checks a plan; `None` when its graph would have holes. [`graph::Component::SubPlan`] carries the
+/// place in the file for now.
+pub(crate) fn check(
+    context: &Context<'_>,
+    place: usize,
+    diags: &mut Diagnostics,
+) -> (Option<graph::Plan>, Users) {
+    let head = &context.plans[place];
+    let elements = head.node.elements();
+    let names = declare(context, place, &elements, diags);
+    let scope = Scope {
+        types: &context.types,
+        entries: &head.entries,
+        readable: &|_| true,
+        unreadable: "",
+        text: context.text,
+    };
+    let components = Components { context, scope: &scope, elements: &names };
+    let mut users = Users::default();
+    let mut supervisors = Vec::new();
+    for guard in head.node.guards() {
+        let (supervisor, user) = components.supervisor(&guard, None, diags);
+        supervisors.push(supervisor);
+        users.globals.extend(user);
+    }
+    let globals = supervisors.len();
+    let mut drawn = Vec::new();
+    for (at, node) in elements.iter().enumerate() {
+        let (element, user) = components.element(node, diags);
+        let first = supervisors.len();
+        let mut guards = Vec::new();
+        for guard in node.guards() {
+            let (supervisor, user) = components.supervisor(&guard, id(at).map(ElementId), diags);
+            supervisors.push(supervisor);
+            guards.extend(user);
+        }
+        users.elements.extend(user.map(|user| (user, guards)));
+        drawn.push(element.and_then(|element| own(element, first, supervisors.len())));
+    }
+    let start = start(&head.node, &names, diags);
+    too_many(head.name.as_ref(), &[elements.len(), supervisors.len(), head.entries.len()], diags);
+    let plan = finish(head, drawn, supervisors, globals, start);
+    (plan, users)
+}
+
+fn id(place: usize) -> Option<u16> {
+    u16::try_from(place).ok()
+}
+
+/// The element with the supervisors that stand in it.
+fn own(mut element: Element, first: usize, end: usize) -> Option<Element> {
+    let ids: Option<Vec<_>> = (first..end).map(|place| id(place).map(SupervisorId)).collect();
+    element.supervisors = ids?;
+    Some(element)
+}
+
+fn finish(
+    head: &crate::check::PlanHead,
+    elements: Vec<Option<Element>>,
+    supervisors: Vec<Option<Supervisor>>,
+    globals: usize,
+    start: Option<ElementId>,
+) -> Option<graph::Plan> {
+    let entries = head.entries.iter().map(|draft| {
+        Some(graph::Entry {
+            name: draft.name.text.clone(),
+            doc: draft.doc.clone(),
+            kind: draft.kind,
+            ty: draft.ty.clone()?,
+            init: draft.init.clone(),
+            span: draft.name.span,
+        })
+    });
+    let name = head.name.as_ref()?;
+    Some(graph::Plan {
+        name: name.text.clone(),
+        doc: head.node.doc(),
+        entries: entries.collect::<Option<_>>()?,
+        elements: elements.into_iter().collect::<Option<_>>()?,
+        supervisors: supervisors.into_iter().collect::<Option<_>>()?,
+        globals: id(globals)?,
+        start: start?,
+        interruptible: head.interrupting.is_some(),
+        span: name.span,
+    })
+}
+
+/// Checks the names of the plan's scope and gives those of the elements by place.
+fn declare(
+    context: &Context<'_>,
+    place: usize,
+    elements: &[ast::Element],
+    diags: &mut Diagnostics,
+) -> Vec<Option<ast::Name>> {
+    let head = &context.plans[place];
+    let mut scope = Names::default();
+    for entry in &head.entries {
+        scope.declare(&entry.name, diags);
+        names::entry(&entry.name, diags);
+    }
+    for guard in head.node.guards() {
+        if let Some(name) = guard.name() {
+            scope.declare(&name, diags);
+        }
+    }
+    for element in elements {
+        if let Some(name) = element.name() {
+            scope.declare(&name, diags);
+            names::element(&name, diags);
+        }
+        let mut local = Names::default();
+        for guard in element.guards() {
+            if let Some(name) = guard.name() {
+                local.declare(&name, diags);
+            }
+        }
+    }
+    elements.iter().map(ast::Element::name).collect()
+}
+
+fn start(
+    plan: &ast::Plan,
+    names: &[Option<ast::Name>],
+    diags: &mut Diagnostics,
+) -> Option<ElementId> {
+    let starts = plan.starts();
+    let name = plan.name();
+    let Some(first) = starts.first() else {
+        let span = name.as_ref().map_or_else(|| plan.span(), |name| name.span);
+        if !half_typed(plan, diags) {
+            let text = name.map(|name| name.text).unwrap_or_default();
+            let one = names.iter().flatten().next().map_or("first", |name| name.text.as_str());
+            diags.push(
+                Diagnostic::new(
+                    Code::E0215,
+                    span,
+                    format!("'{text}' does not say where it starts"),
+                )
+                .help(format!("add 'start {one}', or another element")),
+            );
+        }
+        return None;
+    };
+    for other in &starts[1..] {
+        diags.push(
+            Diagnostic::new(Code::E0215, other.span(), "a plan has one 'start'")
+                .note(first.span(), "the first one")
+                .help("remove one of them"),
+        );
+    }
+    edges::find(&first.target()?, names, diags)
+}
+
+/// Whether an item of the plan itself, not of an element in it, could not be read.
+fn half_typed(plan: &ast::Plan, diags: &Diagnostics) -> bool {
+    let inner: Vec<Span> = plan
+        .elements()
+        .iter()
+        .map(ast::Element::span)
+        .chain(plan.guards().iter().map(ast::Guard::span))
+        .chain(plan.entries().iter().map(ast::Entry::span))
+        .collect();
+    diags
+        .syntax_errors_within(plan.span())
+        .any(|span| !inner.iter().any(|item| item.contains(span)))
+}
+
+fn too_many(name: Option<&ast::Name>, counts: &[usize], diags: &mut Diagnostics) {
+    let limit = usize::from(u16::MAX);
+    if let Some(name) = name.filter(|_| counts.iter().any(|count| *count > limit)) {
+        let message =
+            format!("'{}' has more than {limit} elements, supervisors or entries", name.text);
+        diags.push(
+            Diagnostic::new(Code::E0231, name.span, message)
+                .help("move some of them to a sub-plan"),
+        );
+    }
+}

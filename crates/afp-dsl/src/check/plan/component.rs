@@ -1,0 +1,224 @@
+//! One element or supervisor of a plan.
+
+use crate::check::Context;
+use crate::check::bindings::{self, Site};
+use crate::check::callee::Wanted;
+use crate::check::edges::{self, Connected, Origin};
+use crate::check::formula::Scope;
+use crate::check::resources::User;
+use crate::check::signature::{Signature, SignatureKind};
+use crate::check::timing;
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::graph::{Element, ElementId, Supervisor};
+use crate::source::Span;
+use crate::syntax::ast::{self, ElementKind};
+
+/// What the components of one plan are checked against.
+pub(super) struct Components<'a> {
+    /// The file.
+    pub context: &'a Context<'a>,
+    /// What formulas can name.
+    pub scope: &'a Scope<'a>,
+    /// The names of the plan's elements by place.
+    pub elements: &'a [Option<ast::Name>],
+}
+
+impl Components<'_> {
+    /// Checks an element without its supervisors.
+    pub fn element(
+        &self,
+        node: &ast::Element,
+        diags: &mut Diagnostics,
+    ) -> (Option<Element>, Option<User>) {
+        if node.kind() == ElementKind::Computation {
+            unguarded(node, diags);
+        }
+        let keyword = match node.kind() {
+            ElementKind::Actor => "actor",
+            ElementKind::Computation => "computation",
+            ElementKind::SubPlan => "subplan",
+        };
+        let wanted = Wanted { keyword, span: Some(node.keyword_span()) };
+        let reference = node.template();
+        let signature =
+            reference.as_ref().and_then(|reference| self.context.callee(reference, &wanted, diags));
+        let (Some(signature), Some(reference)) = (signature, reference) else {
+            self.targets_only(&node.edges(), diags);
+            self.formulas_only(&node.binds(), diags);
+            return (None, None);
+        };
+        let name = node.name();
+        let broken = diags.syntax_errors_within(node.span()).next().is_some();
+        let site = Site { reference: reference.span(), broken };
+        let bound = bindings::check(self.scope, &signature, &node.binds(), &site, diags);
+        let span = name.as_ref().map_or_else(|| node.span(), |name| name.span);
+        let origin =
+            Origin { signature: &signature, name: name.as_ref(), span, broken, supervisor: false };
+        let connected = edges::check(&origin, &node.edges(), self.elements, diags);
+        let user = name.as_ref().map(|name| user(&name.text, span, &signature));
+        (self.build_element(node, &signature, name, bound, connected), user)
+    }
+
+    fn build_element(
+        &self,
+        node: &ast::Element,
+        signature: &Signature,
+        name: Option<ast::Name>,
+        bound: Option<bindings::Bound>,
+        connected: Connected,
+    ) -> Option<Element> {
+        let (name, bound) = (name?, bound?);
+        Some(Element {
+            doc: node.doc(),
+            component: signature.component()?,
+            generic: bound.generic,
+            inputs: bound.inputs,
+            outputs: bound.outputs,
+            states: connected.outcomes,
+            on_error: connected.extra,
+            supervisors: Vec::new(),
+            span: name.span,
+            name: name.text,
+        })
+    }
+
+    /// Checks a supervisor of the plan, or of the element `owner`.
+    pub fn supervisor(
+        &self,
+        node: &ast::Guard,
+        owner: Option<ElementId>,
+        diags: &mut Diagnostics,
+    ) -> (Option<Supervisor>, Option<User>) {
+        let written = times(node, diags);
+        let wanted = Wanted { keyword: "supervise", span: None };
+        let reference = node.template();
+        let signature =
+            reference.as_ref().and_then(|reference| self.context.callee(reference, &wanted, diags));
+        let (Some(signature), Some(reference)) = (signature, reference) else {
+            self.targets_only(&node.edges(), diags);
+            self.formulas_only(&node.binds(), diags);
+            return (None, None);
+        };
+        let name = node.name();
+        let broken = diags.syntax_errors_within(node.span()).next().is_some();
+        let site = Site { reference: reference.span(), broken };
+        let bound = bindings::check(self.scope, &signature, &node.binds(), &site, diags);
+        let span = name.as_ref().map_or_else(|| node.span(), |name| name.span);
+        let origin =
+            Origin { signature: &signature, name: name.as_ref(), span, broken, supervisor: true };
+        let connected = edges::check(&origin, &node.edges(), self.elements, diags);
+        let user = name.as_ref().map(|name| user(&name.text, span, &signature));
+        let times = effective(&signature, &written, diags);
+        (self.build_supervisor(node, owner, &signature, bound, connected, times), user)
+    }
+
+    fn build_supervisor(
+        &self,
+        node: &ast::Guard,
+        owner: Option<ElementId>,
+        signature: &Signature,
+        bound: Option<bindings::Bound>,
+        connected: Connected,
+        (every, deadline): (u64, u64),
+    ) -> Option<Supervisor> {
+        let (name, bound) = (node.name()?, bound?);
+        let (template, _) = signature.template.as_ref()?;
+        Some(Supervisor {
+            doc: node.doc(),
+            owner,
+            template: *template,
+            generic: bound.generic,
+            inputs: bound.inputs,
+            outputs: bound.outputs,
+            events: connected.outcomes.into_iter().collect::<Option<_>>()?,
+            on_miss: connected.extra,
+            every,
+            deadline,
+            span: name.span,
+            name: name.text,
+        })
+    }
+
+    /// Looks at the targets of a component whose template is unknown.
+    fn targets_only(&self, edges: &[ast::Edge], diags: &mut Diagnostics) {
+        for target in edges.iter().filter_map(ast::Edge::target) {
+            if !matches!(target.text.as_str(), "terminate" | "ignore") {
+                edges::find(&target, self.elements, diags);
+            }
+        }
+    }
+
+    /// Looks at the formulas of a component whose template is unknown.
+    fn formulas_only(&self, binds: &[ast::Bind], diags: &mut Diagnostics) {
+        for bind in binds {
+            if let ast::Bind::In { formula: Some(formula), .. } = bind {
+                self.scope.check(formula, None, diags);
+            }
+        }
+    }
+}
+
+fn user(name: &str, span: Span, signature: &Signature) -> User {
+    let uses = signature.template().map(|template| template.uses.clone()).unwrap_or_default();
+    let plan = match signature.kind {
+        SignatureKind::Plan(place) => Some(place),
+        SignatureKind::Template(_) => None,
+    };
+    User { name: name.to_owned(), span, uses, plan }
+}
+
+/// A computation takes no time, so there is nothing to watch.
+fn unguarded(node: &ast::Element, diags: &mut Diagnostics) {
+    for guard in node.guards() {
+        let span = guard.name().map_or_else(|| guard.span(), |name| name.span);
+        diags.push(
+            Diagnostic::new(
+                Code::E0218,
+                span,
+                "a computation takes no time, so nothing can watch it",
+            )
+            .help("move the supervisor to an actor, or to the plan"),
+        );
+    }
+}
+
+/// `every` and `deadline` as written, each with its place.
+type Written = [Option<(u64, Span)>; 2];
+
+fn times(node: &ast::Guard, diags: &mut Diagnostics) -> Written {
+    let mut written: Written = [None, None];
+    let mut seen: [Option<Span>; 2] = [None, None];
+    for time in node.timings() {
+        let Some(keyword) = time.keyword() else { continue };
+        let place = usize::from(keyword.text == "deadline");
+        if let Some(first) = seen[place] {
+            diags.push(
+                Diagnostic::new(
+                    Code::E0511,
+                    keyword.span,
+                    format!("'{}' is given twice", keyword.text),
+                )
+                .note(first, "first given here")
+                .help("remove one of them"),
+            );
+            continue;
+        }
+        seen[place] = Some(keyword.span);
+        written[place] = timing::nanoseconds(&time, diags).map(|value| (value, time.span()));
+    }
+    written
+}
+
+/// Period and deadline: what is written here, else what the template says. A template's deadline
+/// never outlasts a period that is written here.
+fn effective(signature: &Signature, written: &Written, diags: &mut Diagnostics) -> (u64, u64) {
+    let template = signature.template();
+    let declared = template.map_or(timing::DEFAULT_EVERY, |template| template.every);
+    let every = written[0].map_or(declared, |(every, _)| every);
+    if let Some((deadline, span)) = written[1] {
+        timing::deadline_fits(deadline, every, span, diags);
+        return (every, deadline);
+    }
+    let deadline = template.and_then(|template| template.deadline).unwrap_or(every);
+    (every, deadline.min(every))
+}

@@ -1,0 +1,96 @@
+//! Plans that contain themselves, directly or through others: the graph is static, so there can be
+//! none.
+
+use crate::check::PlanHead;
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::source::Span;
+use crate::syntax::ast::ElementKind;
+
+/// Reports each cycle once and gives the plans in an order in which sub-plans come before the plans
+/// that use them.
+pub(crate) fn order(plans: &[PlanHead], diags: &mut Diagnostics) -> Vec<usize> {
+    let uses: Vec<_> = plans.iter().map(|head| sub_plans(head, plans)).collect();
+    let mut search = Search {
+        plans,
+        uses: &uses,
+        state: vec![State::New; plans.len()],
+        order: Vec::with_capacity(plans.len()),
+        diags,
+    };
+    for root in 0..plans.len() {
+        search.run(root);
+    }
+    search.order
+}
+
+/// The plans that a plan uses, each with the place where it does.
+pub(crate) fn sub_plans(head: &PlanHead, plans: &[PlanHead]) -> Vec<(usize, Span)> {
+    let sub_plans = head.node.elements().into_iter().filter(|e| e.kind() == ElementKind::SubPlan);
+    let place = |name: &str| {
+        plans.iter().position(|plan| plan.name.as_ref().is_some_and(|known| known.text == name))
+    };
+    sub_plans
+        .filter_map(|element| {
+            let reference = element.template()?;
+            Some((place(&reference.name()?.text)?, reference.span()))
+        })
+        .collect()
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum State {
+    New,
+    Open,
+    Done,
+}
+
+struct Search<'a> {
+    plans: &'a [PlanHead],
+    uses: &'a [Vec<(usize, Span)>],
+    state: Vec<State>,
+    order: Vec<usize>,
+    diags: &'a mut Diagnostics,
+}
+
+impl Search<'_> {
+    /// Depth first with a stack of its own, since a file may hold any number of plans.
+    fn run(&mut self, root: usize) {
+        if self.state[root] != State::New {
+            return;
+        }
+        self.state[root] = State::Open;
+        let mut path: Vec<(usize, usize)> = vec![(root, 0)];
+        while let Some((plan, next)) = path.last_mut() {
+            let plan = *plan;
+            let Some((used, span)) = self.uses[plan].get(*next).copied() else {
+                self.state[plan] = State::Done;
+                self.order.push(plan);
+                path.pop();
+                continue;
+            };
+            *next += 1;
+            match self.state[used] {
+                State::New => {
+                    self.state[used] = State::Open;
+                    path.push((used, 0));
+                }
+                State::Open => self.report(&path, used, span),
+                State::Done => {}
+            }
+        }
+    }
+
+    fn report(&mut self, path: &[(usize, usize)], used: usize, span: Span) {
+        let from = path.iter().position(|(plan, _)| *plan == used).unwrap_or(0);
+        let name = |plan: usize| {
+            self.plans[plan].name.as_ref().map_or("", |name| name.text.as_str()).to_owned()
+        };
+        let mut cycle: Vec<_> = path[from..].iter().map(|(plan, _)| name(*plan)).collect();
+        cycle.push(name(used));
+        let message = format!("'{}' contains itself: {}", name(used), cycle.join(" -> "));
+        self.diags.push(
+            Diagnostic::new(Code::E0222, span, message)
+                .help("lead back with an edge to an element instead of a sub-plan"),
+        );
+    }
+}

@@ -1,0 +1,163 @@
+//! What a component is made from, in the one shape that bindings and edges need: a template, or a
+//! plan used as an actor.
+
+use std::sync::Arc;
+
+use crate::check::PlanHead;
+use crate::graph::{Component, EntryKind, PlanId, TemplateId};
+use crate::source::Span;
+use crate::toolbox::{Constant, Template, TemplateKind, Toolbox};
+use crate::types::Type;
+
+/// Ports and outcomes of a template or plan.
+pub(crate) struct Signature {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub kind: SignatureKind,
+    /// Input ports in order.
+    pub inputs: Vec<Input>,
+    /// Output ports in order.
+    pub outputs: Vec<OutputPort>,
+    /// States or events in order.
+    pub outcomes: Vec<String>,
+    /// The template, unless it is a plan.
+    pub template: Option<(TemplateId, Arc<Toolbox>)>,
+    /// The edge of a plan that can end it as `Interrupted`.
+    pub interrupting: Option<Span>,
+}
+
+/// What a signature belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum SignatureKind {
+    /// A template.
+    Template(TemplateKind),
+    /// A plan, by its place in the file.
+    Plan(usize),
+}
+
+/// An input port.
+pub(crate) struct Input {
+    /// Its name.
+    pub name: String,
+    /// Its type; `None` when its declaration is broken.
+    pub ty: Option<Type>,
+    /// Whether it may be left unbound.
+    pub optional: bool,
+    /// Its value when it is left unbound.
+    pub default: Option<Constant>,
+    /// Least and greatest value.
+    pub range: Option<(f64, f64)>,
+    /// Its declaration.
+    pub span: Span,
+}
+
+/// An output port.
+pub(crate) struct OutputPort {
+    /// Its name.
+    pub name: String,
+    /// Its type; `None` when its declaration is broken.
+    pub ty: Option<Type>,
+}
+
+impl Signature {
+    /// The signature of a template.
+    pub fn of_template(toolbox: Arc<Toolbox>, id: TemplateId) -> Signature {
+        let template = &toolbox.templates[usize::from(id.index)];
+        Signature {
+            name: template.name.clone(),
+            kind: SignatureKind::Template(template.kind),
+            inputs: inputs(template),
+            outputs: template
+                .outputs
+                .iter()
+                .map(|port| OutputPort { name: port.name.clone(), ty: Some(port.ty.clone()) })
+                .collect(),
+            outcomes: template.outcomes.iter().map(|outcome| outcome.name.clone()).collect(),
+            interrupting: None,
+            template: Some((id, toolbox)),
+        }
+    }
+
+    /// The signature of a plan that is used as an actor.
+    pub fn of_plan(place: usize, head: &PlanHead) -> Signature {
+        let of_kind = |kind| head.entries.iter().filter(move |entry| entry.kind == kind);
+        Signature {
+            name: head.name.as_ref().map(|name| name.text.clone()).unwrap_or_default(),
+            kind: SignatureKind::Plan(place),
+            inputs: of_kind(EntryKind::In)
+                .map(|entry| Input {
+                    name: entry.name.text.clone(),
+                    ty: entry.ty.clone(),
+                    optional: entry.has_init,
+                    default: entry.value.clone(),
+                    range: None,
+                    span: entry.name.span,
+                })
+                .collect(),
+            outputs: of_kind(EntryKind::Out)
+                .map(|entry| OutputPort { name: entry.name.text.clone(), ty: entry.ty.clone() })
+                .collect(),
+            outcomes: vec!["OK".to_owned(), "Interrupted".to_owned()],
+            template: None,
+            interrupting: head.interrupting,
+        }
+    }
+
+    /// The template itself, unless it is a plan.
+    pub fn template(&self) -> Option<&Template> {
+        let (id, toolbox) = self.template.as_ref()?;
+        toolbox.templates.get(usize::from(id.index))
+    }
+
+    /// What an element made from it is; `None` for a supervisor.
+    pub fn component(&self) -> Option<Component> {
+        match self.kind {
+            SignatureKind::Plan(place) => {
+                u16::try_from(place).ok().map(PlanId).map(Component::SubPlan)
+            }
+            SignatureKind::Template(kind) => {
+                let (id, _) = self.template.as_ref()?;
+                match kind {
+                    TemplateKind::Actor => Some(Component::Actor(*id)),
+                    TemplateKind::Computation => Some(Component::Computation(*id)),
+                    TemplateKind::Supervisor => None,
+                }
+            }
+        }
+    }
+}
+
+impl SignatureKind {
+    /// What it is, with an article.
+    pub fn describe(self) -> &'static str {
+        match self {
+            SignatureKind::Plan(_) => "a plan",
+            SignatureKind::Template(TemplateKind::Actor) => "an actor",
+            SignatureKind::Template(TemplateKind::Supervisor) => "a supervisor",
+            SignatureKind::Template(TemplateKind::Computation) => "a computation",
+        }
+    }
+
+    /// The keyword that puts it into a plan.
+    pub fn keyword(self) -> &'static str {
+        match self {
+            SignatureKind::Plan(_) => "subplan",
+            SignatureKind::Template(TemplateKind::Actor) => "actor",
+            SignatureKind::Template(TemplateKind::Supervisor) => "supervise",
+            SignatureKind::Template(TemplateKind::Computation) => "computation",
+        }
+    }
+}
+
+fn inputs(template: &Template) -> Vec<Input> {
+    let input = |port: &crate::toolbox::InPort| Input {
+        name: port.name.clone(),
+        ty: Some(port.ty.clone()),
+        optional: port.default.is_some(),
+        default: port.default.clone(),
+        range: port.range,
+        span: port.span,
+    };
+    template.inputs.iter().map(input).collect()
+}

@@ -1,0 +1,92 @@
+//! Times that are written in the text: `every`, `deadline`, `budget`, `stop`.
+
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::syntax::ast::{Formula, FormulaKind, Timing};
+use crate::syntax::unit_of_token;
+use crate::types::literal::Literal;
+use crate::words::a_dimension;
+
+/// Poll period where none is written, in nanoseconds.
+pub(crate) const DEFAULT_EVERY: u64 = 10_000_000;
+
+/// One hour.
+const LONGEST: u64 = 3_600_000_000_000;
+
+/// The written time in nanoseconds, 1 ns to 1 h; reports what is none.
+pub(crate) fn nanoseconds(timing: &Timing, diags: &mut Diagnostics) -> Option<u64> {
+    let value = timing.value()?;
+    let span = value.span();
+    let FormulaKind::Number { number, unit, broken, .. } = value.kind() else {
+        return refuse(&value, "a time is a positive number with a unit", diags);
+    };
+    if broken {
+        return None;
+    }
+    let Some(unit) = unit else {
+        diags.push(
+            Diagnostic::new(Code::E0203, span, "expected a duration, found a bare number")
+                .help(format!("write '{} ms'", number.text))
+                .replace(format!("{} ms", number.text)),
+        );
+        return None;
+    };
+    let dimension = unit_of_token(&unit.text)?.dimension;
+    if dimension.name() != "duration" {
+        let message = format!("expected a duration, found {}", a_dimension(dimension));
+        diags.push(
+            Diagnostic::new(Code::E0204, unit.span, message)
+                .help("write 's', 'ms', 'us' or 'ns'")
+                .replace("ms"),
+        );
+        return None;
+    }
+    // The lexer took the digits and the unit, so the text is a literal.
+    let spelled = Literal::parse(&format!("{} {}", number.text, ours(&unit.text))).ok()?;
+    match spelled.nanoseconds() {
+        Some(time @ 1..=LONGEST) => Some(time),
+        Some(0) => refuse(&value, "a time is longer than nothing", diags),
+        Some(_) => refuse(&value, "a time is at most one hour", diags),
+        None => {
+            refuse(&value, "a time is a whole number of nanoseconds of at most one hour", diags)
+        }
+    }
+}
+
+fn refuse(value: &Formula, message: &str, diags: &mut Diagnostics) -> Option<u64> {
+    diags.push(
+        Diagnostic::new(Code::E0401, value.span(), message)
+            .help("write a time from '1 ns' to '1 h', such as '10 ms'"),
+    );
+    None
+}
+
+/// The unit in our spelling; a foreign one has been reported.
+fn ours(unit: &str) -> String {
+    unit.replace(['\u{b5}', '\u{3bc}'], "u").replace('°', "deg")
+}
+
+/// Reports a deadline that lies behind the next release.
+pub(crate) fn deadline_fits(
+    deadline: u64,
+    every: u64,
+    span: crate::source::Span,
+    diags: &mut Diagnostics,
+) {
+    if deadline > every {
+        let message = "the deadline is longer than the period";
+        diags.push(
+            Diagnostic::new(Code::E0402, span, message)
+                .help(format!("write at most '{}'", spell(every))),
+        );
+    }
+}
+
+/// Nanoseconds in the largest unit that needs no fraction.
+pub(crate) fn spell(nanoseconds: u64) -> String {
+    let units = [(1_000_000_000, "s"), (1_000_000, "ms"), (1_000, "us")];
+    let fits = units.iter().find(|(size, _)| nanoseconds.is_multiple_of(*size));
+    match fits {
+        Some((size, unit)) => format!("{} {unit}", nanoseconds / size),
+        None => format!("{nanoseconds} ns"),
+    }
+}

@@ -1,0 +1,197 @@
+//! What the words of a type mean.
+
+use std::sync::Arc;
+
+use crate::check::names::unknown;
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::syntax::ast::{self, Factor};
+use crate::types::{Dimension, Enum, Object, Type};
+use crate::words;
+
+/// The types that a text can name: the built-in ones and these.
+#[derive(Default)]
+pub(crate) struct Types {
+    /// Enums, with the name that qualifies them.
+    pub enums: Vec<(Option<String>, Arc<Enum>)>,
+    /// Object types, with the name that qualifies them.
+    pub objects: Vec<(Option<String>, Arc<Object>)>,
+    /// Whether `any` and `number` can be written.
+    pub generic: bool,
+}
+
+/// Names of types that are no dimensions.
+const PLAIN: &[&str] = &["bool", "int", "float", "string"];
+
+impl Types {
+    /// Whether the language itself has a type of that name.
+    pub fn is_built_in(name: &str) -> bool {
+        PLAIN.contains(&name)
+            || matches!(name, "any" | "number")
+            || Dimension::named(name).is_some()
+    }
+
+    /// The meaning of a written type; reports what has none.
+    pub fn resolve(&self, ty: &ast::Type, diags: &mut Diagnostics) -> Option<Type> {
+        let factors = ty.factors();
+        if let [only] = factors.as_slice()
+            && only.exponent == Some(1)
+            && let Some(reference) = &only.reference
+        {
+            return self.named(reference, diags);
+        }
+        let mut product = Some(Dimension::NONE);
+        let mut named = false;
+        for factor in &factors {
+            named |= factor.reference.is_some();
+            let dimension = self.factor(factor, diags);
+            product = match (product, dimension) {
+                (Some(product), Some(dimension)) => {
+                    let joined = product.times(dimension);
+                    if joined.is_none() {
+                        too_high(factor, diags);
+                    }
+                    joined
+                }
+                _ => None,
+            };
+        }
+        if !named && product.is_some() {
+            diags.push(
+                Diagnostic::new(Code::E0232, ty.span(), "a type names at least one dimension")
+                    .help("write 'float' for a number without unit")
+                    .replace("float"),
+            );
+            return None;
+        }
+        product.map(Type::Quantity)
+    }
+
+    fn named(&self, reference: &ast::Ref, diags: &mut Diagnostics) -> Option<Type> {
+        let name = reference.name()?;
+        let home = reference.home();
+        if home.is_none() {
+            match name.text.as_str() {
+                "bool" => return Some(Type::Bool),
+                "int" => return Some(Type::Int),
+                "float" => return Some(Type::FLOAT),
+                "string" => return Some(Type::Text),
+                "any" if self.generic => return Some(Type::Any),
+                "number" if self.generic => return Some(Type::Number),
+                "any" | "number" => {
+                    let message = format!("'{}' is a type of ports of toolboxes only", name.text);
+                    diags.push(
+                        Diagnostic::new(Code::E0232, name.span, message)
+                            .help("write the type that the values have, such as 'float'"),
+                    );
+                    return None;
+                }
+                _ => {}
+            }
+            if let Some(dimension) = Dimension::named(&name.text) {
+                return Some(Type::Quantity(dimension));
+            }
+        }
+        self.declared(reference, &name, home.as_ref(), diags)
+    }
+
+    /// An enum or object type.
+    fn declared(
+        &self,
+        reference: &ast::Ref,
+        name: &ast::Name,
+        home: Option<&ast::Name>,
+        diags: &mut Diagnostics,
+    ) -> Option<Type> {
+        let fits = |qualifier: &Option<String>| {
+            home.is_none_or(|home| qualifier.as_deref() == Some(home.text.as_str()))
+        };
+        let enums = self.enums.iter().filter(|(home, each)| fits(home) && each.name == name.text);
+        let mut found: Vec<_> =
+            enums.map(|(home, each)| (home, Type::Enum(each.clone()))).collect();
+        let objects =
+            self.objects.iter().filter(|(home, each)| fits(home) && each.name == name.text);
+        found.extend(objects.map(|(home, each)| (home, Type::Object(each.clone()))));
+        match found.as_slice() {
+            [(_, ty)] => Some(ty.clone()),
+            [] => {
+                let mut known: Vec<&str> = Vec::new();
+                known.extend(PLAIN);
+                known.extend(self.enums.iter().map(|(_, each)| each.name.as_str()));
+                for dimension in Dimension::names() {
+                    known.push(dimension);
+                }
+                known.extend(self.objects.iter().map(|(_, each)| each.name.as_str()));
+                let message = format!("there is no type '{}'", name.text);
+                diags.push(unknown(Code::E0232, reference.span(), message, &name.text, known, ""));
+                None
+            }
+            several => {
+                let spelled =
+                    several.iter().map(|(home, _)| qualified(home.as_deref(), &name.text));
+                let spelled: Vec<_> = spelled.collect();
+                let list = words::list(spelled.iter().map(String::as_str), "or");
+                let message = format!("several toolboxes have a type '{}'", name.text);
+                diags.push(
+                    Diagnostic::new(Code::E0237, reference.span(), message)
+                        .help(format!("write {list}")),
+                );
+                None
+            }
+        }
+    }
+
+    /// A factor of a product: a dimension, or a number without one.
+    fn factor(&self, factor: &Factor, diags: &mut Diagnostics) -> Option<Dimension> {
+        let Some(exponent) = factor.exponent else {
+            too_high(factor, diags);
+            return None;
+        };
+        let base = match (&factor.reference, &factor.number) {
+            (Some(reference), _) => match self.named(reference, diags)? {
+                Type::Quantity(dimension) => dimension,
+                _ => {
+                    diags.push(
+                        Diagnostic::new(
+                            Code::E0232,
+                            reference.span(),
+                            "only dimensions can be multiplied",
+                        )
+                        .help("write dimensions such as 'length' or 'duration'"),
+                    );
+                    return None;
+                }
+            },
+            (None, Some(number)) if number.text == "1" => Dimension::NONE,
+            (None, Some(number)) => {
+                diags.push(
+                    Diagnostic::new(Code::E0232, number.span, "the only number in a type is 1")
+                        .help("write '1', as in '1/duration'")
+                        .replace("1"),
+                );
+                return None;
+            }
+            (None, None) => return None,
+        };
+        let exponent = if factor.divides { exponent.checked_neg() } else { Some(exponent) };
+        let raised = exponent.and_then(|exponent| base.power(exponent));
+        if raised.is_none() {
+            too_high(factor, diags);
+        }
+        raised
+    }
+}
+
+fn too_high(factor: &Factor, diags: &mut Diagnostics) {
+    diags.push(
+        Diagnostic::new(Code::E0232, factor.span, "the exponent is too large")
+            .help("exponents of a dimension go from -128 to 127"),
+    );
+}
+
+/// `home.name`, or the name alone.
+pub(crate) fn qualified(home: Option<&str>, name: &str) -> String {
+    match home {
+        Some(home) => format!("{home}.{name}"),
+        None => name.to_owned(),
+    }
+}

@@ -1,0 +1,152 @@
+//! Reads a toolbox file and checks what it declares.
+
+mod ports;
+mod template;
+
+use std::sync::Arc;
+
+use crate::check::names::Names;
+use crate::check::types::Types;
+use crate::check::{enums, imports, shadows, text};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::source::{Source, Span};
+use crate::syntax::ast::{File, Item, Name};
+use crate::syntax::parse;
+use crate::toolbox::{Template, Toolbox};
+use crate::types::Object;
+
+impl Toolbox {
+    /// Reads a toolbox file. `file` is the index that spans shall carry, `rust_path` the path of
+    /// the crate that implements the toolbox.
+    ///
+    /// `None` when there are errors; all of them are reported.
+    pub fn parse(source: &Source, file: u16, rust_path: &str) -> (Option<Toolbox>, Diagnostics) {
+        let mut diags = Diagnostics::default();
+        let tree = parse(&source.text, file, &mut diags).file();
+        let toolbox = read(&tree, source, file, rust_path, &mut diags);
+        diags.sort();
+        (toolbox.filter(|_| !diags.has_errors()), diags)
+    }
+
+    /// The name of the toolbox in a file, however broken the rest of it is.
+    pub(crate) fn name_in(source: &Source) -> Option<String> {
+        let tree = parse(&source.text, 0, &mut Diagnostics::default()).file();
+        tree.items().into_iter().find_map(|item| match item {
+            Item::Toolbox(head) => head.name().map(|name| name.text),
+            _ => None,
+        })
+    }
+}
+
+fn read(
+    tree: &File,
+    source: &Source,
+    file: u16,
+    rust_path: &str,
+    diags: &mut Diagnostics,
+) -> Option<Toolbox> {
+    imports::check_version(tree, diags);
+    imports::check_order(tree, diags);
+    let items = tree.items();
+    let heads: Vec<_> = items
+        .iter()
+        .filter_map(|item| match item {
+            Item::Toolbox(head) => Some(head),
+            _ => None,
+        })
+        .collect();
+    let Some(head) = heads.first() else {
+        let start = Span { file, start: 0, end: 0 };
+        diags.push(
+            Diagnostic::new(Code::E0114, start, "the file does not say which toolbox it is")
+                .help("write 'toolbox' and a name above the templates"),
+        );
+        return None;
+    };
+    for other in &heads[1..] {
+        diags.push(
+            Diagnostic::new(Code::E0212, other.span(), "a file is one toolbox")
+                .note(head.span(), "the first one")
+                .help("move it to a file of its own"),
+        );
+    }
+    no_uses(&items, diags);
+    let name = head.name()?;
+    Names::default().declare(&name, diags);
+    let mut toolbox = Toolbox {
+        version: head.version().map(|version| text::unquote(&version, diags)).unwrap_or_default(),
+        doc: head.doc(),
+        templates: Vec::new(),
+        enums: Vec::new(),
+        objects: Vec::new(),
+        rust_path: rust_path.to_owned(),
+        name: name.text,
+    };
+    let types = declare(&items, &mut toolbox, diags);
+    toolbox.templates = templates(&items, &types, &source.text, diags);
+    Some(toolbox)
+}
+
+fn no_uses(items: &[Item], diags: &mut Diagnostics) {
+    for item in items {
+        if let Item::Use(line) = item {
+            diags.push(
+                Diagnostic::new(Code::E0501, line.span(), "a toolbox cannot use others yet")
+                    .help("declare the types that it needs in this file"),
+            );
+        }
+    }
+}
+
+/// Enums and object types, and the names of everything that the toolbox declares.
+fn declare(items: &[Item], toolbox: &mut Toolbox, diags: &mut Diagnostics) -> Types {
+    let mut types = Types { generic: true, ..Types::default() };
+    let mut names = Names::default();
+    let mut is_new = |name: &Name, is_type: bool, diags: &mut Diagnostics| {
+        if is_type && Types::is_built_in(&name.text) {
+            shadows(name, diags);
+            return false;
+        }
+        names.declare(name, diags)
+    };
+    for item in items {
+        match item {
+            Item::Enum(node) => {
+                let Some(home) = enums::read(node, Some(&toolbox.name), diags) else { continue };
+                let name = Name { text: home.name.clone(), span: home.span };
+                if is_new(&name, true, diags) {
+                    types.enums.push((None, home.clone()));
+                    toolbox.enums.push(home);
+                }
+            }
+            Item::Object(node) => {
+                let Some(name) = node.name() else { continue };
+                if is_new(&name, true, diags) {
+                    let object = Arc::new(Object {
+                        doc: node.doc(),
+                        toolbox: toolbox.name.clone(),
+                        span: name.span,
+                        name: name.text,
+                    });
+                    types.objects.push((None, object.clone()));
+                    toolbox.objects.push(object);
+                }
+            }
+            Item::Template(node) => {
+                if let Some(name) = node.name() {
+                    is_new(&name, false, diags);
+                }
+            }
+            _ => {}
+        }
+    }
+    types
+}
+
+fn templates(items: &[Item], types: &Types, text: &str, diags: &mut Diagnostics) -> Vec<Template> {
+    let nodes = items.iter().filter_map(|item| match item {
+        Item::Template(node) => Some(node),
+        _ => None,
+    });
+    nodes.filter_map(|node| template::read(node, types, text, diags)).collect()
+}

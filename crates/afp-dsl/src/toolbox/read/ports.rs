@@ -1,0 +1,162 @@
+//! Ports of a template: types, defaults, ranges.
+
+use crate::check::formula::Scope;
+use crate::check::names::{Names, unknown};
+use crate::check::types::Types;
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::source::Span;
+use crate::syntax::ast::{self, Formula};
+use crate::toolbox::{Constant, InPort, OutPort, Outcome, TemplateKind};
+use crate::types::Type;
+use crate::words;
+
+/// Reads an input port; `None` when it has no name or no type.
+pub(super) fn input(
+    node: &ast::InPort,
+    kind: TemplateKind,
+    types: &Types,
+    source: &str,
+    names: &mut Names,
+    diags: &mut Diagnostics,
+) -> Option<InPort> {
+    let name = node.name()?;
+    names.declare(&name, diags);
+    if let Some(live) = node.live().filter(|_| kind == TemplateKind::Computation) {
+        diags.push(
+            Diagnostic::new(Code::E0510, live, "a computation reads its inputs once")
+                .help("remove 'live'")
+                .replace(""),
+        );
+    }
+    let ty = types.resolve(&node.ty()?, diags)?;
+    let values = Values { types, source, ty: &ty };
+    let range = node
+        .range()
+        .and_then(|(least, greatest, span)| values.range(&least, &greatest, span, diags));
+    let default = node.default().and_then(|formula| values.default(&formula, range, diags));
+    Some(InPort {
+        doc: node.doc(),
+        live: node.live().is_some(),
+        default,
+        range,
+        span: name.span,
+        name: name.text,
+        ty,
+    })
+}
+
+/// Reads an output port; `None` when it has no name or no type.
+pub(super) fn output(
+    node: &ast::OutPort,
+    outcomes: &[Outcome],
+    types: &Types,
+    names: &mut Names,
+    diags: &mut Diagnostics,
+) -> Option<OutPort> {
+    let name = node.name()?;
+    names.declare(&name, diags);
+    let mut on: Vec<u16> = Vec::new();
+    let all = 0..u16::try_from(outcomes.len()).unwrap_or(u16::MAX);
+    for state in node.on().unwrap_or_default() {
+        match outcomes.iter().position(|outcome| outcome.name == state.text) {
+            Some(place) => on.extend(u16::try_from(place)),
+            None => {
+                let known = outcomes.iter().map(|outcome| outcome.name.as_str());
+                let message = format!("the template has no state or event '{}'", state.text);
+                let none = "declare it in the template";
+                diags.push(unknown(Code::E0210, state.span, message, &state.text, known, none));
+            }
+        }
+    }
+    if node.on().is_none() {
+        on.extend(all);
+    }
+    on.sort_unstable();
+    on.dedup();
+    let ty = types.resolve(&node.ty()?, diags)?;
+    Some(OutPort { doc: node.doc(), on, span: name.span, name: name.text, ty })
+}
+
+/// Values that stand in the declaration of one port.
+struct Values<'a> {
+    types: &'a Types,
+    source: &'a str,
+    ty: &'a Type,
+}
+
+impl Values<'_> {
+    fn constant(&self, formula: &Formula, diags: &mut Diagnostics) -> Option<Constant> {
+        let scope = Scope {
+            types: self.types,
+            entries: &[],
+            readable: &|_| false,
+            unreadable: "",
+            text: self.source,
+        };
+        scope.check(formula, Some(self.ty), diags)?.1
+    }
+
+    fn default(
+        &self,
+        formula: &Formula,
+        range: Option<(f64, f64)>,
+        diags: &mut Diagnostics,
+    ) -> Option<Constant> {
+        let span = formula.span();
+        let refused = match self.ty {
+            Type::Object(_) => Some("objects cannot be written down"),
+            Type::Any | Type::Number => Some("the type differs from use to use"),
+            _ => None,
+        };
+        if let Some(why) = refused {
+            let message = format!("the port can have no default: {why}");
+            diags.push(Diagnostic::new(Code::E0514, span, message).help("remove the default"));
+            return None;
+        }
+        let value = self.constant(formula, diags)?;
+        if let (Some((least, greatest)), Some(number)) = (range, number(&value))
+            && !(least..=greatest).contains(&number)
+        {
+            let (least, greatest) = (words::value(least, self.ty), words::value(greatest, self.ty));
+            diags.push(
+                Diagnostic::new(Code::E0224, span, "the default is out of the port's range")
+                    .help(format!("use a value from '{least}' to '{greatest}'")),
+            );
+        }
+        Some(value)
+    }
+
+    fn range(
+        &self,
+        least: &Formula,
+        greatest: &Formula,
+        span: Span,
+        diags: &mut Diagnostics,
+    ) -> Option<(f64, f64)> {
+        if !matches!(self.ty, Type::Int | Type::Quantity(_)) {
+            diags.push(
+                Diagnostic::new(Code::E0513, span, "only ints, floats and quantities have a range")
+                    .help("remove 'from ... to ...'"),
+            );
+            return None;
+        }
+        let (from, to) = (self.constant(least, diags), self.constant(greatest, diags));
+        let (from, to) = (number(&from?)?, number(&to?)?);
+        if from > to {
+            diags.push(
+                Diagnostic::new(Code::E0513, span, "the range is empty")
+                    .help("write the least value first"),
+            );
+            return None;
+        }
+        Some((from, to))
+    }
+}
+
+fn number(value: &Constant) -> Option<f64> {
+    match value {
+        Constant::Int(value) => Some(*value as f64),
+        Constant::Float(value) => Some(*value),
+        _ => None,
+    }
+}

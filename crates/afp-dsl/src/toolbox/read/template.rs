@@ -1,0 +1,189 @@
+//! One template: its parts, each where it belongs and as often as it may stand.
+
+use crate::check::names::Names;
+use crate::check::types::Types;
+use crate::check::{text, timing};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::source::Span;
+use crate::syntax::ast::{self, Name, Part};
+use crate::toolbox::read::ports;
+use crate::toolbox::{Outcome, Template, TemplateKind};
+
+/// Reads a template; `None` without a name.
+pub(super) fn read(
+    node: &ast::Template,
+    types: &Types,
+    source: &str,
+    diags: &mut Diagnostics,
+) -> Option<Template> {
+    let name = node.name()?;
+    let mut template = Template {
+        kind: node.kind(),
+        name: name.text,
+        doc: node.doc(),
+        icon: None,
+        uses: Vec::new(),
+        inputs: Vec::new(),
+        outputs: Vec::new(),
+        outcomes: Vec::new(),
+        every: timing::DEFAULT_EVERY,
+        deadline: None,
+        budget: None,
+        stop: None,
+        span: name.span,
+    };
+    let parts = node.parts();
+    let mut seen = Seen::default();
+    outcomes(&parts, &mut template, diags);
+    let mut names = Names::default();
+    for part in &parts {
+        match part {
+            Part::Icon(quoted, span) => {
+                seen.once("icon", *span, diags);
+                template.icon = quoted.as_ref().map(|quoted| text::unquote(quoted, diags));
+            }
+            Part::Uses(resource, span) => uses(resource.as_ref(), *span, &mut template, diags),
+            Part::In(port) => {
+                let port = ports::input(port, template.kind, types, source, &mut names, diags);
+                template.inputs.extend(port);
+            }
+            Part::Out(port) => {
+                let port = ports::output(port, &template.outcomes, types, &mut names, diags);
+                template.outputs.extend(port);
+            }
+            Part::Timing(time) => set_time(time, &mut template, &mut seen, diags),
+            Part::Outcome(_) => {}
+        }
+    }
+    deadline(&parts, &template, diags);
+    without_outcomes(node, &template, diags);
+    Some(template)
+}
+
+/// The parts that may stand once, with the place of the first.
+#[derive(Default)]
+struct Seen {
+    first: Vec<(String, Span)>,
+}
+
+impl Seen {
+    fn once(&mut self, word: &str, span: Span, diags: &mut Diagnostics) {
+        if let Some((_, first)) = self.first.iter().find(|(known, _)| known == word) {
+            diags.push(
+                Diagnostic::new(Code::E0511, span, format!("'{word}' is given twice"))
+                    .note(*first, "first given here")
+                    .help("remove one of them"),
+            );
+        } else {
+            self.first.push((word.to_owned(), span));
+        }
+    }
+}
+
+fn uses(resource: Option<&Name>, span: Span, template: &mut Template, diags: &mut Diagnostics) {
+    let Some(resource) = resource else { return };
+    if template.kind == TemplateKind::Computation {
+        misfit("uses", "a computation commands nothing", span, diags);
+    }
+    if template.uses.contains(&resource.text) {
+        diags.push(
+            Diagnostic::new(
+                Code::E0511,
+                resource.span,
+                format!("'{}' is given twice", resource.text),
+            )
+            .help("remove one of them"),
+        );
+    } else {
+        template.uses.push(resource.text.clone());
+    }
+}
+
+fn misfit(word: &str, why: &str, span: Span, diags: &mut Diagnostics) {
+    diags.push(
+        Diagnostic::new(Code::E0510, span, format!("{why}, so it has no '{word}'"))
+            .help(format!("remove '{word}'")),
+    );
+}
+
+fn outcomes(parts: &[Part], template: &mut Template, diags: &mut Diagnostics) {
+    let (right, wrong) = match template.kind {
+        TemplateKind::Supervisor => ("event", "state"),
+        TemplateKind::Actor | TemplateKind::Computation => ("state", "event"),
+    };
+    let mut names = Names::default();
+    for part in parts {
+        let Part::Outcome(node) = part else { continue };
+        if let Some(keyword) = node.keyword().filter(|keyword| keyword.text == wrong) {
+            let message = match template.kind {
+                TemplateKind::Supervisor => "a supervisor has events, no states",
+                TemplateKind::Actor => "an actor has states, no events",
+                TemplateKind::Computation => "a computation has states, no events",
+            };
+            diags.push(
+                Diagnostic::new(Code::E0510, keyword.span, message)
+                    .help(format!("write '{right}'"))
+                    .replace(right),
+            );
+        }
+        let Some(name) = node.name() else { continue };
+        names.declare(&name, diags);
+        if matches!(name.text.as_str(), "Error" | "DeadlineMissed") {
+            let message = format!("'{}' needs no declaration", name.text);
+            diags.push(
+                Diagnostic::new(Code::E0214, name.span, message)
+                    .help("remove it, or choose another name; plans can connect it anyway"),
+            );
+        }
+        template.outcomes.push(Outcome { name: name.text, doc: node.doc(), span: name.span });
+    }
+}
+
+fn set_time(time: &ast::Timing, template: &mut Template, seen: &mut Seen, diags: &mut Diagnostics) {
+    let Some(keyword) = time.keyword() else { return };
+    let word = keyword.text.as_str();
+    seen.once(word, keyword.span, diags);
+    let why = match (template.kind, word) {
+        (TemplateKind::Computation, "every" | "deadline" | "stop") => {
+            Some("a computation runs at once")
+        }
+        (TemplateKind::Supervisor, "stop") => Some("a supervisor moves nothing"),
+        (TemplateKind::Actor, "deadline") => Some("the polls of an actor have no deadline"),
+        _ => None,
+    };
+    if let Some(why) = why {
+        misfit(word, why, keyword.span, diags);
+    }
+    let Some(value) = timing::nanoseconds(time, diags) else { return };
+    match word {
+        "every" => template.every = value,
+        "deadline" => template.deadline = Some(value),
+        "budget" => template.budget = Some(value),
+        _ => template.stop = Some(value),
+    }
+}
+
+fn deadline(parts: &[Part], template: &Template, diags: &mut Diagnostics) {
+    let Some(deadline) = template.deadline else { return };
+    let written = parts.iter().find_map(|part| match part {
+        Part::Timing(time) if time.keyword().is_some_and(|word| word.text == "deadline") => {
+            Some(time.span())
+        }
+        _ => None,
+    });
+    if let Some(span) = written {
+        timing::deadline_fits(deadline, template.every, span, diags);
+    }
+}
+
+fn without_outcomes(node: &ast::Template, template: &Template, diags: &mut Diagnostics) {
+    if !template.outcomes.is_empty() || diags.syntax_errors_within(node.span()).next().is_some() {
+        return;
+    }
+    let (what, help) = match template.kind {
+        TemplateKind::Supervisor => ("event", "add 'event' and a name"),
+        _ => ("state", "add 'state' and a name"),
+    };
+    let message = format!("'{}' has no {what}", template.name);
+    diags.push(Diagnostic::new(Code::E0512, template.span, message).help(help));
+}

@@ -1,0 +1,64 @@
+//! The toolboxes that a compilation can use.
+
+use std::sync::Arc;
+
+use crate::diagnostics::Diagnostics;
+use crate::source::{Source, Sources};
+use crate::toolbox::Toolbox;
+
+/// Toolboxes by name, with their texts.
+///
+/// The compiler reads no files: whoever calls it adds the toolboxes, built-in ones included.
+#[derive(Clone, Debug, Default)]
+pub struct Toolboxes {
+    list: Vec<Arc<Toolbox>>,
+    broken: Vec<String>,
+    sources: Sources,
+    diags: Diagnostics,
+}
+
+impl Toolboxes {
+    /// Reads a toolbox file and adds it. `rust_path` is the path of the crate that implements it.
+    ///
+    /// Its diagnostics are kept, see [`Toolboxes::diagnostics`]. A toolbox of a name that is there
+    /// already takes the place of the earlier one.
+    pub fn add(&mut self, source: Source, rust_path: &str) {
+        let source = Arc::new(source);
+        // With so many files, spans could no longer tell them apart.
+        let Some(file) = self.sources.add(source.clone()) else { return };
+        let (toolbox, diags) = Toolbox::parse(&source, file, rust_path);
+        match toolbox {
+            Some(toolbox) => {
+                self.list.retain(|known| known.name != toolbox.name);
+                self.list.push(Arc::new(toolbox));
+            }
+            None => self.broken.extend(Toolbox::name_in(&source)),
+        }
+        self.diags.extend(diags);
+    }
+
+    /// The toolbox of that name; `None` when there is none or it has errors.
+    pub fn get(&self, name: &str) -> Option<&Arc<Toolbox>> {
+        self.list.iter().find(|toolbox| toolbox.name == name)
+    }
+
+    /// All toolboxes without errors.
+    pub fn iter(&self) -> impl Iterator<Item = &Arc<Toolbox>> {
+        self.list.iter()
+    }
+
+    /// What there is to say about the toolboxes themselves.
+    pub fn diagnostics(&self) -> &Diagnostics {
+        &self.diags
+    }
+
+    /// The texts of the toolboxes; spans of [`Toolboxes::diagnostics`] belong to them.
+    pub fn sources(&self) -> &Sources {
+        &self.sources
+    }
+
+    /// Whether a toolbox of that name was added and has errors.
+    pub(crate) fn is_broken(&self, name: &str) -> bool {
+        self.broken.iter().any(|known| known == name)
+    }
+}
