@@ -85,6 +85,13 @@ impl Angle {
     }
 }
 
+impl AngularSpeed {
+    /// An angular speed from degrees a second: the double product with pi / 180.
+    pub const fn from_deg(degrees: f64) -> Self {
+        Quantity(degrees * (core::f64::consts::PI / 180.0))
+    }
+}
+
 impl Time {
     /// The span in whole nanoseconds; negative counts as zero.
     pub fn duration(self) -> crate::Duration {

@@ -4,6 +4,8 @@
 //! and nothing else of the crate's inside. It is public for them alone; no other code should name it.
 
 mod formula;
+mod names;
+mod native;
 mod plan;
 mod ports;
 mod store;
@@ -11,13 +13,17 @@ mod table;
 
 pub use formula::{
     Scale, Unit, bool_to_float, bool_to_int, float_to_int, int_add, int_mul, int_neg, int_rem,
-    int_sub, int_to_float, join, parse_bool, parse_choice, parse_float, parse_int, print_quantity,
-    rem,
+    int_sub, int_to_float, join, parse_bool, parse_choice, parse_float, parse_int, parse_quantity,
+    print_quantity, rem,
+};
+pub use names::{ComponentRow, EntryRow, NameTable, NamedPlan};
+pub use native::{
+    finite, hold, print_choice, read_choice, stage_outside, within, within_int, within_value,
 };
 pub use plan::{Committer, Cx, Fired, Plan, PlanState, Polled, Slot, Started, WriteError};
 pub(crate) use plan::{Place, StepState};
 pub use ports::{Args, FromArgs, Outcome, Outputs, Ports, Registry};
-pub use store::{Any, Choice, Entry, Number, Object, Stored};
+pub use store::{Any, Choice, Entry, Number, Object, Stored, Writable};
 pub use table::{Child, ElementKind, ElementRow, PlanTable, Range, SupervisorRow, Tables, Target};
 
 pub use crate::component::{
