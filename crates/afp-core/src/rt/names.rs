@@ -1,10 +1,12 @@
 //! The names of a plan as static rows, and plans that can be addressed by name.
 
+use crate::fault::Fault;
+use crate::rt::formula::{Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};
 use crate::rt::plan::{PlanState, WriteError};
 use crate::trace::{
     ComponentId, ComponentName, DEADLINE_MISSED, ERROR, EntryName, Names, TraceEntryId,
 };
-use crate::value::Value;
+use crate::value::{Text, Value};
 
 /// The names of a generated plan, sub-plans unfolded.
 #[derive(Clone, Copy, Debug)]
@@ -50,6 +52,33 @@ pub trait NamedPlan: PlanState {
     /// # Errors
     /// Why not.
     fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError>;
+
+    /// Reads a value for an entry, by position, as it would stand in the plan: `35 cm`, `true`,
+    /// `Side.left`; texts without quotes. Only [`NamedPlan::units`] are understood.
+    ///
+    /// # Errors
+    /// [`Fault::CONVERSION`]; [`Fault::TOO_LONG`] for a text.
+    fn read(&self, entry: u16, text: &str) -> Result<Value, Fault> {
+        let names = self.names();
+        let id = TraceEntryId(entry.into());
+        let EntryName { ty, unit, .. } = names.entry(id);
+        match ty {
+            "bool" => parse_bool(text).map(Value::Bool),
+            "int" => parse_int(text).map(Value::Int),
+            "float" => parse_float(text).map(Value::Float),
+            "string" => Text::try_from(text).map(Value::Text),
+            _ if !unit.is_empty() => parse_quantity(text, self.units(entry)).map(Value::Float),
+            ty => {
+                let name = text.trim().strip_prefix(ty).and_then(|rest| rest.strip_prefix('.'));
+                let choices = (0..u16::MAX).map(|value| names.choice(id, value));
+                let choices = choices.take_while(|choice| !choice.is_empty());
+                parse_choice(name.unwrap_or(text), choices).map(Value::Choice)
+            }
+        }
+    }
+
+    /// The units that a quantity for an entry, by position, may be written in.
+    fn units(&self, entry: u16) -> impl Iterator<Item = Unit<'_>>;
 
     /// The position of an entry of the plan itself.
     fn entry_named(&self, name: &str) -> Option<u16> {
