@@ -13,7 +13,7 @@ use afp_dsl::graph::{self, FormulaKind, Operator};
 use afp_dsl::types::Type;
 
 use super::config::Values;
-pub use convert::Converter;
+pub use convert::{Converter, spellings};
 
 /// A formula ready to be evaluated.
 pub struct Formula {

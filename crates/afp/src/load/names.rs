@@ -1,5 +1,7 @@
 //! The names of a loaded plan, for traces.
 
+use std::sync::Arc;
+
 use afp_core::trace::{
     ComponentId, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Kind, Names,
     TraceEntryId,
@@ -8,10 +10,14 @@ use afp_dsl::graph::{self, Graph};
 use afp_dsl::types::Type;
 use afp_dsl::unfold::{self, ComponentNames, EntryNames, Unfolded};
 
-/// The names behind the ids of a graph's main plan.
+/// The names behind the ids of a graph's main plan; a copy costs nothing.
 #[derive(Clone, Debug)]
-pub struct PlanNames {
+pub struct PlanNames(Arc<Tables>);
+
+#[derive(Debug)]
+struct Tables {
     all: Unfolded,
+    /// Type and SI unit of each entry.
     types: Vec<(String, String)>,
 }
 
@@ -20,16 +26,16 @@ impl PlanNames {
     pub fn new(graph: &Graph) -> Self {
         let all = unfold::unfold(graph);
         let types = all.entries.iter().map(|entry| (entry.ty.to_string(), unit(&entry.ty)));
-        PlanNames { types: types.collect(), all }
+        PlanNames(Arc::new(Tables { types: types.collect(), all }))
     }
 
     fn get(&self, id: ComponentId) -> Option<&ComponentNames> {
-        self.all.components.get(id.0 as usize)
+        self.0.all.components.get(id.0 as usize)
     }
 
     fn get_entry(&self, id: TraceEntryId) -> Option<(&EntryNames, &(String, String))> {
         let index = id.0 as usize;
-        Some((self.all.entries.get(index)?, self.types.get(index)?))
+        Some((self.0.all.entries.get(index)?, self.0.types.get(index)?))
     }
 }
 
@@ -43,7 +49,7 @@ fn unit(ty: &Type) -> String {
 
 impl Names for PlanNames {
     fn components(&self) -> u32 {
-        self.all.components.len() as u32
+        self.0.all.components.len() as u32
     }
 
     fn component(&self, id: ComponentId) -> ComponentName<'_> {
@@ -81,7 +87,7 @@ impl Names for PlanNames {
     }
 
     fn entries(&self) -> u32 {
-        self.all.entries.len() as u32
+        self.0.all.entries.len() as u32
     }
 
     fn entry(&self, id: TraceEntryId) -> EntryName<'_> {

@@ -3,7 +3,8 @@
 use std::fmt;
 
 use afp_core::rt::{
-    Child, Committer, Cx, Events, Fired, Machine, Plan, Polled, Slot, Started, Tables, int_to_float,
+    Child, Committer, Cx, Events, Fired, Machine, NamedPlan, Plan, Polled, Scale, Slot, Started,
+    Tables, Unit, int_to_float,
 };
 use afp_core::trace::Sink;
 use afp_core::{Clock, Environment, Fault, PlanState, Value, ValueRef, WriteError};
@@ -13,7 +14,8 @@ use afp_dsl::unfold::{self, Block};
 
 use super::config::{Config, ObjectCell};
 use super::element::{ElementSlot, Running};
-use super::formula::Formula;
+use super::formula::{Formula, spellings};
+use super::names::PlanNames;
 use super::outputs::{Binding, Inputs, Stage};
 use super::registry::Registry;
 use super::slots::SupervisorSlot;
@@ -28,11 +30,25 @@ pub struct LoadedPlan<E: ?Sized + 'static> {
     initial: Vec<(u16, Formula)>,
     elements: Vec<ElementSlot<E>>,
     supervisors: Vec<WatchSlot<E>>,
+    /// The names of the outermost plan.
+    names: PlanNames,
 }
 
 struct EntryInfo {
     name: String,
     kind: EntryKind,
+    /// The units that a value from outside may carry.
+    units: Vec<(String, Scale)>,
+}
+
+impl EntryInfo {
+    fn new(entry: &graph::Entry) -> Self {
+        let units = match (&entry.ty, entry.kind) {
+            (Type::Quantity(dimension), EntryKind::In) => spellings(*dimension),
+            _ => Vec::new(),
+        };
+        EntryInfo { name: entry.name.clone(), kind: entry.kind, units }
+    }
 }
 
 struct WatchSlot<E: ?Sized + 'static> {
@@ -102,7 +118,8 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     /// # Errors
     /// A template or object type that the registry does not know.
     pub fn new(graph: &Graph, registry: &Registry<E>) -> Result<Self, LoadError> {
-        Loader { graph, registry, blocks: unfold::blocks(graph) }.plan(graph.main)
+        let (names, blocks) = (PlanNames::new(graph), unfold::blocks(graph));
+        Loader { graph, registry, blocks, names }.plan(graph.main)
     }
 
     /// The number of an entry.
@@ -127,13 +144,7 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     pub fn set_input(&mut self, name: &str, value: &Value) -> Result<(), InputError> {
         let entry = self.entry_number(name).ok_or_else(|| InputError::Unknown(name.to_owned()))?;
         let refused = |why| InputError::Refused(name.to_owned(), why);
-        if self.entries[usize::from(entry)].kind != EntryKind::In {
-            return Err(refused(WriteError::ReadOnly));
-        }
-        self.accepts(entry, value).map_err(refused)?;
-        let value = fit(self.config.values.ty(entry), value);
-        self.config.values.set(entry, value, None);
-        Ok(())
+        NamedPlan::set_input(self, entry, value).map_err(refused)
     }
 
     /// Gives the `port`-th `in` entry its value for the next activation.
@@ -162,6 +173,7 @@ struct Loader<'a, E: ?Sized + 'static> {
     graph: &'a Graph,
     registry: &'a Registry<E>,
     blocks: Vec<Block>,
+    names: PlanNames,
 }
 
 impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
@@ -175,11 +187,8 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
                 Type::Object(object) => self.registry.object_cell(&object.toolbox, &object.name),
                 _ => None,
             }),
-            entries: plan
-                .entries
-                .iter()
-                .map(|entry| EntryInfo { name: entry.name.clone(), kind: entry.kind })
-                .collect(),
+            entries: plan.entries.iter().map(EntryInfo::new).collect(),
+            names: self.names.clone(),
             initial: initial(plan),
             elements: elements
                 .map(|(index, element)| {
@@ -350,6 +359,30 @@ impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {
     #[inline]
     fn discard(&mut self) {
         self.config.staged.discard();
+    }
+}
+
+impl<E: ?Sized + 'static> NamedPlan for LoadedPlan<E> {
+    type Names = PlanNames;
+
+    fn names(&self) -> PlanNames {
+        self.names.clone()
+    }
+
+    fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
+        let info = self.entries.get(usize::from(entry)).ok_or(WriteError::Unknown)?;
+        if info.kind != EntryKind::In {
+            return Err(WriteError::ReadOnly);
+        }
+        self.accepts(entry, value)?;
+        let value = fit(self.config.values.ty(entry), value);
+        self.config.values.set(entry, value, None);
+        Ok(())
+    }
+
+    fn units(&self, entry: u16) -> impl Iterator<Item = Unit<'_>> {
+        let units = self.entries.get(usize::from(entry)).map_or(&[][..], |info| &info.units);
+        units.iter().map(|(name, scale)| Unit { name, scale: *scale })
     }
 }
 

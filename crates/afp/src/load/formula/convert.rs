@@ -6,7 +6,7 @@ use afp_core::rt::{
 };
 use afp_core::{Fault, Text, Value};
 use afp_dsl::types::readable::{self, readable};
-use afp_dsl::types::{Conversion, Type};
+use afp_dsl::types::{Conversion, Dimension, Type};
 
 /// A conversion ready to be applied.
 pub enum Converter {
@@ -48,10 +48,7 @@ impl Converter {
                 Type::Int => Converter::ReadInt,
                 Type::Text => Converter::ReadText,
                 &Type::FLOAT => Converter::ReadFloat,
-                Type::Quantity(dimension) => {
-                    let units = readable(*dimension).into_iter();
-                    Converter::ReadQuantity(units.map(|u| (u.name, scale(u.scale))).collect())
-                }
+                Type::Quantity(dimension) => Converter::ReadQuantity(spellings(*dimension)),
                 Type::Enum(choices) => Converter::ReadChoice(choices.variants.clone()),
                 Type::Object(_) | Type::Any | Type::Number => Converter::Never,
             },
@@ -103,6 +100,11 @@ impl Converter {
             _ => Err(Fault::INTERNAL),
         }
     }
+}
+
+/// The units that a text may carry to become a quantity of this dimension.
+pub fn spellings(dimension: Dimension) -> Vec<(String, Scale)> {
+    readable(dimension).into_iter().map(|unit| (unit.name, scale(unit.scale))).collect()
 }
 
 fn scale(scale: readable::Scale) -> Scale {
