@@ -25,7 +25,10 @@ pub mod guard;
 mod line_fit;
 mod motion;
 mod search_wall;
-pub mod templates;
+pub mod templates {
+    //! The templates of the toolbox as types: ports, states and events.
+    afp_macros::toolbox!("carbot.afp");
+}
 mod turn;
 mod wall_forward;
 

@@ -3,6 +3,7 @@
 //! It does no I/O and depends on nothing else in the workspace.
 
 mod check;
+pub mod codegen;
 mod compile;
 pub mod diagnostics;
 pub mod graph;

@@ -2,6 +2,7 @@
 
 pub mod dimension;
 pub mod literal;
+pub mod readable;
 pub mod units;
 
 use std::fmt;

@@ -1,1 +1,55 @@
-//! The macros `plan!` and `toolbox!`, thin over `afp-dsl`.
+//! The macros `toolbox!` and `plan!`: files looked up, `afp-dsl` asked, its answer handed on.
+//!
+//! Both emit `include_str!` of the files they read, so an edit rebuilds. Every diagnostic becomes
+//! a compile error of its own, rendered as `afpc check` renders it.
+
+mod input;
+mod sources;
+
+use afp_dsl::codegen::{self, Options};
+use afp_dsl::diagnostics::{Diagnostics, Severity};
+use afp_dsl::source::Sources;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use input::Input;
+
+/// Turns a toolbox file into typed templates.
+///
+/// `toolbox!("carbot.afp")` takes a path relative to the crate's manifest, or the name of a built-in
+/// toolbox file. It belongs into a module `templates` beside the types that implement the
+/// templates under the templates' names.
+#[proc_macro]
+pub fn toolbox(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
+    expand(input.into(), toolbox_code).into()
+}
+
+fn expand(input: TokenStream, make: fn(&Input) -> Result<TokenStream, TokenStream>) -> TokenStream {
+    input::parse(input).and_then(|input| make(&input)).unwrap_or_else(|error| error)
+}
+
+fn toolbox_code(input: &Input) -> Result<TokenStream, TokenStream> {
+    let file = sources::toolbox(&input.path).map_err(|text| error(&text))?;
+    let mut sources = Sources::default();
+    let index = sources.add(std::sync::Arc::new(file.source.clone())).unwrap_or(0);
+    let (toolbox, diags) = afp_dsl::toolbox::Toolbox::parse(&file.source, index, "crate");
+    let toolbox = toolbox.ok_or_else(|| errors(&diags, &sources))?;
+    let options = Options { core: input.core.clone(), source: file.text };
+    Ok(codegen::code(codegen::toolbox(&toolbox, &options)))
+}
+
+/// A compile error for each error among the diagnostics.
+fn errors(diags: &Diagnostics, sources: &Sources) -> TokenStream {
+    let mut all = TokenStream::new();
+    for diagnostic in diags.iter().filter(|d| d.severity == Severity::Error) {
+        let mut one = Diagnostics::default();
+        one.push(diagnostic.clone());
+        all.extend(error(&one.render(sources, false)));
+    }
+    all
+}
+
+fn error(text: &str) -> TokenStream {
+    let text = format!("\n{text}");
+    quote!(::core::compile_error! { #text })
+}

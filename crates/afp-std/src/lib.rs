@@ -1,1 +1,24 @@
-//! The `std` toolbox: templates that need no robot.
+//! The `std` toolbox: templates that need no robot, so they run on every platform.
+#![no_std]
+#![forbid(unsafe_code)]
+
+mod assign;
+mod check_timeout;
+mod check_value;
+mod compare;
+mod count;
+mod log;
+mod wait;
+
+pub use assign::Assign;
+pub use check_timeout::CheckTimeout;
+pub use check_value::CheckValue;
+pub use compare::Compare;
+pub use count::Count;
+pub use log::Log;
+pub use wait::Wait;
+
+pub mod templates {
+    //! The templates of the toolbox as types: ports, states and events.
+    afp_macros::toolbox!("std.afp");
+}

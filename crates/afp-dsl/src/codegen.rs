@@ -1,0 +1,33 @@
+//! The Rust back end: typed templates from a toolbox, a native plan from a graph, a whole crate.
+//!
+//! One function per construct, each returning tokens; one module per generated artifact. What
+//! comes out of a plan reads like a program somebody wrote: its actors, its supervisors, the plan,
+//! its rules, under the plan's own names. It uses nothing of the run time but `afp_core::rt` and
+//! the types that components see.
+
+mod enums;
+mod layout;
+mod names;
+mod rust_type;
+mod toolbox;
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+pub use layout::{code, file};
+pub use toolbox::toolbox;
+
+/// How generated code names what it uses.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The path of `afp_core`, such as `::afp_core` or `::afp::core`.
+    pub core: TokenStream,
+    /// For a toolbox: the expression of its text, such as `include_str!("x.afp")`.
+    pub source: TokenStream,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options { core: quote!(::afp_core), source: quote!("") }
+    }
+}

@@ -1,0 +1,64 @@
+//! Enums of toolboxes and plan files as Rust enums.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use crate::codegen::layout::doc;
+use crate::codegen::names::{camel, ident};
+use crate::codegen::rust_type::variant;
+use crate::types::Enum;
+
+/// The enum with everything that entries and ports need of it.
+pub fn choices(core: &TokenStream, choices: &Enum) -> TokenStream {
+    let name = ident(&camel(&choices.name));
+    let help = doc(&choices.doc, &format!("The enum `{}`.", choices.name));
+    let indices = || 0..choices.variants.len() as u16;
+    let variants: Vec<_> = indices().map(|index| variant(choices, index)).collect();
+    let texts = &choices.variants;
+    let docs = texts.iter().map(|text| doc("", &format!("`{text}`")));
+    let defaults = indices().map(|index| (index == 0).then(|| quote!(#[default])));
+    let numbers: Vec<_> = indices().map(Literal::u16_unsuffixed).collect();
+    quote! {
+        #help
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        pub enum #name {
+            #(#docs #defaults #variants,)*
+        }
+
+        impl #core::rt::Choice for #name {
+            const NAMES: &'static [&'static str] = &[#(#texts),*];
+
+            fn index(self) -> u16 {
+                match self {
+                    #(#name::#variants => #numbers,)*
+                }
+            }
+
+            fn from_index(index: u16) -> Option<Self> {
+                match index {
+                    #(#numbers => Some(#name::#variants),)*
+                    _ => None,
+                }
+            }
+        }
+
+        impl #core::rt::Stored for #name {
+            fn as_value(&self) -> #core::ValueRef<'_> {
+                #core::ValueRef::Choice(#core::rt::Choice::index(*self))
+            }
+        }
+
+        impl #core::rt::Any for #name {}
+
+        impl #core::rt::Writable for #name {
+            fn from_value(value: &#core::Value) -> Result<Self, #core::WriteError> {
+                match value {
+                    #core::Value::Choice(index) => {
+                        #core::rt::Choice::from_index(*index).ok_or(#core::WriteError::Type)
+                    }
+                    _ => Err(#core::WriteError::Type),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Tokens as text that people read.
+//!
+//! Comments travel through the tokens as `#[comment = " text"]`, which the printer knows and the
+//! compiler does not; code that goes to the compiler as tokens has them taken out.
+
+use proc_macro2::{Group, TokenStream, TokenTree};
+use quote::quote;
+
+/// A comment above the next item, arm, element or statement.
+pub fn comment(text: &str) -> TokenStream {
+    let text = format!(" {text}");
+    quote!(#[comment = #text])
+}
+
+/// Help lines as a doc comment; `fallback` where there are none.
+pub fn doc(help: &str, fallback: &str) -> TokenStream {
+    let help = if help.trim().is_empty() { fallback } else { help };
+    let lines =
+        help.lines().map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
+    quote!(#(#[doc = #lines])*)
+}
+
+/// Tokens for the compiler: the same code without the comments.
+pub fn code(tokens: TokenStream) -> TokenStream {
+    let mut kept = Vec::new();
+    for token in tokens {
+        match token {
+            TokenTree::Group(group) if is_comment(&group) => {
+                kept.pop();
+            }
+            TokenTree::Group(group) => {
+                let mut inner = Group::new(group.delimiter(), code(group.stream()));
+                inner.set_span(group.span());
+                kept.push(TokenTree::Group(inner));
+            }
+            token => kept.push(token),
+        }
+    }
+    kept.into_iter().collect()
+}
+
+/// Whether this is the bracket of `#[comment = ...]`.
+fn is_comment(group: &Group) -> bool {
+    let first = group.stream().into_iter().next();
+    matches!(first, Some(TokenTree::Ident(ident)) if ident == "comment")
+}
+
+/// The text of a file: formatted, with air between the items.
+///
+/// Tokens that are no Rust file come back as they are, so that the compiler shows what is wrong.
+pub fn file(tokens: TokenStream) -> String {
+    match syn::parse2(tokens.clone()) {
+        Ok(file) => airy(&prettyplease::unparse(&file)),
+        Err(_) => tokens.to_string(),
+    }
+}
+
+/// Blank lines between items, where the printer leaves none.
+fn airy(text: &str) -> String {
+    let mut airy = String::with_capacity(text.len() + text.len() / 16);
+    let mut before = "";
+    for line in text.lines() {
+        if separated(before, line) {
+            airy.push('\n');
+        }
+        airy += line;
+        airy.push('\n');
+        before = line;
+    }
+    airy
+}
+
+fn separated(before: &str, line: &str) -> bool {
+    let depth = |line: &str| line.len() - line.trim_start().len();
+    let starts = |words: &[&str]| words.iter().any(|word| line.trim_start().starts_with(word));
+    let items = [
+        "///", "//", "#[", "pub ", "fn ", "impl", "struct", "enum", "mod ", "use ", "const ",
+        "static ", "type ",
+    ];
+    if before.is_empty() || depth(before) != depth(line) || depth(line) > 8 || line.is_empty() {
+        return false;
+    }
+    if before.starts_with("//!") {
+        return !line.starts_with("//!");
+    }
+    let ends_block = before.trim_start() == "}" && starts(&items);
+    let ends_item =
+        before.ends_with(';') && starts(&["///", "//", "#[", "fn ", "pub fn", "impl", "struct"]);
+    ends_block || ends_item && depth(line) <= 4
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{code, comment, file};
+    use quote::quote;
+
+    #[test]
+    fn comments_reach_the_text_and_not_the_compiler() {
+        let note = comment("why");
+        let tokens = quote!(#note fn f() -> [u8; 1] { [#note 1] });
+        assert!(file(tokens.clone()).starts_with("// why\nfn f()"));
+        assert_eq!(
+            code(tokens).to_string(),
+            quote!(
+                fn f() -> [u8; 1] {
+                    [1]
+                }
+            )
+            .to_string()
+        );
+    }
+}

@@ -1,0 +1,128 @@
+//! Names of the text as Rust identifiers.
+
+use proc_macro2::{Ident, Span};
+
+/// Rust's words that need `r#` to be names; `self`, `Self`, `super`, `crate` and `_` cannot be, and
+/// the checks refuse them.
+const KEYWORDS: &[&str] = &[
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "do", "dyn",
+    "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let",
+    "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return",
+    "static", "struct", "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use",
+    "virtual", "where", "while", "yield",
+];
+
+/// An identifier, raw where it has to be.
+pub fn ident(name: &str) -> Ident {
+    if KEYWORDS.contains(&name) {
+        Ident::new_raw(name, Span::call_site())
+    } else {
+        Ident::new(name, Span::call_site())
+    }
+}
+
+/// `searchFirstWall` as `search_first_wall`.
+pub fn snake(name: &str) -> String {
+    words(name).join("_")
+}
+
+/// `searchFirstWall` as `SearchFirstWall`.
+pub fn camel(name: &str) -> String {
+    let capital = |word: String| {
+        let (first, rest) = word.split_at(1);
+        first.to_uppercase() + rest
+    };
+    let name: String = words(name).into_iter().map(capital).collect();
+    if name == "Self" { "Self_".to_owned() } else { name }
+}
+
+/// `searchFirstWall` as `SEARCH_FIRST_WALL`.
+pub fn shout(name: &str) -> String {
+    snake(name).to_uppercase()
+}
+
+/// The words of a name, in lower case. A word begins after `_`, at a capital after a small letter
+/// or digit, and at the last capital of a run that goes on in small letters.
+fn words(name: &str) -> Vec<String> {
+    let letters: Vec<char> = name.chars().collect();
+    let mut words = vec![String::new()];
+    for (at, letter) in letters.iter().enumerate() {
+        let before = at.checked_sub(1).map(|at| letters[at]);
+        let after = letters.get(at + 1);
+        let begins = letter.is_ascii_uppercase()
+            && (before.is_some_and(|b| b.is_ascii_lowercase() || b.is_ascii_digit())
+                || before.is_some_and(|b| b.is_ascii_uppercase())
+                    && after.is_some_and(char::is_ascii_lowercase));
+        if begins || *letter == '_' {
+            words.push(String::new());
+        }
+        if let (true, Some(word)) = (*letter != '_', words.last_mut()) {
+            word.push(letter.to_ascii_lowercase());
+        }
+    }
+    words.retain(|word| !word.is_empty());
+    // A name of nothing but digits or underscores still needs a first letter.
+    match words.first() {
+        Some(word) if word.starts_with(|first: char| first.is_ascii_digit()) => {
+            words.insert(0, "n".to_owned());
+        }
+        None => words.push("n".to_owned()),
+        Some(_) => {}
+    }
+    words
+}
+
+/// Hands out names that differ from one another.
+#[derive(Debug, Default)]
+pub struct Names(Vec<String>);
+
+impl Names {
+    /// A register in which some names are taken.
+    pub fn taken(names: &[&str]) -> Self {
+        Names(names.iter().map(|name| (*name).to_owned()).collect())
+    }
+
+    /// The name itself, or the first of `name_2`, `name_3`... that is free.
+    pub fn unique(&mut self, name: String) -> String {
+        let numbered = (2..).map(|number| format!("{name}_{number}"));
+        let free = std::iter::once(name.clone()).chain(numbered).find(|n| !self.0.contains(n));
+        let name = free.unwrap_or(name);
+        self.0.push(name.clone());
+        name
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Names, camel, ident, shout, snake};
+
+    #[test]
+    fn names_follow_rust_in_case() {
+        for (name, small, big) in [
+            ("searchFirstWall", "search_first_wall", "SearchFirstWall"),
+            ("SearchWall", "search_wall", "SearchWall"),
+            ("HTTPServer2Go", "http_server2_go", "HttpServer2Go"),
+            ("wall_dist", "wall_dist", "WallDist"),
+            ("X", "x", "X"),
+            ("_9", "n_9", "N9"),
+        ] {
+            assert_eq!(snake(name), small);
+            assert_eq!(camel(name), big);
+        }
+        assert_eq!(shout("goHome"), "GO_HOME");
+    }
+
+    #[test]
+    fn keywords_become_raw() {
+        assert_eq!(ident("loop").to_string(), "r#loop");
+        assert_eq!(ident("looped").to_string(), "looped");
+    }
+
+    #[test]
+    fn a_taken_name_gets_a_number() {
+        let mut names = Names::taken(&["touch"]);
+        assert_eq!(names.unique("touch".into()), "touch_2");
+        assert_eq!(names.unique("lane".into()), "lane");
+        assert_eq!(names.unique("touch".into()), "touch_3");
+    }
+}

@@ -1,0 +1,194 @@
+//! Typed templates from a toolbox: for each one a marker, its inputs, its outcomes.
+//!
+//! A crate that implements a toolbox puts this into a module `templates`; the types that implement
+//! the templates carry the templates' names in the module around it.
+
+mod outcomes;
+mod ports;
+mod register;
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use crate::codegen::Options;
+use crate::codegen::enums;
+use crate::codegen::layout::doc;
+use crate::codegen::names::{camel, ident, snake};
+use crate::codegen::rust_type::Home;
+use crate::toolbox::{InPort, Template, TemplateKind, Toolbox};
+use crate::types::{Enum, Object, Type};
+
+/// Everything that `toolbox!` makes.
+pub fn toolbox(toolbox: &Toolbox, options: &Options) -> TokenStream {
+    let (core, source) = (&options.core, &options.source);
+    let text = doc("", "The text of the toolbox file.");
+    let enums = toolbox.enums.iter().map(|choices| enums::choices(core, choices));
+    let templates = toolbox.templates.iter().map(|t| template(core, t));
+    let register = register::register(core, toolbox);
+    quote! {
+        #text
+        pub const SOURCE: &str = #source;
+
+        #(#enums)*
+        #(#templates)*
+        #register
+    }
+}
+
+/// What templates of one kind are called in Rust.
+struct Words {
+    template: Ident,
+    component: Ident,
+    outcome: Ident,
+    outcomes: &'static str,
+}
+
+fn words(kind: TemplateKind) -> Words {
+    let (template, component, outcome, outcomes) = match kind {
+        TemplateKind::Actor => ("ActorTemplate", "Actor", "State", "states"),
+        TemplateKind::Supervisor => ("SupervisorTemplate", "Supervisor", "Event", "events"),
+        TemplateKind::Computation => ("ComputationTemplate", "Computation", "State", "states"),
+    };
+    let [template, component, outcome] = [template, component, outcome].map(ident);
+    Words { template, component, outcome, outcomes }
+}
+
+/// Types as the module of a template sees them.
+fn home(core: &TokenStream) -> Home<'_> {
+    let choice = &|choices: &Enum| {
+        let name = ident(&camel(&choices.name));
+        quote!(super::#name)
+    };
+    let object = &|object: &Object| {
+        let name = ident(&camel(&object.name));
+        quote!(super::super::#name)
+    };
+    Home { core: quote!(#core::), quantity: quote!(#core::quantity::), choice, object }
+}
+
+fn template(core: &TokenStream, template: &Template) -> TokenStream {
+    let words = words(template.kind);
+    let module = ident(&snake(&template.name));
+    let about = doc("", &format!("Ports and {} of [`{}`].", words.outcomes, camel(&template.name)));
+    let inputs = ports::inputs(core, template);
+    let live = has_live(template).then(|| ports::live(core, template));
+    let outcomes = outcomes::outcomes(core, template);
+    let marker = marker(template);
+    let implemented = implement(core, template);
+    quote! {
+        #marker
+        #implemented
+
+        #about
+        pub mod #module {
+            #inputs
+            #live
+            #outcomes
+        }
+    }
+}
+
+/// Whether components of this kind read anything while they run.
+fn has_live(template: &Template) -> bool {
+    template.kind != TemplateKind::Computation
+}
+
+fn marker(template: &Template) -> TokenStream {
+    let name = ident(&camel(&template.name));
+    let help = doc(&template.doc, &format!("The template `{}`.", template.name));
+    let body = match bound(template) {
+        Some(_) => quote!(<V>(::core::marker::PhantomData<V>)),
+        None => TokenStream::new(),
+    };
+    quote! {
+        #help
+        #[derive(Clone, Copy, Debug)]
+        pub struct #name #body;
+    }
+}
+
+fn implement(core: &TokenStream, template: &Template) -> TokenStream {
+    let Words { template: trait_name, outcome, .. } = words(template.kind);
+    let (name, module) = (ident(&camel(&template.name)), ident(&snake(&template.name)));
+    let (parameters, arguments) = match bound(template) {
+        Some(bound) => (quote!(<V: #core::rt::#bound>), quote!(<V>)),
+        None => Default::default(),
+    };
+    let inputs = Parameters::of(inputs(template).map(|(_, port)| &port.ty)).arguments();
+    let live = Parameters::of(live(template).map(|(_, port)| &port.ty)).arguments();
+    let outcomes = Parameters::of(template.outputs.iter().map(|port| &port.ty)).owned_arguments();
+    let live = has_live(template).then(|| quote!(type Live<'a> = #module::Live #live;));
+    quote! {
+        impl #parameters #core::#trait_name for #name #arguments {
+            type Inputs<'a> = #module::Inputs #inputs;
+            #live
+            type #outcome = #module::#outcome #outcomes;
+        }
+    }
+}
+
+/// The bound on the type that stands for `any` or `number`, where the template has such ports.
+fn bound(template: &Template) -> Option<Ident> {
+    let types = || {
+        let inputs = template.inputs.iter().map(|port| &port.ty);
+        inputs.chain(template.outputs.iter().map(|port| &port.ty))
+    };
+    let is = |wanted: &Type| types().any(|ty| ty == wanted);
+    let bound = if is(&Type::Number) { "Number" } else { "Any" };
+    (is(&Type::Number) || is(&Type::Any)).then(|| ident(bound))
+}
+
+/// The inputs read before the start, with their positions among all inputs. A computation reads
+/// all of them there.
+fn inputs(template: &Template) -> impl Iterator<Item = (u16, &InPort)> {
+    let all = (0..).zip(&template.inputs);
+    all.filter(|(_, port)| !port.live || !has_live(template))
+}
+
+/// The live inputs, with their positions among all inputs.
+fn live(template: &Template) -> impl Iterator<Item = (u16, &InPort)> {
+    let all = (0..).zip(&template.inputs);
+    all.filter(|(_, port)| port.live && has_live(template))
+}
+
+/// What a struct or enum of ports is generic over.
+#[derive(Clone, Copy)]
+struct Parameters {
+    /// It borrows texts or objects.
+    borrows: bool,
+    /// It holds texts or objects of its own, and cannot be copied.
+    owns: bool,
+    /// It has objects, of which nothing but `Clone` is known.
+    opaque: bool,
+    /// It has values of the type `V`.
+    generic: bool,
+}
+
+impl Parameters {
+    fn of<'t>(types: impl Iterator<Item = &'t Type>) -> Self {
+        let mut all = Parameters { borrows: false, owns: false, opaque: false, generic: false };
+        for ty in types {
+            let object = matches!(ty, Type::Object(_));
+            all.borrows |= object || *ty == Type::Text;
+            all.opaque |= object;
+            all.generic |= matches!(ty, Type::Any | Type::Number);
+        }
+        all.owns = all.borrows;
+        all
+    }
+
+    /// `<'a, V>` for something that borrows.
+    fn arguments(self) -> TokenStream {
+        match (self.borrows, self.generic) {
+            (true, true) => quote!(<'a, V>),
+            (true, false) => quote!(<'a>),
+            (false, true) => quote!(<V>),
+            (false, false) => TokenStream::new(),
+        }
+    }
+
+    /// `<V>` for something that owns.
+    fn owned_arguments(self) -> TokenStream {
+        if self.generic { quote!(<V>) } else { TokenStream::new() }
+    }
+}

@@ -1,0 +1,115 @@
+//! The states or events of a template as an enum that carries their outputs.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::{Parameters, bound, home, words};
+use crate::codegen::layout::doc;
+use crate::codegen::names::{camel, ident, snake};
+use crate::toolbox::{OutPort, Template};
+use crate::types::{Dimension, Type};
+
+/// The enum, and how its outputs are handed over.
+pub fn outcomes(core: &TokenStream, template: &Template) -> TokenStream {
+    let words = words(template.kind);
+    let parameters = Parameters::of(template.outputs.iter().map(|port| &port.ty));
+    let name = &words.outcome;
+    let about = doc("", &format!("The {}, each with its outputs.", words.outcomes));
+    let generics = parameters.owned_arguments();
+    let derives = match (parameters.opaque, parameters.owns) {
+        (true, _) => quote!(Clone),
+        (false, true) => quote!(Clone, Debug, PartialEq),
+        (false, false) => quote!(Clone, Copy, Debug, PartialEq),
+    };
+    let variants = (0..).zip(&template.outcomes).map(|(index, outcome)| {
+        let help = doc(&outcome.doc, &format!("`{}`", outcome.name));
+        let variant = ident(&camel(&outcome.name));
+        let fields = outputs(template, index).map(|(_, port)| field(core, port));
+        let fields: Vec<_> = fields.collect();
+        if fields.is_empty() {
+            quote!(#help #variant,)
+        } else {
+            quote!(#help #variant { #(#fields)* },)
+        }
+    });
+    let implemented = implement(core, template, name, parameters);
+    quote! {
+        #about
+        #[derive(#derives)]
+        pub enum #name #generics {
+            #(#variants)*
+        }
+
+        #implemented
+    }
+}
+
+/// The outputs that an outcome carries, with their positions among all outputs.
+pub fn outputs(template: &Template, outcome: u16) -> impl Iterator<Item = (u16, &OutPort)> {
+    let all = (0..).zip(&template.outputs);
+    all.filter(move |(_, port)| port.on.is_empty() || port.on.contains(&outcome))
+}
+
+fn field(core: &TokenStream, port: &OutPort) -> TokenStream {
+    let (name, ty) = (ident(&snake(&port.name)), home(core).value(&port.ty));
+    let facts = format!("`{}`", port.ty);
+    let help = if port.doc.is_empty() { facts } else { format!("{}\n\n{facts}", port.doc) };
+    let help = doc(&help, "");
+    quote!(#help #name: #ty,)
+}
+
+fn implement(
+    core: &TokenStream,
+    template: &Template,
+    name: &proc_macro2::Ident,
+    parameters: Parameters,
+) -> TokenStream {
+    let bound = bound(template).filter(|_| parameters.generic);
+    let generics = bound.map(|bound| quote!(<V: #core::rt::#bound>));
+    let arguments = parameters.owned_arguments();
+    let indexed = (0..).zip(&template.outcomes).map(|(index, outcome)| {
+        let (variant, number) = (ident(&camel(&outcome.name)), Literal::u16_unsuffixed(index));
+        let rest = outputs(template, index).next().map(|_| quote!({ .. }));
+        quote!(#name::#variant #rest => #number,)
+    });
+    let given = (0..).zip(&template.outcomes).map(|(index, outcome)| {
+        let variant = ident(&camel(&outcome.name));
+        let ports: Vec<_> = outputs(template, index).collect();
+        let fields = ports.iter().map(|(_, port)| ident(&snake(&port.name)));
+        let fields = (!ports.is_empty()).then(|| quote!({ #(#fields),* }));
+        let gives = ports.iter().map(|(number, port)| give(core, *number, port));
+        quote!(#name::#variant #fields => { #(#gives)* })
+    });
+    let silent = template.outputs.is_empty();
+    let to = if silent { quote!(_) } else { quote!(to) };
+    let body = (!silent).then(|| quote!(match self { #(#given)* }));
+    quote! {
+        impl #generics #core::rt::Outcome for #name #arguments {
+            #[inline]
+            fn index(&self) -> u16 {
+                match *self { #(#indexed)* }
+            }
+
+            fn give(self, #to: &mut dyn #core::rt::Outputs) {
+                #body
+            }
+        }
+    }
+}
+
+/// Hands over one output.
+fn give(core: &TokenStream, number: u16, port: &OutPort) -> TokenStream {
+    let (name, number) = (ident(&snake(&port.name)), Literal::u16_unsuffixed(number));
+    match &port.ty {
+        Type::Bool => quote!(to.bool(#number, #name);),
+        Type::Int => quote!(to.int(#number, #name);),
+        Type::Quantity(Dimension::NONE) => quote!(to.float(#number, #name);),
+        Type::Quantity(_) => quote!(to.float(#number, #name.si());),
+        Type::Text => quote!(to.text(#number, &#name);),
+        Type::Enum(_) => quote!(to.choice(#number, #core::rt::Choice::index(#name));),
+        Type::Object(_) => quote!(to.object(#number, &mut Some(#name));),
+        Type::Any | Type::Number => {
+            quote!(to.value(#number, #core::rt::Stored::as_value(&#name).to_owned());)
+        }
+    }
+}

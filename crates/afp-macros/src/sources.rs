@@ -1,0 +1,54 @@
+//! Files beside the manifest, and the built-in toolboxes.
+
+use std::path::PathBuf;
+use std::{env, fs};
+
+use afp_dsl::source::Source;
+use afp_dsl::toolbox::Toolboxes;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// A text and the expression that gives it to the program.
+pub struct File {
+    /// The text, for the compiler of plans.
+    pub source: Source,
+    /// `include_str!`, or the text itself where it is built in.
+    pub text: TokenStream,
+}
+
+/// A toolbox file: one beside the manifest, else a built-in one.
+///
+/// # Errors
+/// A sentence that says what is missing.
+pub fn toolbox(path: &str) -> Result<File, String> {
+    let builtin = afp_toolboxes::ALL.iter().find(|builtin| builtin.file_name == path);
+    match (read(path), builtin) {
+        (Err(_), Some(builtin)) => {
+            let text = builtin.text;
+            Ok(File { source: Source::new(path, text), text: quote!(#text) })
+        }
+        (read, _) => read,
+    }
+}
+
+/// A file beside the manifest.
+///
+/// # Errors
+/// A sentence that says what is missing.
+pub fn read(path: &str) -> Result<File, String> {
+    let root = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from).unwrap_or_default();
+    let full = root.join(path);
+    let text = fs::read_to_string(&full)
+        .map_err(|error| format!("error: cannot read '{}': {error}", full.display()))?;
+    let full = full.to_string_lossy().into_owned();
+    Ok(File { source: Source::new(path, text), text: quote!(include_str!(#full)) })
+}
+
+/// The built-in toolboxes.
+pub fn builtin() -> Toolboxes {
+    let mut toolboxes = Toolboxes::default();
+    for builtin in afp_toolboxes::ALL {
+        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
+    }
+    toolboxes
+}
