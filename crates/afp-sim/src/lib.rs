@@ -17,6 +17,6 @@ mod truth;
 pub mod world;
 
 pub use robot::{HALF_LENGTH, HALF_WIDTH};
-pub use simulation::{STEP, Simulation, Snapshot, Sonar};
+pub use simulation::{Bare, STEP, Simulation, Snapshot, Sonar};
 pub use truth::{Collision, Pose, Truth};
 pub use world::{World, WorldError};

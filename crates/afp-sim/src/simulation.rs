@@ -1,9 +1,11 @@
 //! The robot in its world, in virtual time.
 
+mod bare;
 mod bumper;
 mod devices;
 mod snapshot;
 
+pub use bare::Bare;
 pub use snapshot::{Snapshot, Sonar};
 
 use crate::noise::{Noise, Source};
@@ -72,23 +74,8 @@ impl Simulation {
     /// # Errors
     /// An obstacle without an area; [`World::parse`] lets none through.
     pub fn new(world: &World, seed: u64) -> Result<Self, WorldError> {
-        let mut physics = PhysicsWorld::new();
-        physics.gravity = Vector::ZERO;
-        physics.integration_parameters.dt = DT as f32;
-        let mut shapes = Vec::with_capacity(world.obstacles.len());
-        for (i, obstacle) in world.obstacles.iter().enumerate() {
-            let (at, shape) = obstacle.outline.shape().ok_or_else(|| WorldError {
-                place: None,
-                message: format!("'{}' has no area", obstacle.name),
-            })?;
-            physics.insert_collider(fixed(obstacle, at, shape.clone(), i), None);
-            shapes.push((at, shape));
-        }
-        let body = RigidBodyBuilder::dynamic().pose(isometry(world.start)).can_sleep(false);
-        let (body, collider) = physics.insert(body, robot());
-        // Rays meet nothing before the first update of the search tree.
-        physics.detect_collisions(&(), &());
-        let mut build = Noise::new(seed, Source::Build);
+        let Built { physics, body, collider, shapes } = build(world)?;
+        let mut differences = Noise::new(seed, Source::Build);
         Ok(Simulation {
             physics,
             body,
@@ -98,9 +85,9 @@ impl Simulation {
             now: Instant::ZERO,
             steps: 0,
             drive: Drive::new(),
-            odometer: Odometer::new(seed, &mut build),
+            odometer: Odometer::new(seed, &mut differences),
             rotator: Servo::new(ROTATOR_REACH, ROTATOR_RATE),
-            sonar: sonar::Sonar::new(seed, &mut build),
+            sonar: sonar::Sonar::new(seed, &mut differences),
             ping: None,
             echo: Reading::invalid(Invalid::NotYet, Instant::ZERO),
             touched: false,
@@ -227,6 +214,35 @@ impl Simulation {
         let steps = libm::round(self.rotator.position() / ROTATOR_RESOLUTION);
         Angle::from_si(steps * ROTATOR_RESOLUTION)
     }
+}
+
+/// What the engine knows of a world.
+struct Built {
+    physics: PhysicsWorld,
+    body: RigidBodyHandle,
+    collider: ColliderHandle,
+    shapes: Vec<(Isometry, SharedShape)>,
+}
+
+/// Builds a world and the robot in it for the engine.
+fn build(world: &World) -> Result<Built, WorldError> {
+    let mut physics = PhysicsWorld::new();
+    physics.gravity = Vector::ZERO;
+    physics.integration_parameters.dt = DT as f32;
+    let mut shapes = Vec::with_capacity(world.obstacles.len());
+    for (i, obstacle) in world.obstacles.iter().enumerate() {
+        let (at, shape) = obstacle.outline.shape().ok_or_else(|| WorldError {
+            place: None,
+            message: format!("'{}' has no area", obstacle.name),
+        })?;
+        physics.insert_collider(fixed(obstacle, at, shape.clone(), i), None);
+        shapes.push((at, shape));
+    }
+    let body = RigidBodyBuilder::dynamic().pose(isometry(world.start)).can_sleep(false);
+    let (body, collider) = physics.insert(body, robot());
+    // Rays meet nothing before the first update of the search tree.
+    physics.detect_collisions(&(), &());
+    Ok(Built { physics, body, collider, shapes })
 }
 
 /// An obstacle's collider; its index in the world is its user data.

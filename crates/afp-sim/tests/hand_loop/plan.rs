@@ -63,7 +63,7 @@ impl Plan {
     /// One step; to be called every millisecond.
     pub fn step(&mut self, sim: &mut Simulation, now: Instant) {
         let age = now.since(self.since);
-        let due = |ms| age > Duration::ZERO && age.as_nanos() % (ms * 1_000_000) == 0;
+        let due = |ms| age > Duration::ZERO && age.as_nanos().is_multiple_of(ms * 1_000_000);
         if let Some(to) = self.active.poll(sim, now, due) {
             self.active = enter(to, sim, now);
             self.since = now;
