@@ -1,0 +1,15 @@
+//! The components of `toolbox/testing.afp`, one in each file.
+
+mod glance;
+mod maps;
+mod pick;
+mod task;
+mod watch;
+mod work;
+
+pub use glance::Glance;
+pub use maps::{MakeMap, Map, ReadMap};
+pub use pick::Pick;
+pub use task::Task;
+pub use watch::Watch;
+pub use work::Work;

@@ -1,0 +1,37 @@
+//! The smallest supervisor there is.
+
+use afp_core::{Events, Fault, Instant, Supervisor, Text};
+
+use crate::platform::Platform;
+use crate::script::Phase;
+use crate::templates::{self, glance};
+
+/// Watches until the script says that something happens.
+#[derive(Debug)]
+pub struct Glance {
+    name: Text,
+    wanted: Events,
+}
+
+impl Supervisor<templates::Glance, Platform> for Glance {
+    fn start(
+        inputs: glance::Inputs<'_>,
+        wanted: Events,
+        env: &mut Platform,
+        now: Instant,
+    ) -> Result<Self, Fault> {
+        env.call(inputs.name, Phase::Start, now)?;
+        Ok(Glance { name: Text::try_from(inputs.name)?, wanted })
+    }
+
+    fn poll(
+        &mut self,
+        _: glance::Live,
+        env: &mut Platform,
+        now: Instant,
+    ) -> Result<Option<glance::Event>, Fault> {
+        env.call(self.name.as_str(), Phase::Poll, now)?;
+        let seen = env.outcomes(self.name.as_str(), now).next().is_some();
+        Ok((seen && self.wanted.contains(0)).then_some(glance::Event::Seen))
+    }
+}

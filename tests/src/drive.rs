@@ -1,0 +1,158 @@
+//! Runs a plan on the platform of the tests, in virtual time.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use afp_core::rt::{NamedPlan, Plan};
+use afp_core::trace::{Line, Names, Record, Sink, TraceEntryId};
+use afp_core::{Fault, Instant, Scheduler, StartError, Wake};
+
+use crate::platform::{CostClock, Log, Platform};
+use crate::script::{Outside, Script};
+
+/// Writes the trace to the log.
+struct Lines<N> {
+    names: N,
+    log: Log,
+}
+
+impl<N: Names> Sink for Lines<N> {
+    fn record(&mut self, at: Instant, record: &Record<'_>) {
+        self.log.note(Line { at, record, names: &self.names }.to_string());
+    }
+}
+
+/// A plan with everything it runs on.
+struct Run<'s, P: NamedPlan> {
+    scheduler: Scheduler<P>,
+    platform: Platform,
+    sink: Lines<P::Names>,
+    clock: CostClock,
+    log: Log,
+    script: &'s Script,
+    /// How much of what comes from outside has come.
+    arrived: usize,
+}
+
+/// Runs a plan as the script says; what happened, line by line: the trace, and in square brackets
+/// what the platform was asked.
+pub fn drive<P>(plan: P, script: &Script) -> Vec<String>
+where
+    P: NamedPlan + Plan<Platform>,
+{
+    let (log, clock) = (Log::default(), CostClock::default());
+    let names = plan.names();
+    let mut run = Run {
+        scheduler: Scheduler::new(plan),
+        platform: Platform::new(script.clone(), log.clone(), clock.clone()),
+        sink: Lines { names, log: log.clone() },
+        clock,
+        log: log.clone(),
+        script,
+        arrived: 0,
+    };
+    run.set_inputs();
+    if let Some(wake) = run.start() {
+        run.run(wake);
+        if run.scheduler.misses() > 0 {
+            run.log.note(format!("[deadlines missed: {}]", run.scheduler.misses()));
+        }
+    }
+    shorten(log.lines(), script.show_last)
+}
+
+/// The last lines, below the number of those left out.
+fn shorten(mut lines: Vec<String>, keep: Option<usize>) -> Vec<String> {
+    let more = keep.map_or(0, |keep| lines.len().saturating_sub(keep));
+    if more > 0 {
+        lines.drain(..more);
+        lines.insert(0, format!("[{more} lines]"));
+    }
+    lines
+}
+
+impl<P: NamedPlan + Plan<Platform>> Run<'_, P> {
+    fn set_inputs(&mut self) {
+        for (name, value) in &self.script.inputs {
+            let plan = self.scheduler.plan_mut();
+            match plan.entry_named(name).map(|entry| plan.set_input(entry, value)) {
+                None => self.log.note(format!("[no entry {name}]")),
+                Some(Err(why)) => self.log.note(format!("[{name} refused: {why}]")),
+                Some(Ok(())) => {}
+            }
+        }
+    }
+
+    fn start(&mut self) -> Option<Wake> {
+        let (scheduler, platform) = (&mut self.scheduler, &mut self.platform);
+        let (sink, clock) = (&mut self.sink, &self.clock);
+        let start = || scheduler.start(platform, sink, clock, Instant::ZERO);
+        match catch_unwind(AssertUnwindSafe(start)) {
+            Ok(Ok(wake)) => Some(self.noted(wake)),
+            Ok(Err(StartError::InputMissing(entry))) => {
+                let entry = self.sink.names.entry(TraceEntryId(u32::from(entry))).path;
+                self.log.note(format!("[cannot start without {entry}]"));
+                None
+            }
+            Ok(Err(StartError::AlreadyStarted)) => unreachable!("it is started once"),
+            Err(_) => Some(self.abort()),
+        }
+    }
+
+    fn run(&mut self, mut wake: Wake) {
+        let mut steps = self.script.steps.as_ref().map(|steps| steps.iter());
+        while let Wake::At(at) = wake {
+            let next = match &mut steps {
+                Some(steps) => steps.next().copied(),
+                None => Some(self.next(at)).filter(|at| *at <= self.script.until),
+            };
+            let Some(now) = next else { break };
+            self.arrive(now);
+            wake = self.step(now);
+        }
+    }
+
+    /// The next step by wake: when the plan asks for it, or when something comes from outside.
+    fn next(&self, wake: Instant) -> Instant {
+        let outside = self.script.outside.get(self.arrived).map_or(Instant::MAX, |(at, _)| *at);
+        wake.min(outside).max(self.clock.latest())
+    }
+
+    fn arrive(&mut self, now: Instant) {
+        while let Some((_, what)) =
+            self.script.outside.get(self.arrived).filter(|(at, _)| *at <= now)
+        {
+            self.arrived += 1;
+            match what {
+                Outside::Stop => self.scheduler.request_stop(),
+                Outside::Write(name, value) => {
+                    let entry = self.scheduler.plan().entry_named(name).unwrap_or(u16::MAX);
+                    if let Err(why) = self.scheduler.write(entry, value.clone()) {
+                        self.log.note(format!("{now} [{name} refused: {why}]"));
+                    }
+                }
+            }
+        }
+    }
+
+    fn step(&mut self, now: Instant) -> Wake {
+        let (scheduler, platform) = (&mut self.scheduler, &mut self.platform);
+        let (sink, clock) = (&mut self.sink, &self.clock);
+        let step = || scheduler.step(platform, sink, clock, now);
+        match catch_unwind(AssertUnwindSafe(step)) {
+            Ok(wake) => self.noted(wake),
+            Err(_) => self.abort(),
+        }
+    }
+
+    fn abort(&mut self) -> Wake {
+        let (platform, sink) = (&mut self.platform, &mut self.sink);
+        self.scheduler.abort(platform, sink, Fault::PANIC)
+    }
+
+    fn noted(&self, wake: Wake) -> Wake {
+        if let (true, Wake::At(at)) = (self.script.show_wakes, wake) {
+            self.log.note(format!("[wake {at}]"));
+        }
+        wake
+    }
+}

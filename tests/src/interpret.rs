@@ -1,0 +1,43 @@
+//! Plans of the tests, loaded at run time.
+
+use afp::load::{LoadedPlan, Registry};
+use afp_dsl::compile;
+use afp_dsl::graph::Graph;
+use afp_dsl::source::Source;
+use afp_dsl::toolbox::Toolboxes;
+
+use crate::drive::drive;
+use crate::platform::Platform;
+use crate::script::Script;
+
+/// The built-in toolboxes and that of the tests.
+pub fn toolboxes() -> Toolboxes {
+    let mut toolboxes = Toolboxes::default();
+    for builtin in afp_toolboxes::ALL.iter().filter(|builtin| builtin.name == "std") {
+        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
+    }
+    toolboxes.add(Source::new("testing.afp", crate::TOOLBOX), "afp_tests");
+    toolboxes
+}
+
+/// Compiles a plan.
+///
+/// # Errors
+/// Everything that is wrong with it, as text.
+pub fn graph(name: &str, text: &str) -> Result<Graph, String> {
+    let compiled = compile(&Source::new(name, text), &toolboxes());
+    let all = compiled.render(false);
+    compiled.graph.ok_or(all)
+}
+
+/// What happens when the interpreter runs a graph.
+///
+/// # Panics
+/// When a component of the graph is not registered.
+pub fn interpret(graph: &Graph, script: &Script) -> Vec<String> {
+    let mut registry: Registry<Platform> = Registry::new();
+    afp_std::templates::register(&mut registry);
+    crate::templates::register(&mut registry);
+    let plan = LoadedPlan::new(graph, &registry);
+    drive(plan.expect("all components are registered"), script)
+}

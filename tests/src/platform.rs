@@ -1,0 +1,106 @@
+//! The platform of the tests: it answers for every component, by script, and notes what is asked.
+
+use std::cell::{Cell, RefCell};
+use std::panic::resume_unwind;
+use std::rc::Rc;
+
+use afp_core::{Clock, Duration, Environment, Fault, Instant, Reason};
+
+use crate::script::{Act, Phase, Script};
+
+/// The fault that scripts cause.
+pub const SCRIPTED: Fault = Fault::new(&Reason { code: "scripted", text: "as the script says" });
+
+/// Lines of text that trace and platform write alternately.
+#[derive(Clone, Default)]
+pub struct Log(Rc<RefCell<Vec<String>>>);
+
+/// A virtual clock: it stands still but for what polls cost.
+#[derive(Clone, Default)]
+pub struct CostClock(Rc<Cell<Instant>>);
+
+/// What the components of the toolbox act on.
+pub struct Platform {
+    script: Script,
+    log: Log,
+    clock: CostClock,
+}
+
+impl Log {
+    /// Adds a line.
+    pub fn note(&self, line: String) {
+        self.0.borrow_mut().push(line);
+    }
+
+    /// All lines so far.
+    pub fn lines(&self) -> Vec<String> {
+        self.0.borrow().clone()
+    }
+}
+
+impl CostClock {
+    /// The latest time that it has shown.
+    pub fn latest(&self) -> Instant {
+        self.0.get()
+    }
+}
+
+impl Clock for CostClock {
+    fn now(&self, step: Instant) -> Instant {
+        self.0.set(self.0.get().max(step));
+        self.0.get()
+    }
+}
+
+impl Platform {
+    /// A platform on which `script` happens.
+    pub fn new(script: Script, log: Log, clock: CostClock) -> Self {
+        Platform { script, log, clock }
+    }
+
+    /// A component is started, polled or interrupted: it may fail, panic or take its time.
+    ///
+    /// # Errors
+    /// What the script wants.
+    pub fn call(&mut self, channel: &str, phase: Phase, now: Instant) -> Result<(), Fault> {
+        let shown = phase == Phase::Interrupt || self.script.show_polls && phase == Phase::Poll;
+        if shown {
+            self.log.note(format!("{now} [{phase} {channel}]"));
+        }
+        let mut cost = Duration::ZERO;
+        let mut result = Ok(());
+        for act in self.script.acts(channel, phase, now) {
+            match act {
+                Act::Cost(more) => cost = cost + *more,
+                Act::Fault => result = Err(SCRIPTED),
+                // Without the hook that would print it.
+                Act::Panic => resume_unwind(Box::new("as the script says")),
+                Act::Outcome(..) => {}
+            }
+        }
+        self.clock.0.set(self.clock.0.get().max(now) + cost);
+        result
+    }
+
+    /// The outcomes that hold now, each with its number, in the order of the script.
+    pub fn outcomes(
+        &self,
+        channel: &str,
+        now: Instant,
+    ) -> impl Iterator<Item = (&str, Option<f64>)> {
+        self.script.acts(channel, Phase::Poll, now).filter_map(|act| match act {
+            Act::Outcome(outcome, number) => Some((outcome.as_str(), *number)),
+            _ => None,
+        })
+    }
+}
+
+impl Environment for Platform {
+    fn stop(&mut self, now: Instant) {
+        self.log.note(format!("{now} [stop]"));
+    }
+
+    fn emergency_stop(&mut self) {
+        self.log.note("[emergency stop]".to_owned());
+    }
+}

@@ -1,0 +1,50 @@
+//! The cases of `run/`: interpreter and generated code must both print the expected trace.
+//!
+//! `AFP_BLESS=1` writes what the interpreter prints; read the difference like code.
+
+#[path = "run/rules.rs"]
+mod rules;
+
+use std::path::PathBuf;
+use std::{env, fs};
+
+use afp_tests::case::Case;
+use afp_tests::interpret::{graph, interpret};
+
+/// One module for each case, with the plan as Rust and a test that calls [`check`].
+mod cases {
+    include!(concat!(env!("OUT_DIR"), "/run.rs"));
+}
+
+fn folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("run")
+}
+
+/// Runs a case through the interpreter.
+fn check(name: &str) {
+    let path = folder().join(format!("{name}.afp"));
+    let text = fs::read_to_string(&path).expect("the case can be read");
+    let case = Case::parse(&text).expect("its script can be read");
+    let graph = graph(name, &case.plan).unwrap_or_else(|errors| panic!("{errors}"));
+    let interpreted = interpret(&graph, &case.script);
+    if env::var_os("AFP_BLESS").is_some() {
+        case.bless(&path, &interpreted).expect("the case can be written");
+    } else {
+        assert_same(&case.trace, &interpreted, "expected", "interpreted");
+    }
+}
+
+/// Shows where two traces part.
+#[track_caller]
+fn assert_same(left: &[String], right: &[String], left_name: &str, right_name: &str) {
+    if left == right {
+        return;
+    }
+    let same = left.iter().zip(right).take_while(|(a, b)| a == b).count();
+    let show = |lines: &[String]| lines.get(same..).unwrap_or(&[]).join("\n  ");
+    panic!(
+        "after {same} equal lines\n{left_name}:\n  {}\n{right_name}:\n  {}",
+        show(left),
+        show(right)
+    );
+}
