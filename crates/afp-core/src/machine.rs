@@ -23,7 +23,7 @@ use crate::clock::Clock;
 use crate::component::Environment;
 use crate::fault::Fault;
 use crate::rt::{
-    Committer, Cx, ElementKind, ElementRow, Plan, PlanState, PlanTable, Polled, Slot, Tables,
+    AtElement, Committer, Cx, ElementKind, ElementRow, Plan, PlanState, Polled, Slot, Tables,
     Target,
 };
 use crate::time::Instant;
@@ -104,7 +104,7 @@ impl<P: PlanState> Machine<P> {
         C: Clock,
         P: Plan<E>,
     {
-        self.level.start(self.tables.table(), cx)
+        self.level.start(&self.tables, cx)
     }
 
     /// Does everything that is due.
@@ -116,7 +116,7 @@ impl<P: PlanState> Machine<P> {
         C: Clock,
         P: Plan<E>,
     {
-        self.level.step(self.tables.table(), cx)
+        self.level.step(&self.tables, cx)
     }
 
     /// Interrupts whatever is active, innermost first, and drops all components.
@@ -130,7 +130,7 @@ impl<P: PlanState> Machine<P> {
         C: Clock,
         P: Plan<E>,
     {
-        let result = self.level.interrupt_active(self.tables.table(), cx);
+        let result = self.level.interrupt_active(&self.tables, cx);
         self.level.plan.end();
         result
     }
@@ -145,8 +145,35 @@ impl<P: PlanState> Machine<P> {
     }
 }
 
+/// A step of one level, for an element still to be named.
+struct StepAt<'a, 'c, 't, P: PlanState, E: ?Sized, S, C> {
+    level: &'a mut Level<P>,
+    t: &'t P::Tables,
+    cx: &'a mut Cx<'c, E, S, C>,
+}
+
+impl<P, E, S, C> AtElement for StepAt<'_, '_, '_, P, E, S, C>
+where
+    E: Environment + ?Sized,
+    S: Sink,
+    C: Clock,
+    P: Plan<E>,
+{
+    type Out = Flow;
+
+    #[inline(always)]
+    fn at<const ELEMENT: u16>(self) -> Flow {
+        self.level.step_element(self.t, ELEMENT, self.cx)
+    }
+
+    #[inline]
+    fn any(self, element: u16) -> Flow {
+        self.level.step_element(self.t, element, self.cx)
+    }
+}
+
 impl<P: PlanState> Level<P> {
-    fn start<E, S, C>(&mut self, t: PlanTable<'_>, cx: &mut Cx<'_, E, S, C>) -> Flow
+    fn start<E, S, C>(&mut self, t: &P::Tables, cx: &mut Cx<'_, E, S, C>) -> Flow
     where
         E: Environment + ?Sized,
         S: Sink,
@@ -159,12 +186,12 @@ impl<P: PlanState> Level<P> {
             return self.fail(cx.place.plan, fault, cx);
         }
         self.trace_entries(t, cx);
-        for supervisor in 0..t.globals {
+        for supervisor in 0..t.table().globals {
             if let Err(fault) = self.start_supervisor(t, supervisor, cx) {
                 return self.end(Ending::Error(fault), cx);
             }
         }
-        match self.enter(t, t.start, cx) {
+        match self.enter(t, t.table().start, cx) {
             Ok(None) => Flow::Running(self.wake(t)),
             Ok(Some(edge)) => self.follow(t, edge, cx),
             Err(stop) => self.stop(stop, cx),
@@ -172,16 +199,32 @@ impl<P: PlanState> Level<P> {
     }
 
     #[inline]
-    fn step<E, S, C>(&mut self, t: PlanTable<'_>, cx: &mut Cx<'_, E, S, C>) -> Flow
+    fn step<E, S, C>(&mut self, t: &P::Tables, cx: &mut Cx<'_, E, S, C>) -> Flow
     where
         E: Environment + ?Sized,
         S: Sink,
         C: Clock,
         P: Plan<E>,
     {
-        let Some((element, row)) = self.active.and_then(|e| Some((e, t.element(e)?))) else {
-            return Flow::Fatal(Fault::INTERNAL);
-        };
+        let Some(element) = self.active else { return Flow::Fatal(Fault::INTERNAL) };
+        P::at_element(element, StepAt { level: self, t, cx })
+    }
+
+    /// A step while an element is active.
+    #[inline(always)]
+    fn step_element<E, S, C>(
+        &mut self,
+        t: &P::Tables,
+        element: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Flow
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        let Some(row) = t.table().element(element) else { return Flow::Fatal(Fault::INTERNAL) };
         let wake = match self.sweep(t, element, row, cx) {
             Seen::Nothing(wake) => wake,
             Seen::Something(found) => return self.interrupted(t, element, row, found, cx),
@@ -206,7 +249,7 @@ impl<P: PlanState> Level<P> {
     /// The active element has finished or failed.
     fn left<E, S, C>(
         &mut self,
-        t: PlanTable<'_>,
+        t: &P::Tables,
         element: u16,
         row: &ElementRow,
         polled: Polled,
@@ -242,12 +285,7 @@ impl<P: PlanState> Level<P> {
     }
 
     /// Takes edges until an element is active or the plan ends.
-    fn follow<E, S, C>(
-        &mut self,
-        t: PlanTable<'_>,
-        mut edge: Edge,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Flow
+    fn follow<E, S, C>(&mut self, t: &P::Tables, mut edge: Edge, cx: &mut Cx<'_, E, S, C>) -> Flow
     where
         E: Environment + ?Sized,
         S: Sink,
@@ -275,7 +313,7 @@ impl<P: PlanState> Level<P> {
     /// An element reached a state: its outputs are staged.
     fn finished<E, S, C>(
         &mut self,
-        t: PlanTable<'_>,
+        t: &P::Tables,
         element: u16,
         row: &ElementRow,
         state: u16,
@@ -291,7 +329,7 @@ impl<P: PlanState> Level<P> {
         cx.trace(&Record::Finished { element: id, state });
         self.commit(Author::Component(id), cx);
         self.plan.leave(element);
-        Ok(Edge { target: t.edge(row.states, state), ending: Ending::Ok })
+        Ok(Edge { target: t.table().edge(row.states, state), ending: Ending::Ok })
     }
 
     /// The edge of an element that failed; unconnected, the plan ends.
@@ -314,7 +352,7 @@ impl<P: PlanState> Level<P> {
     /// Interrupts the active element, if there is one, and drops it.
     fn interrupt_active<E, S, C>(
         &mut self,
-        t: PlanTable<'_>,
+        t: &P::Tables,
         cx: &mut Cx<'_, E, S, C>,
     ) -> Result<(), Fault>
     where
@@ -329,7 +367,9 @@ impl<P: PlanState> Level<P> {
         let result = self.plan.interrupt_element(element, cx);
         match result {
             Ok(()) => cx.trace(&Record::Interrupted { element: id }),
-            Err(fault) if t.element(element).is_some_and(|row| row.kind == ElementKind::Actor) => {
+            Err(fault)
+                if t.table().element(element).is_some_and(|row| row.kind == ElementKind::Actor) =>
+            {
                 cx.trace(&Record::Faulted { component: id, fault });
             }
             Err(_) => {}
@@ -390,7 +430,7 @@ impl<P: PlanState> Level<P> {
         });
     }
 
-    fn trace_entries<E: ?Sized, S: Sink, C>(&mut self, t: PlanTable<'_>, cx: &mut Cx<'_, E, S, C>) {
+    fn trace_entries<E: ?Sized, S: Sink, C>(&mut self, t: &P::Tables, cx: &mut Cx<'_, E, S, C>) {
         if !S::ENABLED {
             return;
         }
@@ -401,7 +441,7 @@ impl<P: PlanState> Level<P> {
             entries: cx.place.entries,
             number: cx.step.commits,
         };
-        for entry in 0..t.entries {
+        for entry in 0..t.table().entries {
             match self.plan.entry(entry) {
                 crate::value::ValueRef::Unset => {}
                 value => committer.wrote(entry, crate::value::ValueRef::Unset, value),
@@ -410,17 +450,17 @@ impl<P: PlanState> Level<P> {
     }
 
     /// The next instant at which anything of this level is due.
-    fn wake(&self, t: PlanTable<'_>) -> Instant {
-        let row = self.active.and_then(|element| t.element(element));
-        let sweep = row.map_or(&[][..], |row| t.sweep(row));
+    fn wake(&self, t: &P::Tables) -> Instant {
+        let row = self.active.and_then(|element| t.table().element(element));
+        let sweep = row.map_or(&[][..], |row| t.table().sweep(row));
         let slots = sweep.iter().filter_map(|id| self.slots.as_ref().get(slot(t, *id)?));
         slots.map(|slot: &Slot| slot.next).fold(self.due, Instant::min)
     }
 }
 
 /// The slot of a supervisor.
-fn slot(t: PlanTable<'_>, supervisor: u16) -> Option<usize> {
-    t.supervisor(supervisor).map(|row| usize::from(row.slot))
+fn slot(t: &impl Tables, supervisor: u16) -> Option<usize> {
+    t.table().supervisor(supervisor).map(|row| usize::from(row.slot))
 }
 
 /// The id of an element.
@@ -432,11 +472,11 @@ fn component<E: ?Sized, S, C>(cx: &Cx<'_, E, S, C>, element: u16) -> ComponentId
 /// The id of a supervisor.
 #[inline]
 fn supervisor_id<E: ?Sized, S, C>(
-    t: PlanTable<'_>,
+    t: &impl Tables,
     cx: &Cx<'_, E, S, C>,
     supervisor: u16,
 ) -> ComponentId {
-    let elements = t.elements.len() as u32;
+    let elements = t.table().elements.len() as u32;
     ComponentId(cx.place.components.saturating_add(elements).saturating_add(u32::from(supervisor)))
 }
 

@@ -20,7 +20,9 @@ pub use names::{ComponentRow, EntryRow, NameTable, NamedPlan};
 pub use native::{
     finite, hold, print_choice, read_choice, stage_outside, within, within_int, within_value,
 };
-pub use plan::{Committer, Cx, Fired, Plan, PlanState, Polled, Slot, Started, WriteError};
+pub use plan::{
+    AtElement, Committer, Cx, Fired, Plan, PlanState, Polled, Slot, Started, WriteError,
+};
 pub(crate) use plan::{Place, StepState};
 pub use ports::{Args, FromArgs, Outcome, Outputs, Ports, Registry};
 pub use store::{Any, Choice, Entry, Number, Object, Stored, Writable};

@@ -6,14 +6,14 @@ use crate::clock::Clock;
 use crate::component::Environment;
 use crate::fault::Fault;
 use crate::machine::Flow;
-use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, PlanTable, Started};
+use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, Started, Tables};
 use crate::trace::{Record, Sink};
 
 impl<P: PlanState> Level<P> {
     /// Enters an element. `None` when it is active now, else the edge by which it was left.
     pub(super) fn enter<E, S, C>(
         &mut self,
-        t: PlanTable<'_>,
+        t: &P::Tables,
         element: u16,
         cx: &mut Cx<'_, E, S, C>,
     ) -> Result<Option<Edge>, Stop>
@@ -23,7 +23,7 @@ impl<P: PlanState> Level<P> {
         C: Clock,
         P: Plan<E>,
     {
-        let Some(row) = t.element(element) else { return Err(Stop::Run(Fault::INTERNAL)) };
+        let Some(row) = t.table().element(element) else { return Err(Stop::Run(Fault::INTERNAL)) };
         if row.kind != ElementKind::Computation {
             for local in row.locals.first..row.locals.first.saturating_add(row.locals.len) {
                 if let Err(fault) = self.start_supervisor(t, local, cx) {
@@ -40,7 +40,7 @@ impl<P: PlanState> Level<P> {
     /// Starts a supervisor; it is due at once.
     pub(super) fn start_supervisor<E, S, C>(
         &mut self,
-        t: PlanTable<'_>,
+        t: &P::Tables,
         supervisor: u16,
         cx: &mut Cx<'_, E, S, C>,
     ) -> Result<(), Fault>
@@ -50,7 +50,7 @@ impl<P: PlanState> Level<P> {
         C: Clock,
         P: Plan<E>,
     {
-        let slot = t.supervisor(supervisor).map_or(usize::MAX, |row| usize::from(row.slot));
+        let slot = t.table().supervisor(supervisor).map_or(usize::MAX, |row| usize::from(row.slot));
         if let Some(slot) = self.slots.as_mut().get_mut(slot) {
             slot.next = cx.now;
         }
@@ -67,7 +67,7 @@ impl<P: PlanState> Level<P> {
     /// Looks before the start: due global supervisors first, then the element's own.
     fn look<E, S, C>(
         &mut self,
-        t: PlanTable<'_>,
+        t: &P::Tables,
         element: u16,
         row: &ElementRow,
         cx: &mut Cx<'_, E, S, C>,
@@ -82,9 +82,9 @@ impl<P: PlanState> Level<P> {
         // Whatever ran since the last poll of a supervisor took its time too.
         cx.step.clock = cx.clock.now(cx.now);
         for global in [true, false] {
-            for &supervisor in t.sweep(row) {
-                let Some(row) = t.supervisor(supervisor) else { continue };
-                if (supervisor < t.globals) != global {
+            for &supervisor in t.table().sweep(row) {
+                let Some(row) = t.table().supervisor(supervisor) else { continue };
+                if (supervisor < t.table().globals) != global {
                     continue;
                 }
                 if let Err(what) = self.poll_if_due(t, supervisor, row, moment, cx) {
@@ -98,7 +98,7 @@ impl<P: PlanState> Level<P> {
     /// The look found a reason not to start.
     fn diverted<E, S, C>(
         &mut self,
-        t: PlanTable<'_>,
+        t: &P::Tables,
         element: u16,
         row: &ElementRow,
         found: Found,
@@ -127,7 +127,7 @@ impl<P: PlanState> Level<P> {
     /// Reads the inputs and starts the element itself.
     fn start_element<E, S, C>(
         &mut self,
-        t: PlanTable<'_>,
+        t: &P::Tables,
         element: u16,
         row: &ElementRow,
         cx: &mut Cx<'_, E, S, C>,

@@ -5,7 +5,7 @@ use crate::clock::Clock;
 use crate::component::Environment;
 use crate::fault::Fault;
 use crate::machine::Flow;
-use crate::rt::{Cx, ElementRow, Fired, Plan, PlanState, PlanTable, Slot, SupervisorRow, Target};
+use crate::rt::{Cx, ElementRow, Fired, Plan, PlanState, SupervisorRow, Tables, Target};
 use crate::time::{Duration, Instant};
 use crate::trace::{Author, Cause, DEADLINE_MISSED, Ending, Record, Sink, Verdict};
 
@@ -45,15 +45,27 @@ pub(super) struct Moment {
 /// The release that a poll serves.
 struct Release {
     at: Instant,
+    /// The one after it.
+    next: Instant,
+    /// Earlier ones that passed entirely.
     skipped: u64,
+}
+
+/// A poll of a supervisor.
+struct Poll {
+    /// The earliest release that was not served.
+    release: Instant,
+    begin: Instant,
+    end: Instant,
+    fired: Fired,
 }
 
 impl<P: PlanState> Level<P> {
     /// Polls all due supervisors in their order, up to the first one that stops the activity.
-    #[inline]
+    #[inline(always)]
     pub(super) fn sweep<E, S, C>(
         &mut self,
-        t: PlanTable<'_>,
+        t: &P::Tables,
         element: u16,
         row: &ElementRow,
         cx: &mut Cx<'_, E, S, C>,
@@ -64,23 +76,63 @@ impl<P: PlanState> Level<P> {
         C: Clock,
         P: Plan<E>,
     {
-        let mut wake = Instant::MAX;
         let moment = Moment { element, look: false };
-        for &supervisor in t.sweep(row) {
-            let Some(row) = t.supervisor(supervisor) else { continue };
-            match self.poll_if_due(t, supervisor, row, moment, cx) {
-                Ok(next) => wake = wake.min(next),
-                Err(what) => return Seen::Something(Found { supervisor, what }),
+        let mut seen = Seen::Nothing(Instant::MAX);
+        // Four at a time: the polls of a compiled plan then stand in a row.
+        let (fours, rest) = t.table().sweep(row).as_chunks::<4>();
+        for &[a, b, c, d] in fours {
+            if self.poll_in_sweep(t, a, moment, &mut seen, cx)
+                || self.poll_in_sweep(t, b, moment, &mut seen, cx)
+                || self.poll_in_sweep(t, c, moment, &mut seen, cx)
+                || self.poll_in_sweep(t, d, moment, &mut seen, cx)
+            {
+                return seen;
             }
         }
-        Seen::Nothing(wake)
+        for &supervisor in rest {
+            if self.poll_in_sweep(t, supervisor, moment, &mut seen, cx) {
+                return seen;
+            }
+        }
+        seen
+    }
+
+    /// Polls one supervisor of a sweep; whether the sweep is over.
+    #[inline(always)]
+    fn poll_in_sweep<E, S, C>(
+        &mut self,
+        t: &P::Tables,
+        supervisor: u16,
+        moment: Moment,
+        seen: &mut Seen,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> bool
+    where
+        E: ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        let Some(row) = t.table().supervisor(supervisor) else { return false };
+        match self.poll_if_due(t, supervisor, row, moment, cx) {
+            Ok(next) => {
+                if let Seen::Nothing(wake) = seen {
+                    *wake = (*wake).min(next);
+                }
+                false
+            }
+            Err(what) => {
+                *seen = Seen::Something(Found { supervisor, what });
+                true
+            }
+        }
     }
 
     /// Polls one supervisor, if due, and says when it is due again.
-    #[inline]
+    #[inline(always)]
     pub(super) fn poll_if_due<E, S, C>(
         &mut self,
-        t: PlanTable<'_>,
+        t: &P::Tables,
         supervisor: u16,
         row: &SupervisorRow,
         moment: Moment,
@@ -95,11 +147,12 @@ impl<P: PlanState> Level<P> {
         let Some(slot) = self.slots.as_mut().get_mut(usize::from(row.slot)) else {
             return Err(What::Fault(Fault::INTERNAL));
         };
-        if slot.next > cx.now {
-            return Ok(slot.next);
+        let release = slot.next;
+        if release > cx.now {
+            return Ok(release);
         }
-        let release = serve(slot, row.period, cx.now);
-        let next = slot.next;
+        let next = release + row.period;
+        slot.next = next;
         let begin = cx.step.clock;
         let fired = self.plan.poll_supervisor(supervisor, cx);
         let end = cx.clock.now(cx.now);
@@ -108,51 +161,57 @@ impl<P: PlanState> Level<P> {
             let verdict = fired.verdict();
             cx.trace(&Record::Polled { supervisor: supervisor_id(t, cx, supervisor), verdict });
         }
-        let late = end > release.at + row.deadline || release.skipped > 0;
-        if late {
-            trace_miss(t, (supervisor, row), &release, begin, end, cx);
-        }
-        if !late && fired.event.is_none() && fired.fault.is_none() {
+        let on_time = next > cx.now && end <= release + row.deadline;
+        if on_time && fired.is_nothing() {
             return Ok(next);
         }
-        self.judge(t, (supervisor, row), fired, late, moment, cx).map(|()| next)
+        self.judge(t, (supervisor, row), Poll { release, begin, end, fired }, moment, cx)
     }
 
-    /// Decides what a poll that brought anything means.
+    /// Decides what a poll means that was late or brought something.
+    #[cold]
+    #[inline(never)]
     fn judge<E, S, C>(
         &mut self,
-        t: PlanTable<'_>,
+        t: &P::Tables,
         (supervisor, row): (u16, &SupervisorRow),
-        fired: Fired,
-        late: bool,
+        poll: Poll,
         moment: Moment,
         cx: &mut Cx<'_, E, S, C>,
-    ) -> Result<(), What>
+    ) -> Result<Instant, What>
     where
         E: ?Sized,
         S: Sink,
         P: Plan<E>,
     {
-        if let Some(event) = fired.event {
-            let target = t.edge(row.events, event);
+        let release = serve(poll.release, row.period, cx.now);
+        if let Some(slot) = self.slots.as_mut().get_mut(usize::from(row.slot)) {
+            slot.next = release.next;
+        }
+        let late = poll.end > release.at + row.deadline || release.skipped > 0;
+        if late {
+            trace_miss(t, (supervisor, row), &release, poll.begin, poll.end, cx);
+        }
+        if let Some(event) = poll.fired.event {
+            let target = t.table().edge(row.events, event);
             if takes(t, supervisor, event, target, moment, cx) {
-                return Err(fired.fault.map_or(What::Event(event, target), What::Fault));
+                return Err(poll.fired.fault.map_or(What::Event(event, target), What::Fault));
             }
             self.plan.discard();
-        } else if let Some(fault) = fired.fault {
+        } else if let Some(fault) = poll.fired.fault {
             return Err(What::Fault(fault));
         }
         let missed = late && !moment.look;
         if missed && takes(t, supervisor, DEADLINE_MISSED, row.on_miss, moment, cx) {
             return Err(What::Event(DEADLINE_MISSED, row.on_miss));
         }
-        Ok(())
+        Ok(release.next)
     }
 
     /// A supervisor stopped the activity of a started element.
     pub(super) fn interrupted<E, S, C>(
         &mut self,
-        t: PlanTable<'_>,
+        t: &P::Tables,
         element: u16,
         row: &ElementRow,
         found: Found,
@@ -185,7 +244,7 @@ impl<P: PlanState> Level<P> {
     /// active any more.
     pub(super) fn after_supervisor<E, S, C>(
         &mut self,
-        t: PlanTable<'_>,
+        t: &P::Tables,
         element: u16,
         row: &ElementRow,
         found: Found,
@@ -202,7 +261,7 @@ impl<P: PlanState> Level<P> {
                 self.plan.leave(element);
                 Ok(Edge { target, ending: Ending::Interrupted })
             }
-            What::Fault(fault) if found.supervisor < t.globals => {
+            What::Fault(fault) if found.supervisor < t.table().globals => {
                 self.plan.leave(element);
                 Err(Stop::Plan(Ending::Error(fault)))
             }
@@ -212,6 +271,11 @@ impl<P: PlanState> Level<P> {
 }
 
 impl Fired {
+    #[inline]
+    fn is_nothing(self) -> bool {
+        self.event.is_none() && self.fault.is_none()
+    }
+
     fn verdict(self) -> Verdict {
         match (self.event, self.fault) {
             (Some(event), _) => Verdict::Event(event),
@@ -221,26 +285,20 @@ impl Fired {
     }
 }
 
-/// The latest release up to `now`; the slot moves on to the one after.
-#[inline]
-fn serve(slot: &mut Slot, period: Duration, now: Instant) -> Release {
-    let at = slot.next;
-    slot.next = at + period;
-    if slot.next > now { Release { at, skipped: 0 } } else { serve_late(slot, at, period, now) }
-}
-
-#[cold]
-fn serve_late(slot: &mut Slot, first: Instant, period: Duration, now: Instant) -> Release {
-    let period = period.as_nanos().max(1);
-    let skipped = (now - first).as_nanos() / period;
-    let at = Instant::from_nanos(first.as_nanos().saturating_add(skipped.saturating_mul(period)));
-    slot.next = at + Duration::from_nanos(period);
-    Release { at, skipped }
+/// The latest release up to `now`, where `first` is the earliest that is not served.
+fn serve(first: Instant, period: Duration, now: Instant) -> Release {
+    if first + period > now {
+        return Release { at: first, next: first + period, skipped: 0 };
+    }
+    let span = period.as_nanos().max(1);
+    let skipped = (now - first).as_nanos() / span;
+    let at = Instant::from_nanos(first.as_nanos().saturating_add(skipped.saturating_mul(span)));
+    Release { at, next: at + period, skipped }
 }
 
 /// Whether an event is taken at this moment.
 fn takes<E: ?Sized, S: Sink, C>(
-    t: PlanTable<'_>,
+    t: &impl Tables,
     supervisor: u16,
     event: u16,
     target: Target,
@@ -251,7 +309,7 @@ fn takes<E: ?Sized, S: Sink, C>(
         Target::Ignore | Target::None => false,
         Target::Terminate => true,
         Target::Element(element) => {
-            let global = supervisor < t.globals;
+            let global = supervisor < t.table().globals;
             let there = element == moment.element && (global || moment.look);
             if there && S::ENABLED {
                 let supervisor = supervisor_id(t, cx, supervisor);
@@ -266,7 +324,7 @@ fn takes<E: ?Sized, S: Sink, C>(
 /// declared budget is not itself to blame.
 #[cold]
 fn trace_miss<E: ?Sized, S: Sink, C>(
-    t: PlanTable<'_>,
+    t: &impl Tables,
     (supervisor, row): (u16, &SupervisorRow),
     release: &Release,
     begin: Instant,

@@ -21,6 +21,13 @@ pub trait PlanState {
     /// Its rows.
     fn tables(&self) -> Self::Tables;
 
+    /// Runs `run` at an element. A compiled plan spells the elements out, so that each has a step
+    /// of its own with its rows folded in.
+    #[inline(always)]
+    fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
+        run.any(element)
+    }
+
     /// Fresh storage for releases.
     fn slots(&self) -> Self::Slots;
 
@@ -50,6 +57,18 @@ pub trait PlanState {
 
     /// Forgets everything that is staged.
     fn discard(&mut self);
+}
+
+/// Work to be done at an element.
+pub trait AtElement: Sized {
+    /// What it gives.
+    type Out;
+
+    /// Does it at an element known when the plan is compiled.
+    fn at<const ELEMENT: u16>(self) -> Self::Out;
+
+    /// Does it at any element.
+    fn any(self, element: u16) -> Self::Out;
 }
 
 /// A plan on platform `E`: its components.
