@@ -140,7 +140,7 @@ mod tests {
     #[test]
     fn a_dead_sensor_and_a_stuck_rotator_are_faults_and_not_free_space() {
         let mut robot = Fake::new(&[]);
-        robot.dead_range = true;
+        robot.range_dies = 0;
         assert_eq!(watch(&mut robot, 1), Err(NO_RANGE));
         let mut robot = Fake::new(&[]);
         robot.rotator = 0.5;

@@ -32,7 +32,8 @@ pub(crate) struct Fake {
     pub(crate) touched: bool,
     pub(crate) escape: bool,
     pub(crate) dead_odometry: bool,
-    pub(crate) dead_range: bool,
+    /// From this many milliseconds on the range sensor sends no ping.
+    pub(crate) range_dies: u64,
     pub(crate) dead_switches: bool,
     pub(crate) stuck_rotator: bool,
     /// Pings sent from this many milliseconds on hear nothing, for so many pings.
@@ -56,7 +57,7 @@ impl Fake {
             touched: false,
             escape: false,
             dead_odometry: false,
-            dead_range: false,
+            range_dies: u64::MAX,
             dead_switches: false,
             stuck_rotator: false,
             lost_pings: (u64::MAX, 0),
@@ -94,7 +95,7 @@ impl Fake {
         if !self.stuck_rotator {
             self.rotator += (self.target - self.rotator).clamp(-0.05, 0.05);
         }
-        if self.millis().is_multiple_of(50) && !self.dead_range {
+        if self.millis().is_multiple_of(50) && self.millis() < self.range_dies {
             let (from, count) = self.lost_pings;
             let lost = self.millis() >= from && self.millis() < from.saturating_add(count * 50);
             let distance = if lost { None } else { self.hear() };

@@ -10,6 +10,7 @@
 //! something else are outliers and do not pull.
 
 use crate::motion::wrap;
+use heapless::Vec;
 
 /// An echo of a sweep.
 #[derive(Clone, Copy, Debug, Default)]
@@ -53,23 +54,24 @@ const FINE: f64 = 0.5 / 180.0 * core::f64::consts::PI;
 ///
 /// At most [`MOST`] returns count. Time grows with their square.
 pub(crate) fn fit(returns: &[Return], half_beam: f64) -> Option<Wall> {
-    let returns = &returns[..returns.len().min(MOST)];
     let (low, high) = bearings(returns)?;
     let mut best: Option<(f64, f64, f64)> = None;
-    let mut bearing = low - half_beam;
-    while bearing <= high + half_beam {
+    let steps = ((high - low + 2.0 * half_beam) / COARSE) as u32;
+    for step in 0..=steps.min(MOST_STEPS) {
+        let bearing = low - half_beam + f64::from(step) * COARSE;
         let (score, distance) = vote(returns, bearing, half_beam);
         if best.is_none_or(|(most, ..)| score > most) {
             best = Some((score, bearing, distance));
         }
-        bearing += COARSE;
     }
     let (_, bearing, distance) = best?;
     let wall = refine(returns, bearing, distance, half_beam)?;
     (wall.inliers >= FEWEST && wall.residual <= RESIDUAL).then_some(wall)
 }
 
-/// More returns than this are not looked at.
+/// A full turn in coarse steps: nothing is looked for beyond.
+const MOST_STEPS: u32 = 120;
+/// More returns than this do not count.
 pub(crate) const MOST: usize = 64;
 
 fn bearings(returns: &[Return]) -> Option<(f64, f64)> {
@@ -90,15 +92,12 @@ fn perpendicular(r: &Return, bearing: f64, half_beam: f64) -> Option<f64> {
 /// How many returns agree on one distance to a wall at `bearing` (each counts less the more it
 /// deviates), and that distance.
 fn vote(returns: &[Return], bearing: f64, half_beam: f64) -> (f64, f64) {
-    let mut distances = [0.0; MOST];
-    let mut count = 0;
+    let mut distances = Vec::<f64, MOST>::new();
     for distance in returns.iter().filter_map(|r| perpendicular(r, bearing, half_beam)) {
-        distances[count] = distance;
-        count += 1;
+        let _ = distances.push(distance);
     }
-    let distances = &distances[..count];
     let mut best = (0.0, 0.0);
-    for candidate in distances {
+    for candidate in &distances {
         let score = distances.iter().map(|d| agreement(d - candidate)).sum();
         if score > best.0 {
             best = (score, *candidate);
@@ -115,33 +114,30 @@ fn agreement(deviation: f64) -> f64 {
 
 /// The mean of the bearings around `bearing`, each weighed by how well it explains the inliers.
 fn refine(returns: &[Return], bearing: f64, distance: f64, half_beam: f64) -> Option<Wall> {
-    let mut inliers = [Return::default(); MOST];
-    let mut count = 0;
+    let mut inliers = Vec::<Return, MOST>::new();
     for r in returns {
         let at = perpendicular(r, bearing, half_beam);
         if at.is_some_and(|at| (at - distance).abs() < TOLERANCE) {
-            inliers[count] = *r;
-            count += 1;
+            let _ = inliers.push(*r);
         }
     }
-    let inliers = &inliers[..count];
-    let (low, high) = bearings(inliers)?;
+    let (low, high) = bearings(&inliers)?;
     if high - low < SPREAD {
         return None;
     }
     let around = |step: i32| bearing + f64::from(step) * FINE;
-    let least = (-20..=20).map(|step| misfit(inliers, around(step), half_beam).0);
+    let least = (-20..=20).map(|step| misfit(&inliers, around(step), half_beam).0);
     let least = least.fold(f64::INFINITY, f64::min);
     let (mut weight, mut sum) = (0.0, 0.0);
     for step in -20..=20 {
-        let excess = misfit(inliers, around(step), half_beam).0 - least;
+        let excess = misfit(&inliers, around(step), half_beam).0 - least;
         let w = libm::exp(-excess / (2.0 * SIGMA * SIGMA));
         (weight, sum) = (weight + w, sum + w * around(step));
     }
     let bearing = sum / weight;
-    let (squares, distance) = misfit(inliers, bearing, half_beam);
-    let residual = libm::sqrt(squares / count as f64);
-    Some(Wall { bearing, distance, residual, inliers: count })
+    let (squares, distance) = misfit(&inliers, bearing, half_beam);
+    let residual = libm::sqrt(squares / inliers.len() as f64);
+    Some(Wall { bearing, distance, residual, inliers: inliers.len() })
 }
 
 /// The sum of squared deviations from the best wall at `bearing`, and that wall's distance.
@@ -163,7 +159,7 @@ fn misfit(inliers: &[Return], bearing: f64, half_beam: f64) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{RESIDUAL, Return, fit};
     use std::vec::Vec;
 
     const HALF_BEAM: f64 = 0.26;

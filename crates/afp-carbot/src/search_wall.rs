@@ -7,6 +7,7 @@ use crate::templates;
 use crate::templates::search_wall::{Inputs, Live, State};
 use afp_core::quantity::Angle;
 use afp_core::{Actor, Fault, Instant, Poll};
+use heapless::Vec;
 
 /// The sensor pings once at every so many radians.
 const STEP: f64 = 5.0 / 180.0 * core::f64::consts::PI;
@@ -32,8 +33,7 @@ pub struct SearchWall {
     odometry: Guard,
     range_guard: Guard,
     arrival: Arrival,
-    returns: [Return; MOST],
-    count: usize,
+    returns: Vec<Return, MOST>,
 }
 
 impl<E> Actor<templates::SearchWall, E> for SearchWall
@@ -57,8 +57,7 @@ where
             odometry: Guard::new(NO_ODOMETRY, now),
             range_guard: Guard::new(NO_RANGE, now),
             arrival: Arrival::new(now),
-            returns: [Return::default(); MOST],
-            count: 0,
+            returns: Vec::new(),
         })
     }
 
@@ -77,15 +76,15 @@ where
             return Ok(Poll::Pending);
         }
         let range = echo.distance.map_or(f64::INFINITY, |distance| distance.si());
-        if range <= self.range && self.count < MOST {
-            self.returns[self.count] = Return { bearing: echo.bearing.si(), range };
-            self.count += 1;
+        if range <= self.range {
+            // A sweep has fewer steps than there is room for; what is too much does not count.
+            let _ = self.returns.push(Return { bearing: echo.bearing.si(), range });
         }
         if self.way * self.target >= self.sweep - STEP / 2.0 {
             env.point(Angle::from_si(0.0), now);
             return Ok(Poll::Ready(self.result(env.beam().opening.si() / 2.0)));
         }
-        self.target = (self.target + self.way * STEP).clamp(-self.sweep, self.sweep);
+        self.target = (self.target + self.way * STEP).max(-self.sweep).min(self.sweep);
         env.point(Angle::from_si(self.target), now);
         self.arrival = Arrival::new(now);
         Ok(Poll::Pending)
@@ -112,7 +111,7 @@ impl SearchWall {
     }
 
     fn result(&self, half_beam: f64) -> State {
-        match fit(&self.returns[..self.count], half_beam) {
+        match fit(&self.returns, half_beam) {
             Some(wall) => State::WallFound { angle: Angle::from_si(wall.bearing + QUARTER) },
             None => State::NoWallFound,
         }
@@ -171,7 +170,7 @@ mod tests {
     #[test]
     fn a_dead_sensor_and_a_stuck_rotator_are_faults() {
         let mut robot = Fake::new(&[plane(0.0, 0.7)]);
-        robot.dead_range = true;
+        robot.range_dies = 0;
         assert_eq!(search(&mut robot), Err(NO_RANGE));
         assert!(robot.now < Instant::ZERO + Duration::from_millis(600));
         let mut robot = Fake::new(&[plane(0.0, 0.7)]);

@@ -17,7 +17,7 @@ use crate::motion::{Ramp, wrap};
 use crate::templates;
 use crate::templates::wall_forward::{Inputs, Live, State};
 use afp_core::quantity::{Angle, AngularSpeed, Speed};
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll};
 use glance::Glance;
 use track::Track;
 
@@ -37,6 +37,8 @@ const SLOWING: f64 = 20.0 / 180.0 * core::f64::consts::PI;
 const LOST: f64 = 0.35;
 /// The beam may look this far beside the wall's normal for an echo to count, radians.
 const SQUARE: f64 = 25.0 / 180.0 * core::f64::consts::PI;
+/// Without a valid ping for so long the robot waits for one; long before the guard's patience ends.
+const BLIND: Duration = Duration::from_millis(200);
 /// The step counts as driven when less than this is left, metres.
 const CLOSE: f64 = 0.004;
 
@@ -134,9 +136,10 @@ impl WallForward {
     /// Commands the speed and the turn rate that lead to the wall's distance.
     fn steer<E: Navigator + ?Sized>(&mut self, env: &mut E, now: Instant) {
         let Some(course) = &self.course else { return };
-        // Nothing moves before the first glance ahead.
-        if course.glance.free().is_none() {
+        // Nothing moves before the first glance ahead, nor blindly.
+        if course.glance.free().is_none() || now.since(self.last_ping) > BLIND {
             env.halt(now);
+            self.ramp = Ramp::new(ACCELERATION, now);
             return;
         }
         let side = env.body().half_width.si();

@@ -91,9 +91,22 @@ fn a_wall_that_steps_back_is_lost_too() {
 }
 
 #[test]
+fn a_sensor_that_dies_on_the_way_stops_the_robot_at_once_and_is_a_fault_later() {
+    let mut robot = Fake::new(&[beside(0.475)]);
+    robot.range_dies = 3000;
+    assert_eq!(follow(&mut robot, 5.0), Err(NO_RANGE));
+    let mut before = Fake::new(&[beside(0.475)]);
+    let inputs = inputs(5.0);
+    let run = before.run::<templates::WallForward, WallForward>(inputs, || Live {}, 3);
+    assert_eq!(run, Ok(None));
+    let way = robot.motion.x.si() - before.motion.x.si();
+    assert!((0.0..0.05).contains(&way), "{way}");
+}
+
+#[test]
 fn dead_devices_are_faults() {
     let mut robot = Fake::new(&[beside(0.475)]);
-    robot.dead_range = true;
+    robot.range_dies = 0;
     assert_eq!(follow(&mut robot, 5.0), Err(NO_RANGE));
     assert_eq!(robot.motion.x.si(), 0.0, "drove without having seen the lane");
     let mut robot = Fake::new(&[beside(0.475)]);

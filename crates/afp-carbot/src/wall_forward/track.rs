@@ -3,6 +3,7 @@
 //! The odometry drifts, but little over the stretch that is remembered.
 
 use crate::devices::Motion;
+use heapless::Vec;
 
 /// So many echoes are remembered.
 const MEMORY: usize = 32;
@@ -15,7 +16,7 @@ const NEW_WALL: u8 = 3;
 const FIRMNESS: f64 = 0.02;
 
 /// One echo that came square from the wall: where the sensor was, and how far the wall.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 struct Sounding {
     x: f64,
     y: f64,
@@ -29,23 +30,16 @@ pub(super) struct Track {
     heading: f64,
     /// A point of the wall; none before the first echo.
     anchor: Option<(f64, f64)>,
-    soundings: [Sounding; MEMORY],
-    count: usize,
-    next: usize,
+    soundings: Vec<Sounding, MEMORY>,
+    /// Which of them is replaced next, once there is no more room.
+    oldest: usize,
     outliers: u8,
 }
 
 impl Track {
     /// A wall whose direction is known and whose distance is not.
     pub(super) fn new(heading: f64) -> Self {
-        Track {
-            heading,
-            anchor: None,
-            soundings: [Sounding::default(); MEMORY],
-            count: 0,
-            next: 0,
-            outliers: 0,
-        }
+        Track { heading, anchor: None, soundings: Vec::new(), oldest: 0, outliers: 0 }
     }
 
     /// The wall's direction.
@@ -75,27 +69,35 @@ impl Track {
             if self.outliers < NEW_WALL {
                 return;
             }
-            (self.count, self.next) = (0, 0);
+            (self.soundings, self.oldest) = (Vec::new(), 0);
         }
         self.outliers = 0;
         let (sin, cos) = libm::sincos(motion.heading.si());
-        self.soundings[self.next] = Sounding {
+        self.remember(Sounding {
             x: motion.x.si() + forward * cos,
             y: motion.y.si() + forward * sin,
             distance,
-        };
-        self.next = (self.next + 1) % MEMORY;
-        self.count = (self.count + 1).min(MEMORY);
+        });
         self.fit();
+    }
+
+    /// Keeps the latest soundings.
+    fn remember(&mut self, sounding: Sounding) {
+        if let Err(sounding) = self.soundings.push(sounding)
+            && let Some(oldest) = self.soundings.get_mut(self.oldest)
+        {
+            *oldest = sounding;
+            self.oldest = (self.oldest + 1) % MEMORY;
+        }
     }
 
     /// Lays the line through the soundings, least squares with the direction held back.
     fn fit(&mut self) {
         let (sin, cos) = libm::sincos(self.heading);
-        let soundings = &self.soundings[..self.count];
+        let soundings = self.soundings.as_slice();
         let along = |s: &Sounding| s.x * cos + s.y * sin;
         let aside = |s: &Sounding| s.x * sin - s.y * cos + s.distance;
-        let share = 1.0 / self.count as f64;
+        let share = 1.0 / soundings.len() as f64;
         let mean_along = share * soundings.iter().map(along).sum::<f64>();
         let mean_aside = share * soundings.iter().map(aside).sum::<f64>();
         let (mut square, mut product) = (FIRMNESS, 0.0);
