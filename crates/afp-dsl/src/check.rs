@@ -12,6 +12,7 @@ mod endings;
 mod entries;
 pub(crate) mod enums;
 pub(crate) mod formula;
+mod frozen;
 pub(crate) mod imports;
 pub(crate) mod names;
 mod plan;
@@ -75,6 +76,7 @@ pub(crate) fn check(
 ) -> Option<Graph> {
     imports::check_version(file, diags);
     imports::check_order(file, diags);
+    imports::check_no_templates(file, diags);
     let context = context(file, text, whole, toolboxes, diags);
     let order = recursion::order(&context.plans, diags);
     let (plans, users): (Vec<_>, Vec<_>) =
@@ -95,8 +97,8 @@ fn context<'a>(
     toolboxes: &'a Toolboxes,
     diags: &mut Diagnostics,
 ) -> Context<'a> {
-    let imports = imports::read(file, toolboxes, diags);
-    let types = types(file, &imports, diags);
+    let (imports, incomplete) = imports::read(file, toolboxes, diags);
+    let types = Types { incomplete, ..types(file, &imports, diags) };
     let nodes = file.items().into_iter().filter_map(|item| match item {
         Item::Plan(plan) => Some(plan),
         _ => None,
@@ -154,7 +156,7 @@ pub(crate) fn shadows(name: &Name, diags: &mut Diagnostics) {
 fn scenarios(file: &File, diags: &mut Diagnostics) {
     for item in file.items() {
         if let Item::Scenario(scenario) = item {
-            let span = scenario.name().map_or_else(|| scenario.span(), |name| name.span);
+            let Some(Name { span, .. }) = scenario.name() else { continue };
             diags.push(
                 Diagnostic::new(
                     Code::E0502,

@@ -4,6 +4,8 @@
 //! Everything is resolved: names are indices, conversions are nodes of the formulas, defaults are
 //! filled in, polling order is fixed. A plan with errors has no graph.
 
+mod dump;
+
 use std::sync::Arc;
 
 use crate::source::Span;

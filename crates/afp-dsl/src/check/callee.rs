@@ -39,6 +39,10 @@ impl Context<'_> {
             return None;
         }
         let Some((_, signature)) = found.pop() else {
+            // It may be in the toolbox that is missing.
+            if self.types.incomplete && wanted.keyword != "subplan" {
+                return None;
+            }
             diags.push(self.not_found(&name, home.as_ref(), reference.span(), wanted));
             return None;
         };

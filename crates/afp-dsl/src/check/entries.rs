@@ -106,7 +106,7 @@ fn initialise(
     let checked = scope.check(&formula, ty.as_ref(), diags);
     let needs_type = matches!(kind, EntryKind::In | EntryKind::Out) && entry.ty().is_none();
     if needs_type {
-        untyped(own, diags);
+        untyped(own, entry, diags);
     }
     let Some((formula, value)) = checked else { return };
     let draft = &mut drafts[place];
@@ -120,7 +120,7 @@ fn initialise(
 /// Checks an entry without a value.
 fn missing(own: &EntryDraft, entry: &ast::Entry, diags: &mut Diagnostics) {
     if entry.ty().is_none() {
-        untyped(own, diags);
+        untyped(own, entry, diags);
     } else if own.kind == EntryKind::Const {
         let message = format!("the constant '{}' has no value", own.name.text);
         diags.push(
@@ -129,7 +129,11 @@ fn missing(own: &EntryDraft, entry: &ast::Entry, diags: &mut Diagnostics) {
     }
 }
 
-fn untyped(own: &EntryDraft, diags: &mut Diagnostics) {
+fn untyped(own: &EntryDraft, entry: &ast::Entry, diags: &mut Diagnostics) {
+    // What could not be read may have been the type or the value.
+    if diags.syntax_errors_within(entry.span()).next().is_some() {
+        return;
+    }
     let message = format!("the entry '{}' has no type", own.name.text);
     diags.push(
         Diagnostic::new(Code::E0241, own.name.span, message)

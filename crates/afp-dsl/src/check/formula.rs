@@ -227,7 +227,9 @@ impl Typer<'_> {
         }
         let readable = scope.entries.iter().enumerate().filter(|(at, _)| (scope.readable)(*at));
         let known = readable.map(|(_, entry)| entry.name.text.as_str());
-        unknown(Code::E0209, name.span, message, &name.text, known, "declare it in the plan")
+        // Toolboxes have no entries; only there are generic types.
+        let none = if scope.types.generic { "write a value" } else { "declare it in the plan" };
+        unknown(Code::E0209, name.span, message, &name.text, known, none)
     }
 
     /// A value of an enum.
@@ -251,6 +253,9 @@ impl Typer<'_> {
             return None;
         }
         let Some((_, found)) = enums().next() else {
+            if self.scope.types.incomplete {
+                return None;
+            }
             let known = self.scope.types.enums.iter().map(|(_, each)| each.name.as_str());
             let message = format!("there is no enum '{}'", home.text);
             let none = "declare it in the file, or write the name of an entry";

@@ -15,15 +15,23 @@ pub(crate) struct Import {
     pub toolbox: Arc<Toolbox>,
 }
 
-/// Resolves the `use` lines of a plan file.
-pub(crate) fn read(file: &File, toolboxes: &Toolboxes, diags: &mut Diagnostics) -> Vec<Import> {
+/// Resolves the `use` lines of a plan file, and says whether one of them failed.
+pub(crate) fn read(
+    file: &File,
+    toolboxes: &Toolboxes,
+    diags: &mut Diagnostics,
+) -> (Vec<Import>, bool) {
+    let mut failed = false;
     let mut imports: Vec<(Import, crate::source::Span)> = Vec::new();
     let uses = file.items().into_iter().filter_map(|item| match item {
         Item::Use(line) => Some(line),
         _ => None,
     });
     for line in uses {
-        let Some(import) = one(&line, toolboxes, diags) else { continue };
+        let Some(import) = one(&line, toolboxes, diags) else {
+            failed = true;
+            continue;
+        };
         let span = line.span();
         if let Some((_, first)) =
             imports.iter().find(|(known, _)| known.qualifier == import.qualifier)
@@ -44,7 +52,7 @@ pub(crate) fn read(file: &File, toolboxes: &Toolboxes, diags: &mut Diagnostics) 
         }
         imports.push((import, span));
     }
-    imports.into_iter().map(|(import, _)| import).collect()
+    (imports.into_iter().map(|(import, _)| import).collect(), failed)
 }
 
 fn one(line: &Use, toolboxes: &Toolboxes, diags: &mut Diagnostics) -> Option<Import> {
@@ -116,6 +124,28 @@ pub(crate) fn check_order(file: &File, diags: &mut Diagnostics) {
                 Diagnostic::new(Code::E0114, span, format!("{what} stands in a toolbox"))
                     .note(head, "this makes the file a toolbox")
                     .help("move it to a file of its own"),
+            );
+        }
+    }
+}
+
+/// Reports templates and object types in a file that is no toolbox.
+pub(crate) fn check_no_templates(file: &File, diags: &mut Diagnostics) {
+    let items = file.items();
+    if items.iter().any(|item| matches!(item, Item::Toolbox(_))) {
+        return;
+    }
+    for item in &items {
+        let name = match item {
+            Item::Template(template) => template.name(),
+            Item::Object(object) => object.name(),
+            _ => None,
+        };
+        if let Some(name) = name {
+            let message = format!("'{}' is declared outside of a toolbox", name.text);
+            diags.push(
+                Diagnostic::new(Code::E0114, name.span, message)
+                    .help("move it to a file that begins with 'toolbox' and a name"),
             );
         }
     }

@@ -1,5 +1,7 @@
 //! Names of one scope: each is used once, can be spelled in Rust, and differs in more than case.
 
+use std::collections::BTreeMap;
+
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::source::Span;
 use crate::syntax::ast::Name;
@@ -11,7 +13,7 @@ const REFUSED: &[&str] = &["self", "Self", "super", "crate", "true", "false"];
 /// The names declared in one scope so far.
 #[derive(Default)]
 pub(crate) struct Names {
-    declared: Vec<(String, Name)>,
+    declared: BTreeMap<String, Name>,
 }
 
 impl Names {
@@ -23,8 +25,8 @@ impl Names {
         if REFUSED.contains(&name.text.as_str()) || !key.starts_with(|c: char| c.is_alphabetic()) {
             refuse(name, diags);
         }
-        let Some((_, first)) = self.declared.iter().find(|(known, _)| *known == key) else {
-            self.declared.push((key, name.clone()));
+        let Some(first) = self.declared.get(&key) else {
+            self.declared.insert(key, name.clone());
             return true;
         };
         let clash = if first.text == name.text {

@@ -5,7 +5,7 @@ mod component;
 use crate::check::formula::Scope;
 use crate::check::names::{self, Names};
 use crate::check::resources::Users;
-use crate::check::{Context, edges};
+use crate::check::{Context, edges, frozen as frozen_inputs};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{self, Element, ElementId, Supervisor, SupervisorId};
 use crate::source::Span;
@@ -52,6 +52,7 @@ pub(crate) fn check(
         users.elements.extend(user.map(|user| (user, guards)));
         drawn.push(element.and_then(|element| own(element, first, supervisors.len())));
     }
+    frozen(context, &drawn, &supervisors, globals, diags);
     let start = start(&head.node, &names, diags);
     too_many(head.name.as_ref(), &[elements.len(), supervisors.len(), head.entries.len()], diags);
     let plan = finish(head, drawn, supervisors, globals, start);
@@ -67,6 +68,21 @@ fn own(mut element: Element, first: usize, end: usize) -> Option<Element> {
     let ids: Option<Vec<_>> = (first..end).map(|place| id(place).map(SupervisorId)).collect();
     element.supervisors = ids?;
     Some(element)
+}
+
+fn frozen(
+    context: &Context<'_>,
+    elements: &[Option<Element>],
+    supervisors: &[Option<Supervisor>],
+    globals: usize,
+    diags: &mut Diagnostics,
+) {
+    let of_template = |supervisor: &Supervisor| {
+        let import = &context.imports[supervisor.template.toolbox.index()];
+        &import.toolbox.templates[usize::from(supervisor.template.index)]
+    };
+    let globals = supervisors[..globals].iter().flatten().map(|one| (one, of_template(one)));
+    frozen_inputs::check(globals, elements.iter().flatten(), supervisors.iter().flatten(), diags);
 }
 
 fn finish(

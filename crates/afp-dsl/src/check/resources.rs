@@ -29,6 +29,9 @@ pub(crate) struct Users {
     pub elements: Vec<(User, Vec<User>)>,
 }
 
+/// Greatest number of other places that one diagnostic shows.
+const MAX_NOTES: usize = 3;
+
 /// Reports every pair once, at the later supervisor; `order` has sub-plans before their users.
 pub(crate) fn check(plans: &[PlanHead], users: &[Users], order: &[usize], diags: &mut Diagnostics) {
     let mut inside: Vec<Vec<(String, Span)>> = vec![Vec::new(); plans.len()];
@@ -36,14 +39,13 @@ pub(crate) fn check(plans: &[PlanHead], users: &[Users], order: &[usize], diags:
         let all = &users[*plan];
         let mut commands = Vec::new();
         for (place, global) in all.globals.iter().enumerate() {
-            report(global, &flat(&all.globals[..place], &inside), diags);
+            let mut others = flat(&all.globals[..place], &inside);
+            others.extend(all.elements.iter().flat_map(|(element, _)| own(element, &inside)));
+            report(global, &others, diags);
             commands.extend(own(global, &inside));
         }
         for (element, guards) in &all.elements {
             let inner = own(element, &inside);
-            for global in &all.globals {
-                report(global, &inner, diags);
-            }
             for (place, guard) in guards.iter().enumerate() {
                 let mut others = inner.clone();
                 others.extend(flat(&guards[..place], &inside));
@@ -73,14 +75,23 @@ fn flat(users: &[User], inside: &[Vec<(String, Span)>]) -> Vec<(String, Span)> {
 
 fn report(supervisor: &User, others: &[(String, Span)], diags: &mut Diagnostics) {
     for resource in &supervisor.uses {
-        let Some((_, place)) = others.iter().find(|(name, _)| name == resource) else { continue };
+        let same = others.iter().filter(|(name, _)| name == resource);
+        let mut places: Vec<Span> = same.map(|(_, place)| *place).collect();
+        places.sort();
+        places.dedup();
+        if places.is_empty() {
+            continue;
+        }
         let message = format!(
             "'{}' commands '{resource}', which is in use while it watches",
             supervisor.name
         );
+        let conflict = Diagnostic::new(Code::E0223, supervisor.span, message);
+        let shown = places.iter().take(MAX_NOTES).fold(conflict, |conflict, place| {
+            conflict.note(*place, format!("this commands '{resource}' at the same time"))
+        });
         diags.push(
-            Diagnostic::new(Code::E0223, supervisor.span, message)
-                .note(*place, format!("this commands '{resource}' at the same time"))
+            shown
                 .help(format!("watch with a supervisor that does not command '{resource}', or only elements that do not")),
         );
     }

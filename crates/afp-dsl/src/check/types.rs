@@ -17,6 +17,8 @@ pub(crate) struct Types {
     pub objects: Vec<(Option<String>, Arc<Object>)>,
     /// Whether `any` and `number` can be written.
     pub generic: bool,
+    /// Whether a toolbox is missing, so that an unknown name may be one of its.
+    pub incomplete: bool,
 }
 
 /// Names of types that are no dimensions.
@@ -113,6 +115,7 @@ impl Types {
         found.extend(objects.map(|(home, each)| (home, Type::Object(each.clone()))));
         match found.as_slice() {
             [(_, ty)] => Some(ty.clone()),
+            [] if self.incomplete => None,
             [] => {
                 let mut known: Vec<&str> = Vec::new();
                 known.extend(PLAIN);

@@ -107,6 +107,7 @@ codes! {
     E0240 Warning "entry named like a unit"
     E0241 Error "type that nothing decides"
     E0242 Error "operation that the type does not have"
+    E0301 Warning "input read once from an entry that changes"
     E0401 Error "time that cannot be used"
     E0402 Error "deadline longer than the period"
     E0501 Error "plans of other files"

@@ -37,6 +37,8 @@ struct Parser<'t, 'd> {
     file: u16,
     /// Depth of brackets and signs around the current place.
     depth: usize,
+    /// Whether the item before this one stands outside of a plan and is reported.
+    misplaced: bool,
     /// Where the last error is; no second one is reported there.
     last_error: Option<Span>,
     builder: GreenNodeBuilder<'static>,
@@ -47,7 +49,18 @@ impl<'t, 'd> Parser<'t, 'd> {
     fn new(tokens: &'t [Token<'t>], file: u16, diags: &'d mut Diagnostics) -> Parser<'t, 'd> {
         let solid = (0..tokens.len()).filter(|place| !tokens[*place].kind.is_trivia()).collect();
         let builder = GreenNodeBuilder::new();
-        Parser { tokens, solid, at: 0, built: 0, file, depth: 0, last_error: None, builder, diags }
+        Parser {
+            tokens,
+            solid,
+            at: 0,
+            built: 0,
+            file,
+            depth: 0,
+            misplaced: false,
+            last_error: None,
+            builder,
+            diags,
+        }
     }
 
     // Looking.
@@ -111,6 +124,11 @@ impl<'t, 'd> Parser<'t, 'd> {
             Some(token) if self.on_same_line() => self.span_of(token),
             _ => self.behind(),
         }
+    }
+
+    /// The next token, wherever it stands.
+    fn next_span(&self) -> Span {
+        self.token(0).map_or_else(|| self.behind(), |token| self.span_of(token))
     }
 
     /// The empty place behind the last token.
@@ -240,9 +258,13 @@ impl<'t, 'd> Parser<'t, 'd> {
         }
     }
 
-    /// Reports that something else is expected here.
+    /// Reports that something is missing here.
     fn expected(&mut self, what: &str, help: &str) {
         let here = self.here();
+        self.expected_at(here, what, help);
+    }
+
+    fn expected_at(&mut self, here: Span, what: &str, help: &str) {
         match self.nth(0) {
             // The lexer has reported it.
             Kind::Unknown => return self.last_error = Some(here),
@@ -268,13 +290,23 @@ impl<'t, 'd> Parser<'t, 'd> {
             self.bump();
             return true;
         }
+        if !self.on_same_line() && self.begins_item() {
+            self.expected("a name", help);
+            return false;
+        }
         self.expect(Kind::Name, help)
+    }
+
+    /// Whether an item of some level surely begins here, so that no name can be meant.
+    fn begins_item(&self) -> bool {
+        let first = matches!(self.word(0), "start" | "supervise") && self.nth(1) == Kind::Name;
+        (first && !self.names_something(0)) || self.leaves_body() || self.at_tool()
     }
 
     fn reserved(&mut self) {
         let message = format!("{} is reserved for a later version", self.found());
         let help = if self.at(Kind::Name) { "choose another name" } else { "remove it" };
-        let here = self.here();
+        let here = self.next_span();
         self.error(Diagnostic::new(Code::E0112, here, message).help(help));
     }
 
@@ -298,7 +330,10 @@ impl<'t, 'd> Parser<'t, 'd> {
     fn skip(&mut self, what: &str, help: &str, stop: impl Fn(&Self) -> bool) {
         match self.nth(0) {
             Kind::Name if matches!(self.word(0), "resume" | "repeat") => self.reserved(),
-            _ => self.expected(what, help),
+            _ => {
+                let here = self.next_span();
+                self.expected_at(here, what, help);
+            }
         }
         self.open(Kind::Error);
         let mut depth = 0_usize;
@@ -338,6 +373,7 @@ impl<'t, 'd> Parser<'t, 'd> {
     }
 
     fn top_item(&mut self) {
+        self.misplaced &= !self.at_top_item();
         match self.word(0) {
             "use" => self.use_item(),
             "plan" => self.plan(),
@@ -363,11 +399,14 @@ impl<'t, 'd> Parser<'t, 'd> {
     /// Parses an item of a plan that stands outside of one.
     fn misplaced(&mut self) {
         let word = self.word(0);
-        let here = self.here();
-        self.error(
-            Diagnostic::new(Code::E0114, here, format!("'{word}' stands outside of a plan"))
-                .help("move it between the braces of a plan; perhaps a '}' above is too much"),
-        );
+        let here = self.next_span();
+        // Behind a brace too much everything is outside; that is one mistake.
+        if !std::mem::replace(&mut self.misplaced, true) {
+            self.error(
+                Diagnostic::new(Code::E0114, here, format!("'{word}' stands outside of a plan"))
+                    .help("move it between the braces of a plan; perhaps a '}' above is too much"),
+            );
+        }
         self.open(Kind::Error);
         self.plan_item();
         self.close();
@@ -378,7 +417,10 @@ impl<'t, 'd> Parser<'t, 'd> {
         match self.word(0) {
             "use" => matches!(self.nth(1), Kind::Name | Kind::Text),
             "scenario" => self.nth(1) == Kind::Text,
-            "plan" | "enum" => self.nth(1) == Kind::Name && self.nth(2) == Kind::OpenBrace,
+            "plan" | "enum" => {
+                let braces = 1 + usize::from(self.nth(1) == Kind::Name);
+                self.nth(braces) == Kind::OpenBrace
+            }
             "toolbox" => self.nth(1) == Kind::Name && !self.word(2).is_empty(),
             _ => false,
         }

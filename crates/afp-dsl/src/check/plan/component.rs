@@ -182,16 +182,21 @@ fn unguarded(node: &ast::Element, diags: &mut Diagnostics) {
     }
 }
 
-/// `every` and `deadline` as written, each with its place.
-type Written = [Option<(u64, Span)>; 2];
+/// `every` and `deadline` as written.
+#[derive(Default)]
+struct Written {
+    /// Their values and places, where they can be used.
+    values: [Option<(u64, Span)>; 2],
+    /// The places of the words.
+    words: [Option<Span>; 2],
+}
 
 fn times(node: &ast::Guard, diags: &mut Diagnostics) -> Written {
-    let mut written: Written = [None, None];
-    let mut seen: [Option<Span>; 2] = [None, None];
+    let mut written = Written::default();
     for time in node.timings() {
         let Some(keyword) = time.keyword() else { continue };
         let place = usize::from(keyword.text == "deadline");
-        if let Some(first) = seen[place] {
+        if let Some(first) = written.words[place] {
             diags.push(
                 Diagnostic::new(
                     Code::E0511,
@@ -203,8 +208,8 @@ fn times(node: &ast::Guard, diags: &mut Diagnostics) -> Written {
             );
             continue;
         }
-        seen[place] = Some(keyword.span);
-        written[place] = timing::nanoseconds(&time, diags).map(|value| (value, time.span()));
+        written.words[place] = Some(keyword.span);
+        written.values[place] = timing::nanoseconds(&time, diags).map(|value| (value, time.span()));
     }
     written
 }
@@ -214,9 +219,12 @@ fn times(node: &ast::Guard, diags: &mut Diagnostics) -> Written {
 fn effective(signature: &Signature, written: &Written, diags: &mut Diagnostics) -> (u64, u64) {
     let template = signature.template();
     let declared = template.map_or(timing::DEFAULT_EVERY, |template| template.every);
-    let every = written[0].map_or(declared, |(every, _)| every);
-    if let Some((deadline, span)) = written[1] {
-        timing::deadline_fits(deadline, every, span, diags);
+    let every = written.values[0].map_or(declared, |(every, _)| every);
+    if let Some((deadline, span)) = written.values[1] {
+        // A period that is written and wrong has been reported.
+        if written.words[0].is_none() || written.values[0].is_some() {
+            timing::deadline_fits(deadline, every, span, diags);
+        }
         return (every, deadline);
     }
     let deadline = template.and_then(|template| template.deadline).unwrap_or(every);

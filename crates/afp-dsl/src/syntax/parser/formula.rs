@@ -78,6 +78,7 @@ impl Parser<'_, '_> {
         }
         self.depth += 1;
         match self.nth(0) {
+            _ if !self.on_same_line() && self.begins_item() => self.no_formula(),
             Kind::Minus => {
                 self.open(Kind::Negation);
                 self.bump();
@@ -107,9 +108,13 @@ impl Parser<'_, '_> {
                 self.close();
                 self.unary();
             }
-            _ => self.expected("a formula", "write a number, a quantity, a text or an entry"),
+            _ => self.no_formula(),
         }
         self.depth -= 1;
+    }
+
+    fn no_formula(&mut self) {
+        self.expected("a formula", "write a number, a quantity, a text or an entry");
     }
 
     fn literal(&mut self) {
@@ -214,6 +219,10 @@ impl Parser<'_, '_> {
     /// `NAME {"." NAME}`
     pub(super) fn path(&mut self) {
         self.open(Kind::Path);
+        if !self.on_same_line() && self.at_line() {
+            self.expected("a name", "write the name of an element or entry");
+            return self.close();
+        }
         self.name("write the name of an element or entry");
         while self.eat(Kind::Dot) {
             self.name("write a name behind the '.'");

@@ -40,7 +40,7 @@ impl Parser<'_, '_> {
                 | "actor"
                 | "computation"
                 | "subplan"
-        ) && !self.names_something(0)
+        ) && (!self.names_something(0) || self.nth(1) == Kind::Colon)
     }
 
     pub(super) fn plan_item(&mut self) {

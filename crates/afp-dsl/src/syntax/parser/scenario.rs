@@ -31,7 +31,7 @@ impl Parser<'_, '_> {
         self.close_item();
     }
 
-    fn at_line(&self) -> bool {
+    pub(super) fn at_line(&self) -> bool {
         matches!(
             self.word(0),
             "world" | "seed" | "set" | "robot" | "at" | "expect" | "never" | "until"
@@ -102,7 +102,7 @@ impl Parser<'_, '_> {
         self.open(Kind::Action);
         if self.at_word("set") {
             self.set();
-        } else if self.at(Kind::Name) {
+        } else if self.at(Kind::Name) && (self.on_same_line() || !self.at_line()) {
             self.keyword();
             self.path();
             if self.at(Kind::OpenParen) {

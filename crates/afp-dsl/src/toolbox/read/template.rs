@@ -165,14 +165,20 @@ fn set_time(time: &ast::Timing, template: &mut Template, seen: &mut Seen, diags:
 
 fn deadline(parts: &[Part], template: &Template, diags: &mut Diagnostics) {
     let Some(deadline) = template.deadline else { return };
-    let written = parts.iter().find_map(|part| match part {
-        Part::Timing(time) if time.keyword().is_some_and(|word| word.text == "deadline") => {
-            Some(time.span())
-        }
-        _ => None,
-    });
-    if let Some(span) = written {
-        timing::deadline_fits(deadline, template.every, span, diags);
+    // A period that is written and wrong has been reported.
+    let written = |word: &str| {
+        parts.iter().find_map(|part| match part {
+            Part::Timing(time) if time.keyword().is_some_and(|known| known.text == word) => {
+                Some(time)
+            }
+            _ => None,
+        })
+    };
+    if written("every").is_some_and(|time| diags.error_within(time.span())) {
+        return;
+    }
+    if let Some(time) = written("deadline") {
+        timing::deadline_fits(deadline, template.every, time.span(), diags);
     }
 }
 

@@ -1,0 +1,217 @@
+//! A graph as text, for tests and for people who look into the compiler.
+
+use std::fmt::Write;
+
+use crate::check::timing::spell;
+use crate::graph::{
+    Component, Element, Entry, EntryKind, Formula, FormulaKind, Graph, Operator, Output, Plan,
+    Supervisor, Target, TemplateId,
+};
+use crate::types::{Conversion, Type};
+
+impl Graph {
+    /// Everything that the graph holds, line by line, sub-plans first. The format may change.
+    pub fn dump(&self) -> String {
+        let mut text = String::new();
+        for (place, plan) in self.plans.iter().enumerate() {
+            Dump { graph: self, plan, text: &mut text }.plan(place == self.main.index());
+        }
+        text
+    }
+}
+
+struct Dump<'a> {
+    graph: &'a Graph,
+    plan: &'a Plan,
+    text: &'a mut String,
+}
+
+/// The names that a component's signature gives to ports and outcomes.
+struct Named {
+    head: String,
+    inputs: Vec<String>,
+    outputs: Vec<String>,
+    outcomes: Vec<String>,
+}
+
+impl Dump<'_> {
+    fn line(&mut self, depth: usize, line: &str) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(self.text, "{:indent$}{line}", "", indent = 2 * depth);
+    }
+
+    fn plan(&mut self, main: bool) {
+        let plan = self.plan;
+        let mut head = format!("plan {}", plan.name);
+        if main {
+            head += " (main)";
+        }
+        if plan.interruptible {
+            head += " (interruptible)";
+        }
+        self.line(0, &head);
+        for entry in &plan.entries {
+            self.entry(entry);
+        }
+        self.line(1, &format!("start {}", plan.elements[plan.start.index()].name));
+        for supervisor in &plan.supervisors[..usize::from(plan.globals)] {
+            self.supervisor(1, supervisor);
+        }
+        for element in &plan.elements {
+            self.element(element);
+        }
+    }
+
+    fn entry(&mut self, entry: &Entry) {
+        let kind = match entry.kind {
+            EntryKind::In => "in",
+            EntryKind::Out => "out",
+            EntryKind::Var => "var",
+            EntryKind::Const => "const",
+        };
+        let mut line = format!("{kind} {}: {}", entry.name, entry.ty);
+        if let Some(init) = &entry.init {
+            line += &format!(" = {}", self.formula(init));
+        }
+        self.line(1, &line);
+    }
+
+    fn element(&mut self, element: &Element) {
+        let (keyword, named) = match element.component {
+            Component::Actor(id) => ("actor", self.of_template(id)),
+            Component::Computation(id) => ("computation", self.of_template(id)),
+            Component::SubPlan(id) => ("subplan", of_plan(self.graph.plan(id))),
+        };
+        let generic = generic(element.generic.as_ref());
+        self.line(1, &format!("{keyword} {}: {}{generic}", element.name, named.head));
+        self.binds(&named, &element.inputs, &element.outputs);
+        for (state, target) in named.outcomes.iter().zip(&element.states) {
+            if let Some(target) = target {
+                self.edge(state, *target);
+            }
+        }
+        if let Some(target) = element.on_error {
+            self.edge("Error", target);
+        }
+        for id in &element.supervisors {
+            self.supervisor(2, &self.plan.supervisors[id.index()]);
+        }
+    }
+
+    fn supervisor(&mut self, depth: usize, supervisor: &Supervisor) {
+        let named = self.of_template(supervisor.template);
+        let generic = generic(supervisor.generic.as_ref());
+        self.line(
+            depth,
+            &format!(
+                "supervise {}: {}{generic} every {} deadline {}",
+                supervisor.name,
+                named.head,
+                spell(supervisor.every),
+                spell(supervisor.deadline)
+            ),
+        );
+        self.binds(&named, &supervisor.inputs, &supervisor.outputs);
+        for (event, target) in named.outcomes.iter().zip(&supervisor.events) {
+            self.edge(event, *target);
+        }
+        if let Some(target) = supervisor.on_miss {
+            self.edge("DeadlineMissed", target);
+        }
+    }
+
+    fn of_template(&self, id: TemplateId) -> Named {
+        let toolbox = &self.graph.toolboxes[id.toolbox.index()];
+        let template = self.graph.template(id);
+        Named {
+            head: format!("{}.{}", toolbox.name, template.name),
+            inputs: template.inputs.iter().map(|port| port.name.clone()).collect(),
+            outputs: template.outputs.iter().map(|port| port.name.clone()).collect(),
+            outcomes: template.outcomes.iter().map(|outcome| outcome.name.clone()).collect(),
+        }
+    }
+
+    fn binds(&mut self, named: &Named, inputs: &[Formula], outputs: &[Output]) {
+        for (port, formula) in named.inputs.iter().zip(inputs) {
+            let formula = self.formula(formula);
+            self.line(3, &format!("{port} = {formula}"));
+        }
+        for output in outputs {
+            let port = &named.outputs[usize::from(output.port)];
+            let entry = &self.plan.entries[output.entry.index()].name;
+            let shown = match &output.conversion {
+                Some(conversion) => format!("{}({port})", conversion_name(conversion)),
+                None => port.clone(),
+            };
+            self.line(3, &format!("{shown} => {entry}"));
+        }
+    }
+
+    fn edge(&mut self, outcome: &str, target: Target) {
+        let target = match target {
+            Target::Element(id) => self.plan.elements[id.index()].name.as_str(),
+            Target::Terminate => "terminate",
+            Target::Ignore => "ignore",
+        };
+        self.line(3, &format!("{outcome} -> {target}"));
+    }
+
+    fn formula(&self, formula: &Formula) -> String {
+        match &formula.kind {
+            FormulaKind::Bool(value) => value.to_string(),
+            FormulaKind::Int(value) => value.to_string(),
+            // With a point, so that floats and ints can be told apart.
+            FormulaKind::Float(value) => format!("{value:?}"),
+            FormulaKind::Text(text) => format!("{text:?}"),
+            FormulaKind::Choice(place) => match &formula.ty {
+                Type::Enum(home) => {
+                    format!("{}.{}", home.name, home.variants[usize::from(*place)])
+                }
+                _ => place.to_string(),
+            },
+            FormulaKind::Entry(id) => self.plan.entries[id.index()].name.clone(),
+            FormulaKind::Neg(inner) => format!("-{}", self.formula(inner)),
+            FormulaKind::Binary(operator, left, right) => {
+                let sign = match operator {
+                    Operator::Add => '+',
+                    Operator::Sub => '-',
+                    Operator::Mul => '*',
+                    Operator::Div => '/',
+                    Operator::Rem => '%',
+                };
+                format!("({} {sign} {})", self.formula(left), self.formula(right))
+            }
+            FormulaKind::Convert(conversion, inner) => {
+                format!("{}({})", conversion_name(conversion), self.formula(inner))
+            }
+        }
+    }
+}
+
+fn of_plan(plan: &Plan) -> Named {
+    let names = |kind| {
+        let entries = plan.entries.iter().filter(move |entry| entry.kind == kind);
+        entries.map(|entry| entry.name.clone()).collect()
+    };
+    Named {
+        head: plan.name.clone(),
+        inputs: names(EntryKind::In),
+        outputs: names(EntryKind::Out),
+        outcomes: vec!["OK".to_owned(), "Interrupted".to_owned()],
+    }
+}
+
+fn generic(ty: Option<&Type>) -> String {
+    ty.map(|ty| format!(" for {ty}")).unwrap_or_default()
+}
+
+fn conversion_name(conversion: &Conversion) -> String {
+    match conversion {
+        Conversion::IntToFloat => "int_to_float".to_owned(),
+        Conversion::FloatToInt => "float_to_int".to_owned(),
+        Conversion::BoolToInt => "bool_to_int".to_owned(),
+        Conversion::BoolToFloat => "bool_to_float".to_owned(),
+        Conversion::ToText(from) => format!("{from}_to_string"),
+        Conversion::FromText(to) => format!("string_to_{to}"),
+    }
+}

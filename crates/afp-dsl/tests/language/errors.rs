@@ -1,0 +1,155 @@
+//! Wrong plans and toolboxes, each with the expected diagnostics under the line they mean.
+//!
+//! `AFP_BLESS=1` rewrites the expectations; read the diff like code.
+
+use crate::support;
+
+use std::collections::BTreeSet;
+
+use afp_dsl::Compiled;
+use afp_dsl::diagnostics::{Code, Diagnostic, Severity};
+use afp_dsl::source::Span;
+
+const MARK: &str = "//~ ";
+
+/// The case without its expectations.
+fn stripped(case: &str) -> String {
+    let lines = case.split_inclusive('\n').filter(|line| !line.trim_start().starts_with("//~"));
+    lines.collect()
+}
+
+/// Column and text of a place, with line and file where they are others than `line` of the case.
+fn place(compiled: &Compiled, span: Span, line: Option<usize>) -> String {
+    let source = compiled.sources.get(span.file).unwrap();
+    let (own, column) = source.line_column(span.start);
+    let text = compiled.sources.text(span);
+    let first = text.lines().next().unwrap_or("");
+    let more = if text.lines().count() > 1 { " ..." } else { "" };
+    let case = source.name == "case.afp";
+    match line {
+        Some(line) if line == own && case => format!("{column} `{first}`{more}"),
+        _ if case => format!("{own}:{column} `{first}`{more}"),
+        _ => format!("{} `{first}`{more}", source.name),
+    }
+}
+
+fn expectation(compiled: &Compiled, diagnostic: &Diagnostic, line: usize) -> String {
+    let Diagnostic { code, severity, message, span, notes, help, fix } = diagnostic;
+    let shown = place(compiled, *span, Some(line));
+    let mut text = format!("{MARK}{}[{}] {shown}: {message}\n", severity.as_str(), code.as_str());
+    for note in notes {
+        let shown = place(compiled, note.span, Some(line));
+        text += &format!("{MARK}  note {shown}: {}\n", note.text);
+    }
+    text += &format!("{MARK}  help: {help}\n");
+    if let Some(fix) = fix {
+        let shown = place(compiled, fix.span, Some(line));
+        text += &format!("{MARK}  fix {shown}: {}\n", fix.text.escape_debug());
+    }
+    text
+}
+
+/// The case with what the compiler says about it.
+fn annotated(text: &str, compiled: &Compiled) -> String {
+    let mut result = String::new();
+    for (place, line) in text.split_inclusive('\n').enumerate() {
+        result += line;
+        for diagnostic in compiled.diags.iter() {
+            let source = compiled.sources.get(diagnostic.span.file).unwrap();
+            if source.line_column(diagnostic.span.start).0 == place + 1 {
+                result += &expectation(compiled, diagnostic, place + 1);
+            }
+        }
+    }
+    result
+}
+
+#[test]
+fn every_case_says_what_it_should() {
+    let toolboxes = support::toolboxes();
+    let mut wrong = Vec::new();
+    for path in support::files("tests/errors") {
+        let case = support::read(&path);
+        let text = stripped(&case);
+        let compiled = support::compile(&text, &toolboxes);
+        assert!(!compiled.diags.is_empty(), "{} expects nothing", path.display());
+        let shown = annotated(&text, &compiled);
+        let count = shown.lines().filter(|line| line.contains("[E")).count();
+        assert!(count >= compiled.diags.len(), "{}: a diagnostic has no line", path.display());
+        wrong.extend(support::compare(&path, &case, &shown));
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_code_has_a_case() {
+    let toolboxes = support::toolboxes();
+    let mut seen = BTreeSet::new();
+    for path in support::files("tests/errors") {
+        let compiled = support::compile(&stripped(&support::read(&path)), &toolboxes);
+        seen.extend(compiled.diags.iter().map(|diagnostic| diagnostic.code));
+    }
+    let missing: Vec<_> = Code::ALL.iter().filter(|code| !seen.contains(*code)).collect();
+    assert!(missing.is_empty(), "no case for {missing:?}");
+}
+
+#[test]
+fn a_fix_mends_what_it_is_for() {
+    let toolboxes = support::toolboxes();
+    for path in support::files("tests/errors") {
+        let text = stripped(&support::read(&path));
+        let compiled = support::compile(&text, &toolboxes);
+        let has = |compiled: &Compiled, wanted: &Diagnostic| {
+            compiled.diags.iter().any(|each| {
+                (each.code, &each.message, each.span.start)
+                    == (wanted.code, &wanted.message, wanted.span.start)
+            })
+        };
+        for diagnostic in compiled.diags.iter() {
+            let Some(fix) = &diagnostic.fix else { continue };
+            let mut mended = text.clone();
+            mended.replace_range(fix.span.start as usize..fix.span.end as usize, &fix.text);
+            let after = support::compile(&mended, &toolboxes);
+            assert!(
+                !has(&after, diagnostic),
+                "{}: the fix of '{}' does not mend it:\n{mended}",
+                path.display(),
+                diagnostic.message,
+            );
+        }
+    }
+}
+
+#[test]
+fn diagnostics_are_worded_like_the_others() {
+    let toolboxes = support::toolboxes();
+    for path in support::files("tests/errors") {
+        let compiled = support::compile(&stripped(&support::read(&path)), &toolboxes);
+        for diagnostic in compiled.diags.iter() {
+            for text in [&diagnostic.message, &diagnostic.help] {
+                let at = format!("{}: {text}", path.display());
+                assert!(!text.is_empty(), "{at}");
+                assert!(!text.starts_with(|first: char| first.is_uppercase()), "{at}");
+                assert!(!text.ends_with('.') && !text.contains('`'), "{at}");
+            }
+            let rendered = diagnostic.render(&compiled.sources, false);
+            let head = format!("{}[{}]: ", diagnostic.severity.as_str(), diagnostic.code.as_str());
+            assert!(rendered.starts_with(&head), "{rendered}");
+            assert!(rendered.contains("help: "), "{rendered}");
+        }
+    }
+}
+
+#[test]
+fn a_graph_comes_exactly_without_errors() {
+    let toolboxes = support::toolboxes();
+    for path in support::files("tests/errors") {
+        let text = stripped(&support::read(&path));
+        let compiled = support::compile(&text, &toolboxes);
+        if text.lines().any(|line| line.starts_with("toolbox ")) {
+            continue;
+        }
+        let errors = compiled.diags.iter().any(|each| each.severity == Severity::Error);
+        assert_eq!(compiled.graph.is_none(), errors, "{}", path.display());
+    }
+}

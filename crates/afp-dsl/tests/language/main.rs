@@ -1,0 +1,6 @@
+//! Cases as data: wrong texts with what is said about them, right ones with their graphs.
+
+mod errors;
+mod explanations;
+mod graph;
+mod support;

@@ -1,0 +1,66 @@
+//! What the suites of cases share: toolboxes, the files of a folder, and blessing.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use afp_dsl::Compiled;
+use afp_dsl::source::{Source, Sources};
+use afp_dsl::toolbox::Toolboxes;
+
+/// The built-in toolboxes and those of `tests/toolboxes/`.
+pub fn toolboxes() -> Toolboxes {
+    let mut toolboxes = Toolboxes::default();
+    for builtin in afp_toolboxes::ALL {
+        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
+    }
+    for path in files("tests/toolboxes") {
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        toolboxes.add(Source::new(name, read(&path)), "extra");
+    }
+    let found = toolboxes.diagnostics();
+    assert!(found.is_empty(), "{}", found.render(toolboxes.sources(), false));
+    toolboxes
+}
+
+/// Compiles a plan file, or reads a toolbox; a first line `// plan: NAME` chooses the plan.
+pub fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
+    let source = Source::new("case.afp", text);
+    if text.lines().any(|line| line.starts_with("toolbox ")) && !text.contains("// as a plan") {
+        let mut own = Toolboxes::default();
+        own.add(source, "mine");
+        let (diags, sources): (_, &Sources) = (own.diagnostics().clone(), own.sources());
+        return Compiled { graph: None, diags, sources: sources.clone() };
+    }
+    let plan = text.lines().next().and_then(|line| line.strip_prefix("// plan: "));
+    afp_dsl::compile_plan(&source, toolboxes, plan)
+}
+
+/// The `.afp` files of a folder of this crate, sorted.
+pub fn files(folder: &str) -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let mut files: Vec<_> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|ending| ending == "afp"))
+        .collect();
+    files.sort();
+    files
+}
+
+/// The text of a file.
+pub fn read(path: &Path) -> String {
+    fs::read_to_string(path).unwrap()
+}
+
+/// Compares a case with what it should be; with `AFP_BLESS=1` rewrites it instead. Gives what
+/// differs.
+pub fn compare(path: &Path, expected: &str, actual: &str) -> Option<String> {
+    if expected == actual {
+        return None;
+    }
+    if std::env::var_os("AFP_BLESS").is_some() {
+        fs::write(path, actual).unwrap();
+        return None;
+    }
+    Some(format!("--- {} is now\n{actual}", path.display()))
+}
