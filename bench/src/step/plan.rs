@@ -4,9 +4,9 @@ use std::hint::black_box;
 
 use afp_core::quantity::Length;
 use afp_core::rt::{
-    Actor, Child, Committer, Cx, ElementKind, ElementRow, Entry, Events, Fired, Plan, PlanState,
-    PlanTable, Poll, Polled, Ports, Range, Slot, Started, Supervisor, SupervisorRow, Tables,
-    Target,
+    Actor, AtElement, Child, Committer, Cx, ElementKind, ElementRow, Entry, Events, Fired, Plan,
+    PlanState, PlanTable, Poll, Polled, Ports, Range, Slot, Started, Supervisor, SupervisorRow,
+    Tables, Target,
 };
 use afp_core::trace::{NoTrace, Sink};
 use afp_core::{
@@ -122,6 +122,14 @@ impl PlanState for StepPlan {
     type Tables = StepTables;
     type Slots = [Slot; 4];
 
+    #[inline(always)]
+    fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
+        match element {
+            0 => run.at::<0>(),
+            1 => run.at::<1>(),
+            _ => run.unknown(),
+        }
+    }
     fn tables(&self) -> StepTables {
         StepTables
     }

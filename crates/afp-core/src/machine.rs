@@ -16,6 +16,7 @@
 //! A sub-plan is an element whose poll is the step of a machine of its own. The recursion polls
 //! outer plans first and interrupts innermost first.
 
+mod at;
 mod enter;
 mod sweep;
 
@@ -23,11 +24,11 @@ use crate::clock::Clock;
 use crate::component::Environment;
 use crate::fault::Fault;
 use crate::rt::{
-    AtElement, Committer, Cx, ElementKind, ElementRow, Plan, PlanState, Polled, Slot, Tables,
-    Target,
+    Committer, Cx, ElementKind, ElementRow, Plan, PlanState, Polled, Slot, Tables, Target,
 };
 use crate::time::Instant;
 use crate::trace::{Author, ComponentId, Ending, Record, Sink};
+use at::StepAt;
 use sweep::Seen;
 
 /// Edges that one step may take, all levels together. A plan that needs more lets no time pass.
@@ -142,33 +143,6 @@ impl<P: PlanState> Machine<P> {
         cx: &mut Cx<'_, E, S, C>,
     ) {
         self.level.commit(author, cx);
-    }
-}
-
-/// A step of one level, for an element still to be named.
-struct StepAt<'a, 'c, 't, P: PlanState, E: ?Sized, S, C> {
-    level: &'a mut Level<P>,
-    t: &'t P::Tables,
-    cx: &'a mut Cx<'c, E, S, C>,
-}
-
-impl<P, E, S, C> AtElement for StepAt<'_, '_, '_, P, E, S, C>
-where
-    E: Environment + ?Sized,
-    S: Sink,
-    C: Clock,
-    P: Plan<E>,
-{
-    type Out = Flow;
-
-    #[inline(always)]
-    fn at<const ELEMENT: u16>(self) -> Flow {
-        self.level.step_element(self.t, ELEMENT, self.cx)
-    }
-
-    #[inline]
-    fn any(self, element: u16) -> Flow {
-        self.level.step_element(self.t, element, self.cx)
     }
 }
 

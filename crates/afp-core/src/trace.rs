@@ -195,6 +195,7 @@ impl Sink for NoTrace {
 /// Hands each record to a function.
 ///
 /// ```
+/// use afp_core::Instant;
 /// use afp_core::trace::{Observe, Record};
 /// let mut starts = 0;
 /// let sink = Observe(|_, record: &Record<'_>| {

@@ -69,6 +69,9 @@ pub trait AtElement: Sized {
 
     /// Does it at any element.
     fn any(self, element: u16) -> Self::Out;
+
+    /// There is no such element.
+    fn unknown(self) -> Self::Out;
 }
 
 /// A plan on platform `E`: its components.

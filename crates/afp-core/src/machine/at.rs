@@ -1,0 +1,43 @@
+//! The step of a level, once for each element of a compiled plan.
+//!
+//! With the element known, its rows fold to constants and its supervisors stand in a row: a third
+//! less time than one step that reads the rows of whichever element is active.
+
+use super::{Flow, Level};
+use crate::clock::Clock;
+use crate::component::Environment;
+use crate::fault::Fault;
+use crate::rt::{AtElement, Cx, Plan, PlanState};
+use crate::trace::Sink;
+
+/// A step of one level, for an element still to be named.
+pub(super) struct StepAt<'a, 'c, 't, P: PlanState, E: ?Sized, S, C> {
+    pub level: &'a mut Level<P>,
+    pub t: &'t P::Tables,
+    pub cx: &'a mut Cx<'c, E, S, C>,
+}
+
+impl<P, E, S, C> AtElement for StepAt<'_, '_, '_, P, E, S, C>
+where
+    E: Environment + ?Sized,
+    S: Sink,
+    C: Clock,
+    P: Plan<E>,
+{
+    type Out = Flow;
+
+    #[inline(always)]
+    fn at<const ELEMENT: u16>(self) -> Flow {
+        self.level.step_element(self.t, ELEMENT, self.cx)
+    }
+
+    #[inline]
+    fn any(self, element: u16) -> Flow {
+        self.level.step_element(self.t, element, self.cx)
+    }
+
+    #[cold]
+    fn unknown(self) -> Flow {
+        Flow::Fatal(Fault::INTERNAL)
+    }
+}
