@@ -198,7 +198,7 @@ impl Sink for NoTrace {
 /// use afp_core::Instant;
 /// use afp_core::trace::{Observe, Record};
 /// let mut starts = 0;
-/// let sink = Observe(|_, record: &Record<'_>| {
+/// let sink = Observe(|_: Instant, record: &Record<'_>| {
 ///     starts += u32::from(matches!(record, Record::Started { .. }));
 /// });
 /// # let _ = sink;
