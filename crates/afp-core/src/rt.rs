@@ -18,7 +18,8 @@ pub use formula::{
 };
 pub use names::{ComponentRow, EntryRow, NameTable, NamedPlan};
 pub use native::{
-    finite, hold, print_choice, read_choice, stage_outside, within, within_int, within_value,
+    finite, hold, print_choice, read_choice, set_input, stage_outside, within, within_int,
+    within_value,
 };
 pub use plan::{
     AtElement, Committer, Cx, Fired, Plan, PlanState, Polled, Slot, Started, WriteError,

@@ -4,7 +4,8 @@ use crate::fault::Fault;
 use crate::rt::formula::{Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};
 use crate::rt::plan::{PlanState, WriteError};
 use crate::trace::{
-    ComponentId, ComponentName, DEADLINE_MISSED, ERROR, EntryName, Names, TraceEntryId,
+    ComponentId, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Kind, Names,
+    TraceEntryId,
 };
 use crate::value::{Text, Value};
 
@@ -37,6 +38,34 @@ pub struct EntryRow {
     pub name: EntryName<'static>,
     /// The values of an enum.
     pub choices: &'static [&'static str],
+}
+
+impl ComponentRow {
+    /// A row.
+    pub const fn new(
+        path: &'static str,
+        kind: Kind,
+        template: &'static str,
+        outcomes: &'static [(&'static str, &'static str)],
+        special: &'static str,
+        inputs: &'static [&'static str],
+    ) -> Self {
+        let name = ComponentName { path, kind, template };
+        ComponentRow { name, outcomes, special, inputs }
+    }
+}
+
+impl EntryRow {
+    /// A row.
+    pub const fn new(
+        path: &'static str,
+        kind: EntryKind,
+        ty: &'static str,
+        unit: &'static str,
+        choices: &'static [&'static str],
+    ) -> Self {
+        EntryRow { name: EntryName { path, kind, ty, unit }, choices }
+    }
 }
 
 /// A plan that people address by name: generated or loaded.

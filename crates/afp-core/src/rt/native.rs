@@ -10,7 +10,7 @@ use crate::fault::Fault;
 use crate::rt::formula::parse_choice;
 use crate::rt::plan::{Cx, Fired, Polled, Started, WriteError};
 use crate::rt::ports::{Outcome, Ports};
-use crate::rt::store::{Choice, Stored, Writable};
+use crate::rt::store::{Choice, Entry, Stored, Writable};
 use crate::trace::Sink;
 use crate::value::{Text, Value, ValueRef};
 
@@ -247,6 +247,15 @@ pub fn stage_outside<T: Writable>(staged: &mut Option<T>, value: &Value) {
     if let Ok(value) = T::from_value(value) {
         *staged = Some(value);
     }
+}
+
+/// Gives an `in` entry a value before the start.
+///
+/// # Errors
+/// [`WriteError::Type`] or [`WriteError::NotFinite`].
+pub fn set_input<T: Writable>(entry: &mut Entry<T>, value: &Value) -> Result<(), WriteError> {
+    entry.set(T::from_value(value)?);
+    Ok(())
 }
 
 impl WriteError {
