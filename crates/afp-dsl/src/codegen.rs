@@ -6,8 +6,10 @@
 //! the types that components see.
 
 mod enums;
+mod formula;
 mod layout;
 mod names;
+mod plan;
 mod rust_type;
 mod toolbox;
 
@@ -15,6 +17,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 pub use layout::{code, file};
+pub use plan::{Generated, Module, plan};
 pub use toolbox::toolbox;
 
 /// How generated code names what it uses.

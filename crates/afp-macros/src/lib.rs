@@ -24,8 +24,19 @@ pub fn toolbox(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand(input.into(), toolbox_code).into()
 }
 
+/// Turns the first plan of a file, with the sub-plans it uses, into native code.
+///
+/// `plan!("plans/wall_following.afp")` takes a path relative to the crate's manifest. It makes a
+/// module for each plan and brings the plan's type into scope. Toolboxes that are not built in
+/// follow: `plan!("x.afp", toolboxes = { "gripper.afp" => crate::gripper })`.
+#[proc_macro]
+pub fn plan(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
+    expand(input.into(), plan_code).into()
+}
+
 fn expand(input: TokenStream, make: fn(&Input) -> Result<TokenStream, TokenStream>) -> TokenStream {
-    input::parse(input).and_then(|input| make(&input)).unwrap_or_else(|error| error)
+    let input = input::parse(input).map_err(|text| error(&format!("error: {text}")));
+    input.and_then(|input| make(&input)).unwrap_or_else(|error| error)
 }
 
 fn toolbox_code(input: &Input) -> Result<TokenStream, TokenStream> {
@@ -36,6 +47,21 @@ fn toolbox_code(input: &Input) -> Result<TokenStream, TokenStream> {
     let toolbox = toolbox.ok_or_else(|| errors(&diags, &sources))?;
     let options = Options { core: input.core.clone(), source: file.text };
     Ok(codegen::code(codegen::toolbox(&toolbox, &options)))
+}
+
+fn plan_code(input: &Input) -> Result<TokenStream, TokenStream> {
+    let file = sources::read(&input.path).map_err(|text| error(&text))?;
+    let (toolboxes, texts) = sources::toolboxes(&input.toolboxes).map_err(|text| error(&text))?;
+    let compiled = afp_dsl::compile(&file.source, &toolboxes);
+    let graph = compiled.graph.ok_or_else(|| errors(&compiled.diags, &compiled.sources))?;
+    let options = Options { core: input.core.clone(), ..Options::default() };
+    let plan = codegen::code(codegen::plan(&graph, &options).tokens());
+    let text = file.text;
+    // Cargo watches the files only because something includes them.
+    Ok(quote! {
+        #plan
+        const _: &[&str] = &[#text, #(#texts),*];
+    })
 }
 
 /// A compile error for each error among the diagnostics.

@@ -44,11 +44,21 @@ pub fn read(path: &str) -> Result<File, String> {
     Ok(File { source: Source::new(path, text), text: quote!(include_str!(#full)) })
 }
 
-/// The built-in toolboxes.
-pub fn builtin() -> Toolboxes {
+/// The built-in toolboxes, then those of these files, each with the module that implements it;
+/// and the expressions of the files' texts.
+///
+/// # Errors
+/// A sentence that says what is missing.
+pub fn toolboxes(files: &[(String, String)]) -> Result<(Toolboxes, Vec<TokenStream>), String> {
     let mut toolboxes = Toolboxes::default();
     for builtin in afp_toolboxes::ALL {
         toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
     }
-    toolboxes
+    let mut texts = Vec::new();
+    for (path, module) in files {
+        let file = read(path)?;
+        toolboxes.add(file.source, module);
+        texts.push(file.text);
+    }
+    Ok((toolboxes, texts))
 }

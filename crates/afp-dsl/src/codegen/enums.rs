@@ -34,10 +34,10 @@ pub fn choices(core: &TokenStream, choices: &Enum) -> TokenStream {
                 }
             }
 
-            fn from_index(index: u16) -> Option<Self> {
+            fn from_index(index: u16) -> ::core::option::Option<Self> {
                 match index {
-                    #(#numbers => Some(#name::#variants),)*
-                    _ => None,
+                    #(#numbers => ::core::option::Option::Some(#name::#variants),)*
+                    _ => ::core::option::Option::None,
                 }
             }
         }
@@ -51,12 +51,12 @@ pub fn choices(core: &TokenStream, choices: &Enum) -> TokenStream {
         impl #core::rt::Any for #name {}
 
         impl #core::rt::Writable for #name {
-            fn from_value(value: &#core::Value) -> Result<Self, #core::WriteError> {
+            fn from_value(value: &#core::Value) -> ::core::result::Result<Self, #core::WriteError> {
                 match value {
                     #core::Value::Choice(index) => {
                         #core::rt::Choice::from_index(*index).ok_or(#core::WriteError::Type)
                     }
-                    _ => Err(#core::WriteError::Type),
+                    _ => ::core::result::Result::Err(#core::WriteError::Type),
                 }
             }
         }

@@ -71,6 +71,10 @@ fn airy(text: &str) -> String {
 }
 
 fn separated(before: &str, line: &str) -> bool {
+    let is_header = |line: &str| line.starts_with("// ****");
+    if !before.is_empty() && (is_header(before) || is_header(line)) {
+        return true;
+    }
     let depth = |line: &str| line.len() - line.trim_start().len();
     let starts = |words: &[&str]| words.iter().any(|word| line.trim_start().starts_with(word));
     let items = [

@@ -197,7 +197,9 @@ fn pull(core: &TokenStream, index: u16, ty: &Type) -> TokenStream {
     match ty {
         Type::Bool => quote!(args.bool(#index)?),
         Type::Int => quote!(args.int(#index)?),
-        Type::Quantity(dimension) => home(core).quantity_from(*dimension, quote!(args.float(#index)?)),
+        Type::Quantity(dimension) => {
+            home(core).quantity_from(*dimension, quote!(args.float(#index)?))
+        }
         Type::Text => quote!(args.text(#index)?),
         Type::Enum(_) => quote! {
             #core::rt::Choice::from_index(args.choice(#index)?).ok_or(#core::Fault::INTERNAL)?

@@ -1,0 +1,297 @@
+//! Formulas as native expressions.
+//!
+//! Each expression has the Rust type of its formula. Operators stand where they mean the same as
+//! in the interpreter; what could panic, wrap or round differently is a call into `afp_core::rt`.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use crate::codegen::plan::units_name;
+use crate::codegen::rust_type::{Home, float, int, variant};
+use crate::graph::{Formula, FormulaKind, Operator};
+use crate::types::{Conversion, Dimension, Type};
+
+/// How tightly an expression binds.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Bond {
+    Sum,
+    Product,
+    Sign,
+    Atom,
+}
+
+/// An expression and how tightly it binds.
+struct Expr(TokenStream, Bond);
+
+impl Expr {
+    /// The expression as an operand that needs at least this bond.
+    fn at(self, bond: Bond) -> TokenStream {
+        let tokens = self.0;
+        if self.1 < bond { quote!((#tokens)) } else { tokens }
+    }
+}
+
+fn atom(tokens: TokenStream) -> Expr {
+    Expr(tokens, Bond::Atom)
+}
+
+/// Writes the formulas of one component.
+pub struct Formulas<'a> {
+    /// Where types live.
+    pub home: &'a Home<'a>,
+    /// The getters of the plan's entries.
+    pub entries: &'a [Ident],
+    /// The names of the rooms for texts that no entry holds, in the order of their use.
+    pub rooms: Vec<Ident>,
+}
+
+impl<'a> Formulas<'a> {
+    /// For one component of a plan.
+    pub fn new(home: &'a Home<'a>, entries: &'a [Ident]) -> Self {
+        Formulas { home, entries, rooms: Vec::new() }
+    }
+
+    /// What an input port of the formula's type gets: texts and objects are borrowed.
+    pub fn input(&mut self, formula: &Formula) -> TokenStream {
+        match &formula.ty {
+            Type::Text => match borrowed_text(self, formula) {
+                Some(text) => text,
+                None => {
+                    let text = self.value(formula);
+                    let room = quote::format_ident!("text_{}", self.rooms.len() + 1);
+                    self.rooms.push(room.clone());
+                    quote!(hold(#room, #text))
+                }
+            },
+            Type::Object(_) => {
+                let object = self.entry(formula);
+                quote!(config.#object()?)
+            }
+            _ => self.value(formula),
+        }
+    }
+
+    /// A value of the formula's own Rust type.
+    pub fn value(&self, formula: &Formula) -> TokenStream {
+        self.expr(formula).0
+    }
+
+    fn entry(&self, formula: &Formula) -> Option<&Ident> {
+        match &formula.kind {
+            FormulaKind::Entry(entry) => self.entries.get(entry.index()),
+            _ => None,
+        }
+    }
+
+    fn expr(&self, formula: &Formula) -> Expr {
+        match &formula.kind {
+            FormulaKind::Bool(value) => atom(quote!(#value)),
+            FormulaKind::Int(value) => signed(int(*value), *value < 0),
+            FormulaKind::Float(value) => {
+                let tokens = self.home.constant(dimension(&formula.ty), *value);
+                signed(
+                    tokens,
+                    value.is_sign_negative() && dimension(&formula.ty) == Dimension::NONE,
+                )
+            }
+            FormulaKind::Text(text) => atom(quote!(Text::try_from(#text)?)),
+            FormulaKind::Choice(index) => match &formula.ty {
+                Type::Enum(choices) => {
+                    let (path, variant) = (self.home.value(&formula.ty), variant(choices, *index));
+                    atom(quote!(#path::#variant))
+                }
+                _ => atom(quote!(#index)),
+            },
+            FormulaKind::Entry(_) => {
+                let entry = self.entry(formula);
+                match formula.ty {
+                    Type::Text | Type::Object(_) => atom(quote!(config.#entry.get().clone())),
+                    _ => atom(quote!(config.#entry())),
+                }
+            }
+            FormulaKind::Neg(inner) => self.negated(inner),
+            FormulaKind::Binary(operator, a, b) => match formula.ty {
+                Type::Text => {
+                    let (a, b) = (self.text(a), self.text(b));
+                    atom(quote!(join(#a, #b)?))
+                }
+                Type::Int => self.on_ints(*operator, a, b),
+                _ => self.on_quantities(*operator, a, b, dimension(&formula.ty)),
+            },
+            FormulaKind::Convert(conversion, inner) => self.converted(conversion, inner),
+        }
+    }
+
+    /// A text to be looked at within the expression: an `&str`.
+    fn text(&self, formula: &Formula) -> TokenStream {
+        borrowed_text(self, formula).unwrap_or_else(|| {
+            let text = self.expr(formula).at(Bond::Atom);
+            quote!(#text.as_str())
+        })
+    }
+
+    fn negated(&self, inner: &Formula) -> Expr {
+        if inner.ty == Type::Int {
+            let value = self.value(inner);
+            return atom(quote!(int_neg(#value)?));
+        }
+        let value = self.expr(inner).at(Bond::Atom);
+        Expr(quote!(-#value), Bond::Sign)
+    }
+
+    fn on_ints(&self, operator: Operator, a: &Formula, b: &Formula) -> Expr {
+        let (a, b) = (self.value(a), self.value(b));
+        atom(match operator {
+            Operator::Add => quote!(int_add(#a, #b)?),
+            Operator::Sub => quote!(int_sub(#a, #b)?),
+            Operator::Mul => quote!(int_mul(#a, #b)?),
+            // The checks turn both sides of `/` into floats.
+            Operator::Rem | Operator::Div => quote!(int_rem(#a, #b)?),
+        })
+    }
+
+    fn on_quantities(&self, operator: Operator, a: &Formula, b: &Formula, to: Dimension) -> Expr {
+        let (of_a, of_b) = (dimension(&a.ty), dimension(&b.ty));
+        let plain = Dimension::NONE;
+        match operator {
+            Operator::Add | Operator::Sub => {
+                let (a, b) = (self.expr(a).at(Bond::Sum), self.expr(b).at(Bond::Product));
+                let sign = if operator == Operator::Add { quote!(+) } else { quote!(-) };
+                Expr(quote!(#a #sign #b), Bond::Sum)
+            }
+            Operator::Mul if of_b == plain => {
+                let (a, b) = (self.expr(a).at(Bond::Product), self.expr(b).at(Bond::Sign));
+                Expr(quote!(#a * #b), Bond::Product)
+            }
+            // A product is the same in either order, and a literal has no fault to come first.
+            Operator::Mul if of_a == plain && is_literal(a) => {
+                let (a, b) = (self.expr(a).at(Bond::Sign), self.expr(b).at(Bond::Product));
+                Expr(quote!(#b * #a), Bond::Product)
+            }
+            Operator::Div if of_b == plain || of_a == of_b => {
+                let (a, b) = (self.expr(a).at(Bond::Product), self.expr(b).at(Bond::Sign));
+                Expr(quote!(#a / #b), Bond::Product)
+            }
+            Operator::Mul | Operator::Div => {
+                let (a, b) = (self.si(a), self.si(b));
+                let sign = if operator == Operator::Mul { quote!(*) } else { quote!(/) };
+                let bond = if to == plain { Bond::Product } else { Bond::Atom };
+                Expr(self.home.quantity_from(to, quote!(#a #sign #b)), bond)
+            }
+            Operator::Rem => {
+                let (a, b) = (self.si(a), self.si(b));
+                atom(self.home.quantity_from(to, quote!(rem(#a, #b)?)))
+            }
+        }
+    }
+
+    /// The SI value of a quantity, as an operand of a product.
+    fn si(&self, formula: &Formula) -> TokenStream {
+        if dimension(&formula.ty) == Dimension::NONE {
+            return self.expr(formula).at(Bond::Sign);
+        }
+        let value = self.expr(formula).at(Bond::Atom);
+        quote!(#value.si())
+    }
+
+    fn converted(&self, conversion: &Conversion, inner: &Formula) -> Expr {
+        match conversion {
+            Conversion::ToText(Type::Text) => self.expr(inner),
+            Conversion::IntToFloat if exact(inner).is_some() => {
+                signed(float(exact(inner).unwrap_or_default()), false)
+            }
+            Conversion::FromText(_) => {
+                let text = self.text(inner);
+                atom(convert(self.home, conversion, text))
+            }
+            _ => atom(convert(self.home, conversion, self.value(inner))),
+        }
+    }
+}
+
+/// An integer literal that is a float as well.
+fn exact(formula: &Formula) -> Option<f64> {
+    match formula.kind {
+        FormulaKind::Int(value) if (0..1 << 53).contains(&value) => Some(value as f64),
+        _ => None,
+    }
+}
+
+/// A literal, which a minus makes bind less tightly.
+fn signed(tokens: TokenStream, negative: bool) -> Expr {
+    Expr(tokens, if negative { Bond::Sign } else { Bond::Atom })
+}
+
+/// A text that an entry or the program itself holds: an `&str`.
+fn borrowed_text(formulas: &Formulas<'_>, formula: &Formula) -> Option<TokenStream> {
+    match &formula.kind {
+        FormulaKind::Text(text) => Some(quote!(#text)),
+        FormulaKind::Entry(_) => {
+            let entry = formulas.entry(formula);
+            Some(quote!(config.#entry()))
+        }
+        _ => None,
+    }
+}
+
+/// A value converted; a text comes as an `&str`.
+pub fn convert(home: &Home<'_>, conversion: &Conversion, value: TokenStream) -> TokenStream {
+    match conversion {
+        Conversion::IntToFloat => quote!(int_to_float(#value)),
+        Conversion::FloatToInt => quote!(float_to_int(#value)?),
+        Conversion::BoolToInt => quote!(bool_to_int(#value)),
+        Conversion::BoolToFloat => quote!(bool_to_float(#value)),
+        Conversion::ToText(from) => match from {
+            Type::Quantity(Dimension::NONE) => quote!(print_quantity(#value, "")?),
+            Type::Quantity(dimension) => {
+                let unit = dimension.si_unit();
+                quote!(print_quantity((#value).si(), #unit)?)
+            }
+            Type::Enum(_) => quote!(print_choice(#value)?),
+            _ => quote!(Text::print(#value)?),
+        },
+        Conversion::FromText(to) => match to {
+            Type::Bool => quote!(parse_bool(#value)?),
+            Type::Int => quote!(parse_int(#value)?),
+            Type::Quantity(Dimension::NONE) => quote!(parse_float(#value)?),
+            Type::Quantity(dimension) => {
+                let units = units_name(*dimension);
+                let units = quote!(super::units::#units.iter().copied());
+                home.quantity_from(*dimension, quote!(parse_quantity(#value, #units)?))
+            }
+            Type::Enum(_) => quote!(read_choice(#value)?),
+            _ => quote!(Text::try_from(#value)?),
+        },
+    }
+}
+
+/// The dimension of a number's type; none for everything else.
+fn dimension(ty: &Type) -> Dimension {
+    match ty {
+        Type::Quantity(dimension) => *dimension,
+        _ => Dimension::NONE,
+    }
+}
+
+/// Whether a formula is a literal, perhaps with a sign: finite, and the same at all times.
+pub fn is_literal(formula: &Formula) -> bool {
+    match &formula.kind {
+        FormulaKind::Neg(inner) => is_literal(inner),
+        FormulaKind::Bool(_) | FormulaKind::Int(_) | FormulaKind::Float(_) => true,
+        FormulaKind::Text(_) | FormulaKind::Choice(_) => true,
+        FormulaKind::Entry(_) | FormulaKind::Binary(..) | FormulaKind::Convert(..) => false,
+    }
+}
+
+/// The entries that a formula reads.
+pub fn reads(formula: &Formula, see: &mut dyn FnMut(usize)) {
+    match &formula.kind {
+        FormulaKind::Entry(entry) => see(entry.index()),
+        FormulaKind::Neg(inner) | FormulaKind::Convert(_, inner) => reads(inner, see),
+        FormulaKind::Binary(_, a, b) => {
+            reads(a, see);
+            reads(b, see);
+        }
+        _ => {}
+    }
+}

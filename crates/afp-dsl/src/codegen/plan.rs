@@ -1,0 +1,146 @@
+//! A native plan from a graph.
+//!
+//! Each plan becomes a module of four sections, as in the paper's Table I: its actors (with
+//! computations and sub-plans), its supervisors, the plan itself, and its rules. The scheduler of
+//! `afp_core` drives the result through `afp_core::rt`; nothing of the graph is left in it.
+
+mod accessors;
+mod bindings;
+mod components;
+mod context;
+mod elements;
+mod imports;
+mod names;
+mod rules;
+mod shared;
+mod state;
+mod supervisors;
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use crate::codegen::Options;
+use crate::codegen::layout::{comment, doc};
+use crate::codegen::names::{camel, ident, snake};
+use crate::graph::{Graph, PlanId};
+use crate::unfold;
+use context::Context;
+pub(crate) use shared::units_name;
+
+/// The Rust code of a graph: a module for each plan, and what they share.
+#[derive(Clone, Debug)]
+pub struct Generated {
+    /// The modules, sub-plans before the plans that use them.
+    pub modules: Vec<Module>,
+    /// The module of the plan that runs.
+    pub main: Ident,
+    /// The type of the plan that runs, in its module.
+    pub plan: Ident,
+}
+
+/// One module of generated code.
+#[derive(Clone, Debug)]
+pub struct Module {
+    /// Its name.
+    pub name: Ident,
+    /// Its help, without slashes.
+    pub doc: String,
+    /// Its `use` items.
+    pub imports: TokenStream,
+    /// Its sections, each with its title.
+    pub sections: Vec<(&'static str, TokenStream)>,
+}
+
+/// The Rust code of all plans of a graph.
+pub fn plan(graph: &Graph, options: &Options) -> Generated {
+    let blocks = unfold::blocks(graph);
+    let places = (0..).zip(&graph.plans);
+    let mut modules = shared::modules(graph, options);
+    let mut main = (ident("plan"), ident("Plan"));
+    for ((number, plan), block) in places.zip(&blocks) {
+        let context = Context::new(graph, plan, block);
+        if PlanId(number) == graph.main {
+            main = (context.module.clone(), context.ty.clone());
+        }
+        modules.push(module(&context, options, PlanId(number)));
+    }
+    Generated { modules, main: main.0, plan: main.1 }
+}
+
+fn module(context: &Context<'_>, options: &Options, id: PlanId) -> Module {
+    let plan = context.plan;
+    let about = if plan.doc.is_empty() {
+        format!("The plan `{}`.", plan.name)
+    } else {
+        format!("The plan `{}`: {}", plan.name, plan.doc)
+    };
+    let sections = vec![
+        ("Actors", elements::elements(context)),
+        ("Supervisors", supervisors::supervisors(context)),
+        ("Plan", plan_section(context)),
+        ("Rules", rules::rules(context)),
+        ("Names", names::names(context, id)),
+    ];
+    let imports = imports::imports(&options.core, context, &sections);
+    Module { name: context.module.clone(), doc: about, imports, sections }
+}
+
+fn plan_section(context: &Context<'_>) -> TokenStream {
+    let structure = state::structure(context);
+    let accessors = accessors::accessors(context);
+    let state = state::plan_state(context);
+    let components = components::plan(context);
+    quote! {
+        #structure
+        #accessors
+        #state
+        #components
+    }
+}
+
+impl Module {
+    /// The content of the module, to be printed as a file.
+    pub fn tokens(&self) -> TokenStream {
+        let lines = self.doc.lines().map(|line| format!(" {line}"));
+        let imports = &self.imports;
+        let sections = self.sections.iter().map(|(title, tokens)| {
+            let header = (!tokens.is_empty()).then(|| comment(&format!("**** {title} ****")));
+            quote!(#header #tokens)
+        });
+        quote! {
+            #(#![doc = #lines])*
+            #imports
+            #(#sections)*
+        }
+    }
+}
+
+impl Generated {
+    /// All modules with their bodies, and the plan's type beside them.
+    pub fn tokens(&self) -> TokenStream {
+        let modules = self.modules.iter().map(|module| {
+            let (name, about) = (&module.name, doc(&module.doc, ""));
+            let imports = &module.imports;
+            let sections = module.sections.iter().map(|(_, tokens)| tokens);
+            quote! {
+                #about
+                #[allow(dead_code, unused_imports, clippy::all)]
+                pub mod #name {
+                    #imports
+                    #(#sections)*
+                }
+            }
+        });
+        let (main, plan) = (&self.main, &self.plan);
+        quote! {
+            #(#modules)*
+            pub use self::#main::#plan;
+        }
+    }
+}
+
+/// The module and the type of a plan.
+fn home(graph: &Graph, id: PlanId) -> (Ident, Ident) {
+    let name = &graph.plan(id).name;
+    (ident(&snake(name)), context::type_name(&camel(name)))
+}

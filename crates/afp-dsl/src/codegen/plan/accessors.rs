@@ -1,0 +1,85 @@
+//! Typed access for whoever starts the plan.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use super::context::Context;
+use super::state::entry_doc;
+use crate::codegen::layout::doc;
+use crate::codegen::names::{Names, ident, snake};
+use crate::graph::{Entry, EntryKind};
+use crate::types::Type;
+
+/// The constructor, a getter for each entry, a setter for each `in` entry.
+pub fn accessors(context: &Context<'_>) -> TokenStream {
+    let ty = &context.ty;
+    let new = doc("", "The plan, not yet started.");
+    let mut names = Names::taken(&["new", "default", "from", "into"]);
+    let entries = context.plan.entries.iter().zip(&context.entries);
+    let accessors = entries.map(|(entry, field)| {
+        let get = ident(&names.unique(snake(&entry.name)));
+        let get = getter(context, entry, field, &get);
+        let set = (entry.kind == EntryKind::In).then(|| {
+            let name = ident(&names.unique(format!("set_{}", snake(&entry.name))));
+            setter(context, entry, field, &name)
+        });
+        quote!(#get #set)
+    });
+    quote! {
+        impl #ty {
+            #new
+            pub fn new() -> Self {
+                Self::default()
+            }
+
+            #(#accessors)*
+        }
+    }
+}
+
+fn getter(context: &Context<'_>, entry: &Entry, field: &Ident, name: &Ident) -> TokenStream {
+    let (help, value) = (entry_doc(entry), context.value_type(&entry.ty));
+    let (ty, body) = match entry.ty {
+        Type::Text => (quote!(&str), quote!(value().map(|text| text.as_str()))),
+        Type::Object(_) => (quote!(&#value), quote!(value().and_then(|object| object.get().ok()))),
+        _ => (value, quote!(value().copied())),
+    };
+    quote! {
+        #help
+        #[doc = ""]
+        #[doc = " `None` while nobody has written it."]
+        pub fn #name(&self) -> Option<#ty> {
+            self.config.#field.#body
+        }
+    }
+}
+
+fn setter(context: &Context<'_>, entry: &Entry, field: &Ident, name: &Ident) -> TokenStream {
+    let value = context.value_type(&entry.ty);
+    let help = doc("", &format!("Sets `{}` before the start.", entry.name));
+    match entry.ty {
+        Type::Quantity(_) => quote! {
+            #help
+            #[doc = ""]
+            #[doc = " # Errors"]
+            #[doc = " [`WriteError::NotFinite`]."]
+            pub fn #name(&mut self, value: #value) -> Result<(), WriteError> {
+                let value = finite(value).map_err(|_| WriteError::NotFinite)?;
+                self.config.#field.set(value);
+                Ok(())
+            }
+        },
+        Type::Object(_) => quote! {
+            #help
+            pub fn #name(&mut self, value: #value) {
+                self.config.#field.set(Object::new(value));
+            }
+        },
+        _ => quote! {
+            #help
+            pub fn #name(&mut self, value: #value) {
+                self.config.#field.set(value);
+            }
+        },
+    }
+}

@@ -1,0 +1,241 @@
+//! The functions between entries and ports: inputs pulled from the configuration, outputs staged.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use super::context::{ComponentNames, Context, Paths};
+use crate::codegen::formula::{Formulas, convert, is_literal};
+use crate::codegen::layout::doc;
+use crate::codegen::names::{camel, ident, snake};
+use crate::codegen::rust_type::Home;
+use crate::graph::{Formula, Output};
+use crate::toolbox::{InPort, Template, TemplateKind};
+use crate::types::{Conversion, Type};
+
+/// A component as its bindings see it.
+pub struct Bound<'a> {
+    pub context: &'a Context<'a>,
+    pub names: &'a ComponentNames,
+    pub template: &'a Template,
+    pub paths: Paths,
+    pub generic: Option<&'a Type>,
+    pub inputs: &'a [Formula],
+    pub outputs: &'a [Output],
+}
+
+/// A function of inputs or outputs.
+pub struct Function {
+    /// Its item; none where it would do nothing.
+    pub item: TokenStream,
+    /// Statements that make room for the texts it computes.
+    pub rooms: TokenStream,
+    /// The expression that calls it.
+    pub call: TokenStream,
+}
+
+impl Bound<'_> {
+    /// What is read before the start.
+    pub fn inputs(&self) -> Function {
+        let about = format!("Inputs of `{}`.", self.names.text);
+        self.pulled(&self.names.inputs, "Inputs", &about, |port| !self.is_live(port))
+    }
+
+    /// What is read again at every poll.
+    pub fn live(&self) -> Function {
+        let about = format!("Live inputs of `{}`.", self.names.text);
+        self.pulled(&self.names.live, "Live", &about, |port| self.is_live(port))
+    }
+
+    fn is_live(&self, port: &InPort) -> bool {
+        port.live && self.template.kind != TemplateKind::Computation
+    }
+
+    fn pulled(
+        &self,
+        name: &Ident,
+        ty: &str,
+        about: &str,
+        wanted: impl Fn(&InPort) -> bool,
+    ) -> Function {
+        let (module, ty) = (&self.paths.module, ident(ty));
+        let ports = self.template.inputs.iter().zip(self.inputs);
+        let ports: Vec<_> = ports.filter(|(port, _)| wanted(port)).collect();
+        if ports.is_empty() {
+            return Function {
+                item: TokenStream::new(),
+                rooms: TokenStream::new(),
+                call: quote!(Ok(#module::#ty {})),
+            };
+        }
+        let generic = ports.iter().any(|(port, _)| is_generic(&port.ty));
+        let borrows = ports.iter().any(|(port, _)| matches!(port.ty, Type::Text | Type::Object(_)));
+        let (fields, rooms) = self.context.with_home(|home| {
+            let mut formulas = Formulas::new(home, &self.context.entries);
+            let fields: Vec<_> = ports
+                .iter()
+                .map(|(port, formula)| {
+                    let value = match port.ty {
+                        Type::Any | Type::Number => formulas.value(formula),
+                        _ => formulas.input(formula),
+                    };
+                    let port = ident(&snake(&port.name));
+                    quote!(#port: #value)
+                })
+                .collect();
+            (fields, formulas.rooms)
+        });
+        let reads = ports.iter().any(|(_, formula)| reads_entries(formula));
+        let lifetime = borrows.then(|| quote!('a));
+        let config = reads.then(|| {
+            let lifetime = &lifetime;
+            if rooms.is_empty() {
+                quote!(config: & #lifetime Config)
+            } else {
+                quote!(config: & #lifetime Config,)
+            }
+        });
+        let arguments = match (borrows, self.generic.filter(|_| generic)) {
+            (true, Some(ty)) => self.context.with_home(|home| {
+                let ty = home.value(ty);
+                quote!(<'a, #ty>)
+            }),
+            (true, None) => quote!(<'a>),
+            (false, Some(ty)) => self.context.with_home(|home| {
+                let ty = home.value(ty);
+                quote!(<#ty>)
+            }),
+            (false, None) => TokenStream::new(),
+        };
+        let generics = lifetime.map(|lifetime| quote!(<#lifetime>));
+        let help = doc("", about);
+        let config_call = reads
+            .then(|| if rooms.is_empty() { quote!(&self.config) } else { quote!(&self.config,) });
+        Function {
+            rooms: quote!(#(let mut #rooms = Text::new();)*),
+            call: quote!(#name(#config_call #(&mut #rooms),*)),
+            item: quote! {
+                #help
+                fn #name #generics (#config #(#rooms: &'a mut Text),*)
+                    -> Result<#module::#ty #arguments, Fault>
+                {
+                    Ok(#module::#ty { #(#fields),* })
+                }
+            },
+        }
+    }
+
+    /// The function that stages the outputs, and the closure that calls it.
+    pub fn outputs(&self) -> Function {
+        let (name, module) = (&self.names.outputs, &self.paths.module);
+        let outcome = ident(match self.template.kind {
+            TemplateKind::Supervisor => "Event",
+            TemplateKind::Actor | TemplateKind::Computation => "State",
+        });
+        let arms: Vec<_> = (0..)
+            .zip(&self.template.outcomes)
+            .filter_map(|(index, declared)| {
+                let variant = ident(&camel(&declared.name));
+                let (fields, puts) = self.puts(index)?;
+                let rest = (fields.len() < self.carried(index)).then(|| quote!(..));
+                Some((quote!(#module::#outcome::#variant { #(#fields,)* #rest }), puts))
+            })
+            .collect();
+        if arms.is_empty() {
+            return Function {
+                item: TokenStream::new(),
+                rooms: TokenStream::new(),
+                call: quote!(|_| Ok(())),
+            };
+        }
+        let generic = self.template.outputs.iter().any(|port| is_generic(&port.ty));
+        let arguments = self.generic.filter(|_| generic).map(|ty| {
+            let ty = self.context.value_type(ty);
+            quote!(<#ty>)
+        });
+        let body = match (arms.as_slice(), self.template.outcomes.len() - arms.len()) {
+            ([(pattern, puts)], 0) => quote!(let #pattern = outcome; #(#puts)*),
+            ([(pattern, puts)], _) => quote!(if let #pattern = outcome { #(#puts)* }),
+            (arms, missing) => {
+                let rest = (missing > 0).then(|| quote!(_ => {}));
+                let arms = arms.iter().map(|(pattern, puts)| quote!(#pattern => { #(#puts)* }));
+                quote!(match outcome { #(#arms)* #rest })
+            }
+        };
+        let help = doc("", &format!("Outputs of `{}`.", self.names.text));
+        Function {
+            rooms: TokenStream::new(),
+            call: quote!(|outcome| #name(&mut self.staged, outcome)),
+            item: quote! {
+                #help
+                fn #name(staged: &mut Staged, outcome: #module::#outcome #arguments)
+                    -> Result<(), Fault>
+                {
+                    #body
+                    Ok(())
+                }
+            },
+        }
+    }
+
+    /// How many outputs an outcome carries.
+    fn carried(&self, outcome: u16) -> usize {
+        let ports = self.template.outputs.iter();
+        ports.filter(|port| port.on.is_empty() || port.on.contains(&outcome)).count()
+    }
+
+    /// The fields of an outcome that are bound, and the statements that stage them.
+    fn puts(&self, outcome: u16) -> Option<(Vec<Ident>, Vec<TokenStream>)> {
+        let ports = (0..).zip(&self.template.outputs);
+        let carried = ports.filter(|(_, port)| port.on.is_empty() || port.on.contains(&outcome));
+        let bound = carried.filter_map(|(number, port)| {
+            let output = self.outputs.iter().find(|output| output.port == number)?;
+            let ty = match &port.ty {
+                Type::Any | Type::Number => self.generic?,
+                ty => ty,
+            };
+            let name = ident(&snake(&port.name));
+            let value = self.context.with_home(|home| staged_value(home, output, ty, &name));
+            let entry = &self.context.entries[output.entry.index()];
+            Some((name, quote!(staged.#entry = Some(#value);)))
+        });
+        let (fields, puts): (Vec<_>, Vec<_>) = bound.unzip();
+        (!fields.is_empty()).then_some((fields, puts))
+    }
+}
+
+/// The value of an output port as its entry takes it.
+fn staged_value(home: &Home<'_>, output: &Output, ty: &Type, value: &Ident) -> TokenStream {
+    match (&output.conversion, ty) {
+        (None, Type::Quantity(_)) => quote!(finite(#value)?),
+        (None, Type::Object(_)) => quote!(Object::new(#value)),
+        (None, _) => quote!(#value),
+        (Some(conversion), ty) => converted(home, conversion, ty, quote!(#value)),
+    }
+}
+
+/// A value converted for its entry; numbers that come out of a text or an `int` are finite.
+pub fn converted(
+    home: &Home<'_>,
+    conversion: &Conversion,
+    ty: &Type,
+    value: TokenStream,
+) -> TokenStream {
+    match (conversion, ty) {
+        (Conversion::ToText(Type::Text), _) => value,
+        (Conversion::FromText(_), Type::Text) => convert(home, conversion, quote!(#value.as_str())),
+        _ => convert(home, conversion, value),
+    }
+}
+
+fn is_generic(ty: &Type) -> bool {
+    matches!(ty, Type::Any | Type::Number)
+}
+
+/// Whether a formula reads anything.
+pub fn reads_entries(formula: &Formula) -> bool {
+    let mut any = false;
+    if !is_literal(formula) {
+        crate::codegen::formula::reads(formula, &mut |_| any = true);
+    }
+    any
+}

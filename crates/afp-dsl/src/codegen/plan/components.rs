@@ -1,0 +1,342 @@
+//! The plan on a platform: its components started, polled, interrupted and dropped.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::bindings::Function;
+use super::context::Context;
+use super::elements::{self, passes, results};
+use super::supervisors;
+use crate::graph::{Component, Supervisor, Target};
+
+/// `impl Plan<E>`, for every platform on which all components run.
+pub fn plan(context: &Context<'_>) -> TokenStream {
+    let ty = &context.ty;
+    let bounds = bounds(context);
+    let (start_supervisor, poll_supervisor) = (start_supervisor(context), poll_supervisor(context));
+    let (start_element, poll_element) = (start_element(context), poll_element(context));
+    let (interrupt, leave) = (interrupt_element(context), leave(context));
+    quote! {
+        impl<E> Plan<E> for #ty
+        where
+            E: Environment + ?Sized,
+            #(#bounds)*
+        {
+            #start_supervisor
+            #poll_supervisor
+            #start_element
+            #poll_element
+            #interrupt
+            #leave
+
+            fn end(&mut self) {
+                self.active = Active::None;
+                self.supervisors = Supervisors::default();
+            }
+        }
+    }
+}
+
+/// What the platform must let run, each once, in the order of first use. Computations run anywhere.
+fn bounds(context: &Context<'_>) -> Vec<TokenStream> {
+    let elements = context.plan.elements.iter().filter_map(|element| match element.component {
+        Component::Actor(id) => {
+            let paths = context.paths(id, element.generic.as_ref());
+            let (marker, implementation) = (paths.marker, paths.implementation);
+            Some(quote!(#implementation: Actor<#marker, E>,))
+        }
+        Component::SubPlan(id) => {
+            let (module, ty) = context.child(id);
+            Some(quote!(super::#module::#ty: Plan<E>,))
+        }
+        Component::Computation(_) => None,
+    });
+    let supervisors = context.plan.supervisors.iter().map(|supervisor| {
+        let paths = context.paths(supervisor.template, supervisor.generic.as_ref());
+        let (marker, implementation) = (paths.marker, paths.implementation);
+        quote!(#implementation: Supervisor<#marker, E>,)
+    });
+    let mut seen = Vec::new();
+    let all = elements.chain(supervisors);
+    all.filter(|bound| {
+        let text = bound.to_string();
+        let new = !seen.contains(&text);
+        seen.push(text);
+        new
+    })
+    .collect()
+}
+
+/// A `match` on a number, or the last arm alone where there are no others.
+fn select(on: TokenStream, arms: &[TokenStream], last: TokenStream) -> TokenStream {
+    if arms.is_empty() { last } else { quote!(match #on { #(#arms)* _ => #last }) }
+}
+
+/// A parameter, or `_` where nothing uses it.
+fn used(name: TokenStream, used: bool) -> TokenStream {
+    if used { name } else { quote!(_) }
+}
+
+fn start_supervisor(context: &Context<'_>) -> TokenStream {
+    let all = context.plan.supervisors.iter().zip(&context.supervisors);
+    let arms: Vec<_> = all
+        .map(|(supervisor, names)| {
+            let bound = supervisors::bound(context, supervisor, names);
+            let (number, field) = (&names.number, &names.inputs);
+            let Function { rooms, call, .. } = bound.inputs();
+            let wanted = wanted(supervisor);
+            quote! {
+                #number => {
+                    #rooms
+                    let inputs = #call;
+                    self.supervisors.#field = cx.start_supervisor(inputs, #wanted)?;
+                }
+            }
+        })
+        .collect();
+    let [number, cx] = [quote!(supervisor), quote!(cx)].map(|name| used(name, !arms.is_empty()));
+    let body = if arms.is_empty() {
+        quote!(Err(Fault::INTERNAL))
+    } else {
+        quote!(match supervisor { #(#arms)* _ => return Err(Fault::INTERNAL) } Ok(()))
+    };
+    quote! {
+        fn start_supervisor<S: Sink, C: Clock>(
+            &mut self,
+            #number: u16,
+            #cx: &mut Cx<'_, E, S, C>,
+        ) -> Result<(), Fault> {
+            #body
+        }
+    }
+}
+
+/// The events that lead to something other than `ignore`.
+pub fn wanted(supervisor: &Supervisor) -> TokenStream {
+    let events = supervisor.events.iter().enumerate();
+    let bits = events.filter(|(_, event)| **event != Target::Ignore);
+    let bits: u64 = bits.fold(0, |bits, (index, _)| bits | 1 << index.min(63));
+    let bits: Literal =
+        format!("0b{bits:b}").parse().unwrap_or_else(|_| Literal::u64_unsuffixed(bits));
+    quote!(Events::from_bits(#bits))
+}
+
+fn poll_supervisor(context: &Context<'_>) -> TokenStream {
+    let all = context.plan.supervisors.iter().zip(&context.supervisors);
+    let arms: Vec<_> = all
+        .map(|(supervisor, names)| {
+            let bound = supervisors::bound(context, supervisor, names);
+            let (number, field) = (&names.number, &names.inputs);
+            let (Function { rooms, call, .. }, outputs) = (bound.live(), bound.outputs().call);
+            quote! {
+                #number => {
+                    #rooms
+                    let (watch, live) = (&mut self.supervisors.#field, #call);
+                    Fired::supervisor(cx.poll_supervisor(watch, live), #outputs)
+                }
+            }
+        })
+        .collect();
+    let [number, cx] = [quote!(supervisor), quote!(cx)].map(|name| used(name, !arms.is_empty()));
+    let body = select(quote!(supervisor), &arms, quote!(Fired::fault(Fault::INTERNAL)));
+    quote! {
+        #[inline]
+        fn poll_supervisor<S: Sink, C: Clock>(
+            &mut self,
+            #number: u16,
+            #cx: &mut Cx<'_, E, S, C>,
+        ) -> Fired {
+            #body
+        }
+    }
+}
+
+fn start_element(context: &Context<'_>) -> TokenStream {
+    let all = context.plan.elements.iter().zip(&context.elements);
+    let arms = all.map(|(element, names)| {
+        let (number, variant) = (&names.number, &names.variant);
+        match element.component {
+            Component::Actor(id) => {
+                let bound = elements::bound(context, element, names, id);
+                let Function { rooms, call, .. } = bound.inputs();
+                quote! {
+                    #number => {
+                        #rooms
+                        cx.start_actor(#call).map(Active::#variant)
+                    }
+                }
+            }
+            Component::Computation(id) => {
+                let bound = elements::bound(context, element, names, id);
+                let (marker, implementation) = (&bound.paths.marker, &bound.paths.implementation);
+                let (Function { rooms, call, .. }, outputs) =
+                    (bound.inputs(), bound.outputs().call);
+                quote! {
+                    #number => {
+                        #rooms
+                        let computed = cx.compute::<#marker, #implementation>(#call);
+                        return Started::computed(computed, #outputs);
+                    }
+                }
+            }
+            Component::SubPlan(id) => {
+                let (module, ty) = context.child(id);
+                let (gives, reads) = passes(element);
+                let mutable = gives.then(|| quote!(mut));
+                let given = gives.then(|| {
+                    let (function, config) = (&names.inputs, reads.then(|| quote!(&self.config,)));
+                    quote! {
+                        if let Err(fault) = #function(#config &mut plan.config) {
+                            return Started::Failed(fault);
+                        }
+                    }
+                });
+                let (place, stage) = (&names.place, stage_results(names, element));
+                quote! {
+                    #number => {
+                        let #mutable plan = super::#module::#ty::new();
+                        #given
+                        let mut machine = Machine::new(plan);
+                        let flow = cx.start_sub_plan(#place, &mut machine);
+                        let started = Started::sub_plan(flow, || #stage);
+                        self.active = Active::#variant(machine);
+                        return started;
+                    }
+                }
+            }
+        }
+    });
+    let arms: Vec<_> = arms.collect();
+    let body = select(quote!(element), &arms, quote!(Err(Fault::INTERNAL)));
+    let [number, cx] = [quote!(element), quote!(cx)].map(|name| used(name, !arms.is_empty()));
+    quote! {
+        fn start_element<S: Sink, C: Clock>(
+            &mut self,
+            #number: u16,
+            #cx: &mut Cx<'_, E, S, C>,
+        ) -> Started {
+            let started: Result<Active, Fault> = #body;
+            match started {
+                Ok(active) => {
+                    self.active = active;
+                    Started::Running
+                }
+                Err(fault) => Started::Failed(fault),
+            }
+        }
+    }
+}
+
+/// Stages what a sub-plan gives back.
+fn stage_results(
+    names: &super::context::ComponentNames,
+    element: &crate::graph::Element,
+) -> TokenStream {
+    let function = &names.outputs;
+    if results(element) {
+        quote!(#function(&mut self.staged, &machine.plan().config))
+    } else {
+        quote!(Ok(()))
+    }
+}
+
+fn poll_element(context: &Context<'_>) -> TokenStream {
+    let all = context.plan.elements.iter().zip(&context.elements);
+    let arms = all.filter_map(|(element, names)| {
+        let variant = &names.variant;
+        match element.component {
+            Component::Actor(id) => {
+                let bound = elements::bound(context, element, names, id);
+                let (Function { rooms, call, .. }, outputs) = (bound.live(), bound.outputs().call);
+                Some(quote! {
+                    Active::#variant(actor) => {
+                        #rooms
+                        let live = #call;
+                        Polled::actor(cx.poll_actor(actor, live), #outputs)
+                    }
+                })
+            }
+            Component::SubPlan(_) => {
+                let (place, stage) = (&names.place, stage_results(names, element));
+                Some(quote! {
+                    Active::#variant(machine) => {
+                        let flow = cx.inside(#place, |cx| machine.step(cx));
+                        Polled::sub_plan(flow, || #stage)
+                    }
+                })
+            }
+            Component::Computation(_) => None,
+        }
+    });
+    let arms: Vec<_> = arms.collect();
+    let cx = used(quote!(cx), !arms.is_empty());
+    quote! {
+        #[inline]
+        fn poll_element<S: Sink, C: Clock>(
+            &mut self,
+            _: u16,
+            #cx: &mut Cx<'_, E, S, C>,
+        ) -> Polled {
+            match &mut self.active {
+                Active::None => Polled::Failed(Fault::INTERNAL),
+                #(#arms)*
+            }
+        }
+    }
+}
+
+fn interrupt_element(context: &Context<'_>) -> TokenStream {
+    let all = context.plan.elements.iter().zip(&context.elements);
+    let arms = all.filter_map(|(element, names)| {
+        let variant = &names.variant;
+        match element.component {
+            Component::Actor(_) => {
+                Some(quote!(Active::#variant(actor) => cx.interrupt_actor(actor),))
+            }
+            Component::SubPlan(_) => {
+                let place = &names.place;
+                Some(quote! {
+                    Active::#variant(machine) => cx.inside(#place, |cx| machine.interrupt(cx)),
+                })
+            }
+            Component::Computation(_) => None,
+        }
+    });
+    let arms: Vec<_> = arms.collect();
+    let cx = used(quote!(cx), !arms.is_empty());
+    quote! {
+        fn interrupt_element<S: Sink, C: Clock>(
+            &mut self,
+            _: u16,
+            #cx: &mut Cx<'_, E, S, C>,
+        ) -> Result<(), Fault> {
+            match &mut self.active {
+                Active::None => Err(Fault::INTERNAL),
+                #(#arms)*
+            }
+        }
+    }
+}
+
+fn leave(context: &Context<'_>) -> TokenStream {
+    let arms = context.elements.iter().enumerate().filter_map(|(index, names)| {
+        let number = &names.number;
+        let drops: Vec<_> = context
+            .locals(index)
+            .map(|local| {
+                let field = &local.inputs;
+                quote!(self.supervisors.#field = None;)
+            })
+            .collect();
+        (!drops.is_empty()).then(|| quote!(#number => { #(#drops)* }))
+    });
+    let arms: Vec<_> = arms.collect();
+    let element = used(quote!(element), !arms.is_empty());
+    let dropped = (!arms.is_empty()).then(|| quote!(match element { #(#arms)* _ => {} }));
+    quote! {
+        fn leave(&mut self, #element: u16) {
+            self.active = Active::None;
+            #dropped
+        }
+    }
+}

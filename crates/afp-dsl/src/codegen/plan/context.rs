@@ -1,0 +1,285 @@
+//! The Rust names of everything in one plan.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::codegen::formula::reads;
+use crate::codegen::names::{Names, camel, ident, shout, snake};
+use crate::codegen::rust_type::Home;
+use crate::graph::{Component, Formula, Graph, Output, Plan, PlanId, SupervisorId, TemplateId};
+use crate::toolbox::{Template, Toolbox};
+use crate::types::{Enum, Object, Type};
+use crate::unfold::Block;
+
+use super::imports::{CORE, QUANTITY, RT};
+
+/// Types of the module itself.
+const OWN: &[&str] = &["Active", "Config", "Rules", "Staged", "Supervisors", "Self"];
+/// Statics of the module itself.
+const STATICS: &[&str] = &["EDGES", "ELEMENTS", "NAMES", "SUPERVISORS", "SWEEPS"];
+/// Functions and locals that generated code calls by bare name.
+const VALUES: &[&str] = &["config", "staged", "cx", "to", "from", "see", "plan"];
+
+/// One plan, with the names of its parts.
+pub struct Context<'a> {
+    pub graph: &'a Graph,
+    pub plan: &'a Plan,
+    pub block: &'a Block,
+    /// The module.
+    pub module: Ident,
+    /// The plan's type.
+    pub ty: Ident,
+    /// Getters and fields of the entries.
+    pub entries: Vec<Ident>,
+    /// The elements.
+    pub elements: Vec<ComponentNames>,
+    /// The supervisors.
+    pub supervisors: Vec<ComponentNames>,
+    /// Whether a formula of the plan reads the entry.
+    pub read: Vec<bool>,
+    /// Whether an output or a writer from outside can write the entry.
+    pub written: Vec<bool>,
+}
+
+/// The Rust names of one element or supervisor.
+pub struct ComponentNames {
+    /// As the text shows it, for comments.
+    pub text: String,
+    /// The variant or field that holds it.
+    pub variant: Ident,
+    /// The field that holds it, and the function of its inputs.
+    pub inputs: Ident,
+    /// The function of its live inputs.
+    pub live: Ident,
+    /// The function that stages its outputs.
+    pub outputs: Ident,
+    /// Its number.
+    pub number: Ident,
+    /// Where its ids begin, for a sub-plan.
+    pub place: Ident,
+}
+
+/// The type of a plan, by a name that nothing else in its module has.
+pub fn type_name(name: &str) -> Ident {
+    let mut taken = Names::taken(OWN);
+    for name in [CORE, RT, QUANTITY].into_iter().flatten() {
+        taken.unique((*name).to_owned());
+    }
+    ident(&taken.unique(name.to_owned()))
+}
+
+impl<'a> Context<'a> {
+    /// Names everything in a plan.
+    pub fn new(graph: &'a Graph, plan: &'a Plan, block: &'a Block) -> Self {
+        let mut namer = Namer::new();
+        let elements: Vec<_> =
+            plan.elements.iter().map(|element| namer.name(&element.name, &element.name)).collect();
+        let supervisors = plan.supervisors.iter().map(|supervisor| {
+            let owner = supervisor.owner.and_then(|id| plan.elements.get(id.index()));
+            match owner {
+                Some(owner) => namer.name(
+                    &format!("{}_{}", owner.name, supervisor.name),
+                    &format!("{}.{}", owner.name, supervisor.name),
+                ),
+                None => namer.name(&supervisor.name, &supervisor.name),
+            }
+        });
+        let supervisors = supervisors.collect();
+        Context {
+            graph,
+            plan,
+            block,
+            module: ident(&snake(&plan.name)),
+            ty: type_name(&camel(&plan.name)),
+            entries: entry_names(plan),
+            elements,
+            supervisors,
+            read: read(plan),
+            written: written(plan),
+        }
+    }
+
+    /// A toolbox by index.
+    fn toolbox(&self, id: TemplateId) -> &'a Toolbox {
+        &self.graph.toolboxes[id.toolbox.index()]
+    }
+
+    /// A template by index.
+    pub fn template(&self, id: TemplateId) -> &'a Template {
+        self.graph.template(id)
+    }
+
+    /// The marker of a template, such as `carbot::Forward`, with its module `carbot::forward` and
+    /// the type that implements it, `afp_carbot::Forward`.
+    pub fn paths(&self, id: TemplateId, generic: Option<&Type>) -> Paths {
+        let toolbox = self.toolbox(id);
+        let (home, alias) = (path(&toolbox.rust_path), alias(&toolbox.name));
+        let name = &self.template(id).name;
+        let (camel, snake) = (ident(&camel(name)), ident(&snake(name)));
+        let generic = generic.map(|ty| {
+            let ty = self.value_type(ty);
+            quote!(<#ty>)
+        });
+        Paths {
+            marker: quote!(#alias::#camel #generic),
+            module: quote!(#alias::#snake),
+            implementation: quote!(#home::#camel #generic),
+        }
+    }
+
+    /// Gives the types as this plan's module sees them.
+    pub fn with_home<R>(&self, run: impl FnOnce(&Home<'_>) -> R) -> R {
+        let choice = &|choices: &Enum| enum_path(self.graph, choices);
+        let object = &|object: &Object| {
+            let toolbox = self.graph.toolboxes.iter().find(|t| t.name == object.toolbox);
+            let (home, name) =
+                (path(toolbox.map_or("crate", |t| &t.rust_path)), ident(&camel(&object.name)));
+            quote!(#home::#name)
+        };
+        run(&Home { core: TokenStream::new(), quantity: TokenStream::new(), choice, object })
+    }
+
+    /// The Rust type of a value.
+    pub fn value_type(&self, ty: &Type) -> TokenStream {
+        self.with_home(|home| home.value(ty))
+    }
+
+    /// What an entry of a type holds.
+    pub fn entry_type(&self, ty: &Type) -> TokenStream {
+        let value = self.value_type(ty);
+        if matches!(ty, Type::Object(_)) { quote!(Object<#value>) } else { value }
+    }
+
+    /// The supervisors of an element, with their names.
+    pub fn locals(&self, element: usize) -> impl Iterator<Item = &ComponentNames> {
+        let locals = self.plan.elements[element].supervisors.iter();
+        locals.map(|SupervisorId(id)| &self.supervisors[usize::from(*id)])
+    }
+
+    /// The entries of another plan of the graph, with the names of its module and type.
+    pub fn child(&self, id: PlanId) -> (Ident, Ident) {
+        super::home(self.graph, id)
+    }
+}
+
+/// Fields and getters of a plan's entries.
+pub fn entry_names(plan: &Plan) -> Vec<Ident> {
+    let mut names = Names::default();
+    plan.entries.iter().map(|entry| ident(&names.unique(snake(&entry.name)))).collect()
+}
+
+/// The Rust paths of one template.
+pub struct Paths {
+    pub marker: TokenStream,
+    pub module: TokenStream,
+    pub implementation: TokenStream,
+}
+
+/// A path that a toolbox names, such as `afp_carbot` or `crate::gripper`.
+pub fn path(text: &str) -> TokenStream {
+    let parts = text.split("::").map(|part| match part {
+        "crate" | "self" | "super" => Ident::new(part, proc_macro2::Span::call_site()),
+        part => ident(part),
+    });
+    quote!(#(#parts)::*)
+}
+
+/// The name under which a module of templates is imported.
+pub fn alias(toolbox: &str) -> Ident {
+    let name = snake(toolbox);
+    match name.as_str() {
+        "std" | "core" | "alloc" | "rt" | "enums" | "units" => format_ident!("{name}_templates"),
+        name => ident(name),
+    }
+}
+
+/// The path of an enum, from a plan's module.
+fn enum_path(graph: &Graph, choices: &Enum) -> TokenStream {
+    let name = ident(&camel(&choices.name));
+    match &choices.toolbox {
+        None => quote!(super::enums::#name),
+        Some(toolbox) => {
+            let home = graph.toolboxes.iter().find(|known| known.name == *toolbox);
+            let home = path(home.map_or("crate", |home| &home.rust_path));
+            quote!(#home::templates::#name)
+        }
+    }
+}
+
+/// Names components so that nothing collides.
+struct Namer {
+    variants: Names,
+    functions: Names,
+    numbers: Names,
+}
+
+impl Namer {
+    fn new() -> Self {
+        let mut functions = Names::taken(VALUES);
+        for name in RT {
+            functions.unique((*name).to_owned());
+        }
+        Namer { variants: Names::taken(&["None"]), functions, numbers: Names::taken(STATICS) }
+    }
+
+    fn name(&mut self, name: &str, text: &str) -> ComponentNames {
+        let base = self.functions.unique(snake(name));
+        let live = self.functions.unique(format!("{base}_live"));
+        let outputs = self.functions.unique(format!("{base}_outputs"));
+        let number = self.numbers.unique(shout(name));
+        let place = self.numbers.unique(format!("{number}_PLACE"));
+        ComponentNames {
+            text: text.to_owned(),
+            variant: ident(&self.variants.unique(camel(name))),
+            inputs: ident(&base),
+            live: ident(&live),
+            outputs: ident(&outputs),
+            number: ident(&number),
+            place: ident(&place),
+        }
+    }
+}
+
+/// Which entries formulas read through a getter; objects are passed on to sub-plans without one.
+fn read(plan: &Plan) -> Vec<bool> {
+    let mut read = vec![false; plan.entries.len()];
+    let mut see = |formula: &Formula| {
+        reads(formula, &mut |entry| {
+            if let Some(read) = read.get_mut(entry) {
+                *read = true;
+            }
+        });
+    };
+    for element in &plan.elements {
+        let passed = matches!(element.component, Component::SubPlan(_));
+        let formulas = element.inputs.iter();
+        formulas.filter(|f| !(passed && is_bare(f))).for_each(&mut see);
+    }
+    plan.supervisors.iter().flat_map(|supervisor| &supervisor.inputs).for_each(&mut see);
+    let initial = plan.entries.iter().filter_map(|entry| entry.init.as_ref());
+    initial.filter(|formula| !is_bare(formula)).for_each(&mut see);
+    read
+}
+
+/// Whether a formula is an entry that is cloned as it is: a text or an object.
+pub fn is_bare(formula: &Formula) -> bool {
+    matches!(formula.ty, Type::Text | Type::Object(_))
+        && matches!(formula.kind, crate::graph::FormulaKind::Entry(_))
+}
+
+/// Which entries a commit can write.
+fn written(plan: &Plan) -> Vec<bool> {
+    use crate::graph::EntryKind;
+    let open = |entry: &crate::graph::Entry| {
+        matches!(entry.kind, EntryKind::In | EntryKind::Var) && !matches!(entry.ty, Type::Object(_))
+    };
+    let mut written: Vec<_> = plan.entries.iter().map(open).collect();
+    let outputs = plan.elements.iter().flat_map(|element| &element.outputs);
+    let outputs = outputs.chain(plan.supervisors.iter().flat_map(|s| &s.outputs));
+    for Output { entry, .. } in outputs {
+        if let Some(written) = written.get_mut(entry.index()) {
+            *written = true;
+        }
+    }
+    written
+}

@@ -1,0 +1,190 @@
+//! The first section: what can be active, and how each element meets the configuration.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::bindings::{Bound, converted, reads_entries};
+use super::context::{ComponentNames, Context, is_bare};
+use crate::codegen::formula::{Formulas, is_literal};
+use crate::codegen::layout::{comment, doc};
+use crate::graph::{Component, Element, Entry, EntryKind, PlanId, TemplateId};
+use crate::types::Type;
+
+/// Numbers, the enum of the active element, and the bindings of each element.
+pub fn elements(context: &Context<'_>) -> TokenStream {
+    let numbers = (0..).zip(&context.elements).map(|(index, names)| {
+        let (number, index) = (&names.number, Literal::u16_unsuffixed(index));
+        quote!(const #number: u16 = #index;)
+    });
+    let active = active(context);
+    let bindings = context.plan.elements.iter().zip(&context.elements).map(|(element, names)| {
+        match element.component {
+            Component::Actor(id) | Component::Computation(id) => {
+                let bound = bound(context, element, names, id);
+                let is_actor = matches!(element.component, Component::Actor(_));
+                let live = is_actor.then(|| bound.live().item);
+                let (inputs, outputs) = (bound.inputs().item, bound.outputs().item);
+                quote!(#inputs #live #outputs)
+            }
+            Component::SubPlan(id) => sub_plan(context, element, names, id),
+        }
+    });
+    quote! {
+        #(#numbers)*
+        #active
+        #(#bindings)*
+    }
+}
+
+/// An element made from a template, as its bindings see it.
+pub fn bound<'a>(
+    context: &'a Context<'a>,
+    element: &'a Element,
+    names: &'a ComponentNames,
+    id: TemplateId,
+) -> Bound<'a> {
+    Bound {
+        context,
+        names,
+        template: context.template(id),
+        paths: context.paths(id, element.generic.as_ref()),
+        generic: element.generic.as_ref(),
+        inputs: &element.inputs,
+        outputs: &element.outputs,
+    }
+}
+
+fn active(context: &Context<'_>) -> TokenStream {
+    let variants = context.plan.elements.iter().zip(&context.elements);
+    let variants = variants.filter_map(|(element, names)| {
+        let variant = &names.variant;
+        let holds = match element.component {
+            Component::Actor(id) => context.paths(id, element.generic.as_ref()).implementation,
+            Component::SubPlan(id) => {
+                let (module, ty) = context.child(id);
+                quote!(Machine<super::#module::#ty>)
+            }
+            Component::Computation(_) => return None,
+        };
+        let note = comment(&description(context, element));
+        Some(quote!(#note #variant(#holds),))
+    });
+    let about = doc("", "The element that is active.");
+    quote! {
+        #about
+        #[derive(Default)]
+        enum Active {
+            #[default]
+            None,
+            #(#variants)*
+        }
+    }
+}
+
+/// What an element is, for a comment.
+pub fn description(context: &Context<'_>, element: &Element) -> String {
+    let (word, template) = match element.component {
+        Component::Actor(id) => ("actor", &context.template(id).name),
+        Component::Computation(id) => ("computation", &context.template(id).name),
+        Component::SubPlan(id) => ("subplan", &context.graph.plan(id).name),
+    };
+    format!("{word} {}: {template}", element.name)
+}
+
+/// Where a sub-plan's ids begin, what it is given and what it gives back.
+fn sub_plan(
+    context: &Context<'_>,
+    element: &Element,
+    names: &ComponentNames,
+    id: PlanId,
+) -> TokenStream {
+    let (module, _) = context.child(id);
+    let child = context.graph.plan(id);
+    let fields = super::context::entry_names(child);
+    let index = context.elements.iter().position(|known| std::ptr::eq(known, names));
+    let (components, entries) =
+        index.and_then(|index| context.block.children.get(index)).copied().unwrap_or_default();
+    let (components, entries) =
+        (Literal::u32_unsuffixed(components), Literal::u32_unsuffixed(entries));
+    let place = &names.place;
+    let ins = child.entries.iter().zip(&fields).filter(|(entry, _)| entry.kind == EntryKind::In);
+    let sets: Vec<_> = ins
+        .zip(&element.inputs)
+        .map(|((_, field), formula)| {
+            let value = context.with_home(|home| {
+                let value = Formulas::new(home, &context.entries).value(formula);
+                let checked = matches!(formula.ty, Type::Quantity(_)) && !is_literal(formula);
+                if checked { quote!(finite(#value)?) } else { value }
+            });
+            quote!(to.#field.set(#value);)
+        })
+        .collect();
+    let outs = child.entries.iter().zip(&fields).filter(|(entry, _)| entry.kind == EntryKind::Out);
+    let gets: Vec<_> = (0..)
+        .zip(outs)
+        .filter_map(|(port, (entry, field))| result(context, element, port, entry, field))
+        .collect();
+    let inputs = (!sets.is_empty()).then(|| {
+        let (name, help) = (&names.inputs, doc("", &format!("Inputs of `{}`.", names.text)));
+        let config = element.inputs.iter().any(reads_entries).then(|| quote!(config: &Config,));
+        quote! {
+            #help
+            fn #name(#config to: &mut super::#module::Config) -> Result<(), Fault> {
+                #(#sets)*
+                Ok(())
+            }
+        }
+    });
+    let outputs = (!gets.is_empty()).then(|| {
+        let (name, help) = (&names.outputs, doc("", &format!("Results of `{}`.", names.text)));
+        quote! {
+            #help
+            fn #name(staged: &mut Staged, from: &super::#module::Config) -> Result<(), Fault> {
+                #(#gets)*
+                Ok(())
+            }
+        }
+    });
+    let about = doc("", &format!("Where the ids of `{}` begin.", names.text));
+    quote! {
+        #about
+        const #place: Child = Child { components: #components, entries: #entries };
+        #inputs
+        #outputs
+    }
+}
+
+/// Stages one result of a sub-plan, if it was written.
+fn result(
+    context: &Context<'_>,
+    element: &Element,
+    port: u16,
+    entry: &Entry,
+    field: &proc_macro2::Ident,
+) -> Option<TokenStream> {
+    let output = element.outputs.iter().find(|output| output.port == port)?;
+    let to = &context.entries[output.entry.index()];
+    let value = context.with_home(|home| match (&output.conversion, &entry.ty) {
+        (None, Type::Text | Type::Object(_)) => quote!(value.clone()),
+        (None, Type::Quantity(_)) => quote!(finite(*value)?),
+        (None, _) => quote!(*value),
+        (Some(conversion), Type::Text) => converted(home, conversion, &Type::Text, quote!(value)),
+        (Some(conversion), ty) => converted(home, conversion, ty, quote!(*value)),
+    });
+    Some(quote! {
+        if let Some(value) = from.#field.value() {
+            staged.#to = Some(#value);
+        }
+    })
+}
+
+/// Whether a sub-plan is given anything, and whether that reads the configuration.
+pub fn passes(element: &Element) -> (bool, bool) {
+    let reads = element.inputs.iter().any(|formula| is_bare(formula) || reads_entries(formula));
+    (!element.inputs.is_empty(), reads)
+}
+
+/// Whether a sub-plan gives back anything.
+pub fn results(element: &Element) -> bool {
+    !element.outputs.is_empty()
+}

@@ -1,0 +1,147 @@
+//! The `use` items of a plan's module: what its code names, and nothing else.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::{Ident, TokenStream, TokenTree};
+use quote::quote;
+
+use super::context::{Context, alias, path};
+use crate::codegen::names::ident;
+
+/// What lives at the root of `afp_core`.
+pub const CORE: &[&str] = &[
+    "Clock",
+    "Duration",
+    "Environment",
+    "Events",
+    "Fault",
+    "Text",
+    "Value",
+    "ValueRef",
+    "WriteError",
+];
+/// What lives in `afp_core::rt`.
+pub const RT: &[&str] = &[
+    "Actor",
+    "AtElement",
+    "Child",
+    "Committer",
+    "ComponentRow",
+    "Cx",
+    "ElementKind",
+    "ElementRow",
+    "Entry",
+    "EntryRow",
+    "Fired",
+    "Machine",
+    "NameTable",
+    "NamedPlan",
+    "Object",
+    "Plan",
+    "PlanState",
+    "PlanTable",
+    "Polled",
+    "Range",
+    "Scale",
+    "Slot",
+    "Started",
+    "Supervisor",
+    "SupervisorRow",
+    "Tables",
+    "Target",
+    "Unit",
+    "bool_to_float",
+    "bool_to_int",
+    "finite",
+    "float_to_int",
+    "hold",
+    "int_add",
+    "int_mul",
+    "int_neg",
+    "int_rem",
+    "int_sub",
+    "int_to_float",
+    "join",
+    "parse_bool",
+    "parse_float",
+    "parse_int",
+    "parse_quantity",
+    "print_choice",
+    "print_quantity",
+    "read_choice",
+    "rem",
+    "set_input",
+    "stage_outside",
+];
+/// What lives in `afp_core::quantity`.
+pub const QUANTITY: &[&str] = &[
+    "Acceleration",
+    "Angle",
+    "AngularSpeed",
+    "Force",
+    "Frequency",
+    "Length",
+    "Mass",
+    "Quantity",
+    "Speed",
+    "Temperature",
+    "Time",
+    "Voltage",
+];
+/// What lives in `afp_core::trace`.
+const TRACE: &[&str] = &["ComponentName", "EntryKind", "EntryName", "Kind", "Sink"];
+
+/// The items for what the sections name.
+pub fn imports(
+    core: &TokenStream,
+    context: &Context<'_>,
+    sections: &[(&'static str, TokenStream)],
+) -> TokenStream {
+    let mut used = BTreeSet::new();
+    for (_, tokens) in sections {
+        names(tokens.clone(), &mut used);
+    }
+    let groups = [
+        (quote!(#core), CORE),
+        (quote!(#core::quantity), QUANTITY),
+        (quote!(#core::rt), RT),
+        (quote!(#core::trace), TRACE),
+    ];
+    let items = groups.into_iter().filter_map(|(home, names)| {
+        let names: Vec<Ident> =
+            names.iter().filter(|name| used.contains(**name)).map(|name| ident(name)).collect();
+        match names.as_slice() {
+            [] => None,
+            [name] => Some(quote!(use #home::#name;)),
+            names => Some(quote!(use #home::{#(#names),*};)),
+        }
+    });
+    let toolboxes = context.graph.toolboxes.iter().filter_map(|toolbox| {
+        let (home, alias) = (path(&toolbox.rust_path), alias(&toolbox.name));
+        let item = quote!(use #home::templates as #alias;);
+        used.contains(&alias.to_string()).then_some(item)
+    });
+    quote! {
+        #(#items)*
+        #(#toolboxes)*
+    }
+}
+
+/// The identifiers that begin a path.
+fn names(tokens: TokenStream, used: &mut BTreeSet<String>) {
+    let mut before = [' '; 2];
+    for token in tokens {
+        let inside = before == [':'; 2] || before[1] == '.';
+        match &token {
+            TokenTree::Ident(ident) if !inside => {
+                used.insert(ident.to_string());
+            }
+            TokenTree::Group(group) => names(group.stream(), used),
+            _ => {}
+        }
+        before = match &token {
+            TokenTree::Punct(punct) => [before[1], punct.as_char()],
+            _ => [' '; 2],
+        };
+    }
+}

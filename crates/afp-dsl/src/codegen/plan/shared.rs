@@ -1,0 +1,165 @@
+//! What the plans of a file share: enums of the file, and units that texts may carry.
+
+use std::sync::Arc;
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+
+use super::Module;
+use crate::codegen::Options;
+use crate::codegen::enums;
+use crate::codegen::layout::doc;
+use crate::codegen::names::ident;
+use crate::codegen::rust_type::{float, int};
+use crate::graph::{EntryKind, Formula, FormulaKind, Graph};
+use crate::types::readable::{ReadableUnit, Scale, readable};
+use crate::types::{Conversion, Dimension, Enum, Type};
+
+/// The modules `enums` and `units`, where they have anything in them.
+pub fn modules(graph: &Graph, options: &Options) -> Vec<Module> {
+    let core = &options.core;
+    let mut modules = Vec::new();
+    let enums = enums_of(graph);
+    if !enums.is_empty() {
+        let items = enums.iter().map(|choices| enums::choices(core, choices));
+        modules.push(Module {
+            name: ident("enums"),
+            doc: "The enums of the plan file.".to_owned(),
+            imports: TokenStream::new(),
+            sections: vec![("Enums", quote!(#(#items)*))],
+        });
+    }
+    let dimensions = dimensions_of(graph);
+    if !dimensions.is_empty() {
+        let items = dimensions.iter().map(|dimension| units(*dimension));
+        modules.push(Module {
+            name: ident("units"),
+            doc: "The units that a quantity may be written in.".to_owned(),
+            imports: quote!(use #core::rt::{Scale, Unit};),
+            sections: vec![("Units", quote!(#(#items)*))],
+        });
+    }
+    modules
+}
+
+/// The static of the units of a dimension.
+pub fn units_name(dimension: Dimension) -> Ident {
+    let name = dimension.name().replace('/', "_PER_").replace('-', "_MINUS_");
+    let name = name.replace('*', "_").replace('^', "").to_uppercase();
+    match name.strip_prefix('1') {
+        Some(rest) => ident(&format!("ONE{rest}")),
+        None => ident(&name),
+    }
+}
+
+fn units(dimension: Dimension) -> TokenStream {
+    let name = units_name(dimension);
+    let rows: Vec<_> = readable(dimension).iter().map(unit).collect();
+    let count = Literal::usize_unsuffixed(rows.len());
+    let about = doc("", &format!("Units of `{}`.", dimension.name()));
+    quote!(#about pub static #name: [Unit<'static>; #count] = [#(#rows),*];)
+}
+
+fn unit(unit: &ReadableUnit) -> TokenStream {
+    let name = &unit.name;
+    let scale = match unit.scale {
+        Scale::Decimal(shift) => {
+            let shift = int(shift);
+            quote!(Decimal(#shift))
+        }
+        Scale::Factor(factor) => {
+            let factor = float(factor);
+            quote!(Factor(#factor))
+        }
+        Scale::Ratio(times, by) => {
+            let (times, by) = (float(times), float(by));
+            quote!(Ratio(#times, #by))
+        }
+        Scale::Offset(offset) => {
+            let offset = float(offset);
+            quote!(Offset(#offset))
+        }
+    };
+    quote!(Unit { name: #name, scale: Scale::#scale })
+}
+
+/// The enums of the plan file itself that any entry or formula has, in the order of first use.
+fn enums_of(graph: &Graph) -> Vec<Arc<Enum>> {
+    let mut enums: Vec<Arc<Enum>> = Vec::new();
+    types(graph, &mut |ty| {
+        if let Type::Enum(choices) = ty
+            && choices.toolbox.is_none()
+            && !enums.contains(choices)
+        {
+            enums.push(choices.clone());
+        }
+    });
+    enums
+}
+
+/// The dimensions that are read from texts: by writers from outside, and by conversions.
+fn dimensions_of(graph: &Graph) -> Vec<Dimension> {
+    let mut dimensions = Vec::new();
+    let mut add = |ty: &Type| {
+        if let Type::Quantity(dimension) = ty
+            && *dimension != Dimension::NONE
+            && !dimensions.contains(dimension)
+        {
+            dimensions.push(*dimension);
+        }
+    };
+    for plan in &graph.plans {
+        let open = |kind| matches!(kind, EntryKind::In | EntryKind::Var);
+        plan.entries.iter().filter(|entry| open(entry.kind)).for_each(|entry| add(&entry.ty));
+    }
+    conversions(graph, &mut |conversion| {
+        if let Conversion::FromText(ty) = conversion {
+            add(ty);
+        }
+    });
+    dimensions
+}
+
+fn formulas(graph: &Graph) -> impl Iterator<Item = &Formula> {
+    graph.plans.iter().flat_map(|plan| {
+        let elements = plan.elements.iter().flat_map(|element| &element.inputs);
+        let supervisors = plan.supervisors.iter().flat_map(|supervisor| &supervisor.inputs);
+        let entries = plan.entries.iter().filter_map(|entry| entry.init.as_ref());
+        elements.chain(supervisors).chain(entries)
+    })
+}
+
+fn walk(formula: &Formula, see: &mut dyn FnMut(&Formula)) {
+    see(formula);
+    match &formula.kind {
+        FormulaKind::Neg(inner) | FormulaKind::Convert(_, inner) => walk(inner, see),
+        FormulaKind::Binary(_, a, b) => {
+            walk(a, see);
+            walk(b, see);
+        }
+        _ => {}
+    }
+}
+
+/// Every type of an entry or a formula, and every type converted to or from.
+fn types(graph: &Graph, see: &mut dyn FnMut(&Type)) {
+    for plan in &graph.plans {
+        plan.entries.iter().for_each(|entry| see(&entry.ty));
+    }
+    formulas(graph).for_each(|formula| walk(formula, &mut |part| see(&part.ty)));
+}
+
+fn conversions(graph: &Graph, see: &mut dyn FnMut(&Conversion)) {
+    formulas(graph).for_each(|formula| {
+        walk(formula, &mut |part| {
+            if let FormulaKind::Convert(conversion, _) = &part.kind {
+                see(conversion);
+            }
+        });
+    });
+    for plan in &graph.plans {
+        let elements = plan.elements.iter().flat_map(|element| &element.outputs);
+        let outputs = elements.chain(plan.supervisors.iter().flat_map(|s| &s.outputs));
+        outputs.filter_map(|output| output.conversion.as_ref()).for_each(&mut *see);
+    }
+}

@@ -1,0 +1,289 @@
+//! The plan's data: its configuration, what is staged for it, and what the scheduler asks of it.
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+
+use super::context::Context;
+use crate::codegen::formula::{Formulas, is_literal};
+use crate::codegen::layout::doc;
+use crate::graph::{Component, Entry, EntryKind};
+use crate::types::Type;
+
+/// The structs of the plan, its configuration and its staged values.
+pub fn structure(context: &Context<'_>) -> TokenStream {
+    let (plan, ty) = (context.plan, &context.ty);
+    let about = doc(&plan.doc, &format!("The plan `{}`.", plan.name));
+    let entries = || plan.entries.iter().zip(&context.entries);
+    let fields = entries().map(|(entry, name)| {
+        let (help, ty) = (entry_doc(entry), context.entry_type(&entry.ty));
+        quote!(#help pub #name: Entry<#ty>,)
+    });
+    let staged = entries().zip(&context.written).filter(|(_, written)| **written);
+    let staged = staged.map(|((entry, name), _)| {
+        let ty = context.entry_type(&entry.ty);
+        quote!(#name: Option<#ty>,)
+    });
+    let read = entries().zip(&context.read).filter(|(_, read)| **read);
+    let getters: Vec<_> = read.map(|((entry, name), _)| getter(context, entry, name)).collect();
+    let getters = (!getters.is_empty()).then(|| quote!(impl Config { #(#getters)* }));
+    let [config, shadow] =
+        ["The configuration.", "What the next commit writes."].map(|t| doc("", t));
+    quote! {
+        #about
+        #[derive(Default)]
+        pub struct #ty {
+            pub(super) config: Config,
+            staged: Staged,
+            active: Active,
+            supervisors: Supervisors,
+        }
+
+        #config
+        #[derive(Debug, Default)]
+        pub struct Config {
+            #(#fields)*
+        }
+
+        #shadow
+        #[derive(Default)]
+        struct Staged {
+            #(#staged)*
+        }
+
+        #getters
+    }
+}
+
+/// The help of an entry with its kind and type.
+pub fn entry_doc(entry: &Entry) -> TokenStream {
+    let kind = match entry.kind {
+        EntryKind::In => "in",
+        EntryKind::Out => "out",
+        EntryKind::Var => "var",
+        EntryKind::Const => "const",
+    };
+    let facts = format!("`{kind} {}: {}`", entry.name, entry.ty);
+    if entry.doc.is_empty() {
+        doc("", &facts)
+    } else {
+        doc(&format!("{}\n\n{facts}", entry.doc), "")
+    }
+}
+
+/// What formulas read.
+fn getter(context: &Context<'_>, entry: &Entry, name: &Ident) -> TokenStream {
+    let value = context.value_type(&entry.ty);
+    let help = doc("", &format!("The value of `{}`.", entry.name));
+    let (ty, body) = match entry.ty {
+        Type::Text => (quote!(&str), quote!(self.#name.get().as_str())),
+        Type::Object(_) => (quote!(Result<&#value, Fault>), quote!(self.#name.get().get())),
+        _ => (value, quote!(*self.#name.get())),
+    };
+    quote! {
+        #help
+        #[inline]
+        pub fn #name(&self) -> #ty { #body }
+    }
+}
+
+/// A number as it stands in a `match`.
+fn number(index: usize) -> Literal {
+    Literal::usize_unsuffixed(index)
+}
+
+/// The plan without its platform.
+pub fn plan_state(context: &Context<'_>) -> TokenStream {
+    let (plan, ty) = (context.plan, &context.ty);
+    let slots = number(slots(context));
+    let entries = || plan.entries.iter().zip(&context.entries).enumerate();
+    let missing =
+        entries().filter(|(_, (entry, _))| entry.kind == EntryKind::In && entry.init.is_none());
+    let missing = missing.map(|(index, (_, name))| {
+        let index = number(index);
+        quote!(if !self.config.#name.is_set() { return Some(#index); })
+    });
+    let values: Vec<_> = entries()
+        .map(|(index, (_, name))| {
+            let index = number(index);
+            quote!(#index => self.config.#name.as_value(),)
+        })
+        .collect();
+    let written = || entries().zip(&context.written).filter(|(_, written)| **written);
+    let commits: Vec<_> = written()
+        .map(|((index, (_, name)), _)| {
+            let index = number(index);
+            quote! {
+                if let Some(value) = self.staged.#name.take() {
+                    to.write(#index, &mut self.config.#name, value);
+                }
+            }
+        })
+        .collect();
+    let [of_entry, to] = [!values.is_empty(), !commits.is_empty()];
+    let of_entry = if of_entry { quote!(entry) } else { quote!(_) };
+    let to = if to { quote!(to) } else { quote!(_) };
+    let value = if values.is_empty() {
+        quote!(ValueRef::Unset)
+    } else {
+        quote!(match entry { #(#values)* _ => ValueRef::Unset })
+    };
+    let (initialise, outside) = (initialise(context), outside(context));
+    let at_element = at_element(context);
+    quote! {
+        impl PlanState for #ty {
+            type Tables = Rules;
+            type Slots = [Slot; #slots];
+
+            #[inline]
+            fn tables(&self) -> Rules {
+                Rules
+            }
+
+            #at_element
+
+            fn slots(&self) -> [Slot; #slots] {
+                [Slot::default(); #slots]
+            }
+
+            fn missing_input(&self) -> Option<u16> {
+                #(#missing)*
+                None
+            }
+
+            #initialise
+
+            fn entry(&self, #of_entry: u16) -> ValueRef<'_> {
+                #value
+            }
+
+            #outside
+
+            #[inline]
+            fn commit<S: Sink>(&mut self, #to: &mut Committer<'_, S>) {
+                #(#commits)*
+            }
+
+            #[inline]
+            fn discard(&mut self) {
+                self.staged = Staged::default();
+            }
+        }
+    }
+}
+
+/// Above this number of elements, a step for each would cost more memory than its time is worth.
+const MAX_STEPS: usize = 64;
+
+/// A step of its own for each element that can be active.
+fn at_element(context: &Context<'_>) -> Option<TokenStream> {
+    let elements = context.plan.elements.iter().zip(&context.elements);
+    let lasting = elements.filter(|(e, _)| !matches!(e.component, Component::Computation(_)));
+    let numbers: Vec<_> = lasting.map(|(_, names)| &names.number).collect();
+    (numbers.len() <= MAX_STEPS).then(|| {
+        quote! {
+            #[inline(always)]
+            fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
+                match element {
+                    #(#numbers => run.at::<{ #numbers }>(),)*
+                    _ => run.unknown(),
+                }
+            }
+        }
+    })
+}
+
+/// How many releases are kept: those of the globals and of the richest element.
+fn slots(context: &Context<'_>) -> usize {
+    let locals = context.plan.elements.iter().map(|element| element.supervisors.len());
+    usize::from(context.plan.globals) + locals.max().unwrap_or(0)
+}
+
+/// Initial values, in the order in which they may refer to one another.
+fn initialise(context: &Context<'_>) -> TokenStream {
+    let entries = || context.plan.entries.iter().zip(&context.entries);
+    let cleared = entries().filter(|(entry, _)| entry.kind != EntryKind::In);
+    let cleared: Vec<_> = cleared.map(|(_, name)| quote!(config.#name.clear();)).collect();
+    let kinds = [&[EntryKind::Const][..], &[EntryKind::In], &[EntryKind::Var, EntryKind::Out]];
+    let set = kinds.iter().flat_map(|kinds| entries().filter(|(e, _)| kinds.contains(&e.kind)));
+    let set: Vec<_> = set
+        .filter_map(|(entry, name)| {
+            let formula = entry.init.as_ref()?;
+            let value =
+                context.with_home(|home| Formulas::new(home, &context.entries).value(formula));
+            let set = match (&entry.ty, is_literal(formula)) {
+                (_, true) => quote!(config.#name.set(#value);),
+                (Type::Quantity(_), false) => quote! {
+                    let value = finite(#value)?;
+                    config.#name.set(value);
+                },
+                (_, false) => quote! {
+                    let value = #value;
+                    config.#name.set(value);
+                },
+            };
+            Some(match entry.kind {
+                EntryKind::In => quote!(if !config.#name.is_set() { #set }),
+                _ => set,
+            })
+        })
+        .collect();
+    let config =
+        (!cleared.is_empty() || !set.is_empty()).then(|| quote!(let config = &mut self.config;));
+    quote! {
+        fn initialise(&mut self) -> Result<(), Fault> {
+            #config
+            #(#cleared)*
+            #(#set)*
+            Ok(())
+        }
+    }
+}
+
+/// What writers from outside may do.
+fn outside(context: &Context<'_>) -> TokenStream {
+    let entries = || context.plan.entries.iter().zip(&context.entries).enumerate();
+    let accepts = entries().map(|(index, (entry, _))| {
+        let index = number(index);
+        match (entry.kind, &entry.ty) {
+            (EntryKind::Const | EntryKind::Out, _) => {
+                quote!(#index => Err(WriteError::ReadOnly),)
+            }
+            (_, Type::Object(_)) => quote!(#index => Err(WriteError::Type),),
+            (_, ty) => {
+                let ty = context.value_type(ty);
+                quote!(#index => WriteError::check::<#ty>(value),)
+            }
+        }
+    });
+    let accepts: Vec<_> = accepts.collect();
+    let stages: Vec<_> = entries()
+        .filter(|(_, (entry, _))| is_open(entry))
+        .map(|(index, (_, name))| {
+            let index = number(index);
+            quote!(#index => stage_outside(&mut self.staged.#name, value),)
+        })
+        .collect();
+    let read = context.plan.entries.iter().any(is_open);
+    let value = if read { quote!(value) } else { quote!(_) };
+    let (entry, accepts) = if accepts.is_empty() {
+        (quote!(_), quote!(Err(WriteError::Unknown)))
+    } else {
+        (quote!(entry), quote!(match entry { #(#accepts)* _ => Err(WriteError::Unknown) }))
+    };
+    let staging = (!stages.is_empty()).then(|| quote!(match entry { #(#stages)* _ => {} }));
+    let staged = if stages.is_empty() { quote!(_) } else { quote!(entry) };
+    quote! {
+        fn accepts(&self, #entry: u16, #value: &Value) -> Result<(), WriteError> {
+            #accepts
+        }
+
+        fn stage(&mut self, #staged: u16, #value: &Value) {
+            #staging
+        }
+    }
+}
+
+/// Whether writers from outside can write an entry.
+fn is_open(entry: &Entry) -> bool {
+    matches!(entry.kind, EntryKind::In | EntryKind::Var) && !matches!(entry.ty, Type::Object(_))
+}

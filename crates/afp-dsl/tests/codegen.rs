@@ -1,0 +1,60 @@
+//! Golden Rust: each `codegen/*.afp` makes the `.rs` beside it. `AFP_BLESS=1` rewrites.
+
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+use afp_dsl::codegen::{self, Options};
+use afp_dsl::source::Source;
+use afp_dsl::toolbox::{Toolbox, Toolboxes};
+
+fn cases() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/codegen");
+    let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut cases: Vec<_> =
+        files.filter(|path| path.extension().is_some_and(|e| e == "afp")).collect();
+    cases.sort();
+    cases
+}
+
+fn toolboxes() -> Toolboxes {
+    let mut toolboxes = Toolboxes::default();
+    for builtin in afp_toolboxes::ALL {
+        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
+    }
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/codegen/toolbox.afp");
+    toolboxes.add(Source::new("toolbox.afp", fs::read_to_string(folder).unwrap()), "crate::kit");
+    toolboxes
+}
+
+/// The Rust text of a file: its toolbox, or every module of its plans.
+fn generate(path: &Path) -> String {
+    let name = path.file_name().unwrap().to_string_lossy().into_owned();
+    let source = Source::new(name, fs::read_to_string(path).unwrap());
+    let options = Options::default();
+    if source.text.contains("\ntoolbox ") {
+        let (toolbox, diags) = Toolbox::parse(&source, 0, "crate::kit");
+        assert!(!diags.has_errors());
+        return codegen::file(codegen::toolbox(&toolbox.unwrap(), &options));
+    }
+    let compiled = afp_dsl::compile(&source, &toolboxes());
+    assert!(compiled.graph.is_some(), "{}", compiled.render(false));
+    let generated = codegen::plan(&compiled.graph.unwrap(), &options);
+    let modules = generated.modules.iter();
+    let texts = modules.map(|m| format!("// {}.rs\n\n{}", m.name, codegen::file(m.tokens())));
+    texts.collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn plans_and_toolboxes_make_the_rust_beside_them() {
+    let mut wrong = Vec::new();
+    for case in cases() {
+        let golden = case.with_extension("rs");
+        let text = generate(&case);
+        if env::var_os("AFP_BLESS").is_some() {
+            fs::write(&golden, &text).unwrap();
+        } else if fs::read_to_string(&golden).unwrap_or_default() != text {
+            wrong.push(case);
+        }
+    }
+    assert!(wrong.is_empty(), "other Rust than expected (AFP_BLESS=1 rewrites): {wrong:?}");
+}

@@ -1,0 +1,846 @@
+// units.rs
+
+//! The units that a quantity may be written in.
+
+use ::afp_core::rt::{Scale, Unit};
+
+// **** Units ****
+
+/// Units of `length`.
+pub static LENGTH: [Unit<'static>; 5] = [
+    Unit {
+        name: "m",
+        scale: Scale::Decimal(0),
+    },
+    Unit {
+        name: "km",
+        scale: Scale::Decimal(3),
+    },
+    Unit {
+        name: "cm",
+        scale: Scale::Decimal(-2),
+    },
+    Unit {
+        name: "mm",
+        scale: Scale::Decimal(-3),
+    },
+    Unit {
+        name: "um",
+        scale: Scale::Decimal(-6),
+    },
+];
+
+/// Units of `angle`.
+pub static ANGLE: [Unit<'static>; 3] = [
+    Unit {
+        name: "rad",
+        scale: Scale::Decimal(0),
+    },
+    Unit {
+        name: "mrad",
+        scale: Scale::Decimal(-3),
+    },
+    Unit {
+        name: "deg",
+        scale: Scale::Factor(0.017453292519943295),
+    },
+];
+
+// wall_following.rs
+
+//! The plan `WallFollowing`: Find the next wall, then drive parallel to it until the escape button is pressed.
+
+use ::afp_core::{
+    Clock, Duration, Environment, Events, Fault, Value, ValueRef, WriteError,
+};
+use ::afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
+use ::afp_core::rt::{
+    Actor, AtElement, Child, Committer, ComponentRow, Cx, ElementKind, ElementRow, Entry,
+    EntryRow, Fired, NameTable, NamedPlan, Plan, PlanState, PlanTable, Polled, Range,
+    Slot, Started, Supervisor, SupervisorRow, Tables, Target, Unit, finite, set_input,
+    stage_outside,
+};
+use ::afp_core::trace::{EntryKind, Kind, Sink};
+use afp_carbot::templates as carbot;
+
+// **** Actors ****
+
+const SEARCH_FIRST_WALL: u16 = 0;
+const BACKUP_COLLISION: u16 = 1;
+const FIND_WALL_ANGLE: u16 = 2;
+const PARALLEL_TO_WALL: u16 = 3;
+const FOLLOW_WALL: u16 = 4;
+const TURN_AFTER_WALL_LOST: u16 = 5;
+
+/// The element that is active.
+#[derive(Default)]
+enum Active {
+    #[default]
+    None,
+    // actor searchFirstWall: Forward
+    SearchFirstWall(afp_carbot::Forward),
+    // actor backupCollision: Forward
+    BackupCollision(afp_carbot::Forward),
+    // actor findWallAngle: SearchWall
+    FindWallAngle(afp_carbot::SearchWall),
+    // actor parallelToWall: Turn
+    ParallelToWall(afp_carbot::Turn),
+    // actor followWall: WallForward
+    FollowWall(afp_carbot::WallForward),
+    // actor turnAfterWallLost: Turn
+    TurnAfterWallLost(afp_carbot::Turn),
+}
+
+/// Inputs of `searchFirstWall`.
+fn search_first_wall() -> Result<carbot::forward::Inputs, Fault> {
+    Ok(carbot::forward::Inputs {
+        distance: Length::from_si(100.0),
+        speed: Speed::from_si(0.2),
+    })
+}
+
+/// Inputs of `backupCollision`.
+fn backup_collision(config: &Config) -> Result<carbot::forward::Inputs, Fault> {
+    Ok(carbot::forward::Inputs {
+        distance: -config.walldist(),
+        speed: Speed::from_si(0.2),
+    })
+}
+
+/// Inputs of `findWallAngle`.
+fn find_wall_angle() -> Result<carbot::search_wall::Inputs, Fault> {
+    Ok(carbot::search_wall::Inputs {
+        sweep: Angle::from_deg(60.0),
+        range: Length::from_si(1.5),
+    })
+}
+
+/// Outputs of `findWallAngle`.
+fn find_wall_angle_outputs(
+    staged: &mut Staged,
+    outcome: carbot::search_wall::State,
+) -> Result<(), Fault> {
+    if let carbot::search_wall::State::WallFound { angle } = outcome {
+        staged.wallangle = Some(finite(angle)?);
+    }
+    Ok(())
+}
+
+/// Inputs of `parallelToWall`.
+fn parallel_to_wall(config: &Config) -> Result<carbot::turn::Inputs, Fault> {
+    Ok(carbot::turn::Inputs {
+        angle: config.wallangle(),
+        speed: AngularSpeed::from_deg(45.0),
+    })
+}
+
+/// Inputs of `followWall`.
+fn follow_wall(config: &Config) -> Result<carbot::wall_forward::Inputs, Fault> {
+    Ok(carbot::wall_forward::Inputs {
+        walldist: config.walldist(),
+        lanedist: config.walldist(),
+        gain: 1.0,
+        tolerance: Length::from_si(0.2),
+        step: Length::from_si(5.0),
+        speed: Speed::from_si(0.2),
+    })
+}
+
+/// Inputs of `turnAfterWallLost`.
+fn turn_after_wall_lost() -> Result<carbot::turn::Inputs, Fault> {
+    Ok(carbot::turn::Inputs {
+        angle: -Angle::from_deg(60.0),
+        speed: AngularSpeed::from_deg(45.0),
+    })
+}
+
+// **** Supervisors ****
+
+const ESCAPE: u16 = 0;
+const SEARCH_FIRST_WALL_TOUCH: u16 = 1;
+const SEARCH_FIRST_WALL_CHECK_LANE: u16 = 2;
+const FOLLOW_WALL_WALL_TOUCH: u16 = 3;
+
+/// The supervisors, each while it watches.
+#[derive(Default)]
+struct Supervisors {
+    // global supervisor escape: CheckEscapeButton
+    escape: Option<afp_carbot::CheckEscapeButton>,
+    // local supervisor searchFirstWall.touch: CheckTouchSensor
+    search_first_wall_touch: Option<afp_carbot::CheckTouchSensor>,
+    // local supervisor searchFirstWall.checkLane: CheckDrivingLane
+    search_first_wall_check_lane: Option<afp_carbot::CheckDrivingLane>,
+    // local supervisor followWall.wallTouch: CheckTouchSensor
+    follow_wall_wall_touch: Option<afp_carbot::CheckTouchSensor>,
+}
+
+/// Inputs of `searchFirstWall.checkLane`.
+fn search_first_wall_check_lane() -> Result<carbot::check_driving_lane::Inputs, Fault> {
+    Ok(carbot::check_driving_lane::Inputs {
+        clearance: Length::from_si(0.1),
+        margin: Length::from_si(0.1),
+        halfwidth: Length::from_si(0.25),
+    })
+}
+
+/// Live inputs of `searchFirstWall.checkLane`.
+fn search_first_wall_check_lane_live(
+    config: &Config,
+) -> Result<carbot::check_driving_lane::Live, Fault> {
+    Ok(carbot::check_driving_lane::Live {
+        distance: config.walldist(),
+    })
+}
+
+// **** Plan ****
+
+/// Find the next wall, then drive parallel to it until the escape button is pressed.
+#[derive(Default)]
+pub struct WallFollowing {
+    pub(super) config: Config,
+    staged: Staged,
+    active: Active,
+    supervisors: Supervisors,
+}
+
+/// The configuration.
+#[derive(Debug, Default)]
+pub struct Config {
+    /// Distance to keep to the wall.
+    ///
+    /// `in walldist: length`
+    pub walldist: Entry<Length>,
+    /// `var wallangle: angle`
+    pub wallangle: Entry<Angle>,
+}
+
+/// What the next commit writes.
+#[derive(Default)]
+struct Staged {
+    walldist: Option<Length>,
+    wallangle: Option<Angle>,
+}
+
+impl Config {
+    /// The value of `walldist`.
+    #[inline]
+    pub fn walldist(&self) -> Length {
+        *self.walldist.get()
+    }
+
+    /// The value of `wallangle`.
+    #[inline]
+    pub fn wallangle(&self) -> Angle {
+        *self.wallangle.get()
+    }
+}
+
+impl WallFollowing {
+    /// The plan, not yet started.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Distance to keep to the wall.
+    ///
+    /// `in walldist: length`
+    ///
+    /// `None` while nobody has written it.
+    pub fn walldist(&self) -> Option<Length> {
+        self.config.walldist.value().copied()
+    }
+
+    /// Sets `walldist` before the start.
+    ///
+    /// # Errors
+    /// [`WriteError::NotFinite`].
+    pub fn set_walldist(&mut self, value: Length) -> Result<(), WriteError> {
+        let value = finite(value).map_err(|_| WriteError::NotFinite)?;
+        self.config.walldist.set(value);
+        Ok(())
+    }
+
+    /// `var wallangle: angle`
+    ///
+    /// `None` while nobody has written it.
+    pub fn wallangle(&self) -> Option<Angle> {
+        self.config.wallangle.value().copied()
+    }
+}
+
+impl PlanState for WallFollowing {
+    type Tables = Rules;
+    type Slots = [Slot; 3];
+
+    #[inline]
+    fn tables(&self) -> Rules {
+        Rules
+    }
+
+    #[inline(always)]
+    fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
+        match element {
+            SEARCH_FIRST_WALL => run.at::<SEARCH_FIRST_WALL>(),
+            BACKUP_COLLISION => run.at::<BACKUP_COLLISION>(),
+            FIND_WALL_ANGLE => run.at::<FIND_WALL_ANGLE>(),
+            PARALLEL_TO_WALL => run.at::<PARALLEL_TO_WALL>(),
+            FOLLOW_WALL => run.at::<FOLLOW_WALL>(),
+            TURN_AFTER_WALL_LOST => run.at::<TURN_AFTER_WALL_LOST>(),
+            _ => run.unknown(),
+        }
+    }
+
+    fn slots(&self) -> [Slot; 3] {
+        [Slot::default(); 3]
+    }
+
+    fn missing_input(&self) -> Option<u16> {
+        None
+    }
+
+    fn initialise(&mut self) -> Result<(), Fault> {
+        let config = &mut self.config;
+        config.wallangle.clear();
+        if !config.walldist.is_set() {
+            config.walldist.set(Length::from_si(0.3));
+        }
+        Ok(())
+    }
+
+    fn entry(&self, entry: u16) -> ValueRef<'_> {
+        match entry {
+            0 => self.config.walldist.as_value(),
+            1 => self.config.wallangle.as_value(),
+            _ => ValueRef::Unset,
+        }
+    }
+
+    fn accepts(&self, entry: u16, value: &Value) -> Result<(), WriteError> {
+        match entry {
+            0 => WriteError::check::<Length>(value),
+            1 => WriteError::check::<Angle>(value),
+            _ => Err(WriteError::Unknown),
+        }
+    }
+
+    fn stage(&mut self, entry: u16, value: &Value) {
+        match entry {
+            0 => stage_outside(&mut self.staged.walldist, value),
+            1 => stage_outside(&mut self.staged.wallangle, value),
+            _ => {}
+        }
+    }
+
+    #[inline]
+    fn commit<S: Sink>(&mut self, to: &mut Committer<'_, S>) {
+        if let Some(value) = self.staged.walldist.take() {
+            to.write(0, &mut self.config.walldist, value);
+        }
+        if let Some(value) = self.staged.wallangle.take() {
+            to.write(1, &mut self.config.wallangle, value);
+        }
+    }
+
+    #[inline]
+    fn discard(&mut self) {
+        self.staged = Staged::default();
+    }
+}
+
+impl<E> Plan<E> for WallFollowing
+where
+    E: Environment + ?Sized,
+    afp_carbot::Forward: Actor<carbot::Forward, E>,
+    afp_carbot::SearchWall: Actor<carbot::SearchWall, E>,
+    afp_carbot::Turn: Actor<carbot::Turn, E>,
+    afp_carbot::WallForward: Actor<carbot::WallForward, E>,
+    afp_carbot::CheckEscapeButton: Supervisor<carbot::CheckEscapeButton, E>,
+    afp_carbot::CheckTouchSensor: Supervisor<carbot::CheckTouchSensor, E>,
+    afp_carbot::CheckDrivingLane: Supervisor<carbot::CheckDrivingLane, E>,
+{
+    fn start_supervisor<S: Sink, C: Clock>(
+        &mut self,
+        supervisor: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), Fault> {
+        match supervisor {
+            ESCAPE => {
+                let inputs = Ok(carbot::check_escape_button::Inputs {
+                });
+                self.supervisors.escape = cx
+                    .start_supervisor(inputs, Events::from_bits(0b1))?;
+            }
+            SEARCH_FIRST_WALL_TOUCH => {
+                let inputs = Ok(carbot::check_touch_sensor::Inputs {
+                });
+                self.supervisors.search_first_wall_touch = cx
+                    .start_supervisor(inputs, Events::from_bits(0b1))?;
+            }
+            SEARCH_FIRST_WALL_CHECK_LANE => {
+                let inputs = search_first_wall_check_lane();
+                self.supervisors.search_first_wall_check_lane = cx
+                    .start_supervisor(inputs, Events::from_bits(0b1))?;
+            }
+            FOLLOW_WALL_WALL_TOUCH => {
+                let inputs = Ok(carbot::check_touch_sensor::Inputs {
+                });
+                self.supervisors.follow_wall_wall_touch = cx
+                    .start_supervisor(inputs, Events::from_bits(0b1))?;
+            }
+            _ => return Err(Fault::INTERNAL),
+        }
+        Ok(())
+    }
+
+    #[inline]
+    fn poll_supervisor<S: Sink, C: Clock>(
+        &mut self,
+        supervisor: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Fired {
+        match supervisor {
+            ESCAPE => {
+                let (watch, live) = (
+                    &mut self.supervisors.escape,
+                    Ok(carbot::check_escape_button::Live {
+                    }),
+                );
+                Fired::supervisor(cx.poll_supervisor(watch, live), |_| Ok(()))
+            }
+            SEARCH_FIRST_WALL_TOUCH => {
+                let (watch, live) = (
+                    &mut self.supervisors.search_first_wall_touch,
+                    Ok(carbot::check_touch_sensor::Live {
+                    }),
+                );
+                Fired::supervisor(cx.poll_supervisor(watch, live), |_| Ok(()))
+            }
+            SEARCH_FIRST_WALL_CHECK_LANE => {
+                let (watch, live) = (
+                    &mut self.supervisors.search_first_wall_check_lane,
+                    search_first_wall_check_lane_live(&self.config),
+                );
+                Fired::supervisor(cx.poll_supervisor(watch, live), |_| Ok(()))
+            }
+            FOLLOW_WALL_WALL_TOUCH => {
+                let (watch, live) = (
+                    &mut self.supervisors.follow_wall_wall_touch,
+                    Ok(carbot::check_touch_sensor::Live {
+                    }),
+                );
+                Fired::supervisor(cx.poll_supervisor(watch, live), |_| Ok(()))
+            }
+            _ => Fired::fault(Fault::INTERNAL),
+        }
+    }
+
+    fn start_element<S: Sink, C: Clock>(
+        &mut self,
+        element: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Started {
+        let started: Result<Active, Fault> = match element {
+            SEARCH_FIRST_WALL => {
+                cx.start_actor(search_first_wall()).map(Active::SearchFirstWall)
+            }
+            BACKUP_COLLISION => {
+                cx.start_actor(backup_collision(&self.config))
+                    .map(Active::BackupCollision)
+            }
+            FIND_WALL_ANGLE => {
+                cx.start_actor(find_wall_angle()).map(Active::FindWallAngle)
+            }
+            PARALLEL_TO_WALL => {
+                cx.start_actor(parallel_to_wall(&self.config))
+                    .map(Active::ParallelToWall)
+            }
+            FOLLOW_WALL => {
+                cx.start_actor(follow_wall(&self.config)).map(Active::FollowWall)
+            }
+            TURN_AFTER_WALL_LOST => {
+                cx.start_actor(turn_after_wall_lost()).map(Active::TurnAfterWallLost)
+            }
+            _ => Err(Fault::INTERNAL),
+        };
+        match started {
+            Ok(active) => {
+                self.active = active;
+                Started::Running
+            }
+            Err(fault) => Started::Failed(fault),
+        }
+    }
+
+    #[inline]
+    fn poll_element<S: Sink, C: Clock>(
+        &mut self,
+        _: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Polled {
+        match &mut self.active {
+            Active::None => Polled::Failed(Fault::INTERNAL),
+            Active::SearchFirstWall(actor) => {
+                let live = Ok(carbot::forward::Live {});
+                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()))
+            }
+            Active::BackupCollision(actor) => {
+                let live = Ok(carbot::forward::Live {});
+                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()))
+            }
+            Active::FindWallAngle(actor) => {
+                let live = Ok(carbot::search_wall::Live {});
+                Polled::actor(
+                    cx.poll_actor(actor, live),
+                    |outcome| find_wall_angle_outputs(&mut self.staged, outcome),
+                )
+            }
+            Active::ParallelToWall(actor) => {
+                let live = Ok(carbot::turn::Live {});
+                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()))
+            }
+            Active::FollowWall(actor) => {
+                let live = Ok(carbot::wall_forward::Live {});
+                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()))
+            }
+            Active::TurnAfterWallLost(actor) => {
+                let live = Ok(carbot::turn::Live {});
+                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()))
+            }
+        }
+    }
+
+    fn interrupt_element<S: Sink, C: Clock>(
+        &mut self,
+        _: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), Fault> {
+        match &mut self.active {
+            Active::None => Err(Fault::INTERNAL),
+            Active::SearchFirstWall(actor) => cx.interrupt_actor(actor),
+            Active::BackupCollision(actor) => cx.interrupt_actor(actor),
+            Active::FindWallAngle(actor) => cx.interrupt_actor(actor),
+            Active::ParallelToWall(actor) => cx.interrupt_actor(actor),
+            Active::FollowWall(actor) => cx.interrupt_actor(actor),
+            Active::TurnAfterWallLost(actor) => cx.interrupt_actor(actor),
+        }
+    }
+
+    fn leave(&mut self, element: u16) {
+        self.active = Active::None;
+        match element {
+            SEARCH_FIRST_WALL => {
+                self.supervisors.search_first_wall_touch = None;
+                self.supervisors.search_first_wall_check_lane = None;
+            }
+            FOLLOW_WALL => {
+                self.supervisors.follow_wall_wall_touch = None;
+            }
+            _ => {}
+        }
+    }
+
+    fn end(&mut self) {
+        self.active = Active::None;
+        self.supervisors = Supervisors::default();
+    }
+}
+
+// **** Rules ****
+
+/// Where the scheduler reads the rules of the plan.
+#[derive(Clone, Copy, Debug)]
+pub struct Rules;
+
+impl Tables for Rules {
+    #[inline]
+    fn table(&self) -> PlanTable<'_> {
+        PlanTable {
+            start: SEARCH_FIRST_WALL,
+            globals: 1,
+            entries: 2,
+            elements: &ELEMENTS,
+            supervisors: &SUPERVISORS,
+            edges: &EDGES,
+            sweeps: &SWEEPS,
+        }
+    }
+}
+
+/// Where each state and event leads.
+static EDGES: [Target; 13] = [
+    // searchFirstWall: ForwardSuccessful -> searchFirstWall
+    Target::Element(SEARCH_FIRST_WALL),
+    // backupCollision: ForwardSuccessful -> findWallAngle
+    Target::Element(FIND_WALL_ANGLE),
+    // findWallAngle: WallFound -> parallelToWall
+    Target::Element(PARALLEL_TO_WALL),
+    // findWallAngle: NoWallFound -> turnAfterWallLost
+    Target::Element(TURN_AFTER_WALL_LOST),
+    // parallelToWall: TurnSuccessful -> followWall
+    Target::Element(FOLLOW_WALL),
+    // followWall: ForwardSuccessful -> followWall
+    Target::Element(FOLLOW_WALL),
+    // followWall: LaneNotFree -> findWallAngle
+    Target::Element(FIND_WALL_ANGLE),
+    // followWall: WallLost -> turnAfterWallLost
+    Target::Element(TURN_AFTER_WALL_LOST),
+    // turnAfterWallLost: TurnSuccessful -> searchFirstWall
+    Target::Element(SEARCH_FIRST_WALL),
+    // escape: EscapeButtonPressed -> terminate
+    Target::Terminate,
+    // searchFirstWall.touch: TouchSensorPressed -> backupCollision
+    Target::Element(BACKUP_COLLISION),
+    // searchFirstWall.checkLane: LaneNotFree -> findWallAngle
+    Target::Element(FIND_WALL_ANGLE),
+    // followWall.wallTouch: TouchSensorPressed -> backupCollision
+    Target::Element(BACKUP_COLLISION),
+];
+
+/// The elements.
+static ELEMENTS: [ElementRow; 6] = [
+    // actor searchFirstWall: Forward
+    ElementRow {
+        kind: ElementKind::Actor,
+        period: Duration::from_millis(10),
+        states: Range { first: 0, len: 1 },
+        on_error: Target::None,
+        locals: Range { first: 1, len: 2 },
+        sweep: Range { first: 0, len: 3 },
+        child: Child { components: 0, entries: 0 },
+    },
+    // actor backupCollision: Forward
+    ElementRow {
+        kind: ElementKind::Actor,
+        period: Duration::from_millis(10),
+        states: Range { first: 1, len: 1 },
+        on_error: Target::None,
+        locals: Range { first: 0, len: 0 },
+        sweep: Range { first: 3, len: 1 },
+        child: Child { components: 0, entries: 0 },
+    },
+    // actor findWallAngle: SearchWall
+    ElementRow {
+        kind: ElementKind::Actor,
+        period: Duration::from_millis(10),
+        states: Range { first: 2, len: 2 },
+        on_error: Target::None,
+        locals: Range { first: 0, len: 0 },
+        sweep: Range { first: 4, len: 1 },
+        child: Child { components: 0, entries: 0 },
+    },
+    // actor parallelToWall: Turn
+    ElementRow {
+        kind: ElementKind::Actor,
+        period: Duration::from_millis(10),
+        states: Range { first: 4, len: 1 },
+        on_error: Target::None,
+        locals: Range { first: 0, len: 0 },
+        sweep: Range { first: 5, len: 1 },
+        child: Child { components: 0, entries: 0 },
+    },
+    // actor followWall: WallForward
+    ElementRow {
+        kind: ElementKind::Actor,
+        period: Duration::from_millis(10),
+        states: Range { first: 5, len: 3 },
+        on_error: Target::None,
+        locals: Range { first: 3, len: 1 },
+        sweep: Range { first: 6, len: 2 },
+        child: Child { components: 0, entries: 0 },
+    },
+    // actor turnAfterWallLost: Turn
+    ElementRow {
+        kind: ElementKind::Actor,
+        period: Duration::from_millis(10),
+        states: Range { first: 8, len: 1 },
+        on_error: Target::None,
+        locals: Range { first: 0, len: 0 },
+        sweep: Range { first: 8, len: 1 },
+        child: Child { components: 0, entries: 0 },
+    },
+];
+
+/// The supervisors: global ones, then local ones.
+static SUPERVISORS: [SupervisorRow; 4] = [
+    // escape: CheckEscapeButton
+    SupervisorRow {
+        period: Duration::from_millis(50),
+        deadline: Duration::from_millis(10),
+        budget: Duration::from_micros(10),
+        slot: 0,
+        events: Range { first: 9, len: 1 },
+        on_miss: Target::None,
+        wanted: Events::from_bits(0b1),
+    },
+    // searchFirstWall.touch: CheckTouchSensor
+    SupervisorRow {
+        period: Duration::from_millis(1),
+        deadline: Duration::from_millis(1),
+        budget: Duration::from_micros(10),
+        slot: 1,
+        events: Range { first: 10, len: 1 },
+        on_miss: Target::None,
+        wanted: Events::from_bits(0b1),
+    },
+    // searchFirstWall.checkLane: CheckDrivingLane
+    SupervisorRow {
+        period: Duration::from_millis(20),
+        deadline: Duration::from_millis(5),
+        budget: Duration::from_micros(100),
+        slot: 2,
+        events: Range { first: 11, len: 1 },
+        on_miss: Target::None,
+        wanted: Events::from_bits(0b1),
+    },
+    // followWall.wallTouch: CheckTouchSensor
+    SupervisorRow {
+        period: Duration::from_millis(5),
+        deadline: Duration::from_millis(2),
+        budget: Duration::from_micros(10),
+        slot: 1,
+        events: Range { first: 12, len: 1 },
+        on_miss: Target::None,
+        wanted: Events::from_bits(0b1),
+    },
+];
+
+/// Who is polled while an element is active, in order.
+static SWEEPS: [u16; 9] = [
+    // while searchFirstWall is active
+    SEARCH_FIRST_WALL_TOUCH,
+    SEARCH_FIRST_WALL_CHECK_LANE,
+    ESCAPE,
+    // while backupCollision is active
+    ESCAPE,
+    // while findWallAngle is active
+    ESCAPE,
+    // while parallelToWall is active
+    ESCAPE,
+    // while followWall is active
+    FOLLOW_WALL_WALL_TOUCH,
+    ESCAPE,
+    // while turnAfterWallLost is active
+    ESCAPE,
+];
+
+// **** Names ****
+
+/// The names behind the ids of a trace.
+pub static NAMES: NameTable = NameTable {
+    components: &[
+        ComponentRow::new("WallFollowing", Kind::Plan, "WallFollowing", &[], "", &[]),
+        ComponentRow::new(
+            "searchFirstWall",
+            Kind::Actor,
+            "Forward",
+            &[("ForwardSuccessful", "searchFirstWall")],
+            "",
+            &["distance", "speed"],
+        ),
+        ComponentRow::new(
+            "backupCollision",
+            Kind::Actor,
+            "Forward",
+            &[("ForwardSuccessful", "findWallAngle")],
+            "",
+            &["distance", "speed"],
+        ),
+        ComponentRow::new(
+            "findWallAngle",
+            Kind::Actor,
+            "SearchWall",
+            &[("WallFound", "parallelToWall"), ("NoWallFound", "turnAfterWallLost")],
+            "",
+            &["sweep", "range"],
+        ),
+        ComponentRow::new(
+            "parallelToWall",
+            Kind::Actor,
+            "Turn",
+            &[("TurnSuccessful", "followWall")],
+            "",
+            &["angle", "speed"],
+        ),
+        ComponentRow::new(
+            "followWall",
+            Kind::Actor,
+            "WallForward",
+            &[
+                ("ForwardSuccessful", "followWall"),
+                ("LaneNotFree", "findWallAngle"),
+                ("WallLost", "turnAfterWallLost"),
+            ],
+            "",
+            &["walldist", "lanedist", "gain", "tolerance", "step", "speed"],
+        ),
+        ComponentRow::new(
+            "turnAfterWallLost",
+            Kind::Actor,
+            "Turn",
+            &[("TurnSuccessful", "searchFirstWall")],
+            "",
+            &["angle", "speed"],
+        ),
+        ComponentRow::new(
+            "escape",
+            Kind::Supervisor,
+            "CheckEscapeButton",
+            &[("EscapeButtonPressed", "terminate")],
+            "",
+            &[],
+        ),
+        ComponentRow::new(
+            "searchFirstWall.touch",
+            Kind::Supervisor,
+            "CheckTouchSensor",
+            &[("TouchSensorPressed", "backupCollision")],
+            "",
+            &[],
+        ),
+        ComponentRow::new(
+            "searchFirstWall.checkLane",
+            Kind::Supervisor,
+            "CheckDrivingLane",
+            &[("LaneNotFree", "findWallAngle")],
+            "",
+            &["distance", "clearance", "margin", "halfwidth"],
+        ),
+        ComponentRow::new(
+            "followWall.wallTouch",
+            Kind::Supervisor,
+            "CheckTouchSensor",
+            &[("TouchSensorPressed", "backupCollision")],
+            "",
+            &[],
+        ),
+    ],
+    entries: &[
+        EntryRow::new("walldist", EntryKind::In, "length", "m", &[]),
+        EntryRow::new("wallangle", EntryKind::Var, "angle", "rad", &[]),
+    ],
+};
+
+impl NamedPlan for WallFollowing {
+    type Names = NameTable;
+
+    fn names(&self) -> NameTable {
+        NAMES
+    }
+
+    fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
+        self.accepts(entry, value)?;
+        match entry {
+            0 => set_input(&mut self.config.walldist, value),
+            _ => Err(WriteError::ReadOnly),
+        }
+    }
+
+    fn units(&self, entry: u16) -> impl Iterator<Item = Unit<'_>> {
+        let units: &[Unit<'static>] = match entry {
+            0 => &super::units::LENGTH,
+            1 => &super::units::ANGLE,
+            _ => &[],
+        };
+        units.iter().copied()
+    }
+}

@@ -1,0 +1,253 @@
+//! The golden case with every kind of port, entry and formula, compiled and run.
+
+mod kit {
+    //! The toolbox of the golden cases, its components driven by a script.
+
+    use std::collections::VecDeque;
+    use std::marker::PhantomData;
+
+    use afp_core::quantity::Angle;
+    use afp_core::{
+        Actor, Computation, Environment, Events, Fault, Instant, Poll, Supervisor, Text,
+    };
+
+    pub mod templates {
+        afp_macros::toolbox!("../afp-dsl/tests/codegen/toolbox.afp");
+    }
+
+    /// What polls say next, and what was done.
+    #[derive(Default)]
+    pub struct Script {
+        /// The states that polls of `Seek` reach.
+        pub seek: VecDeque<Option<templates::seek::State>>,
+        /// What the components saw and did.
+        pub told: Vec<String>,
+    }
+
+    impl Environment for Script {
+        fn stop(&mut self, _: Instant) {
+            self.told.push("stop".into());
+        }
+        fn emergency_stop(&mut self) {
+            self.told.push("emergency stop".into());
+        }
+    }
+
+    /// An object.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Place(pub u8);
+
+    pub struct Seek;
+
+    impl Actor<templates::Seek, Script> for Seek {
+        fn start(
+            inputs: templates::seek::Inputs<'_>,
+            env: &mut Script,
+            _: Instant,
+        ) -> Result<Self, Fault> {
+            let templates::seek::Inputs { name, side, r#where, tries } = inputs;
+            env.told.push(format!("seek {name} {side:?} {} {tries}", r#where.0));
+            Ok(Seek)
+        }
+
+        fn poll(
+            &mut self,
+            live: templates::seek::Live,
+            env: &mut Script,
+            _: Instant,
+        ) -> Result<Poll<templates::seek::State>, Fault> {
+            env.told.push(format!("seek {} {}", live.speed.si(), live.r#loop));
+            Ok(match env.seek.pop_front().flatten() {
+                Some(state) => Poll::Ready(state),
+                None => Poll::Pending,
+            })
+        }
+
+        fn interrupt(&mut self, env: &mut Script, _: Instant) -> Result<(), Fault> {
+            env.told.push("interrupt".into());
+            Ok(())
+        }
+    }
+
+    pub struct Watch<V>(PhantomData<V>);
+
+    impl<V: afp_core::rt::Any> Supervisor<templates::Watch<V>, Script> for Watch<V> {
+        fn start(
+            inputs: templates::watch::Inputs<'_>,
+            _: Events,
+            env: &mut Script,
+            _: Instant,
+        ) -> Result<Self, Fault> {
+            env.told.push(format!("watch {}", inputs.label));
+            Ok(Watch(PhantomData))
+        }
+
+        fn poll(
+            &mut self,
+            _: templates::watch::Live<V>,
+            _: &mut Script,
+            _: Instant,
+        ) -> Result<Option<templates::watch::Event<V>>, Fault> {
+            Ok(None)
+        }
+    }
+
+    pub struct Area;
+
+    impl Computation<templates::Area> for Area {
+        fn compute(inputs: templates::area::Inputs) -> Result<templates::area::State, Fault> {
+            let area = inputs.width.si() * inputs.height.si();
+            let area = afp_core::quantity::Quantity::from_si(area);
+            Ok(templates::area::State::Small { area })
+        }
+    }
+
+    pub struct Here;
+
+    impl Computation<templates::Here> for Here {
+        fn compute(_: templates::here::Inputs) -> Result<templates::here::State, Fault> {
+            Ok(templates::here::State::Done { place: Place(1) })
+        }
+    }
+
+    /// Lost, with its outputs.
+    pub fn lost(said: &str, radians: f64) -> templates::seek::State {
+        let said = Text::try_from(said).unwrap();
+        templates::seek::State::Lost { said, turn: Angle::from_si(radians) }
+    }
+}
+
+mod plan {
+    afp_macros::plan!(
+        "../afp-dsl/tests/codegen/everything.afp",
+        toolboxes = { "../afp-dsl/tests/codegen/toolbox.afp" => crate::kit }
+    );
+}
+
+use afp::load::{LoadedPlan, Registry};
+use afp_core::quantity::Speed;
+use afp_core::rt::{NamedPlan, Plan};
+use afp_core::trace::{Line, Names, NoTrace, Record, Sink};
+use afp_core::{Instant, Scheduler, StillClock, Value, Wake};
+use afp_dsl::source::Source;
+use afp_dsl::toolbox::Toolboxes;
+use kit::templates::seek::State;
+use kit::{Place, Script};
+use plan::Everything;
+
+/// A trace as text.
+struct Lines<N> {
+    names: N,
+    lines: Vec<String>,
+}
+
+impl<N: Names> Sink for Lines<N> {
+    fn record(&mut self, at: Instant, record: &Record<'_>) {
+        self.lines.push(Line { at, record, names: &self.names }.to_string());
+    }
+}
+
+/// What a plan tells while it follows the script, and what its components saw.
+fn story<P: Plan<Script> + NamedPlan>(
+    mut plan: P,
+    seek: &[Option<State>],
+) -> (Vec<String>, Vec<String>) {
+    let mut script = Script { seek: seek.iter().cloned().collect(), ..Script::default() };
+    let speed = plan.entry_named("speed").unwrap();
+    plan.set_input(speed, &Value::Float(0.5)).unwrap();
+    let mut sink = Lines { names: plan.names(), lines: Vec::new() };
+    let mut scheduler = Scheduler::new(plan);
+    let mut wake = scheduler.start(&mut script, &mut sink, &StillClock, Instant::ZERO).unwrap();
+    for _ in 0..60 {
+        match wake {
+            Wake::At(at) => wake = scheduler.step(&mut script, &mut sink, &StillClock, at),
+            Wake::Ended(_) => break,
+        }
+    }
+    (sink.lines, script.told)
+}
+
+fn loaded() -> LoadedPlan<Script> {
+    let mut toolboxes = Toolboxes::default();
+    for builtin in afp_toolboxes::ALL {
+        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
+    }
+    toolboxes.add(Source::new("toolbox.afp", kit::templates::SOURCE), "crate::kit");
+    let text = include_str!("../../afp-dsl/tests/codegen/everything.afp");
+    let compiled = afp_dsl::compile(&Source::new("everything.afp", text), &toolboxes);
+    let mut registry = Registry::new();
+    afp_std::templates::register(&mut registry);
+    kit::templates::register(&mut registry);
+    LoadedPlan::new(&compiled.graph.unwrap(), &registry).unwrap()
+}
+
+/// Both back ends follow the script; their stories are the same, and this is it.
+fn same_story(seek: &[Option<State>]) -> Vec<String> {
+    let (lines, told) = story(Everything::new(), seek);
+    let (of_loaded, told_by_loaded) = story(loaded(), seek);
+    assert_eq!(lines, of_loaded);
+    assert_eq!(told, told_by_loaded);
+    lines.into_iter().filter(|line| !line.contains("polled")).collect()
+}
+
+#[test]
+fn results_of_a_sub_plan_reach_the_plan_that_uses_it() {
+    let found = State::Found { place: Place(7), said: Default::default() };
+    let lines = same_story(&[Some(found), None, Some(kit::lost("60 cm", 0.5))]);
+    for line in [
+        "0.010000 first commits found: unset -> Place#2",
+        "0.010000 round commits round.rounds: unset -> 3",
+        "0.010000 round commits round.text: unset -> \"12 cm of 3\"",
+        "0.010000 round.seek reads name = \"12 cm1\"",
+        "0.030000 round ended OK",
+        "0.030000 round commits turn: unset -> 0.5 rad",
+        "0.030000 round commits text: \"12 cm\" -> \"60 cm\"",
+        "0.030000 again commits again.pace: unset -> 0.6 m/s",
+    ] {
+        assert!(lines.iter().any(|known| known == line), "no '{line}' in {lines:#?}");
+    }
+}
+
+#[test]
+fn an_object_that_nobody_has_written_is_a_fault_of_who_reads_it() {
+    let lines = same_story(&[Some(State::Bored)]);
+    let fault = "0.010000 again.seek fault unset";
+    assert!(lines.iter().any(|line| line.starts_with(fault)), "{lines:#?}");
+    assert!(
+        lines.iter().any(|line| line.ends_with("value = \"at 3 m, lefttrue0.5\"")),
+        "{lines:#?}"
+    );
+}
+
+#[test]
+fn a_text_that_is_no_quantity_is_a_fault_of_who_reads_it() {
+    let found = State::Found { place: Place(7), said: Default::default() };
+    let lines = same_story(&[Some(found), None, Some(kit::lost("far", 0.5))]);
+    assert_eq!(lines.last().unwrap(), "0.030000 Everything ended Error(conversion)");
+}
+
+#[test]
+fn a_number_that_is_not_finite_is_a_fault_of_who_writes_it() {
+    let found = State::Found { place: Place(7), said: Default::default() };
+    let lines = same_story(&[Some(found), None, Some(kit::lost("far", f64::NAN))]);
+    assert!(lines.iter().any(|line| line.contains("round.seek fault arithmetic")), "{lines:#?}");
+}
+
+#[test]
+fn an_input_without_a_default_must_be_given() {
+    let mut scheduler = Scheduler::new(Everything::new());
+    let started = scheduler.start(&mut Script::default(), &mut NoTrace, &StillClock, Instant::ZERO);
+    assert_eq!(format!("{started:?}"), "Err(InputMissing(1))");
+}
+
+#[test]
+fn entries_are_set_and_read_by_name() {
+    let mut plan = Everything::new();
+    let speed = plan.entry_named("speed").unwrap();
+    let value = plan.read(speed, "36 km/h").unwrap();
+    assert_eq!(value, Value::Float(10.0));
+    plan.set_input(speed, &value).unwrap();
+    assert_eq!(plan.speed(), Some(Speed::from_si(10.0)));
+    assert!(plan.set_input(speed, &Value::Float(f64::NAN)).is_err());
+    assert!(plan.set_input(plan.entry_named("half").unwrap(), &Value::Float(1.0)).is_err());
+}
