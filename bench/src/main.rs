@@ -3,9 +3,14 @@
 //! All cases of a group run in turns within one process, so that their ratios mean something on a
 //! machine that is busy with other things; the limits are on ratios alone.
 
+mod board;
+mod clocks;
 mod measure;
+mod plans;
 mod report;
 mod step;
+mod steps;
+mod transition;
 
 use std::process::ExitCode;
 
@@ -25,7 +30,7 @@ struct Options {
     #[arg(long)]
     check: bool,
     /// Turns per group; more are steadier.
-    #[arg(long, default_value_t = 60)]
+    #[arg(long, default_value_t = 500)]
     rounds: u32,
 }
 
@@ -45,5 +50,8 @@ fn main() -> ExitCode {
     if options.check && !report.passed() { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }
 
+/// Measures something in so many turns.
+type Group = fn(u32, &mut Report);
+
 /// What there is to measure, by the name that a filter picks.
-const GROUPS: &[(&str, fn(u32, &mut Report))] = &[("step", step::run)];
+const GROUPS: &[(&str, Group)] = &[("step", step::run), ("transition", transition::run)];

@@ -1,13 +1,13 @@
 //! Times short operations against each other.
 //!
 //! Each case gives a closure that repeats its operation a number of times. The cases take turns,
-//! one batch each; a case's figure is its best batch, a ratio the median over the turns, in which
-//! both sides met the same noise.
+//! one short batch each. What disturbs a batch only ever adds time, so a case's figure is its best
+//! batch, and a ratio is that of two best batches: steady on a machine that does other things too.
 
 use std::time::{Duration, Instant};
 
 /// How long one batch should take.
-const BATCH: Duration = Duration::from_millis(2);
+const BATCH: Duration = Duration::from_micros(250);
 
 /// An operation to time: repeats itself as often as it is told.
 pub type Operation<'a> = Box<dyn FnMut(u64) + 'a>;
@@ -18,12 +18,13 @@ pub struct Race<'a> {
     cases: Vec<(String, Operation<'a>)>,
 }
 
-/// What a case took, turn by turn, in nanoseconds for one operation.
+/// What a case took.
 #[derive(Clone, Debug)]
 pub struct Times {
     /// The case.
     pub name: String,
-    turns: Vec<f64>,
+    /// Nanoseconds for one operation in its best turn.
+    pub best: f64,
 }
 
 impl<'a> Race<'a> {
@@ -38,7 +39,7 @@ impl<'a> Race<'a> {
         let mut times: Vec<Times> = self.cases.iter().map(|(name, _)| Times::new(name)).collect();
         for _ in 0..turns {
             for ((times, (_, run)), batch) in times.iter_mut().zip(&mut self.cases).zip(&batches) {
-                times.turns.push(time(run, *batch) / *batch as f64);
+                times.best = times.best.min(time(run, *batch) / *batch as f64);
             }
         }
         times
@@ -47,20 +48,12 @@ impl<'a> Race<'a> {
 
 impl Times {
     fn new(name: &str) -> Self {
-        Times { name: name.to_owned(), turns: Vec::new() }
+        Times { name: name.to_owned(), best: f64::INFINITY }
     }
 
-    /// The best turn.
-    pub fn best(&self) -> f64 {
-        self.turns.iter().copied().fold(f64::INFINITY, f64::min)
-    }
-
-    /// The median over the turns of this case's time by the other's.
+    /// This case's best turn by the other's.
     pub fn ratio(&self, other: &Times) -> f64 {
-        let mut ratios: Vec<f64> =
-            self.turns.iter().zip(&other.turns).map(|(a, b)| a / b).collect();
-        ratios.sort_by(f64::total_cmp);
-        ratios.get(ratios.len() / 2).copied().unwrap_or(f64::NAN)
+        self.best / other.best
     }
 }
 

@@ -59,7 +59,7 @@ impl Report {
     /// Adds a case of a race against another one, which must not exceed `at_most` times it.
     pub fn race(&mut self, group: &str, case: &Times, baseline: &Times, at_most: Option<f64>) {
         let ratio = case.ratio(baseline);
-        let row = Row::new(format!("{group}/{}", case.name), case.best(), "ns")
+        let row = Row::new(format!("{group}/{}", case.name), case.best, "ns")
             .against(format!("{group}/{}", baseline.name), ratio);
         self.add(match at_most {
             Some(most) => row.limit(format!("<= {most}"), ratio <= most),

@@ -1,28 +1,45 @@
 //! One step with four due guards and a running action, nothing happening.
 
-mod board;
 mod bonsai;
-mod components;
 mod hand;
-mod plan;
 
+use afp_core::StillClock;
+use afp_core::trace::NoTrace;
+
+use crate::clocks::{Monotonic, Ring};
 use crate::measure::Race;
+use crate::plans::{loaded_step, step::Step};
 use crate::report::{Report, Row};
+use crate::steps::steps;
 
-/// The time from one step to the next, and the period of everything.
-const PERIOD: u64 = 10_000_000;
+/// Most that a generated plan may take of a hand-written loop, and of a behaviour tree.
+const GENERATED: (f64, f64) = (6.0, 0.5);
+/// Most that an interpreted plan may take of a behaviour tree.
+const INTERPRETED: f64 = 3.0;
 
 /// Races all of them.
 pub fn run(rounds: u32, report: &mut Report) {
     let mut race = Race::default();
     race.add("hand-written", hand::case());
-    race.add("bonsai-bt", bonsai::sequence());
-    race.add("bonsai-bt, when_all", bonsai::when_all());
-    race.add("generated", plan::case());
+    race.add("bonsai-bt", bonsai::when_all());
+    race.add("bonsai-bt, sequence", bonsai::sequence());
+    race.add("generated", steps(Step::new(), NoTrace, StillClock));
+    race.add("generated, ring trace", steps(Step::new(), Ring::new(), StillClock));
+    race.add("generated, monotonic clock", steps(Step::new(), NoTrace, Monotonic::new()));
+    race.add("interpreted", steps(loaded_step(), NoTrace, StillClock));
+    race.add("interpreted, ring trace", steps(loaded_step(), Ring::new(), StillClock));
+    race.add("interpreted, monotonic clock", steps(loaded_step(), NoTrace, Monotonic::new()));
     let times = race.run(rounds);
-    let hand = &times[0];
-    report.add(Row::new("step/hand-written", hand.best(), "ns"));
+    let [hand, bonsai, ..] = &times[..] else { return };
+    report.add(Row::new("step/hand-written", hand.best, "ns"));
     for case in &times[1..] {
-        report.race("step", case, hand, (case.name == "generated").then_some(6.0));
+        let generated = case.name == "generated";
+        report.race("step", case, hand, generated.then_some(GENERATED.0));
+        if generated {
+            report.race("step", case, bonsai, Some(GENERATED.1));
+        }
+        if case.name == "interpreted" {
+            report.race("step", case, bonsai, Some(INTERPRETED));
+        }
     }
 }

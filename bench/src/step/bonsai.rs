@@ -7,7 +7,7 @@ use bonsai_bt::{
     WhenAll,
 };
 
-use super::board::{Board, speed};
+use crate::board::{Board, speed};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Node {

@@ -2,8 +2,8 @@
 
 use std::hint::black_box;
 
-use super::PERIOD;
-use super::board::{Board, speed};
+use crate::board::{Board, speed};
+use crate::steps::PERIOD;
 
 struct Robot {
     activity: Activity,

@@ -1,6 +1,15 @@
-//! The platform that everybody works on: four sensors and a motor.
+//! The platform that everybody works on, and the toolbox for it: four sensors and a motor.
+
+mod components;
 
 use afp_core::{Environment, Instant};
+
+pub use components::{CheckBattery, CheckButton, CheckRange, CheckTouch, Drive, Hop};
+
+pub mod templates {
+    //! The templates of the toolbox as types.
+    afp_macros::toolbox!("toolbox/board.afp");
+}
 
 /// Readings and a command, in memory that the optimiser cannot see into.
 #[derive(Clone, Debug)]
@@ -36,7 +45,7 @@ impl Environment for Board {
     }
 }
 
-/// Drives on: the speed for the way that is left.
+/// The speed for the way that is left, in metres a second.
 #[inline]
 pub fn speed(left: f64, gain: f64) -> f64 {
     let wanted = left * gain;
