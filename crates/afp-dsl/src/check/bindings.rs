@@ -1,17 +1,21 @@
 //! What goes into and comes out of a component: every input has a value of its port's type, every
 //! output an entry that may be written.
 
-use crate::check::convert::{conversion, remark};
+mod generic;
+mod outputs;
+
 use crate::check::formula::{Scope, of_constant};
 use crate::check::names::unknown;
 use crate::check::signature::{Input, Signature};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
-use crate::graph::{EntryId, EntryKind, Formula, Output};
+use crate::graph::{Formula, Output};
 use crate::source::Span;
 use crate::syntax::ast::{self, Bind, Name};
 use crate::toolbox::Constant;
 use crate::types::Type;
-use crate::words::{self, a_type};
+use crate::words;
+
+use generic::{Generic, actual};
 
 /// The checked bindings of a component.
 pub(crate) struct Bound {
@@ -45,9 +49,9 @@ pub(crate) fn check(
         .iter()
         .map(|bound| bound.map(|formula| formula.and_then(|f| scope.infer(f, diags))))
         .collect();
-    let generic = generic(scope, signature, &inferred, &ports, diags);
+    let generic = generic::decide(scope, signature, &inferred, &ports, diags);
     let inputs = inputs(scope, signature, inferred, &generic, site, diags);
-    let outputs = outputs(scope, signature, &ports, &generic, diags);
+    let outputs = outputs::check(scope, signature, &ports, &generic, diags);
     let generic = match generic {
         Generic::None => None,
         Generic::Is(ty) => Some(ty),
@@ -133,85 +137,6 @@ fn unknown_port(signature: &Signature, bind: &Bind, port: &Name) -> Diagnostic {
         Bind::Out { .. } => outputs.collect(),
     };
     unknown(Code::E0202, port.span, message, &port.text, known, "remove the binding")
-}
-
-/// What stands for `any` or `number` in one instance.
-enum Generic {
-    /// The template has no such port.
-    None,
-    /// This type.
-    Is(Type),
-    /// Something is wrong, and reported.
-    Unknown,
-    /// No port is bound.
-    Undecided,
-}
-
-fn is_generic(ty: Option<&Type>) -> bool {
-    matches!(ty, Some(Type::Any | Type::Number))
-}
-
-fn generic(
-    scope: &Scope<'_>,
-    signature: &Signature,
-    inferred: &[Option<Option<Formula>>],
-    ports: &Ports<'_>,
-    diags: &mut Diagnostics,
-) -> Generic {
-    let declared = signature.inputs.iter().map(|input| input.ty.as_ref());
-    let declared = declared.chain(signature.outputs.iter().map(|output| output.ty.as_ref()));
-    let mut declared = declared.filter(|ty| is_generic(*ty)).peekable();
-    if declared.peek().is_none() {
-        return Generic::None;
-    }
-    let needs_number = declared.any(|ty| ty == Some(&Type::Number));
-    let mut decided: Option<(Type, Span)> = None;
-    for (input, formula) in signature.inputs.iter().zip(inferred) {
-        let Some(formula) = formula.as_ref().filter(|_| is_generic(input.ty.as_ref())) else {
-            continue;
-        };
-        let Some(formula) = formula else { return Generic::Unknown };
-        decided = match decided {
-            Some((Type::Int, span)) if formula.ty == Type::FLOAT => Some((Type::FLOAT, span)),
-            Some(decided) => Some(decided),
-            None => Some((formula.ty.clone(), formula.span)),
-        };
-    }
-    let has_inputs = signature.inputs.iter().any(|input| is_generic(input.ty.as_ref()));
-    if decided.is_none() && !has_inputs {
-        for (place, entry, _) in &ports.outputs {
-            let Some(entry) = entry.filter(|_| is_generic(signature.outputs[*place].ty.as_ref()))
-            else {
-                continue;
-            };
-            let found = scope.entries.iter().find(|known| known.name.text == entry.text);
-            let Some(ty) = found.and_then(|found| found.ty.clone()) else {
-                return Generic::Unknown;
-            };
-            decided = decided.or(Some((ty, entry.span)));
-        }
-    }
-    let Some((ty, span)) = decided else {
-        // An input without a value is reported as such.
-        return if has_inputs || !ports.complete { Generic::Unknown } else { Generic::Undecided };
-    };
-    if needs_number && !ty.is_numeric() {
-        let message = format!("expected a number, found {}", a_type(&ty));
-        diags.push(
-            Diagnostic::new(Code::E0206, span, message).help("use an int, a float or a quantity"),
-        );
-        return Generic::Unknown;
-    }
-    Generic::Is(ty)
-}
-
-/// The type of a port in this instance.
-fn actual<'a>(declared: Option<&'a Type>, generic: &'a Generic) -> Option<&'a Type> {
-    match (declared, generic) {
-        (Some(Type::Any | Type::Number), Generic::Is(ty)) => Some(ty),
-        (Some(Type::Any | Type::Number) | None, _) => None,
-        (declared, _) => declared,
-    }
 }
 
 fn inputs(
@@ -301,102 +226,4 @@ pub(crate) fn check_range(
             .note(input.span, "the range is declared here")
             .help(format!("use a value from '{least}' to '{greatest}'")),
     );
-}
-
-fn outputs(
-    scope: &Scope<'_>,
-    signature: &Signature,
-    ports: &Ports<'_>,
-    generic: &Generic,
-    diags: &mut Diagnostics,
-) -> Option<Vec<Output>> {
-    let mut outputs = Vec::new();
-    let mut complete = ports.complete;
-    let mut written: Vec<&Name> = Vec::new();
-    for (place, entry, formula) in &ports.outputs {
-        if let Some(formula) = formula {
-            let name = &signature.outputs[*place].name;
-            diags.push(
-                Diagnostic::new(
-                    Code::E0219,
-                    formula.span(),
-                    "an output goes to an entry, not into a formula",
-                )
-                .help(format!("name an entry, and use it in the formulas that read '{name}'")),
-            );
-        }
-        let Some(entry) = entry else {
-            complete = false;
-            continue;
-        };
-        if let Some(first) = written.iter().find(|known| known.text == entry.text) {
-            let message = format!("two outputs go to '{}'", entry.text);
-            diags.push(
-                Diagnostic::new(Code::E0220, entry.span, message)
-                    .note(first.span, "the other one")
-                    .help("use another entry for one of them"),
-            );
-            continue;
-        }
-        written.push(entry);
-        let ty = actual(signature.outputs[*place].ty.as_ref(), generic);
-        match output(scope, *place, ty, entry, diags) {
-            Some(output) => outputs.push(output),
-            None => complete = false,
-        }
-    }
-    complete.then_some(outputs)
-}
-
-fn output(
-    scope: &Scope<'_>,
-    port: usize,
-    ty: Option<&Type>,
-    entry: &Name,
-    diags: &mut Diagnostics,
-) -> Option<Output> {
-    let Some(place) = scope.entries.iter().position(|known| known.name.text == entry.text) else {
-        let writable =
-            scope.entries.iter().filter(|e| matches!(e.kind, EntryKind::Var | EntryKind::Out));
-        let known = writable.map(|known| known.name.text.as_str());
-        let message = format!("there is no entry '{}'", entry.text);
-        let none = format!("declare it in the plan, such as 'var {}: float'", entry.text);
-        diags.push(unknown(Code::E0209, entry.span, message, &entry.text, known, &none));
-        return None;
-    };
-    let target = &scope.entries[place];
-    let word = match target.kind {
-        EntryKind::In => Some("in"),
-        EntryKind::Const => Some("const"),
-        EntryKind::Var | EntryKind::Out => None,
-    };
-    if let Some(word) = word {
-        let message = format!("'{}' is an entry that the plan does not write", entry.text);
-        diags.push(
-            Diagnostic::new(Code::E0219, entry.span, message)
-                .note(target.name.span, format!("declared as '{word}' here"))
-                .help("use an entry declared with 'var' or 'out'"),
-        );
-        return None;
-    }
-    let (ty, entry_ty) = (ty?, target.ty.as_ref()?);
-    let Ok(conversion) = conversion(ty, entry_ty) else {
-        let numeric = ty.is_numeric() && entry_ty.is_numeric();
-        let code = if numeric { Code::E0204 } else { Code::E0206 };
-        let message = format!("the output is {}, the entry is {}", a_type(ty), a_type(entry_ty));
-        diags.push(
-            Diagnostic::new(code, entry.span, message)
-                .note(target.name.span, "the entry is declared here")
-                .help(format!("use an entry that is {}", a_type(ty))),
-        );
-        return None;
-    };
-    if let Some(conversion) = &conversion {
-        remark(conversion, entry.span, diags);
-    }
-    Some(Output {
-        port: u16::try_from(port).ok()?,
-        entry: EntryId(u16::try_from(place).ok()?),
-        conversion,
-    })
 }

@@ -265,7 +265,8 @@ impl Typer<'_> {
         let Some(place) = found.variants.iter().position(|variant| *variant == name.text) else {
             let known = found.variants.iter().map(String::as_str);
             let message = format!("'{}' has no value '{}'", found.name, name.text);
-            diags.push(unknown(Code::E0239, name.span, message, &name.text, known, ""));
+            let none = "declare the value in the enum";
+            diags.push(unknown(Code::E0239, name.span, message, &name.text, known, none));
             return None;
         };
         let kind = FormulaKind::Choice(u16::try_from(place).ok()?);

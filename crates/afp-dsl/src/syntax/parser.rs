@@ -4,6 +4,7 @@
 //! meets what it does not expect reports it once, skips to where an item of some level can begin
 //! again, and goes on.
 
+mod file;
 mod formula;
 mod plan;
 mod scenario;
@@ -223,6 +224,18 @@ impl<'t, 'd> Parser<'t, 'd> {
         self.builder.finish_node();
     }
 
+    /// Runs a rule that is repeated; when it takes nothing, takes a token, so that every
+    /// repetition ends.
+    fn repeat(&mut self, rule: impl FnOnce(&mut Self)) {
+        let before = self.at;
+        rule(self);
+        if self.at == before {
+            self.open(Kind::Error);
+            self.bump();
+            self.close();
+        }
+    }
+
     /// Opens an item: help text and the comments directly above it belong to it.
     fn open_item(&mut self, kind: Kind) {
         let to = self.solid.get(self.at).copied().unwrap_or(self.tokens.len());
@@ -285,16 +298,23 @@ impl<'t, 'd> Parser<'t, 'd> {
 
     /// Takes a name, or reports that one is missing.
     fn name(&mut self, help: &str) -> bool {
-        if self.at(Kind::Name) && matches!(self.word(0), "resume" | "repeat") {
-            self.reserved();
-            self.bump();
-            return true;
-        }
         if !self.on_same_line() && self.begins_item() {
             self.expected("a name", help);
             return false;
         }
+        if self.at(Kind::Name) {
+            self.take_name();
+            return true;
+        }
         self.expect(Kind::Name, help)
+    }
+
+    /// Takes the next token, which is a name.
+    fn take_name(&mut self) {
+        if matches!(self.word(0), "resume" | "repeat") {
+            self.reserved();
+        }
+        self.bump();
     }
 
     /// Whether an item of some level surely begins here, so that no name can be meant.
@@ -353,111 +373,6 @@ impl<'t, 'd> Parser<'t, 'd> {
             self.bump();
         }
         self.close();
-    }
-
-    // The file.
-
-    fn file(&mut self) {
-        self.builder.start_node(Afp::kind_to_raw(Kind::File));
-        if self.word(0) == "afp" && self.nth(1) == Kind::Int {
-            self.open_item(Kind::Version);
-            self.keyword();
-            self.bump();
-            self.close_item();
-        }
-        while !self.at_end() {
-            self.top_item();
-        }
-        self.trivia();
-        self.builder.finish_node();
-    }
-
-    fn top_item(&mut self) {
-        self.misplaced &= !self.at_top_item();
-        match self.word(0) {
-            "use" => self.use_item(),
-            "plan" => self.plan(),
-            "scenario" => self.scenario(),
-            "toolbox" => self.toolbox(),
-            "enum" => self.enumeration(),
-            "object" => self.object(),
-            "actor" | "supervisor" | "computation" if self.nth(2) == Kind::OpenBrace => {
-                self.template();
-            }
-            "actor" | "computation" | "subplan" | "supervise" | "in" | "out" | "var" | "const"
-            | "start" => self.misplaced(),
-            _ => {
-                self.skip(
-                    "'use', 'plan', 'scenario', 'enum' or 'toolbox'",
-                    "remove it, or put it into a plan",
-                    |p| p.leaves_body() || p.at_tool(),
-                );
-            }
-        }
-    }
-
-    /// Parses an item of a plan that stands outside of one.
-    fn misplaced(&mut self) {
-        let word = self.word(0);
-        let here = self.next_span();
-        // Behind a brace too much everything is outside; that is one mistake.
-        if !std::mem::replace(&mut self.misplaced, true) {
-            self.error(
-                Diagnostic::new(Code::E0114, here, format!("'{word}' stands outside of a plan"))
-                    .help("move it between the braces of a plan; perhaps a '}' above is too much"),
-            );
-        }
-        self.open(Kind::Error);
-        self.plan_item();
-        self.close();
-    }
-
-    /// Whether an item of a file can begin here; two tokens decide, since names may be words.
-    fn at_top_item(&self) -> bool {
-        match self.word(0) {
-            "use" => matches!(self.nth(1), Kind::Name | Kind::Text),
-            "scenario" => self.nth(1) == Kind::Text,
-            "plan" | "enum" => {
-                let braces = 1 + usize::from(self.nth(1) == Kind::Name);
-                self.nth(braces) == Kind::OpenBrace
-            }
-            "toolbox" => self.nth(1) == Kind::Name && !self.word(2).is_empty(),
-            _ => false,
-        }
-    }
-
-    fn use_item(&mut self) {
-        self.open_item(Kind::Use);
-        self.keyword();
-        let named = !self.eat(Kind::Text) && self.name("name a toolbox, such as 'use carbot'");
-        if named && self.at_word("as") {
-            self.open(Kind::Alias);
-            self.keyword();
-            self.name("give the short name, such as 'use carbot as c'");
-            self.close();
-        }
-        self.close_item();
-    }
-
-    fn enumeration(&mut self) {
-        self.open_item(Kind::Enum);
-        self.keyword();
-        self.name("give the enum a name");
-        let opened = self.here();
-        if self.expect(Kind::OpenBrace, "list the values in braces") {
-            while self.at(Kind::Name) && !self.at_top_item() {
-                self.open_item(Kind::Variant);
-                self.name("");
-                self.close_item();
-            }
-            if !self.at(Kind::CloseBrace) && !self.at_end() && !self.at_top_item() {
-                self.skip("a value or '}'", "write only names between the braces", |p| {
-                    p.at(Kind::CloseBrace) || p.at_top_item()
-                });
-            }
-            self.close_bracket(Kind::CloseBrace, opened);
-        }
-        self.close_item();
     }
 }
 

@@ -4,3 +4,4 @@ mod errors;
 mod explanations;
 mod graph;
 mod support;
+mod totality;

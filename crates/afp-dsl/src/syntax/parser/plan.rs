@@ -16,13 +16,15 @@ impl Parser<'_, '_> {
         let opened = self.here();
         if self.expect(Kind::OpenBrace, "put the plan's items in braces") {
             while !self.at_end() && !self.at(Kind::CloseBrace) && !self.at_top_item() {
-                if self.at_plan_item() {
-                    self.plan_item();
-                } else {
-                    self.skip(ITEMS, ITEM_HELP, |p| {
-                        p.at_plan_item() || p.at(Kind::CloseBrace) || p.at_top_item()
-                    });
-                }
+                self.repeat(|parser| {
+                    if parser.at_plan_item() {
+                        parser.plan_item();
+                    } else {
+                        parser.skip(ITEMS, ITEM_HELP, |p| {
+                            p.at_plan_item() || p.at(Kind::CloseBrace) || p.at_top_item()
+                        });
+                    }
+                });
             }
             self.close_bracket(Kind::CloseBrace, opened);
         }
@@ -81,11 +83,13 @@ impl Parser<'_, '_> {
         let opened = self.here();
         if self.expect(Kind::OpenBrace, "put supervisors and edges in braces") {
             while !self.at_end() && !self.at(Kind::CloseBrace) && !self.leaves_body() {
-                if self.at_word("supervise") {
-                    self.guard();
-                } else {
-                    self.edge_or_skip("a supervisor or an edge");
-                }
+                self.repeat(|parser| {
+                    if parser.at_word("supervise") {
+                        parser.guard();
+                    } else {
+                        parser.edge_or_skip("a supervisor or an edge");
+                    }
+                });
             }
             self.close_bracket(Kind::CloseBrace, opened);
         }
@@ -105,7 +109,7 @@ impl Parser<'_, '_> {
                 if self.at_word("supervise") {
                     break;
                 }
-                self.edge_or_skip("an edge");
+                self.repeat(|parser| parser.edge_or_skip("an edge"));
             }
             self.close_bracket(Kind::CloseBrace, opened);
         }
@@ -165,7 +169,7 @@ impl Parser<'_, '_> {
     /// `NAME "->" target`
     fn edge(&mut self) {
         self.open_item(Kind::Edge);
-        self.name("name a state or an event");
+        self.take_name();
         match self.nth(0) {
             Kind::Arrow => self.bump(),
             Kind::FatArrow | Kind::Equal => {
@@ -183,7 +187,7 @@ impl Parser<'_, '_> {
         }
         if self.at(Kind::Name) && self.on_same_line() {
             self.open(Kind::Target);
-            self.name("");
+            self.take_name();
             self.close();
         } else {
             let here = self.behind();
@@ -211,11 +215,14 @@ impl Parser<'_, '_> {
         let opened = self.here();
         self.bump();
         while !self.ends_args() {
-            if self.at(Kind::Name) && self.names_something(0) && self.nth(1) != Kind::Colon {
-                self.bind();
-            } else {
-                self.unnamed_bind();
-            }
+            self.repeat(|parser| {
+                let named = parser.at(Kind::Name) && parser.names_something(0);
+                if named && parser.nth(1) != Kind::Colon {
+                    parser.bind();
+                } else {
+                    parser.unnamed_bind();
+                }
+            });
         }
         self.close_bracket(Kind::CloseParen, opened);
         self.close();
@@ -232,7 +239,7 @@ impl Parser<'_, '_> {
     fn bind(&mut self) {
         let kind = if self.nth(1) == Kind::Equal { Kind::BindIn } else { Kind::BindOut };
         self.open_item(kind);
-        self.name("name a port");
+        self.take_name();
         if kind == Kind::BindIn {
             self.bump();
             self.formula();

@@ -18,13 +18,15 @@ impl Parser<'_, '_> {
         let opened = self.here();
         if self.expect(Kind::OpenBrace, "put the scenario's lines in braces") {
             while !self.at_end() && !self.at(Kind::CloseBrace) && !self.at_top_item() {
-                if self.at_line() {
-                    self.line();
-                } else {
-                    self.skip("a line of the scenario", LINE_HELP, |p| {
-                        p.at_line() || p.at(Kind::CloseBrace) || p.at_top_item()
-                    });
-                }
+                self.repeat(|parser| {
+                    if parser.at_line() {
+                        parser.line();
+                    } else {
+                        parser.skip("a line of the scenario", LINE_HELP, |p| {
+                            p.at_line() || p.at(Kind::CloseBrace) || p.at_top_item()
+                        });
+                    }
+                });
             }
             self.close_bracket(Kind::CloseBrace, opened);
         }

@@ -31,13 +31,15 @@ impl Parser<'_, '_> {
         let opened = self.here();
         if self.expect(Kind::OpenBrace, "put the template's parts in braces") {
             while !self.at_end() && !self.at(Kind::CloseBrace) && !self.at_tool() {
-                if self.at_part() {
-                    self.part();
-                } else {
-                    self.skip("a part of the template", PART_HELP, |p| {
-                        p.at_part() || p.at(Kind::CloseBrace) || p.at_tool()
-                    });
-                }
+                self.repeat(|parser| {
+                    if parser.at_part() {
+                        parser.part();
+                    } else {
+                        parser.skip("a part of the template", PART_HELP, |p| {
+                            p.at_part() || p.at(Kind::CloseBrace) || p.at_tool()
+                        });
+                    }
+                });
             }
             self.close_bracket(Kind::CloseBrace, opened);
         }

@@ -1,0 +1,90 @@
+//! The type that `any` or `number` stands for in one instance.
+
+use crate::check::bindings::Ports;
+use crate::check::formula::Scope;
+use crate::check::signature::Signature;
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::graph::Formula;
+use crate::source::Span;
+use crate::types::Type;
+use crate::words::a_type;
+
+/// What stands for `any` or `number` in one instance.
+pub(super) enum Generic {
+    /// The template has no such port.
+    None,
+    /// This type.
+    Is(Type),
+    /// Something is wrong, and reported.
+    Unknown,
+    /// No port is bound.
+    Undecided,
+}
+
+fn is_generic(ty: Option<&Type>) -> bool {
+    matches!(ty, Some(Type::Any | Type::Number))
+}
+
+/// Decides the type of the instance from its inputs, else from its outputs.
+pub(super) fn decide(
+    scope: &Scope<'_>,
+    signature: &Signature,
+    inferred: &[Option<Option<Formula>>],
+    ports: &Ports<'_>,
+    diags: &mut Diagnostics,
+) -> Generic {
+    let declared = signature.inputs.iter().map(|input| input.ty.as_ref());
+    let declared = declared.chain(signature.outputs.iter().map(|output| output.ty.as_ref()));
+    let mut declared = declared.filter(|ty| is_generic(*ty)).peekable();
+    if declared.peek().is_none() {
+        return Generic::None;
+    }
+    let needs_number = declared.any(|ty| ty == Some(&Type::Number));
+    let mut decided: Option<(Type, Span)> = None;
+    for (input, formula) in signature.inputs.iter().zip(inferred) {
+        let Some(formula) = formula.as_ref().filter(|_| is_generic(input.ty.as_ref())) else {
+            continue;
+        };
+        let Some(formula) = formula else { return Generic::Unknown };
+        decided = match decided {
+            Some((Type::Int, span)) if formula.ty == Type::FLOAT => Some((Type::FLOAT, span)),
+            Some(decided) => Some(decided),
+            None => Some((formula.ty.clone(), formula.span)),
+        };
+    }
+    let has_inputs = signature.inputs.iter().any(|input| is_generic(input.ty.as_ref()));
+    if decided.is_none() && !has_inputs {
+        for (place, entry, _) in &ports.outputs {
+            let Some(entry) = entry.filter(|_| is_generic(signature.outputs[*place].ty.as_ref()))
+            else {
+                continue;
+            };
+            let found = scope.entries.iter().find(|known| known.name.text == entry.text);
+            let Some(ty) = found.and_then(|found| found.ty.clone()) else {
+                return Generic::Unknown;
+            };
+            decided = decided.or(Some((ty, entry.span)));
+        }
+    }
+    let Some((ty, span)) = decided else {
+        // An input without a value is reported as such.
+        return if has_inputs || !ports.complete { Generic::Unknown } else { Generic::Undecided };
+    };
+    if needs_number && !ty.is_numeric() {
+        let message = format!("expected a number, found {}", a_type(&ty));
+        diags.push(
+            Diagnostic::new(Code::E0206, span, message).help("use an int, a float or a quantity"),
+        );
+        return Generic::Unknown;
+    }
+    Generic::Is(ty)
+}
+
+/// The type of a port in this instance.
+pub(super) fn actual<'a>(declared: Option<&'a Type>, generic: &'a Generic) -> Option<&'a Type> {
+    match (declared, generic) {
+        (Some(Type::Any | Type::Number), Generic::Is(ty)) => Some(ty),
+        (Some(Type::Any | Type::Number) | None, _) => None,
+        (declared, _) => declared,
+    }
+}

@@ -1,0 +1,112 @@
+//! Outputs: each goes to an entry of its own that the plan may write.
+
+use crate::check::bindings::Ports;
+use crate::check::bindings::generic::{Generic, actual};
+use crate::check::convert::{conversion, remark};
+use crate::check::formula::Scope;
+use crate::check::names::unknown;
+use crate::check::signature::Signature;
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::graph::{EntryId, EntryKind, Output};
+use crate::syntax::ast::Name;
+use crate::types::Type;
+use crate::words::a_type;
+
+/// The outputs that are bound; `None` when something is wrong with one of them.
+pub(super) fn check(
+    scope: &Scope<'_>,
+    signature: &Signature,
+    ports: &Ports<'_>,
+    generic: &Generic,
+    diags: &mut Diagnostics,
+) -> Option<Vec<Output>> {
+    let mut outputs = Vec::new();
+    let mut complete = ports.complete;
+    let mut written: Vec<&Name> = Vec::new();
+    for (place, entry, formula) in &ports.outputs {
+        if let Some(formula) = formula {
+            let name = &signature.outputs[*place].name;
+            diags.push(
+                Diagnostic::new(
+                    Code::E0219,
+                    formula.span(),
+                    "an output goes to an entry, not into a formula",
+                )
+                .help(format!("name an entry, and use it in the formulas that read '{name}'")),
+            );
+        }
+        let Some(entry) = entry else {
+            complete = false;
+            continue;
+        };
+        if let Some(first) = written.iter().find(|known| known.text == entry.text) {
+            let message = format!("two outputs go to '{}'", entry.text);
+            diags.push(
+                Diagnostic::new(Code::E0220, entry.span, message)
+                    .note(first.span, "the other one")
+                    .help("use another entry for one of them"),
+            );
+            continue;
+        }
+        written.push(entry);
+        let ty = actual(signature.outputs[*place].ty.as_ref(), generic);
+        match output(scope, *place, ty, entry, diags) {
+            Some(output) => outputs.push(output),
+            None => complete = false,
+        }
+    }
+    complete.then_some(outputs)
+}
+
+fn output(
+    scope: &Scope<'_>,
+    port: usize,
+    ty: Option<&Type>,
+    entry: &Name,
+    diags: &mut Diagnostics,
+) -> Option<Output> {
+    let Some(place) = scope.entries.iter().position(|known| known.name.text == entry.text) else {
+        let writable =
+            scope.entries.iter().filter(|e| matches!(e.kind, EntryKind::Var | EntryKind::Out));
+        let known = writable.map(|known| known.name.text.as_str());
+        let message = format!("there is no entry '{}'", entry.text);
+        let none = format!("declare it in the plan, such as 'var {}: float'", entry.text);
+        diags.push(unknown(Code::E0209, entry.span, message, &entry.text, known, &none));
+        return None;
+    };
+    let target = &scope.entries[place];
+    let word = match target.kind {
+        EntryKind::In => Some("in"),
+        EntryKind::Const => Some("const"),
+        EntryKind::Var | EntryKind::Out => None,
+    };
+    if let Some(word) = word {
+        let message = format!("'{}' is an entry that the plan does not write", entry.text);
+        diags.push(
+            Diagnostic::new(Code::E0219, entry.span, message)
+                .note(target.name.span, format!("declared as '{word}' here"))
+                .help("use an entry declared with 'var' or 'out'"),
+        );
+        return None;
+    }
+    let (ty, entry_ty) = (ty?, target.ty.as_ref()?);
+    let Ok(conversion) = conversion(ty, entry_ty) else {
+        let numeric = ty.is_numeric() && entry_ty.is_numeric();
+        let code = if numeric { Code::E0204 } else { Code::E0206 };
+        let message = format!("the output is {}, the entry is {}", a_type(ty), a_type(entry_ty));
+        diags.push(
+            Diagnostic::new(code, entry.span, message)
+                .note(target.name.span, "the entry is declared here")
+                .help(format!("use an entry that is {}", a_type(ty))),
+        );
+        return None;
+    };
+    if let Some(conversion) = &conversion {
+        remark(conversion, entry.span, diags);
+    }
+    Some(Output {
+        port: u16::try_from(port).ok()?,
+        entry: EntryId(u16::try_from(place).ok()?),
+        conversion,
+    })
+}
