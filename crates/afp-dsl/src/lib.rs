@@ -6,6 +6,7 @@ mod check;
 pub mod codegen;
 mod compile;
 pub mod diagnostics;
+pub mod draw;
 pub mod graph;
 pub mod source;
 pub mod syntax;

@@ -5,6 +5,7 @@
 
 use crate::graph::{Formula, FormulaKind, Operator, Plan};
 use crate::source::Sources;
+use crate::toolbox::Constant;
 use crate::types::literal::parse_value;
 use crate::types::units::{RADIANS_PER_DEGREE, Unit};
 use crate::types::{Conversion, Dimension, Type};
@@ -71,13 +72,14 @@ fn in_unit(value: f64, dimension: Dimension, unit_text: &str) -> Option<String> 
     let text = format!("{} {unit_text}", number(rounded));
     let ty = Type::Quantity(dimension);
     let back = parse_value(&text, &ty).ok()?;
-    (back == crate::toolbox::Constant::Float(value)).then_some(text)
+    (back == Constant::Float(value)).then_some(text)
 }
 
 /// A plain number in the spelling of literals.
 fn number(value: f64) -> String {
     let plain = value.to_string();
-    if plain.len() <= 12 { plain } else { [plain, format!("{value:e}")].into_iter().min_by_key(String::len).unwrap_or_default() }
+    let short = format!("{value:e}");
+    if plain.len() > 12 && short.len() < plain.len() { short } else { plain }
 }
 
 fn printed(formula: &Formula, plan: &Plan) -> String {
@@ -98,7 +100,6 @@ fn printed(formula: &Formula, plan: &Plan) -> String {
             let (left, right) = (operand(left, plan, level), operand(right, plan, level + 1));
             format!("{left} {} {right}", sign(*operator))
         }
-        // A value read from text is no literal, so it keeps its text; so does any other.
         FormulaKind::Convert(conversion, inner) => converted(conversion, inner, plan),
     }
 }

@@ -1,0 +1,75 @@
+//! Drawings of plans: the paper's notation as SVG, GraphViz text, and the graph as JSON.
+//!
+//! All three read the static graph alone; a caller that has the plan's text at hand passes it along
+//! and gets formulas as they were written.
+
+mod card;
+mod dot;
+pub mod formula;
+mod json;
+mod layout;
+mod metrics;
+mod sketch;
+mod svg;
+mod view;
+
+#[cfg(test)]
+mod sample;
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
+
+use crate::source::Sources;
+use crate::toolbox::Toolbox;
+
+pub use dot::dot;
+pub use json::json;
+pub use svg::svg;
+
+/// Finds the SVG text of an icon that a template of a toolbox names.
+pub type Icons<'a> = &'a dyn Fn(&Toolbox, &str) -> Option<String>;
+
+/// What a drawing can use besides the graph. The default draws a plan from its graph alone, for
+/// light and dark pages, with its sub-plans below.
+#[derive(Clone, Copy)]
+pub struct Options<'a> {
+    /// The texts that the spans of the graph point into; formulas are then shown as written.
+    pub sources: Option<&'a Sources>,
+    /// Where icons come from; without one, and for icons that it does not know, each kind of
+    /// element has a simple picture of its own.
+    pub icons: Option<Icons<'a>>,
+    /// The colours of an SVG.
+    pub theme: Theme,
+    /// Whether an SVG or a GraphViz text shows the bodies of sub-plans too.
+    pub sub_plans: bool,
+}
+
+/// The colours of a drawing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Theme {
+    /// Those of the reader's system.
+    #[default]
+    Auto,
+    /// Dark on light.
+    Light,
+    /// Light on dark.
+    Dark,
+}
+
+impl Default for Options<'_> {
+    fn default() -> Self {
+        Options { sources: None, icons: None, theme: Theme::Auto, sub_plans: true }
+    }
+}
+
+impl fmt::Debug for Options<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Options")
+            .field("sources", &self.sources.is_some())
+            .field("icons", &self.icons.is_some())
+            .field("theme", &self.theme)
+            .field("sub_plans", &self.sub_plans)
+            .finish()
+    }
+}

@@ -1,0 +1,156 @@
+//! Supervisors that lean on the right side of a box.
+
+use super::super::formula::duration;
+use super::super::metrics::width;
+use super::super::sketch::{Anchor, Frame, Glyph, Label, Picture, Rect, Shape, Sketch};
+use super::super::view::{Exit, Input, View};
+use super::parts::{
+    PORT_SIZE, ROW, STAND_OUT, chip_width, exit_right, inflow, outflow, pill_width, reach_right,
+};
+use super::{Card, REACH, bound};
+use crate::graph::Supervisor;
+
+/// Sizes of texts in pixels.
+const NAME: f64 = 12.0;
+const TEMPLATE: f64 = 10.5;
+
+/// Distance above, between and below supervisors.
+const GAP: f64 = 7.0;
+
+/// Least height: icon, name and template.
+const LEAST: f64 = 44.0;
+
+/// The supervisors of one box, measured.
+pub(super) struct Stack<'a> {
+    rows: Vec<Row<'a>>,
+    /// Width of the part with the icon and the names.
+    head: f64,
+    /// Width of the part with events and ports.
+    ports: f64,
+    /// Height of all together; 0 without supervisors.
+    pub(super) height: f64,
+}
+
+struct Row<'a> {
+    supervisor: &'a Supervisor,
+    template: String,
+    events: Vec<Exit<'a>>,
+    inputs: Vec<Input<'a>>,
+    outputs: Vec<(&'a str, &'a str)>,
+}
+
+impl<'a> Stack<'a> {
+    pub(super) fn new(view: &View<'a>, supervisors: &[&'a Supervisor]) -> Stack<'a> {
+        let rows: Vec<_> = supervisors.iter().map(|each| Row::new(view, each)).collect();
+        let head = rows.iter().map(Row::head).fold(0.0, f64::max);
+        let ports = rows.iter().map(Row::ports).fold(0.0, f64::max);
+        let heights: f64 = rows.iter().map(|row| row.height() + GAP).sum();
+        let height = if rows.is_empty() { 0.0 } else { GAP + heights };
+        Stack { rows, head, ports, height }
+    }
+
+    /// Draws the supervisors on the right side of `rect` and widens the card accordingly.
+    pub(super) fn attach(self, view: &View<'a>, card: &mut Card<'a>, rect: Rect) {
+        let mut y = rect.y + GAP;
+        let width = self.head + self.ports;
+        for row in &self.rows {
+            let own = Rect { x: rect.right(), y, width, height: row.height() };
+            row.draw(view, card, own);
+            card.width = card.width.max(own.right() + row.reach());
+            y = own.bottom() + GAP;
+        }
+        card.height = card.height.max(rect.y + self.height);
+    }
+}
+
+impl<'a> Row<'a> {
+    fn new(view: &View<'a>, supervisor: &'a Supervisor) -> Row<'a> {
+        let template = view.graph.template(supervisor.template);
+        let mut name = template.name.clone();
+        if template.every != supervisor.every {
+            name += &format!(" · every {}", duration(supervisor.every));
+        }
+        Row {
+            supervisor,
+            template: name,
+            events: view.events(supervisor),
+            inputs: bound(view.supervisor_inputs(supervisor)),
+            outputs: view.supervisor_outputs(supervisor),
+        }
+    }
+
+    fn head(&self) -> f64 {
+        let name = width(&self.supervisor.name, NAME, true);
+        36.0 + name.max(width(&self.template, TEMPLATE, false)) + 16.0
+    }
+
+    fn ports(&self) -> f64 {
+        let events = self.events.iter().map(|event| chip_width(event.name) - STAND_OUT);
+        let inputs = self.inputs.iter().map(|input| input.port);
+        let names = inputs.chain(self.outputs.iter().map(|(port, _)| *port));
+        events.chain(names.map(|name| width(name, PORT_SIZE, false) + 10.0)).fold(0.0, f64::max)
+    }
+
+    fn height(&self) -> f64 {
+        let rows = self.events.len() + self.inputs.len() + self.outputs.len();
+        LEAST.max(rows as f64 * ROW + 8.0)
+    }
+
+    /// How far it reaches to the right of its box.
+    fn reach(&self) -> f64 {
+        let texts = self.inputs.iter().map(|input| input.text.as_str());
+        let data = texts.chain(self.outputs.iter().map(|(_, entry)| *entry));
+        let data = data.map(|text| REACH + pill_width(text));
+        data.chain(self.events.iter().map(reach_right)).fold(0.0, f64::max)
+    }
+
+    fn draw(&self, view: &View<'a>, card: &mut Card<'a>, rect: Rect) {
+        let title = self.title();
+        let shape = Shape::Leaning(8.0);
+        card.sketch.frames.push(Frame { rect, shape, class: "supervisor", title });
+        self.heading(view, &mut card.sketch, rect);
+        let single = self.events.len() == 1 && self.inputs.is_empty() && self.outputs.is_empty();
+        let mut y = if single { rect.y + rect.height / 2.0 } else { rect.y + 4.0 + ROW / 2.0 };
+        for event in &self.events {
+            exit_right(card, (rect.right(), y), event);
+            y += ROW;
+        }
+        for input in &self.inputs {
+            inflow(&mut card.sketch, (rect.right(), y), input, REACH, Anchor::End);
+            y += ROW;
+        }
+        for (port, entry) in &self.outputs {
+            outflow(&mut card.sketch, (rect.right(), y), port, entry, REACH, Anchor::End);
+            y += ROW;
+        }
+    }
+
+    fn title(&self) -> String {
+        let Supervisor { name, doc, every, deadline, .. } = self.supervisor;
+        let timing = format!("every {}, deadline {}", duration(*every), duration(*deadline));
+        let head = format!("{name}: {}\n{timing}", self.template);
+        if doc.is_empty() { head } else { format!("{head}\n{doc}") }
+    }
+
+    fn heading(&self, view: &View<'a>, sketch: &mut Sketch<'a>, rect: Rect) {
+        sketch.pictures.push(Picture {
+            x: rect.x + 10.0,
+            y: rect.y + 12.0,
+            size: 20.0,
+            class: "supervisor",
+            icon: view.icon(self.supervisor.template),
+            fallback: Glyph::Supervisor,
+        });
+        let label = |text: &str, y, size, bold, class| Label {
+            x: rect.x + 38.0,
+            y: rect.y + y,
+            text: text.to_owned(),
+            size,
+            bold,
+            anchor: Anchor::Start,
+            class,
+        };
+        sketch.labels.push(label(&self.supervisor.name, 20.0, NAME, true, "name"));
+        sketch.labels.push(label(&self.template, 34.0, TEMPLATE, false, "template"));
+    }
+}

@@ -1,0 +1,117 @@
+//! Orders the items of each layer so that few edges cross.
+//!
+//! A few sweeps by mean position give a start; then single items move for as long as that helps.
+//! Crossings are counted where they will be seen: in the channels, each pair of edges at its best.
+
+use super::channel::{Wire, crossings};
+use super::grid::Grid;
+
+/// Pairs of edges that are compared at most; large plans stop improving here.
+const BUDGET: u64 = 2_500_000;
+
+/// Crossings that one pixel of horizontal way is worth.
+const LENGTH: f64 = 0.0005;
+
+/// Sweeps by mean position.
+const SWEEPS: usize = 8;
+
+/// Reorders the items of each layer and leaves them packed side by side.
+pub(super) fn improve(grid: &mut Grid) {
+    let mut work = 0;
+    for layer in 0..grid.layers.len() {
+        pack(grid, layer);
+    }
+    let mut best = (total(grid, &mut work), grid.layers.clone());
+    for sweep in 0..SWEEPS {
+        let count = grid.layers.len();
+        for step in 0..count {
+            sort_by_means(grid, if sweep % 2 == 0 { step } else { count - 1 - step });
+        }
+        let cost = total(grid, &mut work);
+        if cost < best.0 {
+            best = (cost, grid.layers.clone());
+        }
+    }
+    grid.layers = best.1;
+    for layer in 0..grid.layers.len() {
+        pack(grid, layer);
+    }
+    while work < BUDGET && (0..grid.layers.len()).any(|layer| move_items(grid, layer, &mut work)) {}
+}
+
+/// Puts the items of a layer side by side, centred.
+fn pack(grid: &mut Grid, layer: usize) {
+    let items = grid.layers[layer].clone();
+    let mut x = 0.0;
+    let mut previous = None;
+    for item in &items {
+        x += previous.map_or(0.0, |previous| grid.gap(previous, *item));
+        grid.items[*item].x = x;
+        x += grid.items[*item].width;
+        previous = Some(*item);
+    }
+    for item in items {
+        grid.items[item].x -= x / 2.0;
+    }
+}
+
+fn sort_by_means(grid: &mut Grid, layer: usize) {
+    let mut means = vec![(0.0, 0_u32); grid.items.len()];
+    for net in grid.channels[layer].iter().chain(&grid.channels[layer + 1]) {
+        let [start, end] = &grid.nets[*net].ends;
+        for (own, other) in [(start, end), (end, start)] {
+            let mean = &mut means[own.item];
+            mean.0 += grid.x(other) - own.offset;
+            mean.1 += 1;
+        }
+    }
+    let key = |item: &usize| match means[*item] {
+        (_, 0) => grid.items[*item].x,
+        (sum, count) => sum / f64::from(count),
+    };
+    let mut order = grid.layers[layer].clone();
+    order.sort_by(|a, b| key(a).total_cmp(&key(b)));
+    grid.layers[layer] = order;
+    pack(grid, layer);
+}
+
+fn total(grid: &Grid, work: &mut u64) -> f64 {
+    (0..grid.channels.len()).map(|channel| cost(grid, channel, work)).sum()
+}
+
+fn cost(grid: &Grid, channel: usize, work: &mut u64) -> f64 {
+    let wires: Vec<_> = grid.channels[channel]
+        .iter()
+        .map(|net| Wire { ends: grid.nets[*net].ends.map(|end| (grid.x(&end), end.above)) })
+        .collect();
+    let lengths = wires.iter().map(|wire| wire.range().1 - wire.range().0);
+    crossings(&wires, work) + LENGTH * lengths.sum::<f64>()
+}
+
+/// Moves each item of a layer to its best place; says whether anything improved.
+fn move_items(grid: &mut Grid, layer: usize, work: &mut u64) -> bool {
+    let mut improved = false;
+    let around =
+        |grid: &Grid, work: &mut u64| cost(grid, layer, work) + cost(grid, layer + 1, work);
+    for item in grid.layers[layer].clone() {
+        if *work >= BUDGET {
+            break;
+        }
+        let before = grid.layers[layer].clone();
+        let mut best = (around(grid, work) - 1e-6, before.clone());
+        for place in 0..before.len() {
+            let mut order: Vec<_> = before.iter().copied().filter(|each| *each != item).collect();
+            order.insert(place, item);
+            grid.layers[layer] = order;
+            pack(grid, layer);
+            let cost = around(grid, work);
+            if cost < best.0 {
+                best = (cost, grid.layers[layer].clone());
+            }
+        }
+        improved |= best.1 != before;
+        grid.layers[layer] = best.1;
+        pack(grid, layer);
+    }
+    improved
+}

@@ -1,0 +1,242 @@
+//! Gives the items of each layer their abscissas.
+//!
+//! Every net pulls its two ends together. Layer after layer, the places that minimise the squared
+//! pull under the given order and gaps are found exactly (pooling adjacent violators), a number of
+//! times over. In later rounds the ways of one edge want to be on one line, and in the end they are
+//! put there where neighbours leave room.
+
+use super::grid::{Grid, LINE, Terminal};
+
+/// How often all layers are placed anew, first freely, then with the ways of an edge on a line.
+const ROUNDS: usize = 30;
+const ROUNDS_IN_LINE: usize = 30;
+
+/// How strongly a way is drawn to the line of its edge.
+const IN_LINE: f64 = 12.0;
+
+/// A bend of fewer pixels looks like a mistake.
+const JOG: f64 = 2.0 * LINE;
+
+/// How much weaker an arrival is drawn to the middle of its box than to a place on it.
+const TO_MIDDLE: f64 = 0.08;
+
+/// Finds the abscissas; the leftmost item ends at 0.
+pub(super) fn place(grid: &mut Grid) {
+    let count = grid.layers.len();
+    for round in 0..ROUNDS + ROUNDS_IN_LINE {
+        let lines = if round < ROUNDS { vec![None; grid.items.len()] } else { lines(grid) };
+        for step in 0..count {
+            place_layer(grid, if round % 2 == 0 { step } else { count - 1 - step }, &lines);
+        }
+    }
+    for _ in 0..3 {
+        straighten(grid);
+        for item in 0..grid.items.len() {
+            nudge(grid, item);
+        }
+    }
+    straighten(grid);
+    let left = grid.items.iter().map(|item| item.x).fold(f64::INFINITY, f64::min);
+    for item in &mut grid.items {
+        item.x -= left;
+    }
+}
+
+/// The mean of the ways of its edge, for each way.
+fn lines(grid: &Grid) -> Vec<Option<f64>> {
+    let mut lines = vec![None; grid.items.len()];
+    for chain in &grid.chains {
+        let ways = ways(grid, chain);
+        let sum: f64 = ways.iter().map(|way| grid.items[*way].x).sum();
+        for way in &ways {
+            lines[*way] = Some(sum / ways.len() as f64);
+        }
+    }
+    lines
+}
+
+fn ways(grid: &Grid, chain: &[usize]) -> Vec<usize> {
+    chain.iter().skip(1).map(|net| grid.nets[*net].ends[0].item).collect()
+}
+
+fn place_layer(grid: &mut Grid, layer: usize, lines: &[Option<f64>]) {
+    let mut wishes = vec![(0.0, 0.0); grid.items.len()];
+    let mut add = |item: usize, weight: f64, x: f64| {
+        wishes[item].0 += weight * x;
+        wishes[item].1 += weight;
+    };
+    for item in &grid.layers[layer] {
+        if let Some(x) = lines[*item] {
+            add(*item, IN_LINE, x);
+        }
+    }
+    for net in grid.channels[layer].iter().chain(&grid.channels[layer + 1]) {
+        let [start, end] = grid.nets[*net].ends;
+        let weight = weight(grid, &start, &end);
+        let x = |end: &Terminal| grid.items[end.item].x;
+        for (own, other) in [(start, end), (end, start)] {
+            let there = x(&other) + offset(grid, &other, &own);
+            add(own.item, weight, there - offset(grid, &own, &other));
+            if own.arrival.or(other.arrival).is_some() {
+                add(own.item, TO_MIDDLE * weight, x(&other) + other.offset - own.offset);
+            }
+        }
+    }
+    let order = grid.layers[layer].clone();
+    let mut shift = 0.0;
+    let mut shifts = Vec::with_capacity(order.len());
+    let mut wanted = Vec::with_capacity(order.len());
+    for (index, item) in order.iter().enumerate() {
+        if let Some(previous) = index.checked_sub(1).map(|place| order[place]) {
+            shift += grid.items[previous].width + grid.gap(previous, *item);
+        }
+        let (sum, weight) = wishes[*item];
+        let wish = if weight > 0.0 { sum / weight } else { grid.items[*item].x };
+        shifts.push(shift);
+        wanted.push((wish - shift, weight.max(1e-3)));
+    }
+    for (place, value) in non_decreasing(&wanted).into_iter().enumerate() {
+        grid.items[order[place]].x = value + shifts[place];
+    }
+}
+
+/// How strongly a net pulls.
+fn weight(grid: &Grid, start: &Terminal, end: &Terminal) -> f64 {
+    if start.above == end.above {
+        return 0.2;
+    }
+    match (grid.items[start.item].node, grid.items[end.item].node) {
+        (None, None) => 8.0,
+        (Some(_), Some(_)) => 3.0,
+        _ => 1.0,
+    }
+}
+
+/// The offset of a terminal; of an arrival the one that makes the edge straightest.
+fn offset(grid: &Grid, terminal: &Terminal, other: &Terminal) -> f64 {
+    match terminal.arrival {
+        None => terminal.offset,
+        Some((left, right)) => {
+            let wish = grid.x(other) - grid.items[terminal.item].x;
+            wish.max(left).min(right)
+        }
+    }
+}
+
+/// The non-decreasing sequence nearest to the wanted values by weighted squares.
+fn non_decreasing(wanted: &[(f64, f64)]) -> Vec<f64> {
+    // Each block holds its mean, its weight and its length.
+    let mut blocks: Vec<(f64, f64, usize)> = Vec::new();
+    for (value, weight) in wanted {
+        let mut block = (*value, *weight, 1);
+        while let Some((mean, weight, length)) = blocks.pop_if(|last| last.0 > block.0) {
+            let sum = weight + block.1;
+            block = ((mean * weight + block.0 * block.1) / sum, sum, length + block.2);
+        }
+        blocks.push(block);
+    }
+    blocks.into_iter().flat_map(|(mean, _, length)| std::iter::repeat_n(mean, length)).collect()
+}
+
+/// Gives the ways of each edge one abscissa, as far as neighbours leave room for that.
+fn straighten(grid: &mut Grid) {
+    for chain in grid.chains.clone() {
+        let ends = |net: &usize| grid.nets[*net].ends;
+        let ways = ways(grid, &chain);
+        let (Some(first), Some(last)) = (chain.first(), chain.last()) else { continue };
+        let start = straight_end(grid, ends(first)[0], ends(first)[1]);
+        let tip = straight_end(grid, ends(last)[1], ends(last)[0]);
+        align(grid, &ways, start.or(tip));
+    }
+}
+
+/// Where a way would have to be for the net to the end of the edge to be straight.
+fn straight_end(grid: &Grid, end: Terminal, way: Terminal) -> Option<f64> {
+    let there = grid.items[end.item].x + offset(grid, &end, &way);
+    (end.above != way.above && (there - grid.x(&way)).abs() < 8.0 * LINE).then_some(there)
+}
+
+/// Puts a row of ways on one line, near `wish`, else near their mean; breaks it where it must.
+fn align(grid: &mut Grid, ways: &[usize], wish: Option<f64>) {
+    let mut rest = ways;
+    while !rest.is_empty() {
+        let mut bounds = (f64::NEG_INFINITY, f64::INFINITY);
+        let mut length = 0;
+        for way in rest {
+            let (left, right) = room(grid, *way);
+            let next = (bounds.0.max(left), bounds.1.min(right));
+            if next.0 > next.1 {
+                break;
+            }
+            bounds = next;
+            length += 1;
+        }
+        // A way always has room where it stands, but for rounding.
+        let (run, after) = rest.split_at(length.max(1));
+        let mean = run.iter().map(|way| grid.items[*way].x).sum::<f64>() / run.len() as f64;
+        let x = wish.unwrap_or(mean).max(bounds.0).min(bounds.1);
+        for way in run {
+            grid.items[*way].x = x;
+        }
+        rest = after;
+    }
+}
+
+/// Moves a node a little when that makes more of its edges straight.
+fn nudge(grid: &mut Grid, item: usize) {
+    if grid.items[item].node.is_none() {
+        return;
+    }
+    let (left, right) = room(grid, item);
+    let bends = bends(grid, item);
+    let jogs = |shift: f64| {
+        let rest = bends.iter().map(|bend| (bend - shift).abs());
+        rest.filter(|bend| (0.5..JOG).contains(bend)).count()
+    };
+    let x = grid.items[item].x;
+    let shifts = bends.iter().copied().filter(|bend| bend.abs() < JOG);
+    let shifts = shifts.filter(|bend| left <= x + bend && x + bend <= right);
+    let best = shifts.min_by_key(|shift| jogs(*shift)).filter(|best| jogs(*best) < jogs(0.0));
+    grid.items[item].x += best.unwrap_or(0.0);
+}
+
+/// How far a node would have to move for each of its edges to be straight.
+fn bends(grid: &Grid, item: usize) -> Vec<f64> {
+    let layer = grid.items[item].layer;
+    let nets = grid.channels[layer].iter().chain(&grid.channels[layer + 1]);
+    let ends = nets.map(|net| grid.nets[*net].ends).filter(|[start, end]| start.above != end.above);
+    let pairs = ends.flat_map(|[start, end]| [(start, end), (end, start)]);
+    let own = pairs.filter(|(own, _)| own.item == item);
+    let bend = |(own, other): (Terminal, Terminal)| {
+        let x = |end: &Terminal| grid.items[end.item].x;
+        x(&other) + offset(grid, &other, &own) - x(&own) - offset(grid, &own, &other)
+    };
+    own.map(bend).collect()
+}
+
+/// How far an item can move between its neighbours.
+pub(super) fn room(grid: &Grid, item: usize) -> (f64, f64) {
+    let order = &grid.layers[grid.items[item].layer];
+    let Some(place) = order.iter().position(|each| *each == item) else {
+        return (f64::NEG_INFINITY, f64::INFINITY);
+    };
+    let left = place.checked_sub(1).map(|place| order[place]);
+    let left =
+        left.map(|other| grid.items[other].x + grid.items[other].width + grid.gap(other, item));
+    let width = grid.items[item].width;
+    let right = order.get(place + 1);
+    let right = right.map(|other| grid.items[*other].x - grid.gap(item, *other) - width);
+    (left.unwrap_or(f64::NEG_INFINITY), right.unwrap_or(f64::INFINITY))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::non_decreasing;
+
+    #[test]
+    fn violators_are_pooled_by_weight() {
+        assert_eq!(non_decreasing(&[(1.0, 1.0), (2.0, 1.0)]), [1.0, 2.0]);
+        assert_eq!(non_decreasing(&[(3.0, 1.0), (0.0, 2.0), (5.0, 1.0)]), [1.0, 1.0, 5.0]);
+        assert_eq!(non_decreasing(&[(3.0, 1.0), (2.0, 1.0), (1.0, 1.0)]), [2.0, 2.0, 2.0]);
+    }
+}

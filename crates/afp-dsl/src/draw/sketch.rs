@@ -1,0 +1,171 @@
+//! What a drawing consists of, before it becomes SVG: frames, labels, pictures and lines.
+//!
+//! Tests measure overlaps here, with the same numbers that are drawn.
+
+use super::metrics;
+use crate::toolbox::Toolbox;
+
+/// A rectangle in pixels, y downwards.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Rect {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) width: f64,
+    pub(super) height: f64,
+}
+
+/// The outline of a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Shape {
+    /// Rounded corners.
+    Round(f64),
+    /// Rounded on the right only, to lean on a box.
+    Leaning(f64),
+    /// Cut corners.
+    Cut(f64),
+    /// Rounded corners and a second line inside.
+    Double(f64),
+}
+
+/// A box.
+#[derive(Clone, Debug)]
+pub(super) struct Frame {
+    pub(super) rect: Rect,
+    pub(super) shape: Shape,
+    pub(super) class: &'static str,
+    /// Its tooltip; empty for none.
+    pub(super) title: String,
+}
+
+/// Where a label's place is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// A line of text.
+#[derive(Clone, Debug)]
+pub(super) struct Label {
+    pub(super) x: f64,
+    /// Ordinate of the baseline.
+    pub(super) y: f64,
+    pub(super) text: String,
+    pub(super) size: f64,
+    pub(super) bold: bool,
+    pub(super) anchor: Anchor,
+    pub(super) class: &'static str,
+}
+
+/// A square picture.
+#[derive(Clone, Debug)]
+pub(super) struct Picture<'a> {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) size: f64,
+    pub(super) class: &'static str,
+    /// The icon of a toolbox.
+    pub(super) icon: Option<(&'a Toolbox, &'a str)>,
+    /// What to draw where that icon is missing.
+    pub(super) fallback: Glyph,
+}
+
+/// The simple pictures that are always there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Glyph {
+    Actor,
+    Computation,
+    SubPlan,
+    Supervisor,
+    Start,
+}
+
+/// A line with an arrow tip at its end.
+#[derive(Clone, Debug)]
+pub(super) struct Arrow {
+    pub(super) points: Vec<(f64, f64)>,
+    pub(super) class: &'static str,
+    /// Flow of action is thick, flow of data is thin.
+    pub(super) thick: bool,
+}
+
+/// A drawing or a part of it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sketch<'a> {
+    pub(super) frames: Vec<Frame>,
+    pub(super) labels: Vec<Label>,
+    pub(super) pictures: Vec<Picture<'a>>,
+    pub(super) arrows: Vec<Arrow>,
+}
+
+impl Rect {
+    pub(super) fn right(&self) -> f64 {
+        self.x + self.width
+    }
+
+    pub(super) fn bottom(&self) -> f64 {
+        self.y + self.height
+    }
+}
+
+impl Label {
+    /// The room it takes.
+    #[cfg(test)]
+    pub(super) fn rect(&self) -> Rect {
+        let width = metrics::width(&self.text, self.size, self.bold);
+        let x = match self.anchor {
+            Anchor::Start => self.x,
+            Anchor::Middle => self.x - width / 2.0,
+            Anchor::End => self.x - width,
+        };
+        Rect { x, y: self.y - 0.8 * self.size, width, height: self.size }
+    }
+}
+
+impl<'a> Sketch<'a> {
+    /// Adds another drawing, moved by `(dx, dy)`.
+    pub(super) fn add(&mut self, other: Sketch<'a>, (dx, dy): (f64, f64)) {
+        self.frames.extend(other.frames.into_iter().map(|mut frame| {
+            frame.rect.x += dx;
+            frame.rect.y += dy;
+            frame
+        }));
+        self.labels.extend(other.labels.into_iter().map(|mut label| {
+            label.x += dx;
+            label.y += dy;
+            label
+        }));
+        self.pictures.extend(other.pictures.into_iter().map(|mut picture| {
+            picture.x += dx;
+            picture.y += dy;
+            picture
+        }));
+        self.arrows.extend(other.arrows.into_iter().map(|mut arrow| {
+            for point in &mut arrow.points {
+                *point = (point.0 + dx, point.1 + dy);
+            }
+            arrow
+        }));
+    }
+
+    /// Adds a frame without tooltip.
+    pub(super) fn frame(&mut self, rect: Rect, shape: Shape, class: &'static str) {
+        self.frames.push(Frame { rect, shape, class, title: String::new() });
+    }
+
+    /// Adds a frame that is as high as a line of text and the text in it.
+    pub(super) fn pill(&mut self, rect: Rect, class: &'static str, text: &str, size: f64) {
+        let title = if metrics::shorten(text) == text { String::new() } else { text.to_owned() };
+        self.frames.push(Frame { rect, shape: Shape::Round(rect.height / 2.0), class, title });
+        self.labels.push(Label {
+            x: rect.x + rect.width / 2.0,
+            y: rect.y + rect.height / 2.0 + 0.36 * size,
+            text: metrics::shorten(text),
+            size,
+            bold: false,
+            anchor: Anchor::Middle,
+            class,
+        });
+    }
+}

@@ -1,0 +1,241 @@
+//! Writes a sketch as SVG elements.
+
+use std::fmt::Write;
+
+use super::super::Options;
+use super::super::sketch::{Anchor, Arrow, Frame, Label, Picture, Rect, Shape, Sketch};
+use super::{icon, style};
+use crate::graph::Plan;
+
+/// Radius of the corners of thick arrows.
+const BEND: f64 = 7.0;
+
+/// Length and half width of arrow tips, thick and thin.
+const THICK_TIP: (f64, f64) = (10.0, 5.5);
+const THIN_TIP: (f64, f64) = (7.0, 3.2);
+
+/// The whole picture.
+pub(super) fn picture(
+    sketch: &Sketch,
+    (width, height): (f64, f64),
+    plan: &Plan,
+    options: &Options,
+) -> String {
+    let (width, height) = (width.ceil(), height.ceil());
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"afp-plan\" role=\"img\" \
+         width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n\
+         <title>{}</title>\n",
+        escaped(&plan.name)
+    );
+    if !plan.doc.is_empty() {
+        line(&mut out, &format!("<desc>{}</desc>", escaped(&plan.doc)));
+    }
+    line(&mut out, &format!("<style>\n{}</style>", style::sheet(options.theme)));
+    line(&mut out, "<rect class=\"page\" width=\"100%\" height=\"100%\"/>");
+    for arrow in &sketch.arrows {
+        paint_arrow(&mut out, arrow);
+    }
+    for frame in &sketch.frames {
+        paint_frame(&mut out, frame);
+    }
+    for picture in &sketch.pictures {
+        paint_picture(&mut out, picture, options);
+    }
+    for label in &sketch.labels {
+        paint_label(&mut out, label);
+    }
+    out + "</svg>\n"
+}
+
+/// A coordinate with one decimal, without trailing zeros.
+pub(super) fn number(value: f64) -> String {
+    let rounded = (value * 10.0).round() / 10.0;
+    // Adding zero turns -0 into 0.
+    (rounded + 0.0).to_string()
+}
+
+fn line(out: &mut String, text: &str) {
+    // Writing to a string cannot fail.
+    let _ = writeln!(out, "{text}");
+}
+
+fn paint_frame(out: &mut String, frame: &Frame) {
+    let title = if frame.title.is_empty() {
+        String::new()
+    } else {
+        format!("<title>{}</title>", escaped(&frame.title))
+    };
+    let class = frame.class;
+    let tail = |title: &str, name: &str| {
+        if title.is_empty() { "/>".to_owned() } else { format!(">{title}</{name}>") }
+    };
+    match frame.shape {
+        Shape::Round(radius) | Shape::Double(radius) => {
+            let rect = rect_attributes(&frame.rect, radius);
+            line(out, &format!("<rect class=\"box {class}\" {rect}{}", tail(&title, "rect")));
+        }
+        Shape::Leaning(radius) => {
+            let path = leaning_path(&frame.rect, radius);
+            let tail = tail(&title, "path");
+            line(out, &format!("<path class=\"box {class}\" d=\"{path}\"{tail}"));
+        }
+        Shape::Cut(cut) => {
+            let path = cut_path(&frame.rect, cut);
+            let tail = tail(&title, "path");
+            line(out, &format!("<path class=\"box {class}\" d=\"{path}\"{tail}"));
+        }
+    }
+    if let Shape::Double(radius) = frame.shape {
+        let Rect { x, y, width, height } = frame.rect;
+        let inner = Rect { x: x + 4.0, y: y + 4.0, width: width - 8.0, height: height - 8.0 };
+        let rect = rect_attributes(&inner, radius - 3.0);
+        line(out, &format!("<rect class=\"inner {class}\" {rect}/>"));
+    }
+}
+
+fn rect_attributes(rect: &Rect, radius: f64) -> String {
+    format!(
+        "x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"{}\"",
+        number(rect.x),
+        number(rect.y),
+        number(rect.width),
+        number(rect.height),
+        number(radius)
+    )
+}
+
+fn leaning_path(rect: &Rect, radius: f64) -> String {
+    let (along, down, r) =
+        (number(rect.width - radius), number(rect.height - 2.0 * radius), number(radius));
+    let (x, y) = (number(rect.x), number(rect.y));
+    format!("M{x} {y}h{along}q{r} 0 {r} {r}v{down}q0 {r} -{r} {r}h-{along}z")
+}
+
+fn cut_path(rect: &Rect, cut: f64) -> String {
+    let (along, down, c) =
+        (number(rect.width - 2.0 * cut), number(rect.height - 2.0 * cut), number(cut));
+    let (x, y) = (number(rect.x + cut), number(rect.y));
+    format!("M{x} {y}h{along}l{c} {c}v{down}l-{c} {c}h-{along}l-{c} -{c}v-{down}z")
+}
+
+fn paint_picture(out: &mut String, picture: &Picture, options: &Options) {
+    let at = (picture.x, picture.y);
+    let own =
+        picture.icon.and_then(|(toolbox, name)| options.icons.and_then(|find| find(toolbox, name)));
+    let own = own.and_then(|svg| icon::embedded(&svg, at, picture.size));
+    let group = own.or_else(|| icon::embedded(icon::glyph(picture.fallback), at, picture.size));
+    if let Some(group) = group {
+        line(out, &format!("<g class=\"icon {}\">{group}</g>", picture.class));
+    }
+}
+
+fn paint_label(out: &mut String, label: &Label) {
+    let anchor = match label.anchor {
+        Anchor::Start => "",
+        Anchor::Middle => " text-anchor=\"middle\"",
+        Anchor::End => " text-anchor=\"end\"",
+    };
+    let bold = if label.bold { " bold" } else { "" };
+    let (x, y, class) = (number(label.x), number(label.y), label.class);
+    let (size, text) = (number(label.size), escaped(&label.text));
+    line(
+        out,
+        &format!(
+            "<text class=\"{class}{bold}\" x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{anchor}>{text}</text>"
+        ),
+    );
+}
+
+fn paint_arrow(out: &mut String, arrow: &Arrow) {
+    let [.., before, end] = arrow.points[..] else { return };
+    let (length, half) = if arrow.thick { THICK_TIP } else { THIN_TIP };
+    let (dx, dy) = direction(before, end);
+    let neck = (end.0 - dx * length, end.1 - dy * length);
+    let mut points = arrow.points.clone();
+    if let Some(last) = points.last_mut() {
+        // The line ends inside the tip, so that no seam shows.
+        *last = (neck.0 + dx, neck.1 + dy);
+    }
+    let path = bent_path(&points);
+    let class = arrow.class;
+    if arrow.thick {
+        // A gap in the line below makes a crossing readable.
+        line(out, &format!("<path class=\"halo\" d=\"{path}\"/>"));
+    }
+    let kind = if arrow.thick { "flow" } else { "thin" };
+    line(out, &format!("<path class=\"{kind} {class}\" d=\"{path}\"/>"));
+    let corner = |side: f64| {
+        format!("{} {}", number(neck.0 - dy * half * side), number(neck.1 + dx * half * side))
+    };
+    let tip = format!("M{} {}L{}L{}z", number(end.0), number(end.1), corner(1.0), corner(-1.0));
+    line(out, &format!("<path class=\"tip {class}\" d=\"{tip}\"/>"));
+}
+
+/// The unit vector along a vertical or horizontal line.
+fn direction(from: (f64, f64), to: (f64, f64)) -> (f64, f64) {
+    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+    if dx.abs() > dy.abs() { (dx.signum(), 0.0) } else { (0.0, dy.signum()) }
+}
+
+/// A polyline with rounded corners.
+fn bent_path(points: &[(f64, f64)]) -> String {
+    let text = |(x, y): (f64, f64)| format!("{} {}", number(x), number(y));
+    let Some(first) = points.first() else { return String::new() };
+    let mut path = format!("M{}", text(*first));
+    for corner in points.windows(3) {
+        let [before, at, after] = corner else { continue };
+        let radius = BEND.min(distance(*before, *at) / 2.0).min(distance(*at, *after) / 2.0);
+        let (into, out) = (direction(*before, *at), direction(*at, *after));
+        let from = (at.0 - into.0 * radius, at.1 - into.1 * radius);
+        let to = (at.0 + out.0 * radius, at.1 + out.1 * radius);
+        let _ = write!(path, "L{}Q{} {}", text(from), text(*at), text(to));
+    }
+    if let [_, .., last] = points {
+        let _ = write!(path, "L{}", text(*last));
+    }
+    path
+}
+
+/// Along right-angled lines.
+fn distance(a: (f64, f64), b: (f64, f64)) -> f64 {
+    (a.0 - b.0).abs() + (a.1 - b.1).abs()
+}
+
+/// Text for XML content and attributes; control characters that XML forbids are left out.
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => out += "&amp;",
+            '<' => out += "&lt;",
+            '>' => out += "&gt;",
+            '"' => out += "&quot;",
+            '\n' | '\t' => out.push(character),
+            control if control.is_control() || matches!(control, '\u{fffe}' | '\u{ffff}') => {}
+            plain => out.push(plain),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{bent_path, escaped, number};
+
+    #[test]
+    fn texts_are_escaped() {
+        assert_eq!(escaped("a<b & \"c\"\u{1}"), "a&lt;b &amp; &quot;c&quot;");
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!([1.0, 1.04, -0.04, 2.55].map(number), ["1", "1", "0", "2.6"]);
+    }
+
+    #[test]
+    fn corners_are_rounded_as_far_as_there_is_room() {
+        let path = bent_path(&[(0.0, 0.0), (0.0, 20.0), (4.0, 20.0)]);
+        assert_eq!(path, "M0 0L0 18Q0 20 2 20L4 20");
+    }
+}

@@ -1,0 +1,88 @@
+//! The colours and fonts of the SVG, for light and dark pages.
+
+use super::super::Theme;
+
+/// What does not depend on the theme. Everything is scoped to one class, since the picture may
+/// stand inside a page with styles of its own.
+const COMMON: &str = "\
+.afp-plan{font-family:system-ui,-apple-system,'Segoe UI',Roboto,'Helvetica Neue',Arial,sans-serif}
+.afp-plan .bold{font-weight:600}
+.afp-plan rect,.afp-plan path.box{stroke-width:1.4}
+.afp-plan .inner{fill:none}
+.afp-plan .flow{fill:none;stroke-width:2.4;stroke-linejoin:round}
+.afp-plan .halo{fill:none;stroke-width:7}
+.afp-plan .thin{fill:none;stroke-width:1.2}
+.afp-plan .flow.error{stroke-dasharray:7 4}
+.afp-plan .flow.missed{stroke-dasharray:2 4}
+.afp-plan rect.formula{stroke-dasharray:3 2}
+.afp-plan rect.ignore{stroke-dasharray:3 3}
+";
+
+/// Selector below `.afp-plan`, declarations on light, declarations on dark.
+const RULES: &[(&str, &str, &str)] = &[
+    (".page", "fill:#ffffff;stroke:none", "fill:#12161d;stroke:none"),
+    (".halo", "stroke:#ffffff", "stroke:#12161d"),
+    ("text", "fill:#1c2430", "fill:#e6ebf2"),
+    ("text.template,text.port", "fill:#5b6675", "fill:#9aa7b8"),
+    (".box.actor", "fill:#f3f7fd;stroke:#5b7fb5", "fill:#1b2635;stroke:#5f86c0"),
+    (".icon.actor", "color:#2559a8", "color:#8ab4f0"),
+    (".box.computation", "fill:#fdf7e4;stroke:#b08a2a", "fill:#2b2618;stroke:#c29b3c"),
+    (".icon.computation", "color:#8a6612", "color:#e3c06a"),
+    (".box.subplan", "fill:#f4f1fd;stroke:#7b68c4", "fill:#231f35;stroke:#8f7dd8"),
+    (".inner.subplan", "stroke:#7b68c4", "stroke:#8f7dd8"),
+    (".icon.subplan", "color:#5a45ad", "color:#b6a6f5"),
+    (".box.supervisor", "fill:#fff5ec;stroke:#d08a4e", "fill:#2c2119;stroke:#b87a45"),
+    (".icon.supervisor", "color:#b45309", "color:#f0a868"),
+    (".box.start", "fill:#1f2b3d;stroke:#1f2b3d", "fill:#dfe7f2;stroke:#dfe7f2"),
+    ("text.start", "fill:#ffffff", "fill:#12161d"),
+    (".icon.start", "color:#7ddba3", "color:#1a7f46"),
+    (".flow.start", "stroke:#1f2b3d", "stroke:#dfe7f2"),
+    (".tip.start", "fill:#1f2b3d", "fill:#dfe7f2"),
+    (".box.configuration", "fill:#f7fbfa;stroke:#b9d8d1", "fill:#15201f;stroke:#31514b"),
+    (".box.entry", "fill:#cdeee6;stroke:#2c8c7a", "fill:#17443c;stroke:#41a592"),
+    (".box.formula", "fill:#ffffff;stroke:#2c8c7a", "fill:#12161d;stroke:#41a592"),
+    ("text.entry,text.formula", "fill:#0d4d41", "fill:#bdeee3"),
+    (".thin.data", "stroke:#2c8c7a", "stroke:#41a592"),
+    (".tip.data", "fill:#2c8c7a", "fill:#41a592"),
+    (".box.state", "fill:#2f66b8;stroke:#2f66b8", "fill:#3a70c2;stroke:#3a70c2"),
+    (".flow.state", "stroke:#2f66b8", "stroke:#6c9fe6"),
+    (".tip.state", "fill:#2f66b8", "fill:#6c9fe6"),
+    (".box.event", "fill:#c65d14;stroke:#c65d14", "fill:#b9571a;stroke:#b9571a"),
+    (".flow.event", "stroke:#d0702c", "stroke:#e0894a"),
+    (".tip.event", "fill:#d0702c", "fill:#e0894a"),
+    (".box.error", "fill:#b3263a;stroke:#b3263a", "fill:#b8354a;stroke:#b8354a"),
+    (".flow.error", "stroke:#b3263a", "stroke:#e0677a"),
+    (".tip.error", "fill:#b3263a", "fill:#e0677a"),
+    (".box.missed", "fill:#8a3fa0;stroke:#8a3fa0", "fill:#8a4a9e;stroke:#8a4a9e"),
+    (".flow.missed", "stroke:#8a3fa0", "stroke:#c58ad6"),
+    (".tip.missed", "fill:#8a3fa0", "fill:#c58ad6"),
+    ("text.state,text.event,text.error,text.missed", "fill:#ffffff", "fill:#ffffff"),
+    (".box.terminate", "fill:#1f2b3d;stroke:#1f2b3d", "fill:#dfe7f2;stroke:#dfe7f2"),
+    ("text.terminate", "fill:#ffffff", "fill:#12161d"),
+    (".box.ignore", "fill:#ffffff;stroke:#8b95a3", "fill:#12161d;stroke:#8b95a3"),
+    ("text.ignore", "fill:#5b6675", "fill:#9aa7b8"),
+];
+
+/// The style sheet of a theme.
+pub(super) fn sheet(theme: Theme) -> String {
+    let light = || rules(|rule| rule.1);
+    let dark = || rules(|rule| rule.2);
+    let colours = match theme {
+        Theme::Light => light(),
+        Theme::Dark => dark(),
+        Theme::Auto => {
+            format!("{}@media (prefers-color-scheme:dark){{\n{}}}\n", light(), dark())
+        }
+    };
+    format!("{COMMON}{colours}")
+}
+
+type Rule = (&'static str, &'static str, &'static str);
+
+fn rules(declarations: impl Fn(&Rule) -> &'static str) -> String {
+    let scoped = |selectors: &str| {
+        let scoped = selectors.split(',').map(|selector| format!(".afp-plan {selector}"));
+        scoped.collect::<Vec<_>>().join(",")
+    };
+    RULES.iter().map(|rule| format!("{}{{{}}}\n", scoped(rule.0), declarations(rule))).collect()
+}

@@ -1,0 +1,220 @@
+//! Tests of whole drawings: nothing lies on top of anything else.
+
+use super::sample::{EVERY_PART, WALL_FOLLOWING, compiled, generated};
+use super::sketch::{Arrow, Rect, Shape, Sketch};
+use super::svg::sketch;
+use super::{Options, Theme, svg};
+use crate::toolbox::Toolbox;
+
+/// Two lines nearer than this look like one.
+const APART: f64 = 5.0;
+
+#[test]
+fn nothing_overlaps_in_the_plan_of_the_paper() {
+    check(WALL_FOLLOWING);
+}
+
+#[test]
+fn nothing_overlaps_with_sub_plans_and_every_kind_of_edge() {
+    check(EVERY_PART);
+}
+
+#[test]
+fn nothing_overlaps_in_plans_of_thirty_elements() {
+    for seed in 1..=3 {
+        check(&generated(30, seed));
+    }
+}
+
+#[test]
+fn nothing_overlaps_in_many_small_plans() {
+    for seed in 1..=30 {
+        check(&generated(1 + seed % 9, seed));
+    }
+}
+
+fn check(text: &str) {
+    let compiled = compiled(text);
+    let options = Options { sources: Some(&compiled.sources), ..Options::default() };
+    let graph = compiled.graph.unwrap();
+    let (sketch, size) = sketch(&graph, &options);
+    boxes_are_apart(&sketch, size);
+    labels_are_apart(&sketch);
+    arrows_keep_away_from_boxes(&sketch);
+    arrows_do_not_run_on_each_other(&sketch);
+}
+
+/// Whether two rectangles share more than a border.
+fn overlap(a: &Rect, b: &Rect) -> bool {
+    a.x + 0.1 < b.right()
+        && b.x + 0.1 < a.right()
+        && a.y + 0.1 < b.bottom()
+        && b.y + 0.1 < a.bottom()
+}
+
+/// Exits stand on the borders of their boxes; everything else is on its own.
+fn boxes_are_apart(sketch: &Sketch, (width, height): (f64, f64)) {
+    let is_exit = |class| ["state", "event", "error", "missed"].contains(&class);
+    for (place, one) in sketch.frames.iter().enumerate() {
+        let inside = Rect { x: 0.0, y: 0.0, width, height };
+        assert!(one.rect.x > 0.0 && one.rect.right() < inside.right(), "{one:?} leaves the page");
+        assert!(one.rect.y > 0.0 && one.rect.bottom() < inside.bottom(), "{one:?} leaves the page");
+        for two in &sketch.frames[..place] {
+            let nested = two.class == "configuration" && one.class == "entry";
+            let attached = is_exit(one.class) != is_exit(two.class);
+            let apart = nested || attached || !overlap(&one.rect, &two.rect);
+            assert!(apart, "{one:?} lies on {two:?}");
+        }
+    }
+}
+
+fn labels_are_apart(sketch: &Sketch) {
+    for (place, one) in sketch.labels.iter().enumerate() {
+        for two in &sketch.labels[..place] {
+            assert!(!overlap(&one.rect(), &two.rect()), "{one:?} lies on {two:?}");
+        }
+        // A label that touches a box lies in one as a whole.
+        let rect = one.rect();
+        let touching = sketch.frames.iter().filter(|frame| overlap(&frame.rect, &rect));
+        let touching: Vec<_> = touching.collect();
+        let held = touching.iter().any(|frame| {
+            let frame = frame.rect;
+            frame.x <= rect.x
+                && rect.right() <= frame.right()
+                && frame.y <= rect.y
+                && rect.bottom() <= frame.bottom()
+        });
+        assert!(held || touching.is_empty(), "{one:?} sticks out of {touching:?}");
+    }
+}
+
+/// The straight parts of an arrow as thin rectangles.
+fn parts(arrow: &Arrow) -> Vec<Rect> {
+    let part = |pair: &[(f64, f64)]| {
+        let ((ax, ay), (bx, by)) = (pair[0], pair[1]);
+        Rect { x: ax.min(bx), y: ay.min(by), width: (ax - bx).abs(), height: (ay - by).abs() }
+    };
+    arrow.points.windows(2).map(part).collect()
+}
+
+/// Thick arrows touch boxes with their ends only; horizontal starts lie under their exit.
+fn arrows_keep_away_from_boxes(sketch: &Sketch) {
+    for arrow in sketch.arrows.iter().filter(|arrow| arrow.thick) {
+        for part in parts(arrow) {
+            for frame in &sketch.frames {
+                let rect = Rect {
+                    x: frame.rect.x + 1.0,
+                    y: frame.rect.y + 1.0,
+                    width: frame.rect.width - 2.0,
+                    height: frame.rect.height - 2.0,
+                };
+                let grown =
+                    Rect { width: part.width.max(0.2), height: part.height.max(0.2), ..part };
+                assert!(!overlap(&grown, &rect), "{arrow:?} runs through {frame:?}");
+            }
+            assert!(part.width < 0.5 || part.height < 0.5, "{arrow:?} is slanted");
+        }
+    }
+}
+
+fn arrows_do_not_run_on_each_other(sketch: &Sketch) {
+    let thick: Vec<_> = sketch.arrows.iter().filter(|arrow| arrow.thick).collect();
+    for (place, one) in thick.iter().enumerate() {
+        for two in &thick[..place] {
+            for (a, b) in
+                parts(one).iter().flat_map(|a| parts(two).into_iter().map(move |b| (*a, b)))
+            {
+                assert!(!run_on_each_other(&a, &b), "{one:?} runs on {two:?}");
+            }
+        }
+    }
+}
+
+/// Whether two parallel lines are too near to each other for a visible length.
+fn run_on_each_other(a: &Rect, b: &Rect) -> bool {
+    let vertical = |part: &Rect| part.width < 0.5 && part.height >= 0.5;
+    let horizontal = |part: &Rect| part.height < 0.5 && part.width >= 0.5;
+    let common = |a: (f64, f64), b: (f64, f64)| (a.0 + a.1).min(b.0 + b.1) - a.0.max(b.0);
+    if vertical(a) && vertical(b) {
+        (a.x - b.x).abs() < APART && common((a.y, a.height), (b.y, b.height)) > APART
+    } else if horizontal(a) && horizontal(b) {
+        (a.y - b.y).abs() < APART && common((a.x, a.width), (b.x, b.width)) > APART
+    } else {
+        false
+    }
+}
+
+#[test]
+fn every_kind_of_part_has_its_symbol() {
+    let compiled = compiled(EVERY_PART);
+    let graph = compiled.graph.unwrap();
+    let options = Options { sources: Some(&compiled.sources), ..Options::default() };
+    let (sketch, _) = sketch(&graph, &options);
+    for class in [
+        "start",
+        "actor",
+        "computation",
+        "subplan",
+        "supervisor",
+        "configuration",
+        "entry",
+        "formula",
+        "state",
+        "event",
+        "error",
+        "missed",
+        "terminate",
+        "ignore",
+    ] {
+        assert!(sketch.frames.iter().any(|frame| frame.class == class), "no {class}");
+    }
+    let shape =
+        |class: &str| sketch.frames.iter().find(|frame| frame.class == class).unwrap().shape;
+    assert!(matches!(shape("actor"), Shape::Round(_)));
+    assert!(matches!(shape("computation"), Shape::Cut(_)));
+    assert!(matches!(shape("subplan"), Shape::Double(_)));
+    for text in ["Square", "Avoid", "-side / 4", "2 * side + 5 cm", "OK", "DeadlineMissed"] {
+        assert!(sketch.labels.iter().any(|label| label.text == text), "no label '{text}'");
+    }
+}
+
+#[test]
+fn sub_plans_are_left_out_when_not_wanted() {
+    let graph = compiled(EVERY_PART).graph.unwrap();
+    let with = svg(&graph, &Options::default());
+    let without = svg(&graph, &Options { sub_plans: false, ..Options::default() });
+    assert!(with.contains(">away</text>") && !without.contains(">away</text>"));
+}
+
+#[test]
+fn a_picture_is_the_same_each_time_and_needs_nothing_from_outside() {
+    let icons = |_: &Toolbox, name: &str| afp_toolboxes::icon(name).map(str::to_owned);
+    let options = Options { icons: Some(&icons), ..Options::default() };
+    let picture = |text| svg(&compiled(text).graph.unwrap(), &options);
+    let text = picture(WALL_FOLLOWING);
+    assert_eq!(text, picture(WALL_FOLLOWING));
+    assert_eq!(text.matches("http").count(), 1, "only the name space");
+    assert!(!text.contains("url(") && !text.contains(" id="));
+    assert!(text.contains(r#"<path d="M12 21V4"/>"#), "the icon of 'Forward'");
+}
+
+#[test]
+fn themes_differ_in_colours_only() {
+    let graph = compiled(WALL_FOLLOWING).graph.unwrap();
+    let of = |theme| svg(&graph, &Options { theme, ..Options::default() });
+    let (auto, light, dark) = (of(Theme::Auto), of(Theme::Light), of(Theme::Dark));
+    assert!(auto.contains("prefers-color-scheme:dark"));
+    assert!(!light.contains("prefers-color-scheme") && !dark.contains("prefers-color-scheme"));
+    let body = |text: &str| text.split("</style>").nth(1).map(str::to_owned);
+    assert_eq!(body(&light), body(&dark));
+    assert_ne!(light, dark);
+}
+
+#[test]
+fn texts_of_plans_cannot_break_the_picture() {
+    let text = "use std\nplan P {\nstart log\n\
+                computation log: Log(value = \"</text><script>&\") { Done -> terminate }\n}\n";
+    let picture = svg(&compiled(text).graph.unwrap(), &Options::default());
+    assert!(!picture.contains("<script"));
+    assert!(picture.contains("&lt;script&gt;&amp;"));
+}

@@ -1,0 +1,108 @@
+//! Drawings as callers get them: JSON and GraphViz text of whole plans.
+
+use afp_dsl::draw::{Options, dot, json};
+use afp_dsl::source::Source;
+use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::{Compiled, compile};
+use serde_json::Value;
+
+const WALL_FOLLOWING: &str = include_str!("../../../plans/wall_following.afp");
+const EVERY_PART: &str = include_str!("draw/every_part.afp");
+
+/// Table I and Fig. 2 of the paper: its numbers are centimetres and degrees.
+const EXPECTED: &str = include_str!("draw/wall_following.json");
+
+fn compiled(text: &str) -> Compiled {
+    let mut toolboxes = Toolboxes::default();
+    for builtin in afp_toolboxes::ALL {
+        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
+    }
+    let compiled = compile(&Source::new("plan.afp", text), &toolboxes);
+    assert!(compiled.graph.is_some(), "{}", compiled.render(false));
+    compiled
+}
+
+fn json_of(text: &str) -> Value {
+    let compiled = compiled(text);
+    let options = Options { sources: Some(&compiled.sources), ..Options::default() };
+    serde_json::from_str(&json(&compiled.graph.unwrap(), &options)).unwrap()
+}
+
+/// Takes the units from the inputs, so that `10000 cm` reads like the paper's `10000`.
+fn without_units(value: &mut Value) {
+    match value {
+        Value::Object(object) => {
+            for (key, value) in object {
+                match value {
+                    Value::Array(inputs) if key == "inputs" => inputs.iter_mut().for_each(strip),
+                    _ => without_units(value),
+                }
+            }
+        }
+        Value::Array(items) => items.iter_mut().for_each(without_units),
+        _ => {}
+    }
+}
+
+fn strip(input: &mut Value) {
+    let text = input.as_str().unwrap();
+    let number = text.strip_suffix(" cm").or_else(|| text.strip_suffix(" deg"));
+    *input = Value::from(number.unwrap_or(text).to_owned());
+}
+
+#[test]
+fn json_of_wall_following_is_the_plan_of_the_paper() {
+    let mut found = json_of(WALL_FOLLOWING);
+    without_units(&mut found);
+    let expected: Value = serde_json::from_str(EXPECTED).unwrap();
+    assert_eq!(found["first"], expected["first"]);
+    assert_eq!(found["global_supervisors"], expected["global_supervisors"]);
+    let (found, expected) =
+        (found["actors"].as_array().unwrap(), expected["actors"].as_array().unwrap());
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        for key in ["name", "template", "inputs", "outputs", "states", "supervisors"] {
+            assert_eq!(found.get(key), expected.get(key), "{key} of {}", expected["name"]);
+        }
+    }
+}
+
+#[test]
+fn json_has_entries_timing_ports_and_sub_plans() {
+    let found = json_of(EVERY_PART);
+    assert_eq!(found["plan"], "Square");
+    assert_eq!(found["entries"][0]["init"], "100 cm");
+    assert_eq!(found["entries"][1]["type"], "int");
+    assert_eq!(found["actors"][0]["states"]["Error"], "avoid");
+    assert_eq!(found["actors"][0]["supervisors"][0]["events"]["DeadlineMissed"], "turn");
+    assert_eq!(found["actors"][0]["ports"]["in"]["speed"], "20 cm/s", "a default");
+    assert_eq!(found["actors"][2]["kind"], "computation");
+    let avoid = &found["actors"][3];
+    assert_eq!((&avoid["kind"], &avoid["template"]), (&"subplan".into(), &"Avoid".into()));
+    assert_eq!(avoid["inputs"], serde_json::json!(["-side / 4"]), "unbound inputs are left out");
+    assert_eq!(avoid["ports"]["in"]["turned"], "30 deg");
+    assert_eq!(avoid["outputs"], serde_json::json!(["gap"]));
+    assert_eq!(avoid["states"]["Interrupted"], "turn");
+    assert_eq!(found["timing"][1]["element"], "drive");
+    assert_eq!(found["timing"][1]["every_ns"], 5_000_000);
+    assert_eq!(found["sub_plans"][0]["plan"], "Avoid");
+}
+
+#[test]
+fn dot_names_every_element_and_every_edge_but_ignored_ones() {
+    let graph = compiled(EVERY_PART).graph.unwrap();
+    let text = dot(&graph, &Options::default());
+    for expected in [
+        "\"Square!start\" -> \"Square:drive\" [penwidth=2];",
+        "\"Square:drive\" -> \"Square:turn\" [label=\"ForwardSuccessful\", style=solid];",
+        "\"Square:drive\" -> \"Square:avoid\" [label=\"touch: TouchSensorPressed\", style=dashed];",
+        "\"Square:drive\" -> \"Square:avoid\" [label=\"Error\", style=dotted];",
+        "\"Square!start\" -> \"Square!terminate\" [label=\"escape: EscapeButtonPressed\", style=dashed];",
+        "\"Avoid:away\" -> \"Avoid!terminate\"",
+        "\"Square:loop\" [label=\"loop\\nCount\\nvalue = round\\nlimit = 4\\nnext => round\", shape=hexagon",
+    ] {
+        assert!(text.contains(expected), "no {expected} in\n{text}");
+    }
+    assert!(!text.contains("Below"));
+    assert_eq!(text.matches('{').count(), text.matches('}').count());
+}
