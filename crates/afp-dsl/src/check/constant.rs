@@ -126,6 +126,9 @@ fn convert(conversion: &Conversion, value: Constant) -> Result<Constant, Fault> 
         (Conversion::BoolToFloat, Constant::Bool(value)) => {
             Constant::Float(if value { 1.0 } else { 0.0 })
         }
+        (Conversion::ToText(_), Constant::Float(value)) if !value.is_finite() => {
+            return Err(Fault::NotFinite);
+        }
         (Conversion::ToText(ty), value) => {
             let text = to_text(&value, ty);
             if text.len() > MAX_TEXT {

@@ -65,7 +65,9 @@ pub fn parse_value(text: &str, ty: &Type) -> Result<Constant, LiteralError> {
             if literal.unit.is_some() || text.contains(['.', 'e', 'E']) {
                 return Err(LiteralError::Malformed);
             }
-            text.trim().parse().map(Constant::Int).map_err(|_| LiteralError::TooLarge)
+            // White space may stand behind the sign, as in a formula.
+            let digits: String = text.split_whitespace().collect();
+            digits.parse().map(Constant::Int).map_err(|_| LiteralError::TooLarge)
         }
         Type::Quantity(dimension) => {
             Literal::parse(text)?.quantity(*dimension).map(Constant::Float)
@@ -94,7 +96,7 @@ impl Literal {
     pub fn parse(text: &str) -> Result<Literal, LiteralError> {
         let text = text.trim();
         let (negative, text) = match text.strip_prefix('-') {
-            Some(rest) => (true, rest),
+            Some(rest) => (true, rest.trim_start()),
             None => (false, text),
         };
         let length = number_length(text).ok_or(LiteralError::Malformed)?;

@@ -74,6 +74,10 @@ fn values_of_each_type_are_read() {
     assert_eq!(parse_value("3 cmm", &length), Err(LiteralError::UnknownUnit("cmm".to_owned())));
     assert_eq!(parse_value("3 cm x", &length), Err(LiteralError::UnknownUnit("cm x".to_owned())));
     assert_eq!(parse_value("-7", &Type::Int), Ok(Constant::Int(-7)));
+    assert_eq!(parse_value(" - 7 ", &Type::Int), Ok(Constant::Int(-7)));
+    assert_eq!(parse_value("7 7", &Type::Int), Err(LiteralError::UnknownUnit("7".to_owned())));
+    assert_eq!(parse_value("+7", &Type::Int), Err(LiteralError::Malformed));
+    assert_eq!(parse_value("- 3 cm", &length), Ok(Constant::Float(-0.03)));
     assert_eq!(parse_value("-9223372036854775808", &Type::Int), Ok(Constant::Int(i64::MIN)));
     assert_eq!(parse_value("9223372036854775808", &Type::Int), Err(LiteralError::TooLarge));
     assert_eq!(parse_value("7.0", &Type::Int), Err(LiteralError::Malformed));
