@@ -7,6 +7,7 @@
 
 mod enums;
 mod formula;
+mod krate;
 mod layout;
 mod names;
 mod plan;
@@ -16,6 +17,7 @@ mod toolbox;
 use proc_macro2::TokenStream;
 use quote::quote;
 
+pub use krate::{CrateOptions, Origin, crate_files};
 pub use layout::{code, file};
 pub use plan::{Generated, Module, plan};
 pub use toolbox::toolbox;

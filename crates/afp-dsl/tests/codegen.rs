@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-use afp_dsl::codegen::{self, Options};
+use afp_dsl::codegen::{self, CrateOptions, Options, Origin};
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::{Toolbox, Toolboxes};
 
@@ -57,4 +57,48 @@ fn plans_and_toolboxes_make_the_rust_beside_them() {
         }
     }
     assert!(wrong.is_empty(), "other Rust than expected (AFP_BLESS=1 rewrites): {wrong:?}");
+}
+
+#[test]
+fn a_crate_names_what_it_needs_and_carries_its_text() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/codegen/wall_following.afp");
+    let text = fs::read_to_string(path).unwrap();
+    let compiled = afp_dsl::compile(&Source::new("wall_following.afp", text.clone()), &toolboxes());
+    let graph = compiled.graph.unwrap();
+    let mut options = CrateOptions {
+        file: "plans/wall_following.afp".to_owned(),
+        text: text.clone(),
+        origin: Origin::Path("/home/a \"b\"".to_owned()),
+        dependencies: Vec::new(),
+        lib: false,
+    };
+    let files = codegen::crate_files(&graph, &options);
+    let get = |path: &str| files.iter().find(|(known, _)| known == path).map(|(_, text)| text);
+    let names: Vec<_> = files.iter().map(|(path, _)| path.as_str()).collect();
+    assert_eq!(
+        names,
+        [
+            "Cargo.toml",
+            "wall_following.afp",
+            "src/lib.rs",
+            "src/main.rs",
+            "src/units.rs",
+            "src/wall_following.rs"
+        ]
+    );
+    let manifest = get("Cargo.toml").unwrap();
+    assert!(
+        manifest.contains(r#"afp-carbot = { path = "/home/a \"b\"/crates/afp-carbot" }"#),
+        "{manifest}"
+    );
+    assert!(!manifest.contains("afp-dsl"));
+    assert_eq!(get("wall_following.afp"), Some(&text));
+    assert!(get("src/main.rs").unwrap().contains("afp_run::main(program, WallFollowing::new)"));
+    options.lib = true;
+    options.origin = Origin::Version("0.1.0".to_owned());
+    options.dependencies = vec![("afp-carbot".to_owned(), "{ path = \"../mine\" }".to_owned())];
+    let files = codegen::crate_files(&graph, &options);
+    assert!(files.iter().all(|(path, _)| path != "src/main.rs"));
+    assert!(files[0].1.contains("afp-carbot = { path = \"../mine\" }"), "{}", files[0].1);
+    assert!(!files[0].1.contains("afp-run"));
 }

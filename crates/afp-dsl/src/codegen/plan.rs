@@ -21,7 +21,7 @@ use quote::quote;
 
 use crate::codegen::Options;
 use crate::codegen::layout::{comment, doc};
-use crate::codegen::names::{camel, ident, snake};
+use crate::codegen::names::{camel, ident};
 use crate::graph::{Graph, PlanId};
 use crate::unfold;
 use context::Context;
@@ -116,7 +116,7 @@ impl Module {
 }
 
 impl Generated {
-    /// All modules with their bodies, and the plan's type beside them.
+    /// All modules with their bodies in a module of the main plan's name, and its type beside it.
     pub fn tokens(&self) -> TokenStream {
         let modules = self.modules.iter().map(|module| {
             let (name, about) = (&module.name, doc(&module.doc, ""));
@@ -124,7 +124,6 @@ impl Generated {
             let sections = module.sections.iter().map(|(_, tokens)| tokens);
             quote! {
                 #about
-                #[allow(dead_code, unused_imports, clippy::all)]
                 pub mod #name {
                     #imports
                     #(#sections)*
@@ -132,8 +131,14 @@ impl Generated {
             }
         });
         let (main, plan) = (&self.main, &self.plan);
+        let about = doc("", &format!("The plan `{plan}` and what it uses."));
         quote! {
-            #(#modules)*
+            #about
+            #[allow(dead_code, unused_imports, clippy::all)]
+            pub mod #main {
+                #(#modules)*
+                pub use self::#main::*;
+            }
             pub use self::#main::#plan;
         }
     }
@@ -142,5 +147,5 @@ impl Generated {
 /// The module and the type of a plan.
 fn home(graph: &Graph, id: PlanId) -> (Ident, Ident) {
     let name = &graph.plan(id).name;
-    (ident(&snake(name)), context::type_name(&camel(name)))
+    (context::module_name(name), context::type_name(&camel(name)))
 }

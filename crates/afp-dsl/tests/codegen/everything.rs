@@ -24,11 +24,11 @@ impl ::afp_core::rt::Choice for Mood {
         }
     }
 
-    fn from_index(index: u16) -> Option<Self> {
+    fn from_index(index: u16) -> ::core::option::Option<Self> {
         match index {
-            0 => Some(Mood::Calm),
-            1 => Some(Mood::Wild),
-            _ => None,
+            0 => ::core::option::Option::Some(Mood::Calm),
+            1 => ::core::option::Option::Some(Mood::Wild),
+            _ => ::core::option::Option::None,
         }
     }
 }
@@ -41,13 +41,15 @@ impl ::afp_core::rt::Stored for Mood {
 
 impl ::afp_core::rt::Any for Mood {}
 impl ::afp_core::rt::Writable for Mood {
-    fn from_value(value: &::afp_core::Value) -> Result<Self, ::afp_core::WriteError> {
+    fn from_value(
+        value: &::afp_core::Value,
+    ) -> ::core::result::Result<Self, ::afp_core::WriteError> {
         match value {
             ::afp_core::Value::Choice(index) => {
                 ::afp_core::rt::Choice::from_index(*index)
                     .ok_or(::afp_core::WriteError::Type)
             }
-            _ => Err(::afp_core::WriteError::Type),
+            _ => ::core::result::Result::Err(::afp_core::WriteError::Type),
         }
     }
 }
@@ -717,7 +719,7 @@ impl PlanState for Round {
     #[inline(always)]
     fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
         match element {
-            SEEK => run.at::<SEEK>(),
+            SEEK => run.at::<{ SEEK }>(),
             _ => run.unknown(),
         }
     }
@@ -1682,9 +1684,9 @@ impl PlanState for Everything {
     #[inline(always)]
     fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
         match element {
-            FIRST => run.at::<FIRST>(),
-            ROUND => run.at::<ROUND>(),
-            AGAIN => run.at::<AGAIN>(),
+            FIRST => run.at::<{ FIRST }>(),
+            ROUND => run.at::<{ ROUND }>(),
+            AGAIN => run.at::<{ AGAIN }>(),
             _ => run.unknown(),
         }
     }

@@ -21,11 +21,11 @@ impl ::afp_core::rt::Choice for Side {
         }
     }
 
-    fn from_index(index: u16) -> Option<Self> {
+    fn from_index(index: u16) -> ::core::option::Option<Self> {
         match index {
-            0 => Some(Side::Left),
-            1 => Some(Side::Right),
-            _ => None,
+            0 => ::core::option::Option::Some(Side::Left),
+            1 => ::core::option::Option::Some(Side::Right),
+            _ => ::core::option::Option::None,
         }
     }
 }
@@ -38,13 +38,15 @@ impl ::afp_core::rt::Stored for Side {
 
 impl ::afp_core::rt::Any for Side {}
 impl ::afp_core::rt::Writable for Side {
-    fn from_value(value: &::afp_core::Value) -> Result<Self, ::afp_core::WriteError> {
+    fn from_value(
+        value: &::afp_core::Value,
+    ) -> ::core::result::Result<Self, ::afp_core::WriteError> {
         match value {
             ::afp_core::Value::Choice(index) => {
                 ::afp_core::rt::Choice::from_index(*index)
                     .ok_or(::afp_core::WriteError::Type)
             }
-            _ => Err(::afp_core::WriteError::Type),
+            _ => ::core::result::Result::Err(::afp_core::WriteError::Type),
         }
     }
 }

@@ -280,12 +280,12 @@ impl PlanState for WallFollowing {
     #[inline(always)]
     fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
         match element {
-            SEARCH_FIRST_WALL => run.at::<SEARCH_FIRST_WALL>(),
-            BACKUP_COLLISION => run.at::<BACKUP_COLLISION>(),
-            FIND_WALL_ANGLE => run.at::<FIND_WALL_ANGLE>(),
-            PARALLEL_TO_WALL => run.at::<PARALLEL_TO_WALL>(),
-            FOLLOW_WALL => run.at::<FOLLOW_WALL>(),
-            TURN_AFTER_WALL_LOST => run.at::<TURN_AFTER_WALL_LOST>(),
+            SEARCH_FIRST_WALL => run.at::<{ SEARCH_FIRST_WALL }>(),
+            BACKUP_COLLISION => run.at::<{ BACKUP_COLLISION }>(),
+            FIND_WALL_ANGLE => run.at::<{ FIND_WALL_ANGLE }>(),
+            PARALLEL_TO_WALL => run.at::<{ PARALLEL_TO_WALL }>(),
+            FOLLOW_WALL => run.at::<{ FOLLOW_WALL }>(),
+            TURN_AFTER_WALL_LOST => run.at::<{ TURN_AFTER_WALL_LOST }>(),
             _ => run.unknown(),
         }
     }

@@ -13,8 +13,25 @@ use crate::unfold::Block;
 
 use super::imports::{CORE, QUANTITY, RT};
 
-/// Types of the module itself.
-const OWN: &[&str] = &["Active", "Config", "Rules", "Staged", "Supervisors", "Self"];
+/// Types of the module itself, and names that are always there.
+const OWN: &[&str] = &[
+    "Active",
+    "Config",
+    "Rules",
+    "Staged",
+    "Supervisors",
+    "Default",
+    "Debug",
+    "Clone",
+    "Copy",
+    "Err",
+    "Iterator",
+    "None",
+    "Ok",
+    "Option",
+    "Result",
+    "Some",
+];
 /// Statics of the module itself.
 const STATICS: &[&str] = &["EDGES", "ELEMENTS", "NAMES", "SUPERVISORS", "SWEEPS"];
 /// Functions and locals that generated code calls by bare name.
@@ -59,6 +76,14 @@ pub struct ComponentNames {
     pub place: Ident,
 }
 
+/// The module of a plan, by a name that no other module has.
+pub fn module_name(plan: &str) -> Ident {
+    match snake(plan).as_str() {
+        name @ ("enums" | "units" | "core" | "std") => format_ident!("{name}_plan"),
+        name => ident(name),
+    }
+}
+
 /// The type of a plan, by a name that nothing else in its module has.
 pub fn type_name(name: &str) -> Ident {
     let mut taken = Names::taken(OWN);
@@ -89,7 +114,7 @@ impl<'a> Context<'a> {
             graph,
             plan,
             block,
-            module: ident(&snake(&plan.name)),
+            module: module_name(&plan.name),
             ty: type_name(&camel(&plan.name)),
             entries: entry_names(plan),
             elements,
