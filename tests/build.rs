@@ -1,16 +1,45 @@
-//! Makes a test of each case of `run/`.
+//! Compiles the plans of the tests to Rust: the cases of `run/` and the random plans.
+
+#[allow(dead_code, reason = "what scripts need to know is for the tests")]
+#[path = "src/random.rs"]
+mod random;
 
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
+use afp_dsl::codegen::{self, Options};
+use afp_dsl::compile;
+use afp_dsl::source::Source;
+use afp_dsl::toolbox::Toolboxes;
+
+/// Random plans where nothing else is asked for.
+const RANDOM_PLANS: u64 = 40;
+
 fn main() -> io::Result<()> {
+    for path in ["run", "toolbox/testing.afp", "src/random.rs", "src/random"] {
+        println!("cargo::rerun-if-changed={path}");
+    }
+    println!("cargo::rerun-if-env-changed=AFP_RANDOM_PLANS");
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
-    println!("cargo::rerun-if-changed=run");
-    fs::write(out.join("run.rs"), cases()?)
+    let toolboxes = toolboxes()?;
+    fs::write(out.join("run.rs"), cases(&toolboxes)?)?;
+    fs::write(out.join("random.rs"), random_plans(&toolboxes)?)
 }
 
-fn cases() -> io::Result<String> {
+/// The toolboxes that the plans of the tests use.
+fn toolboxes() -> io::Result<Toolboxes> {
+    let mut toolboxes = Toolboxes::default();
+    for builtin in afp_toolboxes::ALL.iter().filter(|builtin| builtin.name == "std") {
+        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
+    }
+    let text = fs::read_to_string("toolbox/testing.afp")?;
+    toolboxes.add(Source::new("testing.afp", text), "afp_tests");
+    Ok(toolboxes)
+}
+
+/// A module and a test for each case.
+fn cases(toolboxes: &Toolboxes) -> io::Result<String> {
     let files = fs::read_dir("run")?.map(|entry| entry.map(|entry| entry.path()));
     let mut files: Vec<PathBuf> = files.collect::<io::Result<_>>()?;
     files.retain(|path| path.extension().is_some_and(|extension| extension == "afp"));
@@ -18,7 +47,53 @@ fn cases() -> io::Result<String> {
     let mut code = String::new();
     for path in files {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let _ = write!(code, "#[test]\nfn {name}() {{\n    crate::check({name:?});\n}}\n");
+        code += &module(&name, &path, &fs::read_to_string(&path)?, toolboxes)?;
+        let _ = write!(
+            code,
+            "#[test]
+fn {name}() {{
+    crate::check({name:?}, |script| afp_tests::drive::drive({name}::new(), script));
+}}
+"
+        );
     }
     Ok(code)
+}
+
+/// A module for each random plan, and a table of functions that run them, by seed.
+fn random_plans(toolboxes: &Toolboxes) -> io::Result<String> {
+    let wanted = env::var("AFP_RANDOM_PLANS").ok().and_then(|number| number.parse().ok());
+    let (mut code, mut table) = (String::new(), String::new());
+    for seed in 0..wanted.unwrap_or(RANDOM_PLANS) {
+        let name = format!("seed{seed}");
+        code += &module(&name, Path::new(&name), &random::plan(seed).text, toolboxes)?;
+        let _ = writeln!(table, "    |script| afp_tests::drive::drive({name}::new(), script),");
+    }
+    let _ = write!(
+        code,
+        "/// Runs the plan of each seed.
+pub const PLANS: &[fn(&afp_tests::script::Script) -> Vec<String>] = &[
+{table}];
+"
+    );
+    Ok(code)
+}
+
+/// The Rust of a plan in a module of its own, with a function `new` that makes one.
+fn module(name: &str, path: &Path, text: &str, toolboxes: &Toolboxes) -> io::Result<String> {
+    let compiled = compile(&Source::new(path.display().to_string(), text), toolboxes);
+    let errors = compiled.render(false);
+    let graph = compiled.graph.ok_or_else(|| io::Error::other(errors))?;
+    let generated = codegen::plan(&graph, &Options::default());
+    let (main, plan) = (&generated.main, &generated.plan);
+    let code = codegen::file(generated.tokens());
+    Ok(format!(
+        "mod {name} {{
+{code}
+pub fn new() -> self::{main}::{plan} {{
+    self::{main}::{plan}::new()
+}}
+}}
+"
+    ))
 }

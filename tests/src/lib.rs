@@ -6,10 +6,13 @@
 //! generated Rust; both must print the same.
 
 pub mod case;
+pub mod compare;
 mod components;
 pub mod drive;
 pub mod interpret;
 pub mod platform;
+pub mod random;
+pub mod random_script;
 pub mod script;
 
 pub use components::{Glance, MakeMap, Map, Pick, ReadMap, Task, Watch, Work};

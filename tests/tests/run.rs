@@ -9,7 +9,9 @@ use std::path::PathBuf;
 use std::{env, fs};
 
 use afp_tests::case::Case;
+use afp_tests::compare::part;
 use afp_tests::interpret::{graph, interpret};
+use afp_tests::script::Script;
 
 /// One module for each case, with the plan as Rust and a test that calls [`check`].
 mod cases {
@@ -20,8 +22,8 @@ fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("run")
 }
 
-/// Runs a case through the interpreter.
-fn check(name: &str) {
+/// Runs a case through both back ends; `generated` is the compiled one.
+fn check(name: &str, generated: fn(&Script) -> Vec<String>) {
     let path = folder().join(format!("{name}.afp"));
     let text = fs::read_to_string(&path).expect("the case can be read");
     let case = Case::parse(&text).expect("its script can be read");
@@ -30,21 +32,14 @@ fn check(name: &str) {
     if env::var_os("AFP_BLESS").is_some() {
         case.bless(&path, &interpreted).expect("the case can be written");
     } else {
-        assert_same(&case.trace, &interpreted, "expected", "interpreted");
+        assert_same(&case.trace, &interpreted, "interpreted");
     }
+    assert_same(&interpreted, &generated(&case.script), "generated");
 }
 
-/// Shows where two traces part.
 #[track_caller]
-fn assert_same(left: &[String], right: &[String], left_name: &str, right_name: &str) {
-    if left == right {
-        return;
+fn assert_same(expected: &[String], actual: &[String], who: &str) {
+    if let Some(parted) = part(expected, actual) {
+        panic!("{who}: {parted}");
     }
-    let same = left.iter().zip(right).take_while(|(a, b)| a == b).count();
-    let show = |lines: &[String]| lines.get(same..).unwrap_or(&[]).join("\n  ");
-    panic!(
-        "after {same} equal lines\n{left_name}:\n  {}\n{right_name}:\n  {}",
-        show(left),
-        show(right)
-    );
 }

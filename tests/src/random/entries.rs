@@ -1,0 +1,129 @@
+//! The entries of a random plan.
+
+use std::fmt::Write;
+
+use super::dice::Dice;
+
+/// The types that random plans use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Type {
+    Bool,
+    Int,
+    Float,
+    Length,
+    Text,
+    Side,
+    Map,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    In,
+    Out,
+    Var,
+    Const,
+}
+
+#[derive(Clone, Debug)]
+pub struct Entry {
+    pub name: String,
+    pub kind: Kind,
+    pub ty: Type,
+}
+
+/// The entries of one plan; each has an initial value but maps and some results.
+#[derive(Clone, Debug)]
+pub struct Entries {
+    pub list: Vec<Entry>,
+    pub text: String,
+}
+
+const TYPES: [Type; 6] = [Type::Bool, Type::Int, Type::Float, Type::Length, Type::Text, Type::Side];
+
+impl Type {
+    pub fn name(self) -> &'static str {
+        match self {
+            Type::Bool => "bool",
+            Type::Int => "int",
+            Type::Float => "float",
+            Type::Length => "length",
+            Type::Text => "string",
+            Type::Side => "Side",
+            Type::Map => "Map",
+        }
+    }
+
+    /// A literal of the type; numbers are not zero.
+    pub fn literal(self, dice: &mut Dice) -> String {
+        match self {
+            Type::Bool => dice.pick(&["true", "false"]).to_owned(),
+            Type::Int => dice.pick(&["1", "2", "3", "7", "100"]).to_owned(),
+            Type::Float => dice.pick(&["0.1", "1.5", "2.0", "3e2", "0.7"]).to_owned(),
+            Type::Length => dice.pick(&["35 cm", "2 m", "70 mm", "1.5 m"]).to_owned(),
+            Type::Text => dice.pick(&["\"abc\"", "\"42\"", "\"35 cm\"", "\"0.5\""]).to_owned(),
+            Type::Side | Type::Map => dice.pick(&["Side.left", "Side.right"]).to_owned(),
+        }
+    }
+}
+
+impl Entries {
+    /// Entries for the plan of that number: at least one of each type, and a map.
+    pub fn new(plan: u64, dice: &mut Dice) -> Self {
+        let mut entries = Entries { list: Vec::new(), text: String::new() };
+        for (index, ty) in (0..).zip(TYPES.iter().chain(&TYPES)) {
+            // The first of each type can be written by everybody.
+            let kind = match index < TYPES.len() {
+                true => Kind::Var,
+                false => dice.pick(&[Kind::In, Kind::In, Kind::Out, Kind::Out, Kind::Const]),
+            };
+            entries.add(format!("x{plan}_{index}"), kind, *ty, dice);
+        }
+        entries.add(format!("m{plan}"), Kind::Var, Type::Map, dice);
+        entries
+    }
+
+    fn add(&mut self, name: String, kind: Kind, ty: Type, dice: &mut Dice) {
+        let word = match kind {
+            Kind::In => "in",
+            Kind::Out => "out",
+            Kind::Var => "var",
+            Kind::Const => "const",
+        };
+        let _ = write!(self.text, "    {word} {name}: {}", ty.name());
+        let open = ty == Type::Map || kind == Kind::Out && dice.percent(50);
+        let long = ty == Type::Text && kind != Kind::Const && dice.percent(40);
+        if long {
+            // Two of these are more than a text holds.
+            self.text.push_str(" = \"thirty-three letters of plain text\"");
+        } else if !open {
+            let _ = write!(self.text, " = {}", ty.literal(dice));
+        }
+        self.text.push('\n');
+        self.list.push(Entry { name, kind, ty });
+    }
+
+    /// The entries that formulas can read: results without a first value are not among them.
+    pub fn readable(&self, ty: Type) -> Vec<String> {
+        let fits = |entry: &&Entry| entry.ty == ty && entry.kind != Kind::Out;
+        self.list.iter().filter(fits).map(|entry| entry.name.clone()).collect()
+    }
+
+    /// The entries that change, so that no formula over them is known when the plan is compiled.
+    pub fn changing(&self, ty: Type) -> Vec<String> {
+        let changes = |entry: &&Entry| entry.ty == ty && matches!(entry.kind, Kind::Var);
+        self.list.iter().filter(changes).map(|entry| entry.name.clone()).collect()
+    }
+
+    /// The entries that components can write.
+    pub fn writable(&self, types: &[Type]) -> Vec<String> {
+        let fits = |entry: &&Entry| {
+            types.contains(&entry.ty) && matches!(entry.kind, Kind::Var | Kind::Out)
+        };
+        self.list.iter().filter(fits).map(|entry| entry.name.clone()).collect()
+    }
+
+    /// The entries of one kind.
+    pub fn of_kind(&self, kind: Kind) -> impl Iterator<Item = &Entry> {
+        self.list.iter().filter(move |entry| entry.kind == kind)
+    }
+}

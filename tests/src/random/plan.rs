@@ -1,0 +1,189 @@
+//! Random plans: elements that are all reachable, supervisors, edges.
+
+use std::fmt::Write;
+
+use super::Channel;
+use super::dice::Dice;
+use super::element::{Made, actor, computation, guard, sub_plan};
+use super::entries::{Entries, Type};
+
+/// A finished plan, as others can use it.
+#[derive(Clone, Debug)]
+pub struct Shape {
+    pub name: String,
+    pub entries: Entries,
+    /// Whether an event leads to `terminate`.
+    pub interruptible: bool,
+    pub text: String,
+}
+
+/// A plan in the making.
+struct Builder<'a> {
+    number: u64,
+    entries: Entries,
+    dice: &'a mut Dice,
+    channels: &'a mut Vec<Channel>,
+    /// How many elements there will be.
+    elements: u64,
+    interruptible: bool,
+    text: String,
+}
+
+impl Shape {
+    /// The plan of a number, which may use those made before.
+    pub fn new(
+        number: u64,
+        others: &[Shape],
+        dice: &mut Dice,
+        channels: &mut Vec<Channel>,
+    ) -> Self {
+        let entries = Entries::new(number, dice);
+        let elements = dice.between(4, 8);
+        let interruptible = false;
+        let text = String::new();
+        let mut builder =
+            Builder { number, entries, dice, channels, elements, interruptible, text };
+        builder.write(others);
+        Shape {
+            name: format!("Plan{number}"),
+            entries: builder.entries,
+            interruptible: builder.interruptible,
+            text: builder.text,
+        }
+    }
+
+    pub fn entry_names(&self) -> Vec<String> {
+        self.entries.list.iter().map(|entry| entry.name.clone()).collect()
+    }
+}
+
+impl Builder<'_> {
+    fn write(&mut self, others: &[Shape]) {
+        self.text = format!("plan Plan{} {{\n    start e0\n{}", self.number, self.entries.text);
+        for global in 0..self.dice.between(0, 3) {
+            self.guard(&format!("g{global}"), 4, None);
+        }
+        self.map_maker();
+        let mut index = 1;
+        while index < self.elements {
+            index += self.element(index, others);
+        }
+        self.text.push_str("}\n");
+    }
+
+    /// The first element gives the plan its map, so that nobody reads it before.
+    fn map_maker(&mut self) {
+        let map = format!("m{}", self.number);
+        let _ = writeln!(
+            self.text,
+            "    computation e0: MakeMap(id = 1, map => {map}) {{ Done -> e1 }}"
+        );
+    }
+
+    /// One element, or a loop of two; how many they are.
+    fn element(&mut self, index: u64, others: &[Shape]) -> u64 {
+        let last = index + 1 == self.elements;
+        let name = format!("p{}e{index}", self.number);
+        // The outer plans begin with an inner one, so that nesting is common.
+        let nests = !others.is_empty() && (index == 1 && self.number < 2 || self.dice.percent(20));
+        if nests {
+            let of = self.dice.between(0, others.len() as u64) as usize;
+            let made = sub_plan(&others[of], &self.entries, self.dice);
+            self.write_element(index, &made);
+            return 1;
+        }
+        if !last && self.dice.percent(15) && index + 3 <= self.elements {
+            return self.counting_loop(index);
+        }
+        let made = if !last && self.dice.percent(30) {
+            computation(&self.entries, self.dice)
+        } else {
+            actor(&name, &self.entries, self.dice, self.channels)
+        };
+        self.write_element(index, &made);
+        1
+    }
+
+    fn write_element(&mut self, index: u64, made: &Made) {
+        let _ = writeln!(self.text, "    {} e{index}: {} {{", made.word, made.call);
+        let computes = made.word == "computation";
+        if !computes {
+            for local in 0..self.dice.between(0, 3) {
+                self.guard(&format!("w{local}"), 8, Some(index));
+            }
+        }
+        for (n, state) in made.outcomes.iter().enumerate() {
+            // The first state leads to the next element, so that all of them can be reached.
+            let target = match n == 0 && index + 1 < self.elements {
+                true => format!("e{}", index + 1),
+                false => self.target(computes.then_some(index)),
+            };
+            let _ = writeln!(self.text, "        {state} -> {target}");
+        }
+        if self.dice.percent(if self.number == 0 { 85 } else { 50 }) {
+            let target = self.target(computes.then_some(index));
+            let _ = writeln!(self.text, "        Error -> {target}");
+        }
+        self.text.push_str("    }\n");
+    }
+
+    /// `for i in 0..limit`: takes no time.
+    fn counting_loop(&mut self, index: u64) -> u64 {
+        let int = self.dice.pick(&self.entries.changing(Type::Int));
+        let float = self.dice.pick(&self.entries.changing(Type::Float));
+        let (limit, step, next) = (self.dice.between(1, 5), index + 1, index + 2);
+        let _ = write!(
+            self.text,
+            "    computation e{index}: Count(value = {int}, limit = {limit}, next => {int}) {{
+        Again -> e{step}
+        Done -> e{next}
+    }}
+    computation e{step}: Assign(value = {float} + {int}, result => {float}) {{
+        Done -> e{index}
+    }}
+"
+        );
+        2
+    }
+
+    /// Where an edge leads; computations lead onward only, lest they spin.
+    fn target(&mut self, computation: Option<u64>) -> String {
+        // The outermost plan goes on for longer.
+        if self.dice.percent(if self.number == 0 { 4 } else { 20 }) {
+            return "terminate".to_owned();
+        }
+        let least = computation.map_or(1, |index| index + 1);
+        format!("e{}", self.dice.between(least, self.elements))
+    }
+
+    /// A global supervisor, or a local one of the element with that index.
+    fn guard(&mut self, name: &str, indent: usize, owner: Option<u64>) {
+        let channel = match owner {
+            Some(owner) => format!("p{}e{owner}{name}", self.number),
+            None => format!("p{}{name}", self.number),
+        };
+        let made = guard(&channel, &self.entries, self.dice, self.channels);
+        let every = self.dice.pick(&[5, 7, 10, 15, 20]);
+        let deadline = self.dice.between(1, every + 1);
+        let _ = write!(self.text, "{:indent$}supervise {name}: {}", "", made.call);
+        let _ = write!(self.text, " every {every} ms deadline {deadline} ms {{");
+        for (n, event) in made.outcomes.iter().enumerate() {
+            let target = self.event_target(n == 0);
+            let _ = write!(self.text, " {event} -> {target}");
+        }
+        if self.dice.percent(40) {
+            let target = self.event_target(false);
+            let _ = write!(self.text, " DeadlineMissed -> {target}");
+        }
+        self.text.push_str(" }\n");
+    }
+
+    fn event_target(&mut self, connected: bool) -> String {
+        if !connected && self.dice.percent(25) {
+            return "ignore".to_owned();
+        }
+        let target = self.target(None);
+        self.interruptible |= target == "terminate";
+        target
+    }
+}

@@ -1,0 +1,41 @@
+//! Random plans under random scripts: both back ends must do the same, to the byte.
+//!
+//! `AFP_RANDOM_PLANS` says how many plans are made; the build script compiles them.
+
+#[path = "random/rules.rs"]
+mod rules;
+
+use afp_tests::interpret::{graph, interpret};
+use afp_tests::random_script::script;
+use afp_tests::script::Script;
+use afp_tests::{compare, random};
+
+use rules::Exercised;
+
+/// The random plans as Rust.
+mod plans {
+    include!(concat!(env!("OUT_DIR"), "/random.rs"));
+}
+
+/// Scripts for each plan.
+const SCRIPTS: u64 = 5;
+
+#[test]
+fn interpreter_and_generated_code_agree() {
+    let mut exercised = Exercised::default();
+    for (seed, generated) in (0..).zip(plans::PLANS) {
+        let plan = random::plan(seed);
+        let graph = graph("random", &plan.text).unwrap_or_else(|errors| panic!("{errors}"));
+        for script_seed in 0..SCRIPTS {
+            let text = script(&plan, script_seed);
+            let script: Script = text.parse().expect("a script that can be read");
+            let interpreted = interpret(&graph, &script);
+            if let Some(parted) = compare::part(&interpreted, &generated(&script)) {
+                panic!("seed {seed}, script {script_seed}: {parted}\n\n{text}\n{}", plan.text);
+            }
+            exercised.count(&interpreted);
+        }
+    }
+    exercised.print();
+    assert_eq!(exercised.missing(), [""; 0], "rules that no run exercised");
+}
