@@ -24,7 +24,7 @@ pub use component::{
 };
 pub use fault::{Fault, Reason};
 pub use machine::MAX_TRANSITIONS_PER_STEP;
-pub use rt::{PlanState, WriteError};
+pub use rt::{NamedPlan, Plan, PlanState, WriteError};
 pub use scheduler::{MAX_WRITES_PER_STEP, Scheduler, StartError, Wake};
 pub use time::{Duration, Instant};
 pub use trace::Ending;

@@ -1,5 +1,7 @@
 //! The outermost plan: its start, its steps, and what comes from outside.
 
+use core::fmt;
+
 use heapless::Deque;
 
 use crate::clock::Clock;
@@ -44,6 +46,17 @@ pub struct Scheduler<P: PlanState> {
     writes: Deque<(u16, Value), MAX_WRITES_PER_STEP>,
     step: StepState,
 }
+
+impl fmt::Display for StartError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            StartError::InputMissing(entry) => write!(f, "entry {entry} of the plan has no value"),
+            StartError::AlreadyStarted => f.write_str("the plan has been started before"),
+        }
+    }
+}
+
+impl core::error::Error for StartError {}
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum State {
