@@ -1,13 +1,42 @@
 //! What users name in Cargo.toml: the run time, the macros, and plans loaded at run time.
 //!
-//! A plan known when a program is built is best compiled in, by `plan!`; a plan that comes as a
+//! A plan known when a program is built is best compiled in, by [`plan!`]; a plan that comes as a
 //! file at run time is loaded by the `load` module. Both drive the scheduler of `afp-core`.
 
 pub use afp_core as core;
 pub use afp_core::{
-    Duration, Ending, Environment, Fault, Instant, Scheduler, StillClock, Text, Value, ValueRef,
-    Wake, quantity, trace,
+    Actor, Computation, Duration, Ending, Environment, Events, Fault, Instant, NamedPlan, Plan,
+    Poll, Reason, Scheduler, StartError, StillClock, Supervisor, Text, Value, ValueRef, Wake,
+    WriteError, quantity, trace,
 };
 
 #[cfg(feature = "load")]
 pub mod load;
+
+#[doc(hidden)]
+pub use afp_macros as macros;
+
+/// Compiles the first plan of a file into the program.
+///
+/// `afp::plan!("plans/wall_following.afp")`, with a path relative to the crate's manifest, makes a
+/// module for each plan of the file that is used, and brings the plan's type (`WallFollowing`)
+/// into scope: a typed plan with `new`, a getter for each entry and a setter for each `in` entry,
+/// to be driven by a [`Scheduler`]. The crates of the toolboxes in use (`afp-carbot`, `afp-std`)
+/// must be dependencies. A mistake in the plan is a compile error at its place in the plan.
+#[macro_export]
+macro_rules! plan {
+    ($($arguments:tt)*) => {
+        $crate::macros::plan!($crate::core, $($arguments)*);
+    };
+}
+
+/// Makes typed templates from a toolbox file.
+///
+/// It belongs into a module beside the types that implement the templates under the templates'
+/// names: `pub mod templates { afp::toolbox!("signals.afp"); }`.
+#[macro_export]
+macro_rules! toolbox {
+    ($($arguments:tt)*) => {
+        $crate::macros::toolbox!($crate::core, $($arguments)*);
+    };
+}
