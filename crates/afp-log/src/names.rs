@@ -5,6 +5,8 @@ use afp_core::trace::{
     TraceEntryId,
 };
 
+use crate::proto::afp::{PlanTable, plan_table};
+
 /// A copy of all names of a plan.
 #[derive(Clone, Debug, Default)]
 pub struct NameTable {
@@ -39,6 +41,28 @@ impl NameTable {
         let components = (0..names.components()).map(|id| Component::copy(names, ComponentId(id)));
         let entries = (0..names.entries()).map(|id| Entry::copy(names, TraceEntryId(id)));
         NameTable { components: components.collect(), entries: entries.collect() }
+    }
+
+    /// The names that a log keeps: those of components, not of entries.
+    pub fn from_table(table: &PlanTable) -> Self {
+        let outcome =
+            |outcome: &plan_table::Outcome| (outcome.name.clone(), outcome.target.clone());
+        let component = |row: &plan_table::Component| Component {
+            path: row.path.clone(),
+            kind: match row.kind() {
+                plan_table::Kind::Actor => Kind::Actor,
+                plan_table::Kind::Computation => Kind::Computation,
+                plan_table::Kind::SubPlan => Kind::SubPlan,
+                plan_table::Kind::Supervisor => Kind::Supervisor,
+                plan_table::Kind::Plan | plan_table::Kind::Unknown => Kind::Plan,
+            },
+            template: row.template.clone(),
+            outcomes: row.outcomes.iter().map(outcome).collect(),
+            missed: ("DeadlineMissed".to_owned(), String::new()),
+            error: ("Error".to_owned(), String::new()),
+            inputs: row.inputs.clone(),
+        };
+        NameTable { components: table.components.iter().map(component).collect(), entries: vec![] }
     }
 
     fn get(&self, id: ComponentId) -> Option<&Component> {

@@ -98,10 +98,7 @@ impl Count {
     fn take(&mut self, event: &PlanEvent) {
         let at = instant(&event.time);
         self.lost += event.lost;
-        let id = match event.kind() {
-            Kind::Diverted => event.supervisor_id,
-            _ => event.component_id,
-        } as usize;
+        let id = event.component_id as usize;
         if matches!(event.kind(), Kind::Interrupted | Kind::Finished | Kind::Ended) {
             self.stop(id, at);
         }

@@ -1,1 +1,80 @@
 //! What `afpc run` and every generated binary share: options, timeline, summary, pictures.
+//!
+//! [`main()`] is the whole of a generated binary; [`run`] drives any plan on the simulated robot.
+//! Neither knows the language: a plan is what implements the scheduler's contract.
+
+mod drive;
+mod error;
+mod hash;
+mod inputs;
+mod judge;
+mod keys;
+pub mod options;
+mod output;
+mod pace;
+mod report;
+mod robot;
+mod run;
+pub mod settings;
+mod stop;
+mod svg;
+mod tracer;
+pub mod world;
+
+use std::process::ExitCode;
+
+use afp_core::rt::{NamedPlan, Plan};
+use afp_sim::Simulation;
+use clap::{Args, Command, FromArgMatches};
+
+use crate::options::RunOptions;
+
+pub use error::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, EXIT_USAGE, RunError};
+pub use output::write_whole;
+pub use report::timeline;
+pub use run::run;
+pub use svg::draw_log;
+
+/// A plan and where it comes from.
+#[derive(Clone, Copy, Debug)]
+pub struct Program<'a> {
+    /// The plan's name in the text.
+    pub name: &'a str,
+    /// The plan's file, as it was named; the world is looked for beside its folder.
+    pub file: &'a str,
+    /// The plan's text, for the log.
+    pub text: &'a str,
+}
+
+/// The whole of a generated binary: reads the command line, runs the plan, tells what happened.
+pub fn main<P>(program: Program<'static>, new: impl FnOnce() -> P) -> ExitCode
+where
+    P: NamedPlan + Plan<Simulation>,
+{
+    let about = format!("Runs the plan {}.", program.name);
+    let command = RunOptions::augment_args(Command::new(program.name).about(about));
+    let command = command.after_help(EXAMPLES);
+    let matches = command.get_matches();
+    match RunOptions::from_arg_matches(&matches) {
+        Ok(options) => finish(run(&program, new(), &options)),
+        Err(error) => error.exit(),
+    }
+}
+
+/// Tells of an error and gives the exit code.
+pub fn finish(result: Result<u8, RunError>) -> ExitCode {
+    match result {
+        Ok(code) => ExitCode::from(code),
+        Err(error) => error.report(),
+    }
+}
+
+/// What the help ends with.
+pub const EXAMPLES: &str = "\
+Examples:
+  --seed 7                        another robot, another noise
+  --set walldist=35cm             another value for an 'in' entry
+  --press escape@20s --json       press the button after 20 s; lines for machines
+  --speed 1x --until 2min         in real time; Escape presses the robot's button
+
+Exit codes: 0 done, 1 a file cannot be read or written, 2 wrong options, 3 the plan ended in Error";

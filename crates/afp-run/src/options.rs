@@ -1,0 +1,107 @@
+//! The options of `afpc run` and of every generated binary.
+
+mod parse;
+
+use std::path::PathBuf;
+
+use afp_core::{Duration, Instant};
+use clap::{Args, ValueEnum};
+
+use crate::error::RunError;
+
+pub use parse::{Button, Destination, Press, Speed};
+
+/// How a run goes.
+#[derive(Args, Clone, Debug)]
+pub struct RunOptions {
+    /// World file; else `[run] world` in afp.toml, else worlds/<plan>.toml, else a built-in room
+    #[arg(long, value_name = "FILE")]
+    pub world: Option<PathBuf>,
+
+    /// The robot that the plan drives
+    #[arg(long, value_name = "ROBOT", default_value = "sim")]
+    pub robot: Robot,
+
+    /// Sets an 'in' entry, with its unit: --set walldist=35cm
+    #[arg(long, value_name = "ENTRY=VALUE", value_parser = parse::assignment)]
+    pub set: Vec<(String, String)>,
+
+    /// Seed of all noise in the simulator
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
+
+    /// Stops the plan at this time [default: 60s at speed max, else never]
+    #[arg(long, value_name = "TIME", value_parser = parse::duration)]
+    pub until: Option<Duration>,
+
+    /// Speed of simulated time: 1x is real time, max as fast as it goes
+    #[arg(long, value_name = "SPEED", default_value = "max", value_parser = parse::speed)]
+    pub speed: Speed,
+
+    /// Presses a button of the robot: --press escape@20s
+    #[arg(long, value_name = "BUTTON@TIME", value_parser = parse::press)]
+    pub press: Vec<Press>,
+
+    /// Where the log goes; 'none' for no log [default: target/afp/runs/<plan>.mcap]
+    #[arg(long, value_name = "FILE", value_parser = parse::destination)]
+    pub log: Option<Destination>,
+
+    /// Where the picture goes; 'none' for no picture [default: target/afp/runs/<plan>.svg]
+    #[arg(long, value_name = "FILE", value_parser = parse::destination)]
+    pub svg: Option<Destination>,
+
+    /// Prints one JSON object a line, the summary last; the same for the same plan, world and seed
+    #[arg(long)]
+    pub json: bool,
+
+    /// Serves live data on a port (comes with the live server)
+    #[arg(long, value_name = "PORT")]
+    pub live: Option<u16>,
+
+    /// Reports real-time behaviour (comes with the driver for the Raspberry Pi)
+    #[arg(long)]
+    pub rt_report: bool,
+}
+
+/// What a plan drives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Robot {
+    /// The simulated Carbot
+    Sim,
+    /// The Carbot's Raspberry Pi
+    Pi,
+}
+
+/// How long a run at full speed lasts unless told otherwise.
+const DEFAULT_UNTIL: Duration = Duration::from_secs(60);
+
+impl RunOptions {
+    /// Refuses what this release does not have.
+    ///
+    /// # Errors
+    /// [`RunError::Usage`] says what the option waits for.
+    pub fn check(&self) -> Result<(), RunError> {
+        let refused = if self.robot == Robot::Pi {
+            ("'--robot pi' waits for the Raspberry Pi driver of afp-carbot", "use '--robot sim'")
+        } else if self.live.is_some() {
+            ("'--live' waits for the live server of afp-log", "write a log with '--log FILE'")
+        } else if self.rt_report {
+            (
+                "'--rt-report' waits for the real-time driver of afp",
+                "'--speed 1x' runs in real time, without guarantees",
+            )
+        } else {
+            return Ok(());
+        };
+        Err(RunError::usage(refused.0, refused.1))
+    }
+
+    /// When the run is stopped at the latest.
+    pub fn end(&self) -> Instant {
+        match (self.until, self.speed) {
+            (Some(until), _) => Instant::ZERO + until,
+            (None, Speed::Max) => Instant::ZERO + DEFAULT_UNTIL,
+            (None, Speed::Times(_)) => Instant::MAX,
+        }
+    }
+}

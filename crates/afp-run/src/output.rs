@@ -1,0 +1,40 @@
+//! Files that appear under their name only when they are whole.
+
+use std::io::Write;
+use std::path::Path;
+
+use tempfile::NamedTempFile;
+
+use crate::error::RunError;
+
+/// Writes a file by way of a temporary one beside it.
+///
+/// # Errors
+/// The folder is not there or not writable, the disk is full. No file of that name is left half
+/// written then, and an old one stays as it was.
+pub fn write_whole(what: &'static str, path: &Path, text: &str) -> Result<(), RunError> {
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let write = || {
+        let mut file = NamedTempFile::new_in(folder)?;
+        file.write_all(text.as_bytes())?;
+        allow_reading(&file)?;
+        file.persist(path)?;
+        Ok(())
+    };
+    write().map_err(RunError::file(what, path))
+}
+
+/// Temporary files are private; what comes out of a run is an ordinary file.
+#[cfg(unix)]
+fn allow_reading(file: &NamedTempFile) -> std::io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    file.as_file().set_permissions(std::fs::Permissions::from_mode(0o644))
+}
+
+#[cfg(not(unix))]
+fn allow_reading(_: &NamedTempFile) -> std::io::Result<()> {
+    Ok(())
+}

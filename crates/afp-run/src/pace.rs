@@ -1,0 +1,75 @@
+//! Holds simulated time back to a multiple of real time.
+
+use std::thread;
+use std::time::{Duration as Span, Instant as Wall};
+
+use afp_core::Instant;
+
+use crate::keys::Keys;
+use crate::options::Speed;
+use crate::stop::StopFlag;
+
+/// Keys and signals are looked at this often while waiting.
+const SLICE: Span = Span::from_millis(10);
+
+/// What waiting came to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Waited {
+    /// The time has come.
+    Due,
+    /// The Escape key was pressed first.
+    Escape,
+    /// Somebody asked to stop first.
+    Stop,
+}
+
+/// Holds simulated time back.
+pub(crate) struct Pace {
+    begun: Wall,
+    speed: Speed,
+    keys: Option<Keys>,
+}
+
+impl Pace {
+    pub(crate) fn new(speed: Speed) -> Self {
+        let keys = match speed {
+            Speed::Max => None,
+            Speed::Times(_) => Keys::take(),
+        };
+        Pace { begun: Wall::now(), speed, keys }
+    }
+
+    /// Seconds of real time so far.
+    pub(crate) fn spent(&self) -> f64 {
+        self.begun.elapsed().as_secs_f64()
+    }
+
+    /// Where simulated time stands by the wall clock; `None` at full speed.
+    pub(crate) fn simulated(&self) -> Option<Instant> {
+        match self.speed {
+            Speed::Max => None,
+            Speed::Times(times) => {
+                Some(Instant::from_nanos((self.begun.elapsed().as_nanos() as f64 * times) as u64))
+            }
+        }
+    }
+
+    /// Waits until simulated time `at` has come.
+    pub(crate) fn wait(&self, at: Instant, stop: &StopFlag) -> Waited {
+        loop {
+            if stop.is_raised() {
+                return Waited::Stop;
+            }
+            let Speed::Times(times) = self.speed else { return Waited::Due };
+            if self.keys.as_ref().is_some_and(Keys::escape_pressed) {
+                return Waited::Escape;
+            }
+            let due = self.begun + Span::from_secs_f64((at.as_secs_f64() / times).min(1e9));
+            let left = due.saturating_duration_since(Wall::now());
+            if left.is_zero() {
+                return Waited::Due;
+            }
+            thread::sleep(left.min(SLICE));
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! What a run says about itself: a timeline for people, lines of JSON for machines, a summary.
+
+mod json;
+mod progress;
+mod summary;
+mod timeline;
+
+use std::io::{self, IsTerminal, Write};
+
+use afp_core::Instant;
+use afp_core::trace::{Kind, Names, Record};
+use afp_log::LogData;
+use afp_log::event::describe;
+use afp_log::proto::afp::{plan_event, plan_table};
+
+use progress::Progress;
+pub(crate) use summary::{Figures, Ran, StoppedBy, Summary};
+
+/// The timeline of a log, line by line.
+pub fn timeline(log: &LogData) -> impl Iterator<Item = String> {
+    log.events.iter().filter_map(|event| {
+        let row = log.table.components.get(event.component_id as usize);
+        let (kind, template) =
+            row.map_or((plan_table::Kind::Unknown, ""), |row| (row.kind(), row.template.as_str()));
+        let watches = kind == plan_table::Kind::Supervisor;
+        let starts = event.kind() == plan_event::Kind::Started;
+        if watches && starts { None } else { timeline::line(event, template) }
+    })
+}
+
+/// Writes to standard output as the run goes.
+pub(crate) struct Report {
+    out: Box<dyn Write>,
+    json: bool,
+    progress: Progress,
+    /// Standard output is gone; whoever read it has seen enough.
+    closed: bool,
+}
+
+impl Report {
+    pub(crate) fn new(json: bool, end: Instant) -> Self {
+        let terminal = io::stdout().is_terminal();
+        let out: Box<dyn Write> = match terminal {
+            // Line by line for people, in blocks for pipes.
+            true => Box::new(anstream::stdout()),
+            false => Box::new(io::BufWriter::new(anstream::stdout())),
+        };
+        Report { out, json, progress: Progress::new(end), closed: false }
+    }
+
+    /// Whether nobody reads any more.
+    pub(crate) fn is_closed(&self) -> bool {
+        self.closed
+    }
+
+    /// The lines that say what runs.
+    pub(crate) fn head(&mut self, what: &[(&str, String)]) {
+        if !self.json {
+            let text = timeline::head(what);
+            self.write(&text);
+        }
+    }
+
+    /// Tells of a record, if it is worth it.
+    pub(crate) fn tell(&mut self, at: Instant, record: &Record<'_>, names: &impl Names) {
+        let template = match *record {
+            Record::Polled { .. } | Record::Input { .. } => return,
+            Record::Started { component } => {
+                let name = names.component(component);
+                if name.kind == Kind::Supervisor && !self.json {
+                    return;
+                }
+                name.template
+            }
+            _ => "",
+        };
+        let event = describe(at, record, names);
+        let line = match self.json {
+            true => json::line(&event),
+            false => timeline::line(&event, template),
+        };
+        if let Some(line) = line {
+            self.progress.clear();
+            self.write(&line);
+        }
+    }
+
+    /// Time has passed.
+    pub(crate) fn pass(&mut self, now: Instant) {
+        if self.progress.pass(now) && !self.json {
+            // A pipe sees the timeline while it grows.
+            let _ = self.out.flush();
+        }
+    }
+
+    /// The last lines.
+    pub(crate) fn end(&mut self, summary: &Summary) {
+        self.progress.clear();
+        if !self.json {
+            let text = summary.for_people();
+            self.write(&text);
+        }
+        let line = summary.json(self.json);
+        self.write(&line);
+        let _ = self.out.flush();
+    }
+
+    fn write(&mut self, text: &str) {
+        if !self.closed && writeln!(self.out, "{text}").is_err() {
+            self.closed = true;
+        }
+    }
+}

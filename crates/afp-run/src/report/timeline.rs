@@ -1,0 +1,125 @@
+//! The timeline for people: what became active, why, and what was written.
+
+use std::fmt::Write;
+
+use afp_log::instant;
+use afp_log::proto::afp::plan_event::{Cause, Ending, Kind};
+use afp_log::proto::afp::value::Value as Told;
+use afp_log::proto::afp::{PlanEvent, Value};
+use anstyle::{AnsiColor, Style};
+
+const QUIET: Style = Style::new().dimmed();
+const ACTIVE: Style = AnsiColor::Green.on_default().bold();
+const EVENT: Style = AnsiColor::Yellow.on_default();
+const DATA: Style = AnsiColor::Cyan.on_default();
+const BAD: Style = AnsiColor::BrightRed.on_default().bold();
+const STRONG: Style = Style::new().bold();
+
+/// The lines that say what runs.
+pub(super) fn head(what: &[(&str, String)]) -> String {
+    let mut text = String::new();
+    for (key, value) in what {
+        let _ = writeln!(text, "{QUIET}{key:>8}{QUIET:#}  {value}");
+    }
+    text
+}
+
+/// An event as a line without its end; `None` for what is not worth a line. The template is that
+/// of the event's component.
+pub(super) fn line(event: &PlanEvent, template: &str) -> Option<String> {
+    let component = &event.component;
+    let text = match event.kind() {
+        Kind::Unknown | Kind::Polled | Kind::Input | Kind::Interrupted => return None,
+        Kind::ClockWentBack => {
+            let asked = event.asked_ns as f64 / 1e9;
+            format!("{BAD}! the clock went back to {asked:.6} s{BAD:#}")
+        }
+        Kind::StopRequested => format!("{EVENT}■ stop requested{EVENT:#}"),
+        Kind::Missed => missed(event),
+        Kind::Event => format!("{EVENT}⚡ {}{EVENT:#}", outcome(component, event)),
+        Kind::AlreadyThere => {
+            format!("{QUIET}· {} (already there){QUIET:#}", outcome(component, event))
+        }
+        Kind::Finished => format!("{QUIET}✓ {}{QUIET:#}", outcome(component, event)),
+        Kind::Committed => commit(event),
+        Kind::Started => format!("{ACTIVE}▶ {component}{ACTIVE:#}  {QUIET}{template}{QUIET:#}"),
+        Kind::Diverted => {
+            let why = &event.supervisor;
+            format!("{EVENT}↪ {component} does not start, {why} looked first{EVENT:#}")
+        }
+        Kind::Faulted => format!("{BAD}✗ {component} failed: {}{BAD:#}", event.fault_text),
+        Kind::Ended => ended(event),
+        Kind::Lost => format!("{BAD}! {} records lost{BAD:#}", event.lost),
+    };
+    let at = instant(&event.time).as_secs_f64();
+    Some(format!("{at:>10.3}  {text}"))
+}
+
+fn outcome(path: &str, event: &PlanEvent) -> String {
+    match &*event.target {
+        "" => format!("{path}.{}", event.outcome),
+        target => format!("{path}.{} → {target}", event.outcome),
+    }
+}
+
+fn missed(event: &PlanEvent) -> String {
+    let cause = match event.cause() {
+        Cause::LateRelease => "late release",
+        Cause::LongPoll => "long poll",
+        Cause::NoCause => "unknown cause",
+    };
+    let PlanEvent { component, skipped, .. } = event;
+    let late = event.lateness_ns as f64 / 1e6;
+    format!(
+        "{BAD}! {component} missed its deadline by {late:.3} ms{BAD:#}  \
+         {QUIET}({cause}, {skipped} releases skipped){QUIET:#}"
+    )
+}
+
+fn commit(event: &PlanEvent) -> String {
+    let show = |value: &Option<Value>| show(value, &event.unit);
+    let (entry, old, new) = (&event.entry, show(&event.old), show(&event.value));
+    let author = &event.component;
+    format!("{DATA}◆ {entry}: {old} → {new}{DATA:#}  {QUIET}by {author}{QUIET:#}")
+}
+
+/// A value with its unit; angles in degrees, lengths in centimetres, as plans have them.
+fn show(value: &Option<Value>, unit: &str) -> String {
+    match value.as_ref().and_then(|value| value.value.as_ref()) {
+        None => "unset".to_owned(),
+        Some(Told::Truth(truth)) => truth.to_string(),
+        Some(Told::Integer(integer)) => integer.to_string(),
+        Some(Told::Number(number)) => match unit {
+            "" => short(*number),
+            "rad" => format!("{} deg", short(number.to_degrees())),
+            "m" => format!("{} cm", short(number * 100.0)),
+            "m/s" => format!("{} cm/s", short(number * 100.0)),
+            "rad/s" => format!("{} deg/s", short(number.to_degrees())),
+            unit => format!("{} {unit}", short(*number)),
+        },
+        Some(Told::Text(text)) => format!("{text:?}"),
+        Some(Told::Choice(text) | Told::Object(text)) => text.clone(),
+    }
+}
+
+/// Up to three decimals, without trailing zeros.
+fn short(number: f64) -> String {
+    let text = format!("{number:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn ended(event: &PlanEvent) -> String {
+    let PlanEvent { component, fault, fault_text, .. } = event;
+    let style = match (event.component_id, event.ending()) {
+        (_, Ending::Error) => BAD,
+        (0, _) => STRONG,
+        _ => QUIET,
+    };
+    let how = match event.ending() {
+        Ending::Ok => "OK".to_owned(),
+        Ending::EndedInterrupted => "Interrupted".to_owned(),
+        Ending::Error => format!("Error: {fault_text} ({fault})"),
+        Ending::NotEnded => "somehow".to_owned(),
+    };
+    format!("{style}■ {component} ended: {how}{style:#}")
+}

@@ -1,0 +1,86 @@
+//! The simulated robot and its room as a log has them.
+
+use afp_core::Instant;
+use afp_log::Recorder;
+use afp_log::robot::{Pose2, Ranging, Shape, Transform};
+use afp_sim::{Pose, Simulation, Snapshot, World};
+
+use afp_carbot::devices::Ultrasonic;
+
+const WORLD: &str = "world";
+const BASE: &str = "base_link";
+const SONAR: &str = "sonar";
+/// Where the robot believes to be.
+const BELIEVED: &str = "base_link_by_odometry";
+
+/// How high the parts of the robot are, metres.
+const BODY_HEIGHT: f64 = 0.22;
+const SONAR_HEIGHT: f64 = 0.15;
+
+/// Keeps a log up to date with the simulation.
+pub(crate) struct RobotLog {
+    start: Pose2,
+    last_ping: Option<Instant>,
+}
+
+impl RobotLog {
+    /// Writes what stands in the room, and the robot's body.
+    pub(crate) fn begin(log: &mut Recorder, world: &World) -> Self {
+        let obstacles = world.obstacles.iter().enumerate().map(|(index, obstacle)| Shape {
+            id: format!("{index} {}", obstacle.name),
+            frame: WORLD,
+            outline: obstacle.outline.corners(),
+            height: obstacle.height,
+            color: [0.72, 0.68, 0.6, 0.9],
+        });
+        let body = Shape {
+            id: "robot".to_owned(),
+            frame: BASE,
+            outline: World::robot_outline(Pose::default()).to_vec(),
+            height: BODY_HEIGHT,
+            color: [0.15, 0.45, 0.75, 0.9],
+        };
+        log.scene(Instant::ZERO, obstacles.chain([body]).collect());
+        RobotLog { start: plane(world.start), last_ping: None }
+    }
+
+    /// Writes where the robot is and what it has heard since.
+    pub(crate) fn look(&mut self, log: &mut Recorder, sim: &Simulation) {
+        let Snapshot { time, pose, odometry, rotator, sonar, .. } = sim.snapshot();
+        let beam = sim.beam();
+        log.pose(time, WORLD, plane(pose));
+        let moved =
+            Pose2 { x: odometry.x.si(), y: odometry.y.si(), heading: odometry.heading.si() };
+        let sensor = Pose2 { x: beam.forward.si(), y: 0.0, heading: rotator };
+        let of = |parent, child, pose, height| Transform { parent, child, pose, height };
+        log.transforms(
+            time,
+            [
+                of(WORLD, BASE, plane(pose), 0.0),
+                of(BASE, SONAR, sensor, SONAR_HEIGHT),
+                of(WORLD, BELIEVED, beyond(self.start, moved), 0.0),
+            ],
+        );
+        if let Some(sonar) = sonar
+            && self.last_ping != Some(sonar.time)
+        {
+            self.last_ping = Some(sonar.time);
+            let half_angle = beam.opening.si() / 2.0;
+            log.ranging(time, Ranging { frame: SONAR, half_angle, range: sonar.distance });
+        }
+    }
+}
+
+fn plane(pose: Pose) -> Pose2 {
+    Pose2 { x: pose.x, y: pose.y, heading: pose.heading }
+}
+
+/// A motion begun at a pose.
+fn beyond(start: Pose2, moved: Pose2) -> Pose2 {
+    let (sin, cos) = libm::sincos(start.heading);
+    Pose2 {
+        x: start.x + moved.x * cos - moved.y * sin,
+        y: start.y + moved.x * sin + moved.y * cos,
+        heading: start.heading + moved.heading,
+    }
+}

@@ -1,0 +1,150 @@
+//! The path of a run over its world, as a picture.
+
+mod canvas;
+mod from_log;
+mod legend;
+mod marks;
+
+use afp_core::trace::{ComponentId, Names};
+use afp_sim::world::Outline;
+use afp_sim::{Pose, World};
+
+use crate::judge::{Mark, Step};
+
+use canvas::{Canvas, View};
+pub use from_log::draw_log;
+use legend::Legend;
+
+/// What the range sensor looks over is drawn hatched, metres.
+const LOW: f64 = 0.15;
+/// Points of the path closer together than this are one, metres.
+const NEAR: f64 = 0.004;
+
+/// Colours of actors, told apart also by those who see few colours.
+const PALETTE: [&str; 8] =
+    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56b4e9", "#6a3d9a", "#7f7f7f"];
+/// The path while no actor is active.
+const NOBODY: &str = "#9a9a9a";
+
+/// What a picture shows.
+pub(crate) struct Picture<'a> {
+    /// The room.
+    pub world: &'a World,
+    /// Two lines above the legend.
+    pub title: String,
+    pub subtitle: String,
+    /// Where the robot was.
+    pub path: &'a [Step],
+    /// What happened on the way.
+    pub marks: &'a [Mark],
+    /// Names and values below the legend.
+    pub figures: Vec<(&'static str, String)>,
+}
+
+/// Draws the path of a run.
+pub(crate) fn draw(picture: &Picture<'_>, names: &impl Names) -> String {
+    let Picture { world, path, marks, .. } = picture;
+    let actors = actors(path);
+    let color = |actor: Option<ComponentId>| {
+        let index = actor.and_then(|actor| actors.iter().position(|known| *known == actor));
+        index.map_or(NOBODY, |index| PALETTE[index % PALETTE.len()])
+    };
+    let view = View::around(bounds(world, path));
+    let mut canvas = Canvas::new(view);
+    canvas.floor();
+    for obstacle in &world.obstacles {
+        canvas.obstacle(&obstacle.outline.corners(), obstacle.height < LOW);
+    }
+    canvas.robot(world.start, false);
+    for (actor, points) in stretches(path) {
+        canvas.path(&points, color(actor));
+    }
+    for obstacle in &world.obstacles {
+        if let Some((middle, size)) = labelled(&obstacle.outline) {
+            canvas.label(middle, size, &obstacle.name);
+        }
+    }
+    if let Some(last) = path.last() {
+        canvas.robot(last.pose, true);
+    }
+    let kinds = marks::kinds(marks);
+    for mark in *marks {
+        let kind = kinds.iter().position(|kind| *kind == (mark.supervisor, mark.event));
+        canvas.mark(mark.pose, kind.unwrap_or(0), mark.at);
+    }
+    canvas.scale_bar();
+    let mut legend = Legend::new(view);
+    legend.head(&picture.title, &picture.subtitle);
+    legend.actors(actors.iter().map(|id| (names.component(*id).path, color(Some(*id)))));
+    legend.events(kinds.iter().map(|(id, event)| {
+        let same = |mark: &&Mark| (mark.supervisor, mark.event) == (*id, *event);
+        let name = format!("{}.{}", names.component(*id).path, names.outcome(*id, *event));
+        (name, marks.iter().filter(same).count())
+    }));
+    legend.figures(&picture.figures);
+    canvas.finish(legend)
+}
+
+/// The actors that ran, in the order in which they first did.
+fn actors(path: &[Step]) -> Vec<ComponentId> {
+    let mut actors = Vec::new();
+    for actor in path.iter().filter_map(|step| step.actor) {
+        if !actors.contains(&actor) {
+            actors.push(actor);
+        }
+    }
+    actors
+}
+
+/// The path cut where the actor changes; neighbours share a point.
+fn stretches(path: &[Step]) -> Vec<(Option<ComponentId>, Vec<[f64; 2]>)> {
+    let mut stretches: Vec<(Option<ComponentId>, Vec<[f64; 2]>)> = Vec::new();
+    for step in path {
+        let at = [step.pose.x, step.pose.y];
+        match stretches.last_mut() {
+            Some((actor, points)) if *actor == step.actor => {
+                let far = points.last().is_none_or(|last| apart(*last, at) >= NEAR);
+                if far {
+                    points.push(at);
+                }
+            }
+            last => {
+                let from = last.and_then(|(_, points)| points.last().copied());
+                stretches.push((step.actor, from.into_iter().chain([at]).collect()));
+            }
+        }
+    }
+    stretches
+}
+
+fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
+    libm::hypot(a[0] - b[0], a[1] - b[1])
+}
+
+/// The corners of everything: lower left, upper right.
+fn bounds(world: &World, path: &[Step]) -> [[f64; 2]; 2] {
+    let corners = world.obstacles.iter().flat_map(|obstacle| obstacle.outline.corners());
+    let robot = |pose: Pose| World::robot_outline(pose);
+    let path = path.iter().flat_map(|step| robot(step.pose));
+    let all = corners.chain(path).chain(robot(world.start));
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for [x, y] in all {
+        low = [low[0].min(x), low[1].min(y)];
+        high = [high[0].max(x), high[1].max(y)];
+    }
+    [low, high]
+}
+
+/// The middle and the width of an obstacle that has room for its name; walls have none.
+fn labelled(outline: &Outline) -> Option<([f64; 2], f64)> {
+    let corners = outline.corners();
+    let least = match outline {
+        Outline::Box { half, .. } => 2.0 * half[0].min(half[1]),
+        Outline::Polygon(_) => f64::INFINITY,
+    };
+    let count = corners.len() as f64;
+    let sum = corners.iter().fold([0.0, 0.0], |sum, at| [sum[0] + at[0], sum[1] + at[1]]);
+    let xs = || corners.iter().map(|at| at[0]);
+    let width = xs().fold(f64::NEG_INFINITY, f64::max) - xs().fold(f64::INFINITY, f64::min);
+    (least > 0.2).then_some(([sum[0] / count, sum[1] / count], width))
+}

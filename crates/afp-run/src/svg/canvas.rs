@@ -1,0 +1,198 @@
+//! Draws in metres, y up; writes SVG in pixels, y down.
+
+use std::fmt::Write;
+
+use afp_core::Instant;
+use afp_sim::{Pose, World};
+
+use super::legend::Legend;
+use super::marks;
+
+/// Around the room, pixels.
+pub(super) const MARGIN: f64 = 28.0;
+/// The width that the room is drawn in, pixels, unless it is very tall.
+const ROOM_WIDTH: f64 = 860.0;
+const ROOM_HEIGHT: f64 = 860.0;
+
+/// From metres to pixels.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    low: [f64; 2],
+    high: [f64; 2],
+    scale: f64,
+}
+
+impl View {
+    pub(super) fn around([low, high]: [[f64; 2]; 2]) -> Self {
+        let (width, height) = ((high[0] - low[0]).max(0.1), (high[1] - low[1]).max(0.1));
+        View { low, high, scale: (ROOM_WIDTH / width).min(ROOM_HEIGHT / height) }
+    }
+
+    fn point(&self, [x, y]: [f64; 2]) -> (f64, f64) {
+        (MARGIN + (x - self.low[0]) * self.scale, MARGIN + (self.high[1] - y) * self.scale)
+    }
+
+    /// Where the room ends to the right and below, pixels.
+    pub(super) fn end(&self) -> (f64, f64) {
+        self.point([self.high[0], self.low[1]])
+    }
+}
+
+/// A picture being drawn.
+pub(super) struct Canvas {
+    view: View,
+    body: String,
+}
+
+impl Canvas {
+    pub(super) fn new(view: View) -> Self {
+        Canvas { view, body: String::new() }
+    }
+
+    /// The floor, with a line every metre.
+    pub(super) fn floor(&mut self) {
+        let View { low, high, .. } = self.view;
+        let ((x, y), (right, below)) = (self.view.point([low[0], high[1]]), self.view.end());
+        let (width, height) = (right - x, below - y);
+        self.put(format_args!(
+            r##"<rect x="{x:.1}" y="{y:.1}" width="{width:.1}" height="{height:.1}" fill="#ffffff"/>"##
+        ));
+        for metre in whole(low[0], high[0]) {
+            let (at, _) = self.view.point([metre, 0.0]);
+            self.put(format_args!(
+                r##"<line class="grid" x1="{at:.1}" y1="{y:.1}" x2="{at:.1}" y2="{below:.1}"/>"##
+            ));
+        }
+        for metre in whole(low[1], high[1]) {
+            let (_, at) = self.view.point([0.0, metre]);
+            self.put(format_args!(
+                r##"<line class="grid" x1="{x:.1}" y1="{at:.1}" x2="{right:.1}" y2="{at:.1}"/>"##
+            ));
+        }
+    }
+
+    pub(super) fn obstacle(&mut self, corners: &[[f64; 2]], low: bool) {
+        let points = self.points(corners);
+        let class = if low { "low" } else { "high" };
+        self.put(format_args!(r#"<polygon class="{class}" points="{points}"/>"#));
+    }
+
+    /// A name in the middle of an obstacle; left out where it would stick out far.
+    pub(super) fn label(&mut self, middle: [f64; 2], width: f64, name: &str) {
+        let (x, y) = self.view.point(middle);
+        let needed = name.chars().count() as f64 * 6.5;
+        let room = width * self.view.scale;
+        // A narrow thing gets its name beside it.
+        let (x, anchor) =
+            if needed <= room { (x, "middle") } else { (x + room / 2.0 + 6.0, "start") };
+        let anchor = if x + needed > self.view.end().0 { "end" } else { anchor };
+        let x = if anchor == "end" { x - room - 12.0 } else { x };
+        let name = escape(name);
+        self.put(format_args!(
+            r#"<text class="label" x="{x:.1}" y="{:.1}" text-anchor="{anchor}">{name}</text>"#,
+            y + 4.0
+        ));
+    }
+
+    /// The robot's outline with an arrow ahead; faint at the start.
+    pub(super) fn robot(&mut self, pose: Pose, end: bool) {
+        let outline = self.points(&World::robot_outline(pose));
+        let (sin, cos) = libm::sincos(pose.heading);
+        let beside = |ahead: f64, left: f64| {
+            [pose.x + ahead * cos - left * sin, pose.y + ahead * sin + left * cos]
+        };
+        let arrow = self.points(&[beside(0.15, 0.0), beside(0.02, 0.07), beside(0.02, -0.07)]);
+        let class = if end { "robot" } else { "robot start" };
+        self.put(format_args!(r#"<g class="{class}"><polygon points="{outline}"/>"#));
+        self.put(format_args!(r#"<polygon class="arrow" points="{arrow}"/></g>"#));
+    }
+
+    pub(super) fn path(&mut self, points: &[[f64; 2]], color: &str) {
+        let points = self.points(points);
+        self.put(format_args!(r#"<polyline class="path" stroke="{color}" points="{points}"/>"#));
+    }
+
+    /// A symbol where an event was taken; its title tells when.
+    pub(super) fn mark(&mut self, pose: Pose, kind: usize, at: Instant) {
+        let (x, y) = self.view.point([pose.x, pose.y]);
+        let symbol = marks::symbol(kind, x, y);
+        let secs = at.as_secs_f64();
+        self.put(format_args!("<g class=\"mark\"><title>{secs:.3} s</title>{symbol}</g>"));
+    }
+
+    /// One metre, below the room.
+    pub(super) fn scale_bar(&mut self) {
+        let (_, below) = self.view.end();
+        let (x, y) = (MARGIN, below + 20.0);
+        let end = x + self.view.scale;
+        let (up, down) = (y - 5.0, y + 5.0);
+        self.put(format_args!(
+            r#"<path class="scale" d="M{x:.1} {up:.1}V{down:.1}M{x:.1} {y:.1}H{end:.1}M{end:.1} {up:.1}V{down:.1}"/>"#
+        ));
+        self.put(format_args!(
+            r#"<text class="quiet" x="{:.1}" y="{:.1}">1 m</text>"#,
+            end + 8.0,
+            y + 4.0
+        ));
+    }
+
+    pub(super) fn finish(self, legend: Legend) -> String {
+        let (legend, right, lowest) = legend.finish();
+        let (_, below) = self.view.end();
+        let (width, height) = (right + MARGIN, (below + 40.0).max(lowest + MARGIN));
+        let body = self.body;
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
+             viewBox=\"0 0 {width:.0} {height:.0}\">\n{STYLE}\
+             <rect width=\"100%\" height=\"100%\" fill=\"#f6f5f2\"/>\n{body}{legend}</svg>\n"
+        )
+    }
+
+    fn points(&self, corners: &[[f64; 2]]) -> String {
+        let mut text = String::new();
+        for corner in corners {
+            let (x, y) = self.view.point(*corner);
+            // Writing to a String cannot fail.
+            let _ = write!(text, "{x:.1},{y:.1} ");
+        }
+        text.truncate(text.trim_end().len());
+        text
+    }
+
+    fn put(&mut self, element: std::fmt::Arguments<'_>) {
+        let _ = writeln!(self.body, "{element}");
+    }
+}
+
+/// The whole numbers between two others.
+fn whole(from: f64, to: f64) -> impl Iterator<Item = f64> {
+    let (from, to) = (libm::ceil(from) as i64, libm::floor(to) as i64);
+    (from..=to).map(|metre| metre as f64)
+}
+
+/// A text that may stand between tags.
+pub(super) fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+const STYLE: &str = r##"<style>
+text { font: 13px system-ui, "Helvetica Neue", Arial, sans-serif; fill: #2b2b2b }
+.title { font-size: 17px; font-weight: 600 }
+.section { font-size: 11px; font-weight: 600; letter-spacing: .06em; fill: #77736b }
+.quiet { fill: #77736b }
+.label { font-size: 11.5px; fill: #77736b; paint-order: stroke; stroke: #ffffff; stroke-width: 2.5px; stroke-linejoin: round }
+.grid { stroke: #ecebe7; stroke-width: 1 }
+.high { fill: #ddd8cf; stroke: #9b948a; stroke-width: 1 }
+.low { fill: url(#hatch); stroke: #b4642d; stroke-width: 1.2; stroke-dasharray: 4 2.5 }
+.path { fill: none; stroke-width: 3.2; stroke-linecap: round; stroke-linejoin: round; opacity: .92 }
+.robot polygon { fill: #2b2b2b; fill-opacity: .12; stroke: #2b2b2b; stroke-width: 1.4 }
+.robot .arrow { fill-opacity: .75; stroke: none }
+.start polygon { stroke-dasharray: 4 3; stroke: #77736b; fill-opacity: .04 }
+.start .arrow { fill-opacity: .35 }
+.mark { fill: #ffffff; stroke: #2b2b2b; stroke-width: 1.6; stroke-linejoin: round }
+.scale { fill: none; stroke: #55524c; stroke-width: 1.6 }
+</style>
+<defs><pattern id="hatch" width="6" height="6" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">
+<rect width="6" height="6" fill="#fbeee4"/><line x1="0" y1="0" x2="0" y2="6" stroke="#d98b52" stroke-width="2"/>
+</pattern></defs>
+"##;

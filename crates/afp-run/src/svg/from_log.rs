@@ -1,0 +1,95 @@
+//! The picture of a run from its log alone.
+
+use afp_core::Instant;
+use afp_core::trace::{ComponentId, Kind, Names};
+use afp_log::proto::afp::{PlanEvent, plan_event};
+use afp_log::robot::Pose2;
+use afp_log::{LogData, NameTable, instant};
+use afp_sim::{Pose, World};
+
+use super::{Picture, draw};
+use crate::error::RunError;
+use crate::judge::{Mark, Step};
+
+/// The attachment that holds the world.
+const WORLD: &str = "world.toml";
+
+/// Draws the path of a logged run over its world.
+///
+/// # Errors
+/// The log has no world, or one that this release does not understand.
+pub fn draw_log(log: &LogData) -> Result<String, RunError> {
+    let content = |message: String, place, text: &str| RunError::Content {
+        path: WORLD.into(),
+        place,
+        text: text.to_owned(),
+        message,
+    };
+    let Some(text) = log.attachments.get(WORLD) else {
+        return Err(content(format!("the log has no attachment '{WORLD}'"), None, ""));
+    };
+    let world = World::parse(text).map_err(|error| content(error.message, error.place, text))?;
+    let names = NameTable::from_table(&log.table);
+    let (path, marks) = follow(log, &names);
+    let way = path.windows(2).map(|pair| {
+        let (from, to) = (pair[0].pose, pair[1].pose);
+        libm::hypot(to.x - from.x, to.y - from.y)
+    });
+    let time = log.span.map_or(0.0, |(_, last)| last.as_secs_f64());
+    let fact = |key: &str| log.facts.get(key).cloned().unwrap_or_default();
+    let picture = Picture {
+        world: &world,
+        title: fact("plan"),
+        subtitle: format!("{}, seed {}", world.name, fact("seed")),
+        figures: vec![
+            ("time", format!("{time:.1} s")),
+            ("distance", format!("{:.2} m", way.sum::<f64>())),
+        ],
+        path: &path,
+        marks: &marks,
+    };
+    Ok(draw(&picture, &names))
+}
+
+/// The path with the actor at each point, and the events on it.
+fn follow(log: &LogData, names: &NameTable) -> (Vec<Step>, Vec<Mark>) {
+    let (mut path, mut marks) = (Vec::new(), Vec::new());
+    let (mut actor, mut last) = (None, Pose::default());
+    let mut events = log.events.iter().peekable();
+    let after = std::iter::once((Instant::MAX, None));
+    for (at, pose) in log.poses.iter().map(|(at, pose)| (*at, Some(pose))).chain(after) {
+        while let Some(event) = events.next_if(|event| instant(&event.time) < at) {
+            let id = ComponentId(event.component_id);
+            if event.kind() == plan_event::Kind::Event {
+                marks.push(mark(event, last));
+            } else if names.component(id).kind == Kind::Actor {
+                actor = active(event).unwrap_or(actor);
+            }
+        }
+        if let Some(Pose2 { x, y, heading }) = pose {
+            last = Pose { x: *x, y: *y, heading: *heading };
+            path.push(Step { pose: last, actor });
+        }
+    }
+    (path, marks)
+}
+
+/// Which actor is active after an actor's event; `None` when it says nothing about that.
+fn active(event: &PlanEvent) -> Option<Option<ComponentId>> {
+    match event.kind() {
+        plan_event::Kind::Started => Some(Some(ComponentId(event.component_id))),
+        plan_event::Kind::Interrupted | plan_event::Kind::Finished | plan_event::Kind::Faulted => {
+            Some(None)
+        }
+        _ => None,
+    }
+}
+
+fn mark(event: &PlanEvent, pose: Pose) -> Mark {
+    Mark {
+        pose,
+        at: instant(&event.time),
+        supervisor: ComponentId(event.component_id),
+        event: event.outcome_id as u16,
+    }
+}

@@ -1,0 +1,88 @@
+//! What the colours and symbols mean, and the run in figures, beside the room.
+
+use std::fmt::Write;
+
+use super::canvas::{MARGIN, View, escape};
+use super::marks;
+
+/// The height of a line, pixels.
+const LINE: f64 = 21.0;
+/// An average letter, pixels.
+const LETTER: f64 = 7.2;
+/// Symbols take this much before their text, pixels.
+const INDENT: f64 = 30.0;
+
+/// The column beside the room.
+pub(super) struct Legend {
+    x: f64,
+    y: f64,
+    width: f64,
+    body: String,
+}
+
+impl Legend {
+    pub(super) fn new(view: View) -> Self {
+        Legend { x: view.end().0 + 28.0, y: MARGIN + 14.0, width: 220.0, body: String::new() }
+    }
+
+    pub(super) fn head(&mut self, title: &str, subtitle: &str) {
+        self.text("title", 0.0, title);
+        self.text("quiet", 0.0, subtitle);
+    }
+
+    pub(super) fn actors<'a>(&mut self, actors: impl Iterator<Item = (&'a str, &'a str)>) {
+        self.section("ACTIVE");
+        for (path, color) in actors {
+            let (x, y) = (self.x, self.y - 4.5);
+            let end = x + INDENT - 9.0;
+            self.put(format_args!(
+                r#"<line class="path" x1="{x:.1}" y1="{y:.1}" x2="{end:.1}" y2="{y:.1}" stroke="{color}"/>"#
+            ));
+            self.text("name", INDENT, path);
+        }
+    }
+
+    pub(super) fn events(&mut self, events: impl Iterator<Item = (String, usize)>) {
+        for (kind, (name, count)) in events.enumerate() {
+            if kind == 0 {
+                self.section("EVENTS");
+            }
+            let symbol = marks::symbol(kind, self.x + 10.0, self.y - 4.5);
+            self.put(format_args!(r#"<g class="mark">{symbol}</g>"#));
+            let times = if count > 1 { format!("  ×{count}") } else { String::new() };
+            self.text("name", INDENT, &format!("{name}{times}"));
+        }
+    }
+
+    pub(super) fn figures(&mut self, figures: &[(&str, String)]) {
+        self.section("RUN");
+        for (key, value) in figures {
+            self.text("quiet", 0.0, key);
+            self.y -= LINE;
+            self.text("name", 110.0, value);
+        }
+    }
+
+    /// The column, its right end and its lower end.
+    pub(super) fn finish(self) -> (String, f64, f64) {
+        (self.body, self.x + self.width, self.y)
+    }
+
+    fn section(&mut self, title: &str) {
+        self.y += 12.0;
+        self.text("section", 0.0, title);
+    }
+
+    fn text(&mut self, class: &str, indent: f64, text: &str) {
+        let (x, y) = (self.x + indent, self.y);
+        self.width = self.width.max(indent + text.chars().count() as f64 * LETTER);
+        let text = escape(text);
+        self.put(format_args!(r#"<text class="{class}" x="{x:.1}" y="{y:.1}">{text}</text>"#));
+        self.y += LINE;
+    }
+
+    fn put(&mut self, element: std::fmt::Arguments<'_>) {
+        // Writing to a String cannot fail.
+        let _ = writeln!(self.body, "{element}");
+    }
+}

@@ -1,0 +1,81 @@
+//! The command line's grammar.
+
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
+
+use crate::commands::{build, check, completions, explain, graph, later, log, run};
+
+/// Compiles, checks, draws and runs Action Flow Plans.
+#[derive(Parser, Debug)]
+#[command(name = "afpc", version, after_help = EXAMPLES)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Subcommand, Debug)]
+pub enum Command {
+    /// Reports everything that is wrong with plans and toolboxes
+    #[command(after_help = check::EXAMPLES)]
+    Check(check::Arguments),
+    /// Explains an error code
+    Explain(explain::Arguments),
+    /// Draws a plan
+    #[command(after_help = graph::EXAMPLES)]
+    Graph(graph::Arguments),
+    /// Runs a plan now, on the simulated robot
+    #[command(after_help = afp_run::EXAMPLES)]
+    Run(run::Arguments),
+    /// Generates a readable Rust crate from a plan and builds it
+    #[command(after_help = build::EXAMPLES)]
+    Build(build::Arguments),
+    /// Shows, checks and repairs the log of a run
+    #[command(after_help = log::EXAMPLES)]
+    Log(log::Arguments),
+    /// Prints completions for a shell
+    #[command(after_help = completions::EXAMPLES)]
+    Completions(completions::Arguments),
+}
+
+/// A plan to work on.
+#[derive(Args, Clone, Debug)]
+pub struct PlanArgument {
+    /// File with the plan; FILE:Plan for another than its first
+    #[arg(value_name = "FILE[:PLAN]")]
+    pub plan: String,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  afpc run plans/wall_following.afp
+  afpc check plans/*.afp
+  afpc graph plans/wall_following.afp -o plan.svg
+  afpc build plans/wall_following.afp
+
+Exit codes: 0 done, 1 a plan is wrong or a file cannot be read or written, 2 wrong usage, 3 the plan ended in Error";
+
+/// Reads the command line; does not come back when it asks for help or makes no sense.
+pub fn parse() -> Command {
+    let matches = command().get_matches();
+    if let Some((name, _)) = matches.subcommand()
+        && let Some(error) = later::refusal(name)
+    {
+        // The exit code of wrong usage, in the words of every other error.
+        anstream::eprintln!("{error}");
+        std::process::exit(error.code().into());
+    }
+    match Cli::from_arg_matches(&matches) {
+        Ok(cli) => cli.command,
+        Err(error) => error.exit(),
+    }
+}
+
+/// The grammar, with the commands that later releases bring: hidden, but told apart from typing
+/// errors.
+pub fn command() -> clap::Command {
+    let later = later::names().map(|name| {
+        let rest = clap::Arg::new("rest").num_args(0..).allow_hyphen_values(true);
+        clap::Command::new(name).hide(true).disable_help_flag(true).arg(rest)
+    });
+    Cli::command().subcommands(later)
+}

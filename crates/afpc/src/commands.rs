@@ -1,0 +1,47 @@
+//! One module per command.
+
+pub mod build;
+pub mod check;
+pub mod completions;
+pub mod explain;
+pub mod graph;
+pub mod later;
+pub mod log;
+pub mod run;
+
+use std::process::ExitCode;
+
+use afp_run::{EXIT_FAILED, EXIT_OK, RunError};
+
+use crate::cli::Command;
+use crate::plan_file::NoPlan;
+
+/// Runs a command.
+pub fn dispatch(command: &Command) -> ExitCode {
+    let result = match command {
+        Command::Check(arguments) => check::run(arguments),
+        Command::Explain(arguments) => explain::run(arguments),
+        Command::Graph(arguments) => graph::run(arguments),
+        Command::Run(arguments) => run::run(arguments),
+        Command::Build(arguments) => build::run(arguments),
+        Command::Log(arguments) => log::run(arguments),
+        Command::Completions(arguments) => completions::run(arguments),
+    };
+    match result {
+        Ok(code) => ExitCode::from(code),
+        Err(NoPlan::File(error)) => error.report(),
+        Err(NoPlan::Wrong) => ExitCode::from(EXIT_FAILED),
+    }
+}
+
+/// Prints a result on standard output; a reader that has seen enough is no error.
+fn print(text: &str) -> Result<u8, NoPlan> {
+    use std::io::{ErrorKind, Write};
+    let mut out = anstream::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(RunError::file("cannot write to", "standard output".as_ref())(error).into())
+        }
+        _ => Ok(EXIT_OK),
+    }
+}

@@ -1,0 +1,101 @@
+//! `afpc log`: what happened in a run, and whether its log is sound.
+
+mod info;
+mod timeline;
+
+use std::path::PathBuf;
+
+use afp_log::{doctor, read, recover, recovered_name};
+use afp_run::{EXIT_FAILED, EXIT_OK, RunError, write_whole};
+use clap::{Args, ValueEnum};
+
+use super::print;
+use crate::plan_file::NoPlan;
+
+/// Arguments of `afpc log`.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// The log
+    file: PathBuf,
+
+    /// What to do with it
+    #[arg(default_value = "timeline")]
+    action: Action,
+
+    /// Also draws the path over the world into this file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+
+    /// Where 'recover' writes to [default: <log>.recovered.mcap]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// What to do with a log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Action {
+    /// What happened, then deadlines, interruptions and coverage
+    Timeline,
+    /// What the file is and holds
+    Info,
+    /// Saves what is intact into a new file
+    Recover,
+    /// Lists what is wrong with the file
+    Doctor,
+}
+
+pub const EXAMPLES: &str = "\
+Examples:
+  afpc log target/afp/runs/wall_following.mcap
+  afpc log run.mcap info
+  afpc log run.mcap --svg path.svg
+  afpc log run.mcap.part recover
+
+Exit codes: 0 done or sound, 1 the file cannot be read or is not sound, 2 wrong usage";
+
+/// Does what is asked for.
+///
+/// # Errors
+/// A file cannot be read or written.
+pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
+    if let Some(path) = &arguments.svg {
+        let log = read(&arguments.file).map_err(RunError::from)?;
+        let picture = afp_run::draw_log(&log)?;
+        write_whole("cannot write the picture", path, &picture)?;
+    }
+    match arguments.action {
+        Action::Timeline => {
+            let log = read(&arguments.file).map_err(RunError::from)?;
+            if let Some(cut) = &log.cut_short {
+                let name = arguments.file.display();
+                anstream::eprintln!("warning: '{name}' is not whole: {cut}");
+            }
+            print(&timeline::text(&log))
+        }
+        Action::Info => {
+            let log = read(&arguments.file).map_err(RunError::from)?;
+            print(&info::text(&arguments.file, &log))
+        }
+        Action::Recover => save(arguments),
+        Action::Doctor => {
+            let found = doctor(&arguments.file).map_err(RunError::from)?;
+            let text: String = found.iter().map(|what| format!("{what}\n")).collect();
+            print(if text.is_empty() { "sound\n" } else { &text })?;
+            Ok(if found.is_empty() { EXIT_OK } else { EXIT_FAILED })
+        }
+    }
+}
+
+fn save(arguments: &Arguments) -> Result<u8, NoPlan> {
+    let to = arguments.output.clone().unwrap_or_else(|| recovered_name(&arguments.file));
+    if to == arguments.file {
+        let help = "give another name with '-o FILE'";
+        return Err(RunError::usage("a log cannot be recovered into itself", help).into());
+    }
+    let saved = recover(&arguments.file, &to).map_err(RunError::from)?;
+    match &saved.damage {
+        Some(damage) => anstream::eprintln!("the log ends early: {damage}"),
+        None => anstream::eprintln!("nothing was wrong with the log"),
+    }
+    print(&format!("{} messages saved\n{}\n", saved.messages, saved.path.display()))
+}

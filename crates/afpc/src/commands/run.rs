@@ -1,0 +1,39 @@
+//! `afpc run`: compiles a plan in memory and drives the simulated robot with it.
+
+use afp::load::{LoadedPlan, Registry};
+use afp_run::options::RunOptions;
+use afp_run::{Program, RunError};
+use afp_sim::Simulation;
+use clap::Args;
+
+use crate::cli::PlanArgument;
+use crate::plan_file::{NoPlan, PlanFile};
+
+/// Arguments of `afpc run`.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    #[command(flatten)]
+    plan: PlanArgument,
+    #[command(flatten)]
+    options: RunOptions,
+}
+
+/// Runs a plan; gives the exit code.
+///
+/// # Errors
+/// The plan is wrong, a file does not work.
+pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
+    arguments.options.check()?;
+    let (file, graph) = PlanFile::graph(&arguments.plan.plan)?;
+    let mut registry = Registry::<Simulation>::new();
+    afp_std::templates::register(&mut registry);
+    afp_carbot::templates::register(&mut registry);
+    let plan = LoadedPlan::new(&graph, &registry).map_err(|error| {
+        let help = "'afpc run' knows the built-in toolboxes; \
+                    runner crates for toolboxes of one's own come with a later release";
+        RunError::usage(error.to_string(), help)
+    })?;
+    let path = file.path.display().to_string();
+    let program = Program { name: &graph.main().name, file: &path, text: &file.text };
+    Ok(afp_run::run(&program, plan, &arguments.options)?)
+}
