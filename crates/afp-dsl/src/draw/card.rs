@@ -84,7 +84,7 @@ pub(super) fn element<'a>(view: &View<'a>, element: &'a Element) -> Card<'a> {
         exit_below(&mut card, (x + width / 2.0, rect.bottom()), exit);
         x += width + EXIT_GAP;
     }
-    card.entry = (rect.x + 28.0, rect.right() - 28.0);
+    card.entry = (rect.x + 20.0, rect.right() - 20.0);
     card.width = rect.right();
     stack.attach(view, &mut card, rect);
     card

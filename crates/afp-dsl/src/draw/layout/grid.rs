@@ -85,6 +85,11 @@ impl Grid {
         self.items[terminal.item].x + terminal.offset
     }
 
+    /// The ways of an edge from start to tip, given its nets.
+    pub(super) fn ways(&self, chain: &[usize]) -> Vec<usize> {
+        chain.iter().skip(1).map(|net| self.nets[*net].ends[0].item).collect()
+    }
+
     fn add_chain(&mut self, index: usize, link: &Link, nodes: &[Node], layer_of: &[usize]) {
         let (from, to) = (layer_of[link.from], layer_of[link.to]);
         let down = to > from;

@@ -2,7 +2,7 @@
 
 use super::channel::{TOUCHING, Wire, levels};
 use super::grid::{Grid, LINE, Terminal};
-use super::place::room;
+use super::place::{push_right, room, straighten_outward};
 use super::{Exit, Layout, Link, Node};
 
 /// Room above the first and below the last horizontal line of a channel; arrow tips need more.
@@ -10,10 +10,11 @@ const ABOVE: f64 = 14.0;
 const BELOW: f64 = 24.0;
 
 /// Least distance of two arrivals on one box.
-const ARRIVALS: f64 = 14.0;
+const ARRIVALS: f64 = 13.0;
 
 /// How often edges on top of each other are moved apart.
-const ATTEMPTS: usize = 40;
+const ATTEMPTS: usize = 60;
+const STRAIGHT_ATTEMPTS: usize = 4;
 
 /// Places and polylines of everything.
 pub(super) fn route(grid: &mut Grid, nodes: &[Node], links: &[Link]) -> Layout {
@@ -113,7 +114,7 @@ impl Tracks {
 
 /// Moves items a little where two edges would lie on top of each other. Ways rather than boxes.
 fn separate(grid: &mut Grid) {
-    for _ in 0..ATTEMPTS {
+    for attempt in 0..ATTEMPTS {
         let tracks = Tracks::new(grid);
         let conflicts = grid.channels.iter().filter_map(|nets| tracks.conflict(grid, nets));
         let conflicts: Vec<_> = conflicts.collect();
@@ -125,29 +126,41 @@ fn separate(grid: &mut Grid) {
             let (moved, other) = if is_way { (low, high) } else { (high, low) };
             move_away(grid, &moved.0, moved.1, other.1);
         }
+        // Straight lines may conflict anew, so in the end only distance counts.
+        if attempt < STRAIGHT_ATTEMPTS {
+            straighten_outward(grid);
+        }
     }
 }
 
-/// Moves the item of `end`, which is at `x`, as little as needed to be apart from `other`; where its
-/// neighbours leave no room, to the right, and them too.
+/// Moves the item of `end`, which is at `x`, as little as needed to be apart from `other`, and what
+/// is on one line with it; where neighbours leave no room, to the right, and them too.
 fn move_away(grid: &mut Grid, end: &Terminal, x: f64, other: f64) {
-    let (left, right) = room(grid, end.item);
-    let own = grid.items[end.item].x;
+    let run = on_one_line(grid, end.item);
     let distance = TOUCHING + 2.0;
     let shifts = [other - distance - x, other + distance - x];
-    let fitting = shifts.into_iter().filter(|shift| left <= own + shift && own + shift <= right);
-    let best = fitting.min_by(|a, b| a.abs().total_cmp(&b.abs()));
-    grid.items[end.item].x += best.unwrap_or(shifts[1]);
-    push_right(grid, grid.items[end.item].layer);
+    let fits = |shift: &f64| {
+        run.iter().all(|item| {
+            let (left, right) = room(grid, *item);
+            (left..=right).contains(&(grid.items[*item].x + shift))
+        })
+    };
+    let best = shifts.into_iter().filter(fits).min_by(|a, b| a.abs().total_cmp(&b.abs()));
+    for item in run {
+        grid.items[item].x += best.unwrap_or(shifts[1]);
+        push_right(grid, grid.items[item].layer);
+    }
 }
 
-/// Restores the gaps of a layer by moving items to the right.
-fn push_right(grid: &mut Grid, layer: usize) {
-    for place in 1..grid.layers[layer].len() {
-        let [left, right] = [place - 1, place].map(|place| grid.layers[layer][place]);
-        let least = grid.items[left].x + grid.items[left].width + grid.gap(left, right);
-        grid.items[right].x = grid.items[right].x.max(least);
-    }
+/// The ways of the same edge that continue an item straight up and down, itself included.
+fn on_one_line(grid: &Grid, item: usize) -> Vec<usize> {
+    let ways = grid.chains.iter().map(|chain| grid.ways(chain));
+    let Some(ways) = ways.into_iter().find(|ways| ways.contains(&item)) else {
+        return vec![item];
+    };
+    let x = grid.items[item].x;
+    let runs = ways.split(|way| (grid.items[*way].x - x).abs() > 0.5);
+    runs.into_iter().find(|run| run.contains(&item)).map_or_else(|| vec![item], <[_]>::to_vec)
 }
 
 fn layer_height(grid: &Grid, layer: &[usize], nodes: &[Node]) -> f64 {
@@ -218,7 +231,7 @@ mod tests {
     fn arrivals_stay_in_the_box_and_apart() {
         let tips = [(0, -50.0), (1, 30.0), (2, 32.0), (3, 900.0)];
         let places: Vec<_> = (0..4).map(|place| spread(&tips, place, (0.0, 100.0))).collect();
-        assert_eq!(places, [0.0, 30.0, 44.0, 100.0]);
+        assert_eq!(places, [0.0, 30.0, 43.0, 100.0]);
     }
 
     #[test]
