@@ -2,8 +2,7 @@
 
 use proc_macro2::{Ident, Span};
 
-/// Rust's words that need `r#` to be names; `self`, `Self`, `super`, `crate` and `_` cannot be, and
-/// the checks refuse them.
+/// Rust's words that need `r#` to be names.
 const KEYWORDS: &[&str] = &[
     "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "do", "dyn",
     "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let",
@@ -12,10 +11,16 @@ const KEYWORDS: &[&str] = &[
     "virtual", "where", "while", "yield",
 ];
 
+/// Rust's words that cannot be names at all. The checks refuse them, but not `self_`, of which the
+/// change of case leaves `self`.
+const NEVER: &[&str] = &["self", "Self", "super", "crate"];
+
 /// An identifier, raw where it has to be.
 pub fn ident(name: &str) -> Ident {
     if KEYWORDS.contains(&name) {
         Ident::new_raw(name, Span::call_site())
+    } else if NEVER.contains(&name) {
+        Ident::new(&format!("{name}_"), Span::call_site())
     } else {
         Ident::new(name, Span::call_site())
     }
@@ -116,6 +121,7 @@ mod tests {
     fn keywords_become_raw() {
         assert_eq!(ident("loop").to_string(), "r#loop");
         assert_eq!(ident("looped").to_string(), "looped");
+        assert_eq!(ident(&snake("self_")).to_string(), "self_");
     }
 
     #[test]

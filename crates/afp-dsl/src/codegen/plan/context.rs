@@ -35,7 +35,8 @@ const OWN: &[&str] = &[
 /// Statics of the module itself.
 const STATICS: &[&str] = &["EDGES", "ELEMENTS", "NAMES", "SUPERVISORS", "SWEEPS"];
 /// Functions and locals that generated code calls by bare name.
-const VALUES: &[&str] = &["config", "staged", "cx", "to", "from", "see", "plan"];
+const VALUES: &[&str] =
+    &["config", "staged", "cx", "to", "from", "see", "plan", "element", "supervisor"];
 
 /// One plan, with the names of its parts.
 pub struct Context<'a> {
