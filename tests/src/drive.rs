@@ -41,6 +41,9 @@ where
 {
     let (log, clock) = (Log::default(), CostClock::default());
     let names = plan.names();
+    if script.show_names {
+        crate::names::note(&names, &log);
+    }
     let mut run = Run {
         scheduler: Scheduler::new(plan),
         platform: Platform::new(script.clone(), log.clone(), clock.clone()),

@@ -64,7 +64,7 @@ impl Platform {
     /// What the script wants.
     pub fn call(&mut self, channel: &str, phase: Phase, now: Instant) -> Result<(), Fault> {
         let shown = phase == Phase::Interrupt || self.script.show_polls && phase == Phase::Poll;
-        if shown {
+        if shown && !self.script.show_nothing {
             self.log.note(format!("{now} [{phase} {channel}]"));
         }
         let mut cost = Duration::ZERO;

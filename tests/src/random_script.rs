@@ -11,7 +11,7 @@ const LENGTH: u64 = 200;
 /// A script for a plan; equal seeds give equal scripts.
 pub fn script(plan: &RandomPlan, seed: u64) -> String {
     let mut dice = Dice::new(seed);
-    let mut text = format!("show polls\nshow wakes\nuntil {LENGTH} ms\n");
+    let mut text = format!("show names\nshow polls\nshow wakes\nuntil {LENGTH} ms\n");
     for channel in &plan.channels {
         answers(channel, &mut dice, &mut text);
         troubles(channel, &mut dice, &mut text);

@@ -12,6 +12,8 @@
 //! step at 10 ms 13 ms                 else at the instants that the plan asks for
 //! show polls                          also of actors
 //! show wakes
+//! show names                          of all components and entries, first
+//! show nothing                        not even interrupts
 //! show last 4                         of all lines
 //! until 100 ms
 //! ```
@@ -42,6 +44,10 @@ pub struct Script {
     pub show_polls: bool,
     /// What each step returns is noted too.
     pub show_wakes: bool,
+    /// The names behind all ids are noted first.
+    pub show_names: bool,
+    /// What the platform is asked is not noted.
+    pub show_nothing: bool,
     /// Of all lines, only the last ones and the number of the others are kept.
     pub show_last: Option<usize>,
 }

@@ -38,6 +38,8 @@ fn read_line(script: &mut Script, line: &str) -> Option<()> {
     match line.split_once(' ')? {
         ("show", "polls") => script.show_polls = true,
         ("show", "wakes") => script.show_wakes = true,
+        ("show", "names") => script.show_names = true,
+        ("show", "nothing") => script.show_nothing = true,
         ("show", what) => script.show_last = Some(what.strip_prefix("last ")?.parse().ok()?),
         ("until", time) => script.until = instant(time)?,
         ("set", assignment) => script.inputs.push(read_assignment(assignment)?),

@@ -293,7 +293,7 @@ const RULES: &[Rule] = &[
     (
         "2",
         "names are those of the text, whatever Rust makes of them",
-        &["names_that_rust_knows_too"],
+        &["names_that_rust_knows_too", "names_of_generated_code"],
     ),
 ];
 

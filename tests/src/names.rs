@@ -1,0 +1,47 @@
+//! The names behind the ids of a plan, line by line, so that those of both back ends compare.
+
+use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR, Kind, Names, TraceEntryId};
+
+use crate::platform::Log;
+
+/// More outcomes, ports and choices than anything has in the tests.
+const MANY: u16 = 16;
+
+/// Notes all names.
+pub fn note(names: &impl Names, log: &Log) {
+    for id in (0..names.components()).map(ComponentId) {
+        log.note(component(names, id));
+    }
+    for id in (0..names.entries()).map(TraceEntryId) {
+        let entry = names.entry(id);
+        let choices = (0..MANY).map(|value| names.choice(id, value));
+        let choices: Vec<&str> = choices.filter(|choice| !choice.is_empty()).collect();
+        let unit = if entry.unit.is_empty() { "" } else { " in " };
+        log.note(format!(
+            "[{:?} {}: {}{unit}{} {}]",
+            entry.kind,
+            entry.path,
+            entry.ty,
+            entry.unit,
+            choices.join(" ")
+        ));
+    }
+}
+
+/// `[Actor a: Work (name value) Done -> b]`
+fn component(names: &impl Names, id: ComponentId) -> String {
+    let component = names.component(id);
+    let special = match component.kind {
+        Kind::Supervisor => DEADLINE_MISSED,
+        _ => ERROR,
+    };
+    let outcomes = (0..MANY).chain([special]).filter_map(|outcome| {
+        let (name, target) = (names.outcome(id, outcome), names.target(id, outcome));
+        (!name.is_empty()).then(|| format!(" {name} -> {target}"))
+    });
+    let outcomes: String = outcomes.collect();
+    let inputs = (0..MANY).map(|port| names.input(id, port)).filter(|name| !name.is_empty());
+    let inputs: Vec<&str> = inputs.collect();
+    let (kind, path, template) = (component.kind, component.path, component.template);
+    format!("[{kind:?} {path}: {template} ({}){outcomes}]", inputs.join(" "))
+}
