@@ -5,6 +5,8 @@
 
 mod input;
 mod sources;
+#[cfg(test)]
+mod tests;
 
 use afp_dsl::codegen::{self, Options};
 use afp_dsl::diagnostics::{Diagnostics, Severity};
@@ -35,7 +37,7 @@ pub fn plan(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
 }
 
 fn expand(input: TokenStream, make: fn(&Input) -> Result<TokenStream, TokenStream>) -> TokenStream {
-    let input = input::parse(input).map_err(|text| error(&format!("error: {text}")));
+    let input = syn::parse2(input).map_err(|error| error.into_compile_error());
     input.and_then(|input| make(&input)).unwrap_or_else(|error| error)
 }
 

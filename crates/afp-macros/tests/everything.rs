@@ -118,7 +118,7 @@ mod kit {
 }
 
 mod plan {
-    afp_macros::plan!(
+    afp::plan!(
         "../afp-dsl/tests/codegen/everything.afp",
         toolboxes = { "../afp-dsl/tests/codegen/toolbox.afp" => crate::kit }
     );

@@ -1,0 +1,29 @@
+//! The plan of the paper compiles against the toolbox, and asks of a robot what its templates ask.
+
+mod plan {
+    afp_macros::plan!("../../plans/wall_following.afp");
+}
+
+use afp_carbot::Carbot;
+use afp_core::quantity::Length;
+use afp_core::rt::{NamedPlan, Plan};
+use afp_core::trace::{ComponentId, Names};
+use plan::WallFollowing;
+
+/// Compiles only if every Carbot can run the plan.
+pub fn runs_on_every_carbot<E: Carbot>() -> impl Plan<E> {
+    WallFollowing::new()
+}
+
+#[test]
+fn names_are_those_of_the_text() {
+    let mut plan = WallFollowing::new();
+    let names = plan.names();
+    assert_eq!(names.components(), 11);
+    assert_eq!(names.component(ComponentId(9)).path, "searchFirstWall.checkLane");
+    assert_eq!(names.target(ComponentId(3), 1), "turnAfterWallLost");
+    assert_eq!(plan.walldist(), None);
+    plan.set_walldist(Length::from_si(0.25)).unwrap();
+    assert_eq!(plan.walldist(), Some(Length::from_si(0.25)));
+    assert!(plan.set_walldist(Length::from_si(f64::NAN)).is_err());
+}

@@ -1,0 +1,55 @@
+//! What the macros say when something is wrong.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::{expand, plan_code, toolbox_code};
+
+/// The texts of all compile errors.
+fn errors(tokens: &TokenStream) -> Vec<String> {
+    let text = tokens.to_string();
+    assert!(text.starts_with(":: core :: compile_error !"), "{text}");
+    text.split(":: core :: compile_error !").skip(1).map(str::to_owned).collect()
+}
+
+#[test]
+fn every_error_of_a_plan_is_a_compile_error_with_its_place() {
+    let errors = errors(&expand(quote!("tests/wrong/plan.afp"), plan_code));
+    assert_eq!(errors.len(), 2, "{errors:?}");
+    assert!(errors[0].contains("tests/wrong/plan.afp:5:33"), "{}", errors[0]);
+    assert!(errors[0].contains("error[E02"), "{}", errors[0]);
+    assert!(errors[1].contains("tests/wrong/plan.afp:6:"), "{}", errors[1]);
+}
+
+#[test]
+fn every_error_of_a_toolbox_is_a_compile_error_with_its_place() {
+    let errors = errors(&expand(quote!("tests/wrong/toolbox.afp"), toolbox_code));
+    assert_eq!(errors.len(), 1, "{errors:?}");
+    assert!(errors[0].contains("tests/wrong/toolbox.afp:4:"), "{}", errors[0]);
+}
+
+#[test]
+fn a_missing_file_is_named() {
+    let errors = errors(&expand(quote!("no/such.afp"), plan_code));
+    assert!(errors[0].contains("cannot read") && errors[0].contains("no/such.afp"), "{errors:?}");
+    let errors = errors_of_toolbox("nobody.afp");
+    assert!(errors[0].contains("nobody.afp"), "{errors:?}");
+}
+
+fn errors_of_toolbox(name: &str) -> Vec<String> {
+    errors(&expand(quote!(#name), toolbox_code))
+}
+
+#[test]
+fn what_is_no_file_name_is_a_compile_error() {
+    for wrong in [quote!(), quote!(7), quote!("a.afp", boxes = {}), quote!("a.afp" "b.afp")] {
+        let text = expand(wrong, plan_code).to_string();
+        assert!(text.contains("compile_error"), "{text}");
+    }
+}
+
+#[test]
+fn a_built_in_toolbox_goes_by_its_file_name() {
+    let text = expand(quote!("std.afp"), toolbox_code).to_string();
+    assert!(text.contains("pub mod wait"));
+}
