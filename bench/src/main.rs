@@ -3,11 +3,14 @@
 //! All cases of a group run in turns within one process, so that their ratios mean something on a
 //! machine that is busy with other things; the limits are on ratios alone.
 
+mod allocations;
 mod board;
 mod clocks;
+mod copper;
 mod measure;
 mod plans;
 mod report;
+mod simulation;
 mod step;
 mod steps;
 mod transition;
@@ -54,4 +57,10 @@ fn main() -> ExitCode {
 type Group = fn(u32, &mut Report);
 
 /// What there is to measure, by the name that a filter picks.
-const GROUPS: &[(&str, Group)] = &[("step", step::run), ("transition", transition::run)];
+const GROUPS: &[(&str, Group)] = &[
+    ("step", step::run),
+    ("copper", copper::run),
+    ("transition", transition::run),
+    ("simulation", simulation::run),
+    ("allocations", allocations::run),
+];

@@ -16,6 +16,11 @@ pub mod transition {
     afp_macros::plan!("plans/transition.afp", toolboxes = { "toolbox/board.afp" => crate::board });
 }
 
+pub mod wall_following {
+    //! The plan of the paper.
+    afp_macros::plan!("../plans/wall_following.afp");
+}
+
 /// The plan of [`step`], interpreted.
 pub fn loaded_step() -> LoadedPlan<Board> {
     load(include_str!("../plans/step.afp"))

@@ -1,0 +1,133 @@
+//! A minute of wall following in the simulator, against the same engine without any of it.
+//!
+//! The baseline is the same number of rapier steps of the same room and body, and as many rays
+//! cast as the range sensor casts.
+
+use std::hint::black_box;
+use std::time;
+
+use afp_core::rt::NamedPlan;
+use afp_core::trace::{NoTrace, Sink};
+use afp_core::{Instant, Scheduler, StillClock, Wake};
+use afp_log::robot::{Pose2, Ranging};
+use afp_log::{About, NameTable, Recorder, WhenFull};
+use afp_sim::{Bare, STEP, Simulation, World};
+
+use crate::measure::{Race, Times};
+use crate::plans::wall_following::WallFollowing;
+use crate::report::{Report, Row};
+
+/// How much virtual time one operation simulates.
+const SECONDS: u64 = 60;
+const END: Instant = Instant::from_nanos(SECONDS * 1_000_000_000);
+/// Physics steps from one ping of the range sensor to the next.
+const STEPS_PER_PING: u64 = 10;
+/// The seed of the run.
+const SEED: u64 = 7;
+
+/// Most that the simulator may take of the bare engine.
+const OF_BARE: f64 = 1.5;
+/// Least that the simulator must be faster than real time.
+const OF_REAL_TIME: f64 = 500.0;
+
+/// Races the bare engine, a run without a log and one with.
+pub fn run(rounds: u32, report: &mut Report) {
+    let world = World::parse(include_str!("../../worlds/wall_following.toml"));
+    let world = &world.unwrap_or_else(|why| panic!("{why:?}"));
+    let mut race = Race::default();
+    race.add("bare engine", |count| (0..count).for_each(|_| bare(world)));
+    race.add("no log", |count| (0..count).for_each(|_| follow(world, &mut NoLog)));
+    race.add("log", |count| (0..count).for_each(|_| logged(world)));
+    let times = race.run(rounds.div_ceil(25));
+    let [engine, quiet, logged] = &times[..] else { return };
+    let row = |case: &Times| {
+        Row::new(format!("simulated second/{}", case.name), case.best / SECONDS as f64 / 1e3, "us")
+    };
+    report.add(row(engine));
+    for (case, most) in [(quiet, Some(OF_BARE)), (logged, None)] {
+        let ratio = case.ratio(engine);
+        let row = row(case).against("simulated second/bare engine", ratio);
+        report.add(match most {
+            Some(most) => row.limit(format!("<= {most}"), ratio <= most),
+            None => row,
+        });
+        let speed = SECONDS as f64 * 1e9 / case.best;
+        let row = Row::new(format!("simulated second/{}, speed", case.name), speed, "x");
+        let row = row.against("real time", speed);
+        report.add(match most {
+            Some(_) => row.limit(format!(">= {OF_REAL_TIME}"), speed >= OF_REAL_TIME),
+            None => row,
+        });
+    }
+}
+
+/// The engine alone.
+fn bare(world: &World) {
+    let mut engine = Bare::new(world).unwrap_or_else(|why| panic!("{why:?}"));
+    for step in 0..END.as_nanos() / STEP.as_nanos() {
+        engine.step();
+        if step % STEPS_PER_PING == 0 {
+            black_box(engine.ping());
+        }
+    }
+}
+
+/// Takes what happens at the robot as well as the plan's trace.
+trait RobotSink: Sink {
+    fn robot(&mut self, sim: &Simulation);
+}
+
+/// Takes nothing.
+struct NoLog;
+
+impl Sink for NoLog {
+    const ENABLED: bool = NoTrace::ENABLED;
+    fn record(&mut self, _: Instant, _: &afp_core::trace::Record<'_>) {}
+}
+
+impl RobotSink for NoLog {
+    fn robot(&mut self, _: &Simulation) {}
+}
+
+impl RobotSink for Recorder {
+    fn robot(&mut self, sim: &Simulation) {
+        let snapshot = sim.snapshot();
+        let pose = snapshot.pose;
+        let pose = Pose2 { x: pose.x, y: pose.y, heading: pose.heading };
+        self.pose(snapshot.time, "world", pose);
+        if let Some(sonar) = snapshot.sonar {
+            let ranging = Ranging { frame: "sonar", half_angle: 0.26, range: sonar.distance };
+            self.ranging(snapshot.time, ranging);
+        }
+    }
+}
+
+/// The plan drives the robot until the end.
+fn follow(world: &World, log: &mut impl RobotSink) {
+    let mut sim = Simulation::new(world, SEED).unwrap_or_else(|why| panic!("{why:?}"));
+    let mut plan = Scheduler::new(WallFollowing::new());
+    let wake = plan.start(&mut sim, log, &StillClock, Instant::ZERO);
+    let mut wake = wake.unwrap_or_else(|why| panic!("{why:?}"));
+    while let Wake::At(due) = wake
+        && due <= END
+    {
+        sim.advance_to(due);
+        wake = plan.step(&mut sim, log, &StillClock, due);
+        log.robot(&sim);
+    }
+    assert!(plan.ending().is_none(), "the robot follows the wall for as long as it is let");
+}
+
+/// The same, recorded.
+fn logged(world: &World) {
+    let name = format!("afp-bench-{}-{:?}.mcap", std::process::id(), time::Instant::now());
+    let path = std::env::temp_dir().join(name);
+    let names = NameTable::new(&WallFollowing::new().names());
+    let log = Recorder::create(&path, &About::default(), names, WhenFull::Wait);
+    let mut log = log.unwrap_or_else(|why| panic!("{why}"));
+    log.started(Instant::ZERO);
+    follow(world, &mut log);
+    log.finish().unwrap_or_else(|why| panic!("{why}"));
+    // A file that stays behind in the temporary folder does no harm.
+    let _ = std::fs::remove_file(path);
+}

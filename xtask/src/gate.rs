@@ -1,0 +1,77 @@
+//! The gate of the microcontroller: a plan with core and templates links without any panic.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::image;
+use crate::shell::{Failure, cargo, program, run as run_command, target};
+
+const TARGET: &str = "thumbv7em-none-eabihf";
+const MANIFEST: &str = "firmware/wall_following/Cargo.toml";
+const IMAGE: &str = "firmware-wall-following";
+/// Where Debian's packages put a compiler and the sources of its library.
+const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
+const DEBIAN_SOURCES: &str = "/usr/lib/rustlib/src/rust/library";
+
+/// Builds the image and looks into it.
+///
+/// # Errors
+/// It does not build, or panics are linked.
+pub fn run() -> Result<(), Failure> {
+    let folder = target().join("firmware");
+    let built = if install_target().is_ok() {
+        build(&mut cargo(), &folder)
+    } else {
+        install_debian()?;
+        // Another compiler, another folder: or every switch would build everything anew.
+        let folder = target().join("firmware-debian");
+        let mut command = cargo();
+        command
+            .env("RUSTC", DEBIAN_RUSTC)
+            .env("RUSTC_BOOTSTRAP", "1")
+            .env_remove("RUSTUP_TOOLCHAIN");
+        build(command.arg("-Zbuild-std=core,alloc"), &folder)
+    };
+    let image = image::read(&fs::read(built?)?)?;
+    let (symbols, text) = (image.symbols.len(), image.text);
+    println!("{IMAGE} for {TARGET}: {text} bytes of text, {symbols} symbols");
+    let panics = image.panics();
+    if panics.is_empty() {
+        println!("no panic is linked");
+        return Ok(());
+    }
+    Err(Failure(format!("error: panics are linked:\n    {}", panics.join("\n    "))))
+}
+
+fn build(command: &mut Command, folder: &Path) -> Result<PathBuf, Failure> {
+    let build = ["build", "--release", "--target", TARGET, "--manifest-path", MANIFEST];
+    run_command(command.args(build).env("CARGO_TARGET_DIR", folder))?;
+    Ok(folder.join(TARGET).join("release").join(IMAGE))
+}
+
+/// The target's library, from rustup.
+fn install_target() -> Result<(), Failure> {
+    run_command(program("rustup").args(["target", "add", TARGET]))
+}
+
+/// A compiler with sources, from Debian, for machines that rustup cannot serve.
+fn install_debian() -> Result<(), Failure> {
+    if Path::new(DEBIAN_RUSTC).exists() && Path::new(DEBIAN_SOURCES).exists() {
+        return Ok(());
+    }
+    let root = program("id").arg("-u").output().is_ok_and(|out| out.stdout == b"0\n");
+    let apt = |arguments: &[&str]| {
+        let mut command = program(if root { "apt-get" } else { "sudo" });
+        if !root {
+            command.arg("apt-get");
+        }
+        run_command(command.args(arguments))
+    };
+    let install = apt(&["update"]).and_then(|()| {
+        apt(&["install", "-y", "--no-install-recommends", "rustc-web", "rust-web-src"])
+    });
+    install.map_err(|why| {
+        Failure(format!("{}\nhelp: the gate needs 'rustup target add {TARGET}' to work", why.0))
+    })
+}

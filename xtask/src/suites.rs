@@ -1,0 +1,129 @@
+//! What there is to run, one after the other, and the account of it at the end.
+
+use std::time::{Duration, Instant};
+
+use crate::shell::{Failure, cargo, run as run_command};
+use crate::{bench, gate, python};
+
+/// A suite by its name.
+type Suite = (&'static str, fn() -> Result<(), Failure>);
+
+/// What `cargo xtask test` runs.
+pub const TEST: &[Suite] = &[
+    ("workspace", workspace),
+    ("xtask", || run_command(cargo().args(["test", "--package", "xtask"]))),
+    ("python", python::run),
+    ("gate", gate::run),
+];
+
+/// What `cargo xtask nightly` runs.
+pub const NIGHTLY: &[Suite] = &[
+    ("workspace", workspace),
+    ("random plans", random_plans),
+    ("python", python::run),
+    ("gate", gate::run),
+    ("benchmarks", || bench(&["--check".to_owned()])),
+];
+
+/// What `cargo xtask lint` runs.
+pub const LINT: &[Suite] =
+    &[("format", || run_command(cargo().args(["fmt", "--all", "--check"]))), ("clippy", clippy)];
+
+/// Random plans that the nightly run compares.
+const RANDOM_PLANS: &str = "400";
+
+/// Runs the suites of those names, all of them without a name, and says how it went.
+///
+/// # Errors
+/// Unknown names, or the suites that failed.
+pub fn run(suites: &[Suite], names: &[String]) -> Result<(), Failure> {
+    for name in names {
+        if !suites.iter().any(|(known, _)| known == name) {
+            let known: Vec<_> = suites.iter().map(|(known, _)| *known).collect();
+            return Err(format!("no suite '{name}'; there are: {}", known.join(", ")).into());
+        }
+    }
+    let wanted = suites
+        .iter()
+        .filter(|(name, _)| names.is_empty() || names.iter().any(|wanted| wanted == name));
+    let mut account = Vec::new();
+    for (name, suite) in wanted {
+        eprintln!("\n== {name}");
+        let start = Instant::now();
+        let done = suite();
+        if let Err(Failure(why)) = &done {
+            eprintln!("{why}");
+        }
+        account.push((*name, start.elapsed(), done.is_ok()));
+    }
+    conclude(&account)
+}
+
+/// Prints the account.
+fn conclude(account: &[(&str, Duration, bool)]) -> Result<(), Failure> {
+    println!();
+    for (name, took, passed) in account {
+        let verdict = if *passed { "ok" } else { "FAILED" };
+        println!("{name:<14} {:>7.1} s  {verdict}", took.as_secs_f64());
+    }
+    let failed: Vec<&str> =
+        account.iter().filter(|(_, _, passed)| !passed).map(|(name, ..)| *name).collect();
+    if failed.is_empty() {
+        return Ok(());
+    }
+    let again: Vec<String> = failed.iter().map(|name| again(name)).collect();
+    Err(Failure(format!(
+        "\nfailed: {}\nto run just that:\n{}",
+        failed.join(", "),
+        again.join("\n")
+    )))
+}
+
+/// How to run one suite.
+fn again(name: &str) -> String {
+    match name {
+        "format" => "    cargo fmt --all".to_owned(),
+        "clippy" => "    cargo xtask lint".to_owned(),
+        "random plans" => {
+            format!("    AFP_RANDOM_PLANS={RANDOM_PLANS} cargo test -p afp-tests random")
+        }
+        "benchmarks" => "    cargo xtask bench --check".to_owned(),
+        other => format!("    cargo xtask test {other}"),
+    }
+}
+
+/// All tests of the crates and of the examples.
+fn workspace() -> Result<(), Failure> {
+    let all = ["test", "--workspace", "--exclude", "afp-bench", "--exclude", "xtask"];
+    run_command(cargo().args(all))
+}
+
+/// The interpreter against generated code on many random plans.
+fn random_plans() -> Result<(), Failure> {
+    let test = ["test", "--package", "afp-tests", "random", "--", "--nocapture"];
+    run_command(cargo().args(test).env("AFP_RANDOM_PLANS", RANDOM_PLANS))
+}
+
+fn clippy() -> Result<(), Failure> {
+    let all = ["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"];
+    run_command(cargo().args(all))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unknown_suite_is_named_with_those_that_exist() {
+        let Err(Failure(text)) = run(LINT, &["clipy".to_owned()]) else { panic!("it passed") };
+        assert_eq!(text, "error: no suite 'clipy'; there are: format, clippy");
+    }
+
+    #[test]
+    fn what_failed_is_named_with_the_command_that_runs_it_again() {
+        let account = [("gate", Duration::ZERO, false), ("python", Duration::ZERO, true)];
+        let Err(Failure(text)) = conclude(&account) else { panic!("it passed") };
+        assert!(text.contains("failed: gate") && text.contains("cargo xtask test gate"), "{text}");
+        assert!(!text.contains("python"), "{text}");
+    }
+}
