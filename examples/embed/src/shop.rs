@@ -1,0 +1,122 @@
+//! The foreign program's side: a shop with a robot in it. A template calls it back.
+
+use afp::quantity::{Angle, AngularSpeed, Speed};
+use afp::{Actor, Environment, Fault, Instant, Poll};
+use afp_carbot::devices::{
+    Beam, Body, Button, Buttons, Echo, Motion, Navigator, Odometry, Reading, RotatingTelemetry,
+    Rotator, TouchSensor, Ultrasonic,
+};
+use afp_sim::Simulation;
+
+/// The shop's templates, declared in `shop.afp`.
+pub mod templates {
+    afp::toolbox!("shop.afp");
+}
+
+/// The platform: the robot, and the shop that it is in.
+pub struct Shop {
+    /// The robot.
+    pub robot: Simulation,
+    /// What was announced.
+    pub announced: Vec<String>,
+}
+
+/// What the shop offers to templates beside the robot.
+pub trait Loudspeaker {
+    /// Tells everybody.
+    fn announce(&mut self, text: &str);
+}
+
+impl Loudspeaker for Shop {
+    fn announce(&mut self, text: &str) {
+        self.announced.push(text.to_owned());
+    }
+}
+
+/// Calls the foreign program.
+#[derive(Debug)]
+pub struct Announce;
+
+impl<E: Loudspeaker + ?Sized> Actor<templates::Announce, E> for Announce {
+    fn start(
+        inputs: templates::announce::Inputs<'_>,
+        env: &mut E,
+        _: Instant,
+    ) -> Result<Self, Fault> {
+        env.announce(inputs.text);
+        Ok(Announce)
+    }
+
+    fn poll(
+        &mut self,
+        _: templates::announce::Live,
+        _: &mut E,
+        _: Instant,
+    ) -> Result<Poll<templates::announce::State>, Fault> {
+        Ok(Poll::Ready(templates::announce::State::Announced))
+    }
+
+    fn interrupt(&mut self, _: &mut E, _: Instant) -> Result<(), Fault> {
+        Ok(())
+    }
+}
+
+impl Environment for Shop {
+    fn stop(&mut self, now: Instant) {
+        self.robot.stop(now);
+    }
+
+    fn emergency_stop(&mut self) {
+        self.robot.emergency_stop();
+    }
+}
+
+impl Navigator for Shop {
+    fn drive(&mut self, speed: Speed, turn: AngularSpeed, now: Instant) {
+        self.robot.drive(speed, turn, now);
+    }
+
+    fn body(&self) -> Body {
+        self.robot.body()
+    }
+}
+
+impl Odometry for Shop {
+    fn motion(&self) -> Reading<Motion> {
+        self.robot.motion()
+    }
+}
+
+impl Ultrasonic for Shop {
+    fn echo(&self) -> Reading<Echo> {
+        self.robot.echo()
+    }
+
+    fn beam(&self) -> Beam {
+        self.robot.beam()
+    }
+}
+
+impl Rotator for Shop {
+    fn point(&mut self, bearing: Angle, now: Instant) {
+        self.robot.point(bearing, now);
+    }
+}
+
+impl RotatingTelemetry for Shop {
+    fn bearing(&self) -> Reading<Angle> {
+        self.robot.bearing()
+    }
+}
+
+impl TouchSensor for Shop {
+    fn touched(&self) -> Reading<bool> {
+        self.robot.touched()
+    }
+}
+
+impl Buttons for Shop {
+    fn pressed(&self, button: Button) -> Reading<bool> {
+        self.robot.pressed(button)
+    }
+}
