@@ -200,7 +200,7 @@ fn results_of_a_sub_plan_reach_the_plan_that_uses_it() {
         "0.010000 round commits round.text: unset -> \"12 cm of 3\"",
         "0.010000 round.seek reads name = \"12 cm1\"",
         "0.030000 round ended OK",
-        "0.030000 round commits turn: unset -> 0.5 rad",
+        "0.030000 round commits turn: 0 rad -> 0.5 rad",
         "0.030000 round commits text: \"12 cm\" -> \"60 cm\"",
         "0.030000 again commits again.pace: unset -> 0.6 m/s",
     ] {
@@ -209,14 +209,16 @@ fn results_of_a_sub_plan_reach_the_plan_that_uses_it() {
 }
 
 #[test]
-fn an_object_that_nobody_has_written_is_a_fault_of_who_reads_it() {
-    let lines = same_story(&[Some(State::Bored)]);
-    let fault = "0.010000 again.seek fault unset";
-    assert!(lines.iter().any(|line| line.starts_with(fault)), "{lines:#?}");
-    assert!(
-        lines.iter().any(|line| line.ends_with("value = \"at 3 m, lefttrue0.5\"")),
-        "{lines:#?}"
-    );
+fn texts_are_joined_from_values_of_every_kind() {
+    let lost = |said| Some(kit::lost(said, 0.5));
+    let lines = same_story(&[Some(State::Bored), lost("1 m"), None, lost("2 m")]);
+    for line in [
+        "show reads value = \"at 3 m, lefttrue0.5\"",
+        "again commits again.label: unset -> \"round\"",
+        "again.seek reads name = \"round1\"",
+    ] {
+        assert!(lines.iter().any(|known| known.ends_with(line)), "no '{line}' in {lines:#?}");
+    }
 }
 
 #[test]

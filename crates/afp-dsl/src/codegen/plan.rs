@@ -21,7 +21,7 @@ use quote::quote;
 
 use crate::codegen::Options;
 use crate::codegen::layout::{comment, doc};
-use crate::codegen::names::{camel, ident};
+use crate::codegen::names::camel;
 use crate::graph::{Graph, PlanId};
 use crate::unfold;
 use context::Context;
@@ -32,6 +32,8 @@ pub(crate) use shared::units_name;
 pub struct Generated {
     /// The modules, sub-plans before the plans that use them.
     pub modules: Vec<Module>,
+    /// The module and the type of each plan.
+    pub plans: Vec<(Ident, Ident)>,
     /// The module of the plan that runs.
     pub main: Ident,
     /// The type of the plan that runs, in its module.
@@ -56,15 +58,13 @@ pub fn plan(graph: &Graph, options: &Options) -> Generated {
     let blocks = unfold::blocks(graph);
     let places = (0..).zip(&graph.plans);
     let mut modules = shared::modules(graph, options);
-    let mut main = (ident("plan"), ident("Plan"));
     for ((number, plan), block) in places.zip(&blocks) {
         let context = Context::new(graph, plan, block);
-        if PlanId(number) == graph.main {
-            main = (context.module.clone(), context.ty.clone());
-        }
         modules.push(module(&context, options, PlanId(number)));
     }
-    Generated { modules, main: main.0, plan: main.1 }
+    let plans = (0..graph.plans.len() as u16).map(|number| home(graph, PlanId(number)));
+    let (main, plan) = home(graph, graph.main);
+    Generated { modules, plans: plans.collect(), main, plan }
 }
 
 fn module(context: &Context<'_>, options: &Options, id: PlanId) -> Module {
@@ -116,7 +116,8 @@ impl Module {
 }
 
 impl Generated {
-    /// All modules with their bodies in a module of the main plan's name, and its type beside it.
+    /// All modules with their bodies in a module of the main plan's name, and the types of the
+    /// plans beside it.
     pub fn tokens(&self) -> TokenStream {
         let modules = self.modules.iter().map(|module| {
             let (name, about) = (&module.name, doc(&module.doc, ""));
@@ -131,6 +132,7 @@ impl Generated {
             }
         });
         let (main, plan) = (&self.main, &self.plan);
+        let (homes, types): (Vec<_>, Vec<_>) = self.plans.iter().cloned().unzip();
         let about = doc("", &format!("The plan `{plan}` and what it uses."));
         quote! {
             #about
@@ -139,7 +141,7 @@ impl Generated {
                 #(#modules)*
                 pub use self::#main::*;
             }
-            pub use self::#main::#plan;
+            #(pub use self::#main::#homes::#types;)*
         }
     }
 }

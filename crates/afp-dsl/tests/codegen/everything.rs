@@ -1285,7 +1285,7 @@ const AGAIN_PLACE: Child = Child {
 fn again(config: &Config, to: &mut super::round::Config) -> Result<(), Fault> {
     to.rounds.set(bool_to_int(config.flag()));
     to.label.set(Text::try_from("round")?);
-    to.here.set(config.found.get().clone());
+    to.here.set(config.place.get().clone());
     to.pace
         .set(
             finite(
@@ -1722,9 +1722,23 @@ impl PlanState for Everything {
             config.far.set(<Quantity<2, 0, -1, 0, 0, 0>>::from_si(1.0));
         }
         config.mood.set(super::enums::Mood::Wild);
+        config.side.set(crate::kit::templates::Side::Left);
+        config.turn.set(Angle::from_deg(0.0));
+        let value = finite(
+            <Quantity<
+                2,
+                0,
+                0,
+                0,
+                0,
+                0,
+            >>::from_si(Length::from_si(0.0).si() * Length::from_si(1.0).si()),
+        )?;
+        config.size.set(value);
         config.text.set(Text::try_from("12 cm")?);
         config.dist.set(Length::from_si(3.0));
         config.flag.set(true);
+        config.count.set(0);
         Ok(())
     }
 
