@@ -4,6 +4,7 @@
 
 mod gate;
 mod image;
+mod install;
 mod python;
 mod shell;
 mod suites;

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use crate::shell::{Failure, cargo, run as run_command};
-use crate::{bench, gate, python};
+use crate::{bench, gate, install, python};
 
 /// A suite by its name.
 type Suite = (&'static str, fn() -> Result<(), Failure>);
@@ -14,6 +14,7 @@ pub const TEST: &[Suite] = &[
     ("xtask", || run_command(cargo().args(["test", "--package", "xtask"]))),
     ("python", python::run),
     ("gate", gate::run),
+    ("install", install::run),
 ];
 
 /// What `cargo xtask nightly` runs.
@@ -22,6 +23,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("random plans", random_plans),
     ("python", python::run),
     ("gate", gate::run),
+    ("install", install::run),
     ("benchmarks", || bench(&["--check".to_owned()])),
 ];
 

@@ -1,0 +1,46 @@
+//! Installs `afpc` and uses it in an empty folder, as its users do.
+
+use std::fs;
+use std::path::Path;
+
+use crate::shell::{Failure, cargo, output, program, root, run as run_command, target};
+
+/// Enough time for the robot to bump and back up.
+const UNTIL: [&str; 2] = ["--until", "10s"];
+
+/// Installs the command line, runs and builds a copy of a plan far from the checkout, and compares
+/// what the program says with what the interpreter says, over twenty seeds.
+///
+/// # Errors
+/// Whatever does not work.
+pub fn run() -> Result<(), Failure> {
+    let home = target().join("xtask/install");
+    let install = ["install", "--locked", "--force", "--path", "crates/afpc", "--root"];
+    run_command(cargo().args(install).arg(&home))?;
+    let folder = std::env::temp_dir().join(format!("afp-install-{}", std::process::id()));
+    fs::create_dir_all(&folder)?;
+    let done = use_it(&home.join("bin/afpc"), &folder);
+    fs::remove_dir_all(&folder)?;
+    done?;
+    let twenty = ["test", "--package", "afpc", "--test", "build", "--", "--ignored"];
+    run_command(cargo().args(twenty))
+}
+
+fn use_it(afpc: &Path, folder: &Path) -> Result<(), Failure> {
+    fs::copy(root().join("plans/wall_following.afp"), folder.join("mine.afp"))?;
+    let here = |command: &Path| {
+        let mut command = program(command);
+        command.current_dir(folder);
+        command
+    };
+    let said = output(here(afpc).args(["run", "mine.afp", "--json"]).args(UNTIL))?;
+    // The folder that the twenty seeds use too: the engine is built once.
+    let built = target().join("tmp/built-plans");
+    let path = output(here(afpc).args(["build", "mine.afp"]).env("CARGO_TARGET_DIR", built))?;
+    let binary = Path::new(path.lines().last().unwrap_or_default()).to_owned();
+    let again = output(here(&binary).arg("--json").args(UNTIL))?;
+    if said != again {
+        return Err("the program and 'afpc run' do not say the same".into());
+    }
+    Ok(())
+}
