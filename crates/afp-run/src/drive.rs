@@ -7,10 +7,12 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use afp_core::rt::Plan;
-use afp_core::trace::Names;
+use afp_core::trace::{Line, Names, Record, TraceEntryId};
 use afp_core::{
-    Duration, Environment, Fault, Instant, PlanState, Scheduler, StartError, StillClock, Wake,
+    Duration, Ending, Environment, Fault, Instant, PlanState, Scheduler, StartError, StillClock,
+    Wake,
 };
+use afp_log::robot::Level;
 use afp_sim::Simulation;
 
 use crate::judge::{Judge, SAMPLE};
@@ -128,9 +130,7 @@ impl<P: Plan<Simulation>, N: Names> Drive<'_, P, N> {
             Err(_) => self.panicked(),
         };
         let own = (0..self.names.entries())
-            .take_while(|id| {
-                !self.names.entry(afp_core::trace::TraceEntryId(*id)).path.contains('.')
-            })
+            .take_while(|id| !self.names.entry(TraceEntryId(*id)).path.contains('.'))
             .count();
         let plan = self.scheduler.plan();
         let entries = (0..own as u16).map(|entry| plan.entry(entry).to_owned());
@@ -160,10 +160,16 @@ impl<P: Plan<Simulation>, N: Names> Drive<'_, P, N> {
     /// Tells everybody what happened in the step that is over.
     fn tell(&mut self) {
         let truth = self.sim.truth();
-        for owned in self.tracer.news.drain(..) {
+        let Tracer { news, log, .. } = &mut self.tracer;
+        for owned in news.drain(..) {
             let (at, record) = (owned.at, owned.get());
             self.judge.hear(at, &record, self.names, &truth);
             self.report.tell(at, &record, self.names);
+            if let (Some(log), Some(level)) = (log.as_mut(), level(&record)) {
+                let line = Line { at, record: &record, names: self.names }.to_string();
+                // The message has a time of its own.
+                log.text(at, level, "plan", line.split_once(' ').map_or("", |(_, text)| text));
+            }
         }
     }
 
@@ -181,5 +187,17 @@ impl<P: Plan<Simulation>, N: Names> Drive<'_, P, N> {
                 Stimulus::Release(Button::Escape) => self.sim.release_escape(),
             }
         }
+    }
+}
+
+/// What people who read the log as text want to know, and how much it matters.
+fn level(record: &Record<'_>) -> Option<Level> {
+    match record {
+        Record::Faulted { .. } | Record::Ended { ending: Ending::Error(_), .. } => {
+            Some(Level::Error)
+        }
+        Record::Missed { .. } | Record::ClockWentBack { .. } => Some(Level::Warning),
+        Record::Event { .. } | Record::Ended { .. } | Record::StopRequested => Some(Level::Info),
+        _ => None,
     }
 }

@@ -52,8 +52,9 @@ where
     P: NamedPlan + Plan<Simulation>,
 {
     let about = format!("Runs the plan {}.", program.name);
-    let command = RunOptions::augment_args(Command::new(program.name).about(about));
-    let command = command.after_help(EXAMPLES);
+    // The help of the options' own struct must not take the place of the program's.
+    let command = RunOptions::augment_args(Command::new(program.name)).about(about);
+    let command = command.long_about(None).after_help(EXAMPLES);
     let matches = command.get_matches();
     match RunOptions::from_arg_matches(&matches) {
         Ok(options) => finish(run(&program, new(), &options)),

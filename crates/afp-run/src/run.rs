@@ -14,7 +14,7 @@ use crate::error::{EXIT_OK, EXIT_PLAN_ERROR, RunError};
 use crate::hash::hash;
 use crate::judge::Judge;
 use crate::options::{Destination, RunOptions, Speed};
-use crate::output::write_whole;
+use crate::output::{check_writable, write_whole};
 use crate::pace::Pace;
 use crate::report::{Figures, Ran, Report, StoppedBy, Summary};
 use crate::robot::RobotLog;
@@ -133,7 +133,7 @@ struct Paths {
 }
 
 impl Paths {
-    /// Makes the default folder where it is needed.
+    /// Makes the default folder where it is needed, and finds out now what would fail later.
     fn new(program: &Program<'_>, options: &RunOptions) -> Result<Self, RunError> {
         let stem = Path::new(program.file).file_stem().unwrap_or("plan".as_ref());
         let path = |asked: &Option<Destination>, extension| -> Result<_, RunError> {
@@ -150,7 +150,11 @@ impl Paths {
                 }
             }
         };
-        Ok(Paths { log: path(&options.log, ".mcap")?, svg: path(&options.svg, ".svg")? })
+        let paths = Paths { log: path(&options.log, ".mcap")?, svg: path(&options.svg, ".svg")? };
+        if let Some(path) = &paths.svg {
+            check_writable("cannot write the picture", path)?;
+        }
+        Ok(paths)
     }
 }
 

@@ -20,9 +20,12 @@ const LOW: f64 = 0.15;
 /// Points of the path closer together than this are one, metres.
 const NEAR: f64 = 0.004;
 
+/// An actor that moves less than this acts on the spot, metres.
+const SPOT: f64 = 0.05;
+
 /// Colours of actors, told apart also by those who see few colours.
 const PALETTE: [&str; 8] =
-    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56b4e9", "#6a3d9a", "#7f7f7f"];
+    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#6a3d9a", "#56b4e9", "#7f7f7f"];
 /// The path while no actor is active.
 const NOBODY: &str = "#9a9a9a";
 
@@ -55,9 +58,20 @@ pub(crate) fn draw(picture: &Picture<'_>, names: &impl Names) -> String {
     for obstacle in &world.obstacles {
         canvas.obstacle(&obstacle.outline.corners(), obstacle.height < LOW);
     }
+    let stretches = stretches(path);
     canvas.robot(world.start, false);
-    for (actor, points) in stretches(path) {
-        canvas.path(&points, color(actor));
+    let whole: Vec<_> = stretches.iter().flat_map(|(_, points)| points.iter().copied()).collect();
+    canvas.footprint(&whole);
+    for (actor, points) in &stretches {
+        canvas.path(points, color(*actor));
+    }
+    let mut beside = 0;
+    for (actor, points) in &stretches {
+        // Who acts on the spot leaves no line, but a dot beside the path, one after the other.
+        beside = if length(points) < SPOT { beside + 1 } else { 0 };
+        if let (1.., Some(actor), Some(at)) = (beside, actor, points.last()) {
+            canvas.dot(*at, beside, color(Some(*actor)));
+        }
     }
     for obstacle in &world.obstacles {
         if let Some((middle, size)) = labelled(&obstacle.outline) {
@@ -115,6 +129,11 @@ fn stretches(path: &[Step]) -> Vec<(Option<ComponentId>, Vec<[f64; 2]>)> {
         }
     }
     stretches
+}
+
+/// The way along some points, metres.
+fn length(points: &[[f64; 2]]) -> f64 {
+    points.windows(2).map(|pair| apart(pair[0], pair[1])).sum()
 }
 
 fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use afp_core::Instant;
-use afp_sim::{Pose, World};
+use afp_sim::{HALF_WIDTH, Pose, World};
 
 use super::legend::Legend;
 use super::marks;
@@ -112,6 +112,23 @@ impl Canvas {
         self.put(format_args!(r#"<polyline class="path" stroke="{color}" points="{points}"/>"#));
     }
 
+    /// The floor that the body passed over.
+    pub(super) fn footprint(&mut self, points: &[[f64; 2]]) {
+        let (points, width) = (self.points(points), 2.0 * HALF_WIDTH * self.view.scale);
+        self.put(format_args!(
+            r#"<polyline class="footprint" stroke-width="{width:.1}" points="{points}"/>"#
+        ));
+    }
+
+    /// An actor that acts on the spot: the `number`-th dot beside a point.
+    pub(super) fn dot(&mut self, at: [f64; 2], number: usize, color: &str) {
+        let (x, y) = self.view.point(at);
+        let x = x + 3.0 + 11.0 * number as f64;
+        self.put(format_args!(
+            r#"<circle class="dot" cx="{x:.1}" cy="{y:.1}" r="4" fill="{color}"/>"#
+        ));
+    }
+
     /// A symbol where an event was taken; its title tells when.
     pub(super) fn mark(&mut self, pose: Pose, kind: usize, at: Instant) {
         let (x, y) = self.view.point([pose.x, pose.y]);
@@ -185,6 +202,8 @@ text { font: 13px system-ui, "Helvetica Neue", Arial, sans-serif; fill: #2b2b2b 
 .high { fill: #ddd8cf; stroke: #9b948a; stroke-width: 1 }
 .low { fill: url(#hatch); stroke: #b4642d; stroke-width: 1.2; stroke-dasharray: 4 2.5 }
 .path { fill: none; stroke-width: 3.2; stroke-linecap: round; stroke-linejoin: round; opacity: .92 }
+.footprint { fill: none; stroke: #2b2b2b; stroke-linecap: butt; stroke-linejoin: round; opacity: .045 }
+.dot { stroke: #ffffff; stroke-width: 1.2 }
 .robot polygon { fill: #2b2b2b; fill-opacity: .12; stroke: #2b2b2b; stroke-width: 1.4 }
 .robot .arrow { fill-opacity: .75; stroke: none }
 .start polygon { stroke-dasharray: 4 3; stroke: #77736b; fill-opacity: .04 }

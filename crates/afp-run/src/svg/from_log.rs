@@ -58,7 +58,12 @@ fn follow(log: &LogData, names: &NameTable) -> (Vec<Step>, Vec<Mark>) {
     let mut events = log.events.iter().peekable();
     let after = std::iter::once((Instant::MAX, None));
     for (at, pose) in log.poses.iter().map(|(at, pose)| (*at, Some(pose))).chain(after) {
-        while let Some(event) = events.next_if(|event| instant(&event.time) < at) {
+        // At an instant the robot is looked at before the step; only the start comes first.
+        let before = |event: &&PlanEvent| {
+            let time = instant(&event.time);
+            time < at || time == Instant::ZERO
+        };
+        while let Some(event) = events.next_if(before) {
             let id = ComponentId(event.component_id);
             if event.kind() == plan_event::Kind::Event {
                 marks.push(mark(event, last));

@@ -1,0 +1,74 @@
+//! `afpc build`: what is written, what is refused, and the binary that comes out.
+
+mod common;
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use common::{Place, said};
+
+#[test]
+fn without_cargo_the_crate_is_there_and_the_error_clear() {
+    let place = Place::with_plan();
+    let mut command = place.command();
+    command.args(["build", "wall_following.afp"]).env("PATH", "").env("CARGO", "no-such-cargo");
+    let said = said(command.output().unwrap());
+    said.fails(1, &["there is no cargo", "help: install Rust"]);
+    let folder = "target/afp/wall_following";
+    for name in ["Cargo.toml", "Cargo.lock", "src/main.rs", "src/lib.rs"] {
+        assert!(place.exists(&format!("{folder}/{name}")), "{name}");
+    }
+    let manifest = place.read(&format!("{folder}/Cargo.toml"));
+    assert!(!manifest.contains("afp-dsl"), "{manifest}");
+}
+
+#[test]
+fn a_folder_of_somebody_else_is_left_alone() {
+    let place = Place::with_plan();
+    place.write("mine/Cargo.toml", "[package]\nname = \"mine\"\n");
+    let said = place.afpc("build wall_following.afp -o mine");
+    said.fails(2, &["'mine' holds a crate that 'afpc build' did not make", "'-o DIR'"]);
+    assert_eq!(place.files(), ["mine/Cargo.toml", "wall_following.afp"]);
+}
+
+#[test]
+fn targets_and_toolboxes_of_later_releases_say_so() {
+    let place = Place::with_plan();
+    place.afpc("build wall_following.afp --target pi").fails(2, &["only for 'host'"]);
+    place.write("afp.toml", "[afp]\npath = \"x\"\nversion = \"1\"\n");
+    place.afpc("build wall_following.afp").fails(2, &["exactly one of"]);
+}
+
+/// The folder that builds share over the tests of this file, so that the physics engine is built
+/// once.
+fn shared_target() -> &'static Path {
+    Path::new(concat!(env!("CARGO_TARGET_TMPDIR"), "/built-plans"))
+}
+
+#[test]
+#[ignore = "builds the physics engine in release mode; `cargo xtask test` runs it"]
+fn the_binary_says_the_same_as_the_interpreter_over_twenty_seeds() {
+    let place = Place::with_plan();
+    let mut command = place.command();
+    command.args(["build", "wall_following.afp"]).env("CARGO_TARGET_DIR", shared_target());
+    let built = said(command.stderr(Stdio::inherit()).output().unwrap());
+    built.succeeds();
+    let binary = built.out.lines().last().unwrap();
+    assert!(Path::new(binary).is_absolute() && Path::new(binary).is_file(), "{binary}");
+    for seed in 0..20 {
+        let options = ["--json", "--log", "none", "--svg", "none", "--seed", &seed.to_string()];
+        let run = |command: &mut Command| {
+            let output = command.args(options).current_dir(place.path("")).output().unwrap();
+            let said = said(output);
+            said.succeeds();
+            said.out
+        };
+        let ours = run(place.command().args(["run", "wall_following.afp"]));
+        assert_eq!(run(&mut Command::new(binary)), ours, "seed {seed}");
+    }
+    let symbols = std::fs::read(binary).unwrap();
+    let contains = |text: &str| symbols.windows(text.len()).any(|part| part == text.as_bytes());
+    for stranger in ["afp_dsl", "LoadedPlan", "global_supervisors"] {
+        assert!(!contains(stranger), "'{stranger}' is in the binary");
+    }
+}

@@ -1,0 +1,116 @@
+//! `afpc check`, `explain`, `graph`, `completions`, and commands that are not there yet.
+
+mod common;
+
+use common::{Place, WALL_FOLLOWING};
+
+#[test]
+fn a_good_plan_has_no_errors() {
+    let place = Place::with_plan();
+    let said = place.afpc("check wall_following.afp");
+    said.succeeds();
+    assert_eq!((&*said.out, &*said.err), ("wall_following.afp: no errors\n", ""));
+}
+
+#[test]
+fn all_errors_of_all_files_come_at_once() {
+    let place = Place::new();
+    let wrong = WALL_FOLLOWING
+        .replace("walldist:  length = 30 cm", "walldist:  length = 30")
+        .replace("-> followWall", "-> followWal");
+    place.write("a.afp", &wrong);
+    place.write("b.afp", "plan Empty { }");
+    let said = place.afpc("check a.afp missing.afp b.afp");
+    said.fails(1, &["expected a length", "30 cm", "followWal'", "--> a.afp:", "--> b.afp:"]);
+    assert!(said.err.contains("error: cannot read the plan 'missing.afp'"), "{}", said.err);
+    assert_eq!(said.out, "");
+}
+
+#[test]
+fn diagnostics_are_json_when_asked() {
+    let place = Place::new();
+    place.write("a.afp", &WALL_FOLLOWING.replace("start searchFirstWall", "start searchFirst"));
+    let said = place.afpc("check a.afp --json");
+    said.fails(1, &[]);
+    let line: serde_json::Value = serde_json::from_str(said.out.lines().next().unwrap()).unwrap();
+    assert_eq!(line["severity"], "error", "{line}");
+    assert!(line["code"].as_str().unwrap().starts_with("E02"), "{line}");
+}
+
+#[test]
+fn a_plan_is_chosen_by_name() {
+    let place = Place::new();
+    let two = format!("{WALL_FOLLOWING}\nplan Other {{ start w  actor w: Wait(duration = 1 s) {{ Elapsed -> terminate }} }}")
+        .replace("use carbot", "use carbot\nuse std");
+    place.write("two.afp", &two);
+    let said = place.afpc("run two.afp:Other --log none --svg none --json");
+    said.succeeds();
+    assert_eq!(said.last_json()["summary"]["plan"], "Other");
+    assert_eq!(said.last_json()["summary"]["ending"], "ok");
+    place.afpc("check two.afp:Third").fails(1, &["Third"]);
+}
+
+#[test]
+fn codes_are_explained() {
+    let place = Place::new();
+    let said = place.afpc("explain e0101");
+    said.succeeds();
+    assert!(said.out.contains("E0101"), "{}", said.out);
+    place.afpc("explain E9999").fails(2, &["there is no error code 'E9999'", "help: "]);
+}
+
+#[test]
+fn plans_are_drawn_in_every_format_there_is() {
+    let place = Place::with_plan();
+    place.afpc("graph wall_following.afp -o plan.svg").succeeds();
+    assert!(place.read("plan.svg").starts_with("<svg"));
+    let said = place.afpc("graph wall_following.afp --format json");
+    let graph: serde_json::Value = serde_json::from_str(&said.out).unwrap();
+    assert_eq!(graph["first"], "searchFirstWall");
+    let said = place.afpc("graph wall_following.afp -o plan.dot");
+    said.succeeds();
+    assert!(place.read("plan.dot").contains("digraph"));
+    place.afpc("graph wall_following.afp -o x.png").fails(2, &["'--format png'", "rsvg-convert"]);
+    place.afpc("graph wall_following.afp --format scxml").fails(2, &["'--format scxml'"]);
+    let nowhere = place.afpc("graph wall_following.afp -o no/such/plan.svg");
+    nowhere.fails(1, &["error: cannot write the drawing 'no/such/plan.svg'"]);
+    assert_eq!(place.files(), ["plan.dot", "plan.svg", "wall_following.afp"]);
+}
+
+#[test]
+fn a_wrong_plan_is_neither_drawn_nor_run_nor_built() {
+    let place = Place::new();
+    place.write("a.afp", "plan A { start b }");
+    for command in ["graph a.afp -o a.svg", "run a.afp", "build a.afp"] {
+        place.afpc(command).fails(1, &["error[E02", "--> a.afp:1:"]);
+    }
+    assert_eq!(place.files(), ["a.afp"]);
+}
+
+#[test]
+fn commands_of_later_releases_say_so() {
+    let place = Place::new();
+    for name in ["new", "lsp", "test", "sweep", "replay", "deploy", "attach", "studio"] {
+        let said = place.afpc(&format!("{name} some --option"));
+        said.fails(2, &[&format!("'afpc {name}' is not in release"), "it comes with"]);
+        assert!(!place.afpc("--help").out.contains(&format!("\n  {name} ")));
+    }
+    place.afpc("fly").fails(2, &["unrecognized subcommand 'fly'"]);
+    place.afpc("check").fails(2, &["FILE"]);
+    place.afpc("check --timing x.afp").fails(2, &["'--timing' waits for"]);
+}
+
+#[test]
+fn help_has_examples_and_shells_have_completions() {
+    let place = Place::new();
+    for command in ["", "check ", "graph ", "run ", "build ", "log "] {
+        let said = place.afpc(&format!("{command}--help"));
+        said.succeeds();
+        assert!(said.out.contains("Examples:"), "{}", said.out);
+    }
+    for shell in ["bash", "zsh", "fish"] {
+        let said = place.afpc(&format!("completions {shell}"));
+        said.succeeds();
+        assert!(said.out.contains("afpc") && said.out.contains("explain"), "{shell}");
+    }
+}

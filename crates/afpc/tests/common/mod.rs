@@ -1,0 +1,120 @@
+//! Runs the real binary in a folder of its own.
+
+#![allow(dead_code)] // Each test file uses a part.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+/// The plan of the paper.
+pub const WALL_FOLLOWING: &str = include_str!("../../../../plans/wall_following.afp");
+
+/// A folder and the program in it.
+pub struct Place {
+    folder: TempDir,
+}
+
+/// What a call came to.
+#[derive(Debug)]
+pub struct Said {
+    pub code: i32,
+    pub out: String,
+    pub err: String,
+}
+
+impl Place {
+    pub fn new() -> Place {
+        Place { folder: tempfile::tempdir().unwrap() }
+    }
+
+    /// A place with the plan of the paper in it.
+    pub fn with_plan() -> Place {
+        let place = Place::new();
+        place.write("wall_following.afp", WALL_FOLLOWING);
+        place
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    pub fn write(&self, name: &str, text: &str) {
+        let path = self.path(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    }
+
+    pub fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap()
+    }
+
+    pub fn exists(&self, name: &str) -> bool {
+        self.path(name).exists()
+    }
+
+    /// The names of all files, in order.
+    pub fn files(&self) -> Vec<String> {
+        let mut names = Vec::new();
+        collect(self.folder.path(), self.folder.path(), &mut names);
+        names.sort();
+        names
+    }
+
+    pub fn command(&self) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_afpc"));
+        command.current_dir(self.folder.path());
+        command
+    }
+
+    /// Calls `afpc` with arguments that blanks separate.
+    pub fn afpc(&self, arguments: &str) -> Said {
+        said(self.command().args(arguments.split_whitespace()).output().unwrap())
+    }
+}
+
+pub fn said(output: Output) -> Said {
+    let Output { status, stdout, stderr } = output;
+    Said {
+        code: status.code().unwrap_or(-1),
+        out: String::from_utf8(stdout).unwrap(),
+        err: String::from_utf8(stderr).unwrap(),
+    }
+}
+
+fn collect(root: &Path, folder: &Path, names: &mut Vec<String>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        match path.is_dir() {
+            true => collect(root, &path, names),
+            false => names.push(path.strip_prefix(root).unwrap().display().to_string()),
+        }
+    }
+}
+
+impl Said {
+    /// Fails unless the call ended with this code and standard error has these texts.
+    #[track_caller]
+    pub fn fails(&self, code: i32, texts: &[&str]) -> &Said {
+        assert_eq!(self.code, code, "{self:#?}");
+        for text in texts {
+            assert!(self.err.contains(text), "no {text:?} in: {}", self.err);
+        }
+        assert!(!self.err.contains("panicked"), "{}", self.err);
+        self
+    }
+
+    /// Fails unless the call went well.
+    #[track_caller]
+    pub fn succeeds(&self) -> &Said {
+        assert_eq!(self.code, 0, "{self:#?}");
+        self
+    }
+
+    /// The last line of standard output as JSON.
+    #[track_caller]
+    pub fn last_json(&self) -> serde_json::Value {
+        serde_json::from_str(self.out.lines().last().unwrap()).unwrap()
+    }
+}

@@ -1,0 +1,78 @@
+//! `afpc log`: timeline, facts, repair.
+
+mod common;
+
+use std::fs;
+
+use common::Place;
+
+fn place() -> Place {
+    let place = Place::with_plan();
+    place.afpc("run wall_following.afp --until 20s --log a.mcap --svg run.svg").succeeds();
+    place
+}
+
+#[test]
+fn a_log_tells_what_the_run_told() {
+    let place = place();
+    let run = place.afpc("run wall_following.afp --until 20s --log none --svg none");
+    let said = place.afpc("log a.mcap --svg log.svg");
+    said.succeeds();
+    let live: Vec<&str> = run.out.lines().filter(|line| line.contains(['▶', '⚡', '◆'])).collect();
+    assert!(live.len() > 10);
+    for line in live {
+        assert!(said.out.contains(line), "{line} is not in {}", said.out);
+    }
+    assert!(said.out.contains("searchFirstWall.touch"), "{}", said.out);
+    assert!(said.out.contains("  never: escape.EscapeButtonPressed"), "{}", said.out);
+    let path = |name: &str| {
+        let picture = place.read(name);
+        picture.lines().filter(|line| line.contains("polyline")).map(str::to_owned).collect()
+    };
+    let (run, log): (Vec<String>, Vec<String>) = (path("run.svg"), path("log.svg"));
+    assert!(run.len() > 5 && run == log, "the picture from the log is not that of the run");
+}
+
+#[test]
+fn facts_are_enough_to_run_again() {
+    let place = place();
+    let said = place.afpc("log a.mcap info");
+    said.succeeds();
+    for text in [
+        "plan  WallFollowing",
+        "seed  0",
+        "physics_step_ns  5000000",
+        "whole  yes",
+        "/tf",
+        "foxglove.LaserScan",
+        "attachment  wall_following.afp",
+    ] {
+        assert!(said.out.contains(text), "no {text:?} in {}", said.out);
+    }
+    assert_eq!(place.afpc("log a.mcap doctor").succeeds().out, "sound\n");
+}
+
+#[test]
+fn a_log_that_was_cut_short_is_saved() {
+    let place = place();
+    let bytes = fs::read(place.path("a.mcap")).unwrap();
+    fs::write(place.path("b.mcap.part"), &bytes[..bytes.len() * 2 / 3]).unwrap();
+    let said = place.afpc("log b.mcap.part");
+    said.succeeds();
+    assert!(said.err.starts_with("warning: 'b.mcap.part' is not whole: "), "{}", said.err);
+    let sick = place.afpc("log b.mcap.part doctor");
+    assert_eq!(sick.code, 1, "{sick:#?}");
+    let said = place.afpc("log b.mcap.part recover");
+    said.succeeds();
+    assert_eq!(said.out.lines().last(), Some("b.recovered.mcap"));
+    assert_eq!(place.afpc("log b.recovered.mcap doctor").succeeds().out, "sound\n");
+    place.afpc("log a.mcap recover -o a.mcap").fails(2, &["into itself"]);
+}
+
+#[test]
+fn what_is_no_log_is_refused() {
+    let place = Place::with_plan();
+    place.afpc("log wall_following.afp").fails(1, &["'wall_following.afp' is not an MCAP log"]);
+    place.afpc("log missing.mcap info").fails(1, &["cannot read the log 'missing.mcap'"]);
+    place.afpc("log a.mcap burn").fails(2, &["burn"]);
+}

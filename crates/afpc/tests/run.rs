@@ -1,0 +1,240 @@
+//! `afpc run`: options, output, errors.
+
+mod common;
+
+use common::{Place, WALL_FOLLOWING};
+use serde_json::Value;
+
+const QUIET: &str = "--log none --svg none";
+
+#[test]
+fn a_run_leaves_a_timeline_a_summary_a_log_and_a_picture() {
+    let place = Place::with_plan();
+    let said = place.afpc("run wall_following.afp --until 20s");
+    said.succeeds();
+    assert_eq!(said.err, "");
+    assert!(said.out.contains("▶ searchFirstWall  Forward"), "{}", said.out);
+    assert!(said.out.contains("TouchSensorPressed → backupCollision"), "{}", said.out);
+    assert!(said.out.contains("◆ wallangle: unset → "), "{}", said.out);
+    assert!(!said.out.contains('\u{1b}'), "no colours in a pipe");
+    let summary = &said.last_json()["summary"];
+    assert_eq!(summary["ending"], "interrupted");
+    assert_eq!(summary["stopped_by"], "until");
+    assert_eq!(summary["time_s"], 20.0);
+    assert_eq!(summary["activations"]["backupCollision"], 1);
+    assert_eq!(summary["contacts"][0]["obstacle"], "low step");
+    assert!(summary["distance_m"].as_f64().unwrap() > 1.0);
+    assert!(summary["speed"].as_f64().unwrap() > 1.0);
+    let (log, svg) = ("target/afp/runs/wall_following.mcap", "target/afp/runs/wall_following.svg");
+    assert_eq!((summary["log"].as_str(), summary["svg"].as_str()), (Some(log), Some(svg)));
+    assert_eq!(place.files(), [log, svg, "wall_following.afp"]);
+    let picture = place.read(svg);
+    assert!(picture.starts_with("<svg") && picture.ends_with("</svg>\n"));
+    assert!(picture.contains("TouchSensorPressed") && picture.contains("class=\"low\""));
+}
+
+#[test]
+fn json_is_the_same_every_time() {
+    let place = Place::with_plan();
+    let run = format!("run wall_following.afp --json --until 30s --seed 3 {QUIET}");
+    let said = place.afpc(&run);
+    said.succeeds();
+    assert_eq!(said.out, place.afpc(&run).out);
+    for line in said.out.lines() {
+        let line: Value = serde_json::from_str(line).unwrap();
+        assert!(line.get("summary").is_some() || line["t"].is_number(), "{line}");
+    }
+    let first: Value = serde_json::from_str(said.out.lines().next().unwrap()).unwrap();
+    assert_eq!((&first["kind"], &first["entry"]), (&"committed".into(), &"walldist".into()));
+    let other = place.afpc(&run.replace("--seed 3", "--seed 4"));
+    assert_ne!(said.out, other.out);
+}
+
+#[test]
+fn a_log_does_not_change_the_run() {
+    let place = Place::with_plan();
+    let run = "run wall_following.afp --json --until 20s --svg none --log";
+    let without = place.afpc(&format!("{run} none"));
+    let with = place.afpc(&format!("{run} a.mcap"));
+    assert_eq!(without.out, with.out);
+    assert_eq!(place.files(), ["a.mcap", "wall_following.afp"]);
+}
+
+#[test]
+fn the_escape_button_ends_the_plan() {
+    let place = Place::with_plan();
+    let said = place.afpc(&format!("run wall_following.afp --press escape@2s --json {QUIET}"));
+    said.succeeds();
+    let summary = &said.last_json()["summary"];
+    assert_eq!((&summary["ending"], summary.get("stopped_by")), (&"interrupted".into(), None));
+    assert!((2.0..2.1).contains(&summary["time_s"].as_f64().unwrap()), "{summary}");
+    assert_eq!(summary["outcomes"]["escape.EscapeButtonPressed"], 1);
+}
+
+#[test]
+fn entries_are_set_with_their_units() {
+    let place = Place::with_plan();
+    let run =
+        |set: &str| place.afpc(&format!("run wall_following.afp --until 1s {set} --json {QUIET}"));
+    let said = run("--set walldist=35cm");
+    said.succeeds();
+    let first: Value = serde_json::from_str(said.out.lines().next().unwrap()).unwrap();
+    assert_eq!((&first["new"], &first["unit"]), (&0.35.into(), &"m".into()), "{first}");
+    assert_eq!(run("--set walldist=0.35m").out, said.out);
+    run("--set walldist=35").fails(2, &["not a length", "help: write the unit", "35cm"]);
+    run("--set walldist=35deg").fails(2, &["not a length", "a number and a unit: "]);
+    run("--set wall=1m").fails(2, &["no entry 'wall'", "can be set: 'walldist' (length)"]);
+    run("--set wallangle=1rad").fails(2, &["'wallangle' cannot be set", "'in' entry"]);
+    run("--set walldist").fails(2, &["walldist=35cm"]);
+}
+
+#[test]
+fn an_entry_without_a_value_is_asked_for() {
+    let place = Place::new();
+    place.write("a.afp", &WALL_FOLLOWING.replace("length = 30 cm", "length"));
+    let said = place.afpc("run a.afp --log a.mcap --svg none");
+    said.fails(2, &["'walldist' has neither a value nor a default", "--set walldist="]);
+    assert!(!place.exists("a.mcap"));
+    place.afpc(&format!("run a.afp --set walldist=30cm --until 1s {QUIET}")).succeeds();
+}
+
+#[test]
+fn options_that_wait_for_something_say_for_what() {
+    let place = Place::with_plan();
+    for (option, text) in [
+        ("--robot pi", "'--robot pi' waits for the Raspberry Pi driver"),
+        ("--live 8765", "'--live' waits for the live server"),
+        ("--rt-report", "'--rt-report' waits for the real-time driver"),
+    ] {
+        place.afpc(&format!("run wall_following.afp {option}")).fails(2, &[text, "help: "]);
+    }
+    place.afpc("run wall_following.afp --press start@1s").fails(2, &["no button 'start'"]);
+    place.afpc("run wall_following.afp --until 5").fails(2, &["20s or 500ms"]);
+    assert_eq!(place.files(), ["wall_following.afp"]);
+}
+
+#[test]
+fn files_that_do_not_work_are_named() {
+    let place = Place::with_plan();
+    place.afpc("run missing.afp").fails(1, &["error: cannot read the plan 'missing.afp'"]);
+    let said = place.afpc("run wall_following.afp --world missing.toml");
+    said.fails(1, &["error: cannot read the world 'missing.toml'"]);
+    let said = place.afpc("run wall_following.afp --log no/such/a.mcap");
+    said.fails(1, &["error: cannot write the log 'no/such/a.mcap'"]);
+    let said = place.afpc("run wall_following.afp --until 1s --log none --svg no/such/a.svg");
+    said.fails(1, &["error: cannot write the picture 'no/such/a.svg'"]);
+    assert!(said.out.is_empty(), "it is said before the run: {}", said.out);
+}
+
+#[test]
+fn worlds_are_found_in_their_order() {
+    let place = Place::new();
+    place.write("project/plans/wall_following.afp", WALL_FOLLOWING);
+    let world = |name: &str| {
+        format!("version = 1\nname = \"{name}\"\n[robot]\npose_m_deg = [1.0, 1.0, 0.0]\n")
+    };
+    let name = |options: &str| {
+        let run = "run project/plans/wall_following.afp --json --until 100ms";
+        let said = place.afpc(&format!("{run} {QUIET} {options}"));
+        said.succeeds();
+        said.last_json()["summary"]["world"].as_str().unwrap().to_owned()
+    };
+    assert_eq!(name(""), "Furnished room");
+    place.write("project/worlds/wall_following.toml", &world("beside"));
+    assert_eq!(name(""), "beside");
+    place.write("project/rooms/mine.toml", &world("settings"));
+    place.write("project/afp.toml", "[run]\nworld = \"rooms/mine.toml\"\n");
+    assert_eq!(name(""), "settings");
+    place.write("asked.toml", &world("asked"));
+    assert_eq!(name("--world asked.toml"), "asked");
+}
+
+#[test]
+fn a_wrong_world_is_shown_at_its_line() {
+    let place = Place::with_plan();
+    let run = "run wall_following.afp --world w.toml --log a.mcap --svg a.svg";
+    place.write("w.toml", "version = 1\n[robot]\npose_m_deg = [0.0, 0.0, 0.0]\ncolour = 1\n");
+    place.afpc(run).fails(1, &["colour", "--> w.toml:4:1", "4 | colour = 1"]);
+    place.write(
+        "w.toml",
+        "version = 1\n[robot]\npose_m_deg = [0.0, 0.0, 0.0]\n[[wall]]\nname = \"w\"\npoints_m = [[-1.0, 0.0], [1.0, 0.0]]\n",
+    );
+    place.afpc(run).fails(1, &["the robot starts inside of 'w'", "--> w.toml:3:"]);
+    place.write("afp.toml", "[run]\nworlds = \"w.toml\"\n");
+    place.afpc("run wall_following.afp").fails(1, &["unknown field `worlds`", "afp.toml:2:1"]);
+    assert_eq!(place.files(), ["afp.toml", "w.toml", "wall_following.afp"]);
+}
+
+#[test]
+fn a_plan_that_ends_in_error_has_its_own_exit_code() {
+    let place = Place::new();
+    let plan = "use carbot
+plan Fails {
+    var n: float = 0
+    start go
+    actor go: Forward(distance = 1 m / n) { ForwardSuccessful -> terminate }
+}";
+    place.write("fails.afp", plan);
+    let said = place.afpc(&format!("run fails.afp {QUIET}"));
+    assert_eq!(said.code, 3, "{said:#?}");
+    let summary = &said.last_json()["summary"];
+    assert_eq!((&summary["ending"], &summary["fault"]), (&"error".into(), &"arithmetic".into()));
+    assert!(said.out.contains("✗ go failed"), "{}", said.out);
+}
+
+#[test]
+fn one_times_real_time_takes_its_time() {
+    let place = Place::with_plan();
+    let begun = std::time::Instant::now();
+    let paced = "run wall_following.afp --speed 1x --until 700ms --json --log none --svg none";
+    let said = place.afpc(paced);
+    said.succeeds();
+    assert!(begun.elapsed().as_secs_f64() >= 0.7);
+    assert_eq!(said.out, place.afpc(&paced.replace("--speed 1x", "--speed max")).out);
+}
+
+#[cfg(unix)]
+mod signals {
+    use std::io::{BufRead, BufReader, Read};
+    use std::process::{Command, Stdio};
+
+    use super::common::Place;
+
+    /// Starts a run in real time, does something to it once it lives, and gives its exit code and
+    /// the rest of its output.
+    fn interrupted(place: &Place, act: impl FnOnce(u32)) -> (Option<i32>, String) {
+        let run = ["run", "wall_following.afp", "--speed", "1x", "--json"];
+        let outputs = ["--log", "a.mcap", "--svg", "a.svg"];
+        let mut command = place.command();
+        command.args(run).args(outputs).stdin(Stdio::null()).stdout(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(800));
+        act(child.id());
+        let mut out = BufReader::new(child.stdout.take().unwrap());
+        let mut text = String::new();
+        out.read_line(&mut text).unwrap();
+        out.read_to_string(&mut text).unwrap();
+        (child.wait().unwrap().code(), text)
+    }
+
+    fn signal(name: &str, process: u32) {
+        let sent = Command::new("kill").args(["-s", name, &process.to_string()]).status();
+        assert!(sent.unwrap().success());
+    }
+
+    #[test]
+    fn signals_end_a_run_cleanly() {
+        for name in ["INT", "TERM"] {
+            let place = Place::with_plan();
+            let (code, out) = interrupted(&place, |process| signal(name, process));
+            assert_eq!(code, Some(0), "{out}");
+            assert!(out.contains("\"kind\":\"stop_requested\""), "{out}");
+            assert!(out.contains("\"component\":\"searchFirstWall\""), "{out}");
+            let last: serde_json::Value =
+                serde_json::from_str(out.lines().last().unwrap()).unwrap();
+            assert_eq!(last["summary"]["stopped_by"], "signal");
+            assert_eq!(place.files(), ["a.mcap", "a.svg", "wall_following.afp"]);
+            assert_eq!(place.afpc("log a.mcap doctor").succeeds().out, "sound\n");
+        }
+    }
+}
