@@ -116,8 +116,8 @@ impl Module {
 }
 
 impl Generated {
-    /// All modules with their bodies in a module of the main plan's name, and the types of the
-    /// plans beside it.
+    /// All modules with their bodies in a module of the main plan's name, which has the types of
+    /// all plans; that of the main plan stands beside it too.
     pub fn tokens(&self) -> TokenStream {
         let modules = self.modules.iter().map(|module| {
             let (name, about) = (&module.name, doc(&module.doc, ""));
@@ -132,7 +132,8 @@ impl Generated {
             }
         });
         let (main, plan) = (&self.main, &self.plan);
-        let (homes, types): (Vec<_>, Vec<_>) = self.plans.iter().cloned().unzip();
+        let subs = self.plans.iter().filter(|(module, _)| module != main).cloned();
+        let (homes, types): (Vec<_>, Vec<_>) = subs.unzip();
         let about = doc("", &format!("The plan `{plan}` and what it uses."));
         quote! {
             #about
@@ -140,8 +141,9 @@ impl Generated {
             pub mod #main {
                 #(#modules)*
                 pub use self::#main::*;
+                #(pub use self::#homes::#types;)*
             }
-            #(pub use self::#main::#homes::#types;)*
+            pub use self::#main::#plan;
         }
     }
 }
