@@ -17,13 +17,14 @@ use afp_dsl::toolbox::Toolboxes;
 const RANDOM_PLANS: u64 = 40;
 
 fn main() -> io::Result<()> {
-    for path in ["run", "toolbox/testing.afp", "src/random.rs", "src/random"] {
+    for path in ["run", "plans", "toolbox/testing.afp", "src/random.rs", "src/random"] {
         println!("cargo::rerun-if-changed={path}");
     }
     println!("cargo::rerun-if-env-changed=AFP_RANDOM_PLANS");
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
     let toolboxes = toolboxes()?;
     fs::write(out.join("run.rs"), cases(&toolboxes)?)?;
+    fs::write(out.join("steps.rs"), steps(&toolboxes)?)?;
     fs::write(out.join("random.rs"), random_plans(&toolboxes)?)
 }
 
@@ -58,6 +59,13 @@ fn {name}() {{
         );
     }
     Ok(code)
+}
+
+/// The plan that must not allocate.
+fn steps(toolboxes: &Toolboxes) -> io::Result<String> {
+    let path = Path::new("plans/steps.afp");
+    let module = module("steps", path, &fs::read_to_string(path)?, toolboxes)?;
+    Ok(format!("pub {module}"))
 }
 
 /// A module for each random plan, and a table of functions that run them, by seed.

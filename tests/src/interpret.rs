@@ -30,14 +30,21 @@ pub fn graph(name: &str, text: &str) -> Result<Graph, String> {
     compiled.graph.ok_or(all)
 }
 
-/// What happens when the interpreter runs a graph.
+/// The interpreter's instance of a graph.
 ///
 /// # Panics
 /// When a component of the graph is not registered.
-pub fn interpret(graph: &Graph, script: &Script) -> Vec<String> {
+pub fn load(graph: &Graph) -> LoadedPlan<Platform> {
     let mut registry: Registry<Platform> = Registry::new();
     afp_std::templates::register(&mut registry);
     crate::templates::register(&mut registry);
-    let plan = LoadedPlan::new(graph, &registry);
-    drive(plan.expect("all components are registered"), script)
+    LoadedPlan::new(graph, &registry).expect("all components are registered")
+}
+
+/// What happens when the interpreter runs a graph.
+///
+/// # Panics
+/// As [`load`].
+pub fn interpret(graph: &Graph, script: &Script) -> Vec<String> {
+    drive(load(graph), script)
 }

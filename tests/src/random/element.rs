@@ -80,6 +80,10 @@ fn channel(
 /// An actor; `name` is the one that scripts know it by.
 pub fn actor(name: &str, entries: &Entries, dice: &mut Dice, channels: &mut Vec<Channel>) -> Made {
     let mut bindings = Bindings::new(entries);
+    if dice.percent(10) {
+        bindings.bind("duration", dice.pick(&["5 ms", "20 ms", "33 ms"]));
+        return Made { word: "actor", call: bindings.call("Wait"), outcomes: vec!["Elapsed"] };
+    }
     bindings.bind("name", &format!("\"{name}\""));
     if dice.percent(30) {
         channel(name, &["Done"], true, channels);
@@ -103,6 +107,18 @@ pub fn actor(name: &str, entries: &Entries, dice: &mut Dice, channels: &mut Vec<
 /// A supervisor.
 pub fn guard(name: &str, entries: &Entries, dice: &mut Dice, channels: &mut Vec<Channel>) -> Made {
     let mut bindings = Bindings::new(entries);
+    if dice.percent(10) {
+        bindings.bind("duration", dice.pick(&["15 ms", "40 ms", "101 ms"]));
+        let call = bindings.call("CheckTimeout");
+        return Made { word: "supervise", call, outcomes: vec!["TimedOut"] };
+    }
+    if dice.percent(15) {
+        let ty = dice.pick(&[Type::Int, Type::Float, Type::Length]);
+        bindings.bind("value", &formula(ty, entries, 2, dice));
+        bindings.bind("limit", &formula(ty, entries, 1, dice));
+        let call = bindings.call("CheckValue");
+        return Made { word: "supervise", call, outcomes: vec!["Below", "Above"] };
+    }
     bindings.bind("name", &format!("\"{name}\""));
     if dice.percent(30) {
         channel(name, &["Seen"], false, channels);

@@ -270,8 +270,8 @@ const RULES: &[Rule] = &[
     ("1.12", "a text of more than 64 bytes is a fault", &["formula_text_too_long"]),
     (
         "1.12",
-        "objects are known by the commit that wrote them; an unset one is a fault",
-        &["object_is_known_by_its_commit", "object_unset_is_a_fault", "object_through_a_sub_plan"],
+        "objects are known by the commit that wrote them",
+        &["object_is_known_by_its_commit", "object_through_a_sub_plan"],
     ),
     (
         "1.13",
