@@ -12,7 +12,6 @@ mod endings;
 mod entries;
 pub(crate) mod enums;
 pub(crate) mod formula;
-mod frozen;
 pub(crate) mod imports;
 pub(crate) mod names;
 mod plan;
@@ -24,6 +23,7 @@ pub(crate) mod timing;
 pub(crate) mod types;
 
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::flow::{self, Model};
 use crate::graph::{self, Component, Graph, PlanId};
 use crate::source::Span;
 use crate::syntax::ast::{self, File, Item, Name};
@@ -63,6 +63,15 @@ pub(crate) struct PlanHead {
     pub interrupting: Option<Span>,
 }
 
+/// Whether flow is checked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Flow {
+    /// As everywhere.
+    Checked,
+    /// For tests of what the run time does with plans that the checks refuse.
+    Unchecked,
+}
+
 /// Checks a plan file and builds the graph of the plan `main`, or of the first one.
 ///
 /// `whole` is the place of the whole text.
@@ -72,6 +81,7 @@ pub(crate) fn check(
     whole: Span,
     toolboxes: &Toolboxes,
     main: Option<&str>,
+    flow: Flow,
     diags: &mut Diagnostics,
 ) -> Option<Graph> {
     imports::check_version(file, diags);
@@ -83,11 +93,29 @@ pub(crate) fn check(
         (0..context.plans.len()).map(|place| plan::check(&context, place, diags)).unzip();
     resources::check(&context.plans, &users, &order, diags);
     scenarios(file, diags);
+    if flow == Flow::Checked {
+        check_flow(&context, &plans, &order, diags);
+    }
     let main = select(&context, file, main, whole, diags)?;
     if diags.has_errors() {
         return None;
     }
     assemble(&context, plans, &order, main)
+}
+
+/// Checks the flow of every plan that has no error so far.
+fn check_flow(
+    context: &Context<'_>,
+    plans: &[Option<graph::Plan>],
+    order: &[usize],
+    diags: &mut Diagnostics,
+) {
+    let sound = |(head, plan): (&PlanHead, _)| {
+        Option::filter(plan, |_| !diags.error_within(head.node.span()))
+    };
+    let sound = context.plans.iter().zip(plans.iter().map(Option::as_ref)).map(sound).collect();
+    let toolboxes = context.imports.iter().map(|import| import.toolbox.clone()).collect();
+    flow::check(&Model { plans: sound, order: order.to_vec(), toolboxes }, diags);
 }
 
 fn context<'a>(

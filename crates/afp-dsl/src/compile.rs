@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::check;
+use crate::check::{self, Flow};
 use crate::diagnostics::Diagnostics;
 use crate::graph::Graph;
 use crate::source::{Source, Sources, Span};
@@ -36,6 +36,22 @@ pub fn compile(source: &Source, toolboxes: &Toolboxes) -> Compiled {
 
 /// Compiles the plan of that name in a file, the first one without a name.
 pub fn compile_plan(source: &Source, toolboxes: &Toolboxes, plan: Option<&str>) -> Compiled {
+    compile_with(source, toolboxes, plan, Flow::Checked)
+}
+
+/// Compiles the first plan of a file without the checks of flow: for tests of what the run time
+/// does with plans that they refuse.
+#[doc(hidden)]
+pub fn compile_unchecked(source: &Source, toolboxes: &Toolboxes) -> Compiled {
+    compile_with(source, toolboxes, None, Flow::Unchecked)
+}
+
+fn compile_with(
+    source: &Source,
+    toolboxes: &Toolboxes,
+    plan: Option<&str>,
+    flow: Flow,
+) -> Compiled {
     let mut diags = toolboxes.diagnostics().clone();
     let mut sources = toolboxes.sources().clone();
     // Beyond 65,536 files spans would be ambiguous; nothing can be said about such a compilation.
@@ -43,7 +59,7 @@ pub fn compile_plan(source: &Source, toolboxes: &Toolboxes, plan: Option<&str>) 
     let tree = syntax::parse(&source.text, file, &mut diags).file();
     let end = u32::try_from(source.text.len()).unwrap_or(u32::MAX);
     let whole = Span { file, start: 0, end };
-    let graph = check::check(&tree, &source.text, whole, toolboxes, plan, &mut diags);
+    let graph = check::check(&tree, &source.text, whole, toolboxes, plan, flow, &mut diags);
     diags.sort();
     Compiled { graph: graph.filter(|_| !diags.has_errors()), diags, sources }
 }

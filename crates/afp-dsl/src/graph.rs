@@ -73,6 +73,8 @@ pub struct Plan {
     pub interruptible: bool,
     /// The name in the text.
     pub span: Span,
+    /// The name behind `start`.
+    pub start_span: Span,
 }
 
 /// A named value of the configuration.
@@ -130,6 +132,18 @@ pub struct Element {
     pub supervisors: Vec<SupervisorId>,
     /// The name in the text.
     pub span: Span,
+    /// Where its edges stand in the text.
+    pub edges: EdgeSpans,
+}
+
+/// Where the edges of a component stand in the text.
+#[derive(Clone, Debug, Default)]
+pub struct EdgeSpans {
+    /// One place for each state or event, in the order of the targets; `None` where it is not
+    /// connected.
+    pub outcomes: Vec<Option<Span>>,
+    /// The place of `Error` or `DeadlineMissed`.
+    pub extra: Option<Span>,
 }
 
 /// What an element is made from.
@@ -177,8 +191,12 @@ pub struct Supervisor {
     pub every: u64,
     /// Deadline after each release in nanoseconds.
     pub deadline: u64,
+    /// Where `every` is written, if it is.
+    pub every_span: Option<Span>,
     /// The name in the text.
     pub span: Span,
+    /// Where its edges stand in the text.
+    pub edges: EdgeSpans,
 }
 
 /// Where an edge leads.

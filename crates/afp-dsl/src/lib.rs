@@ -7,6 +7,7 @@ pub mod codegen;
 mod compile;
 pub mod diagnostics;
 pub mod draw;
+mod flow;
 pub mod graph;
 pub mod source;
 pub mod syntax;
@@ -15,4 +16,4 @@ pub mod types;
 pub mod unfold;
 mod words;
 
-pub use compile::{Compiled, compile, compile_plan};
+pub use compile::{Compiled, compile, compile_plan, compile_unchecked};

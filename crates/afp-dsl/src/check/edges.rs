@@ -3,7 +3,7 @@
 use crate::check::names::unknown;
 use crate::check::signature::{Signature, SignatureKind};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
-use crate::graph::{ElementId, Target};
+use crate::graph::{EdgeSpans, ElementId, Target};
 use crate::source::Span;
 use crate::syntax::ast::{Edge, Name};
 use crate::words;
@@ -19,6 +19,8 @@ pub(crate) struct Connected {
     pub outcomes: Vec<Option<Target>>,
     /// The target of `Error` or `DeadlineMissed`.
     pub extra: Option<Target>,
+    /// Where they stand.
+    pub spans: EdgeSpans,
 }
 
 /// A component whose edges are checked.
@@ -43,7 +45,9 @@ pub(crate) fn check(
     diags: &mut Diagnostics,
 ) -> Connected {
     let signature = origin.signature;
-    let mut connected = Connected { outcomes: vec![None; signature.outcomes.len()], extra: None };
+    let count = signature.outcomes.len();
+    let spans = EdgeSpans { outcomes: vec![None; count], extra: None };
+    let mut connected = Connected { outcomes: vec![None; count], extra: None, spans };
     let mut seen: Vec<Name> = Vec::new();
     let extra = if origin.supervisor { DEADLINE_MISSED } else { ERROR };
     for edge in edges {
@@ -60,10 +64,18 @@ pub(crate) fn check(
             );
             continue;
         }
-        let target = edge.target().and_then(|to| target(&to, origin.supervisor, elements, diags));
+        let to = edge.target();
+        let span = to.as_ref().map_or_else(|| edge.span(), |to| name.span.to(to.span));
+        let target = to.and_then(|to| target(&to, origin.supervisor, elements, diags));
         match signature.outcomes.iter().position(|outcome| *outcome == name.text) {
-            Some(place) => connected.outcomes[place] = target,
-            None if name.text == extra => connected.extra = target,
+            Some(place) => {
+                connected.outcomes[place] = target;
+                connected.spans.outcomes[place] = Some(span);
+            }
+            None if name.text == extra => {
+                connected.extra = target;
+                connected.spans.extra = Some(span);
+            }
             None => {
                 diags.push(unknown_outcome(origin, &name, extra));
                 continue;

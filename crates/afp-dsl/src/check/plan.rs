@@ -5,7 +5,7 @@ mod component;
 use crate::check::formula::Scope;
 use crate::check::names::{self, Names};
 use crate::check::resources::Users;
-use crate::check::{Context, edges, frozen as frozen_inputs};
+use crate::check::{Context, edges};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{self, Element, ElementId, Supervisor, SupervisorId};
 use crate::source::Span;
@@ -52,7 +52,6 @@ pub(crate) fn check(
         users.elements.extend(user.map(|user| (user, guards)));
         drawn.push(element.and_then(|element| own(element, first, supervisors.len())));
     }
-    frozen(context, &drawn, &supervisors, globals, diags);
     let start = start(&head.node, &names, diags);
     too_many(head.name.as_ref(), &[elements.len(), supervisors.len(), head.entries.len()], diags);
     let plan = finish(head, drawn, supervisors, globals, start);
@@ -70,27 +69,12 @@ fn own(mut element: Element, first: usize, end: usize) -> Option<Element> {
     Some(element)
 }
 
-fn frozen(
-    context: &Context<'_>,
-    elements: &[Option<Element>],
-    supervisors: &[Option<Supervisor>],
-    globals: usize,
-    diags: &mut Diagnostics,
-) {
-    let of_template = |supervisor: &Supervisor| {
-        let import = &context.imports[supervisor.template.toolbox.index()];
-        &import.toolbox.templates[usize::from(supervisor.template.index)]
-    };
-    let globals = supervisors[..globals].iter().flatten().map(|one| (one, of_template(one)));
-    frozen_inputs::check(globals, elements.iter().flatten(), supervisors.iter().flatten(), diags);
-}
-
 fn finish(
     head: &crate::check::PlanHead,
     elements: Vec<Option<Element>>,
     supervisors: Vec<Option<Supervisor>>,
     globals: usize,
-    start: Option<ElementId>,
+    start: Option<(ElementId, Span)>,
 ) -> Option<graph::Plan> {
     let entries = head.entries.iter().map(|draft| {
         Some(graph::Entry {
@@ -110,7 +94,8 @@ fn finish(
         elements: elements.into_iter().collect::<Option<_>>()?,
         supervisors: supervisors.into_iter().collect::<Option<_>>()?,
         globals: id(globals)?,
-        start: start?,
+        start: start?.0,
+        start_span: start?.1,
         interruptible: head.interrupting.is_some(),
         span: name.span,
     })
@@ -153,7 +138,7 @@ fn start(
     plan: &ast::Plan,
     names: &[Option<ast::Name>],
     diags: &mut Diagnostics,
-) -> Option<ElementId> {
+) -> Option<(ElementId, Span)> {
     let starts = plan.starts();
     let name = plan.name();
     let Some(first) = starts.first() else {
@@ -179,7 +164,8 @@ fn start(
                 .help("remove one of them"),
         );
     }
-    edges::find(&first.target()?, names, diags)
+    let target = first.target()?;
+    Some((edges::find(&target, names, diags)?, target.span))
 }
 
 /// Whether an item of the plan itself, not of an element in it, could not be read.

@@ -77,6 +77,7 @@ impl Components<'_> {
             states: connected.outcomes,
             on_error: connected.extra,
             supervisors: Vec::new(),
+            edges: connected.spans,
             span: name.span,
             name: name.text,
         })
@@ -119,7 +120,7 @@ impl Components<'_> {
         signature: &Signature,
         bound: Option<bindings::Bound>,
         connected: Connected,
-        (every, deadline): (u64, u64),
+        times: Times,
     ) -> Option<Supervisor> {
         let (name, bound) = (node.name()?, bound?);
         let (template, _) = signature.template.as_ref()?;
@@ -132,8 +133,10 @@ impl Components<'_> {
             outputs: bound.outputs,
             events: connected.outcomes.into_iter().collect::<Option<_>>()?,
             on_miss: connected.extra,
-            every,
-            deadline,
+            every: times.every,
+            deadline: times.deadline,
+            every_span: times.every_span,
+            edges: connected.spans,
             span: name.span,
             name: name.text,
         })
@@ -214,19 +217,27 @@ fn times(node: &ast::Guard, diags: &mut Diagnostics) -> Written {
     written
 }
 
+/// When a supervisor is polled.
+struct Times {
+    every: u64,
+    deadline: u64,
+    every_span: Option<Span>,
+}
+
 /// Period and deadline: what is written here, else what the template says. A template's deadline
 /// never outlasts a period that is written here.
-fn effective(signature: &Signature, written: &Written, diags: &mut Diagnostics) -> (u64, u64) {
+fn effective(signature: &Signature, written: &Written, diags: &mut Diagnostics) -> Times {
     let template = signature.template();
     let declared = template.map_or(timing::DEFAULT_EVERY, |template| template.every);
     let every = written.values[0].map_or(declared, |(every, _)| every);
+    let every_span = written.values[0].map(|(_, span)| span);
     if let Some((deadline, span)) = written.values[1] {
         // A period that is written and wrong has been reported.
         if written.words[0].is_none() || written.values[0].is_some() {
             timing::deadline_fits(deadline, every, span, diags);
         }
-        return (every, deadline);
+        return Times { every, deadline, every_span };
     }
     let deadline = template.and_then(|template| template.deadline).unwrap_or(every);
-    (every, deadline.min(every))
+    Times { every, deadline: deadline.min(every), every_span }
 }

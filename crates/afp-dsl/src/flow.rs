@@ -1,0 +1,82 @@
+//! Checks of flow: what can be reached, what has a value when it is read, what never ends.
+//!
+//! They run on finished plans, sub-plans before the plans that use them, and need nothing of a
+//! sub-plan but a [`Summary`]. Only elements that can be reached take part. Every search is
+//! iterative, so that no plan is too deep or too long for the stack.
+
+mod assigned;
+mod cycles;
+mod endless;
+mod frozen;
+mod ignored;
+mod lanes;
+mod recovery;
+mod strong;
+mod unreachable;
+mod unread;
+pub(crate) mod view;
+
+use std::sync::Arc;
+
+use crate::diagnostics::Diagnostics;
+use crate::graph::{Plan, TemplateId};
+use crate::toolbox::{Template, Toolbox};
+
+use view::View;
+
+/// The plans of a compilation; [`crate::graph::Component::SubPlan`] is an index into them.
+pub(crate) struct Model<'a> {
+    /// Plans without errors; the others are holes, of which nothing bad is assumed.
+    pub plans: Vec<Option<&'a Plan>>,
+    /// All places of `plans`, sub-plans before the plans that use them.
+    pub order: Vec<usize>,
+    /// The toolboxes that templates are indices into.
+    pub toolboxes: Vec<Arc<Toolbox>>,
+}
+
+impl Model<'_> {
+    /// A template by index.
+    pub fn template(&self, id: TemplateId) -> &Template {
+        &self.toolboxes[id.toolbox.index()].templates[usize::from(id.index)]
+    }
+}
+
+/// Index of the ending `OK` in the tables of a [`Summary`].
+pub(crate) const OK: usize = 0;
+/// Index of the ending `Interrupted`.
+pub(crate) const INTERRUPTED: usize = 1;
+
+/// What the users of a plan need to know of its flow.
+#[derive(Clone, Debug)]
+pub(crate) struct Summary {
+    /// Whether it can end as `OK`, as `Interrupted`.
+    pub ends: [bool; 2],
+    /// Whether it can do so within the step that starts it.
+    pub instant: [bool; 2],
+    /// Whether it consists of computations only, so that it never takes time.
+    pub timeless: bool,
+    /// For each ending and `out` entry: a way to the ending on which nothing writes the entry.
+    pub unset: [Vec<Option<String>>; 2],
+}
+
+/// Checks all plans of a model.
+pub(crate) fn check(model: &Model<'_>, diags: &mut Diagnostics) {
+    let mut summaries: Vec<Option<Summary>> = vec![None; model.plans.len()];
+    for place in &model.order {
+        let Some(plan) = model.plans[*place] else { continue };
+        let view = View::new(model, plan, &summaries);
+        summaries[*place] = Some(check_plan(&view, diags));
+    }
+}
+
+fn check_plan(view: &View<'_>, diags: &mut Diagnostics) -> Summary {
+    unreachable::check(view, diags);
+    unread::check(view, diags);
+    ignored::check(view, diags);
+    frozen::check(view, diags);
+    recovery::check(view, diags);
+    let ends = endless::check(view, diags);
+    let unset = assigned::check(view, diags);
+    let (instant, timeless) = cycles::check(view, diags);
+    Summary { ends, instant, timeless, unset }
+}

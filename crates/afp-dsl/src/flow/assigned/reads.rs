@@ -1,0 +1,53 @@
+//! Where the formulas of a plan read entries.
+
+use crate::flow::view::{Node, View, each_entry};
+use crate::graph::{EntryId, Formula, Supervisor};
+use crate::source::Span;
+
+/// One place that reads an entry.
+#[derive(Clone, Copy)]
+pub(super) struct Read<'a> {
+    /// The element at whose entry the formula is evaluated; `None` for a global supervisor, whose
+    /// inputs are needed when the plan starts.
+    pub node: Option<Node>,
+    /// The supervisor that reads, if it is one.
+    pub supervisor: Option<&'a Supervisor>,
+    /// The entry in the formula.
+    pub span: Span,
+}
+
+/// All reads, by entry, in the order of the text.
+pub(super) struct Reads<'a> {
+    by_entry: Vec<Vec<Read<'a>>>,
+}
+
+impl<'a> Reads<'a> {
+    /// The reads of everything that can be reached.
+    pub fn of(view: &View<'a>) -> Reads<'a> {
+        let mut reads = Reads { by_entry: vec![Vec::new(); view.plan.entries.len()] };
+        for (node, element) in view.elements() {
+            reads.add(&element.inputs, Some(node), None);
+        }
+        for supervisor in view.supervisors() {
+            let node = supervisor.owner.map(|owner| owner.index());
+            reads.add(&supervisor.inputs, node, Some(supervisor));
+        }
+        for places in &mut reads.by_entry {
+            places.sort_by_key(|read| read.span);
+        }
+        reads
+    }
+
+    fn add(&mut self, inputs: &[Formula], node: Option<Node>, supervisor: Option<&'a Supervisor>) {
+        for formula in inputs {
+            each_entry(formula, &mut |entry, span| {
+                self.by_entry[entry.index()].push(Read { node, supervisor, span });
+            });
+        }
+    }
+
+    /// The places that read an entry.
+    pub fn of_entry(&self, entry: EntryId) -> &[Read<'a>] {
+        &self.by_entry[entry.index()]
+    }
+}

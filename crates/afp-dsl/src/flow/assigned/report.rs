@@ -1,0 +1,155 @@
+//! Says that an entry may have no value, with a way on which nothing writes it.
+
+use super::reads::{Read, Reads};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::flow::lanes;
+use crate::flow::view::{Cause, Node, View};
+use crate::flow::{INTERRUPTED, OK};
+use crate::graph::{EntryId, EntryKind};
+
+/// Greatest number of other reads that one diagnostic shows.
+const MAX_READS: usize = 3;
+/// Greatest number of steps of a way that are printed.
+const MAX_STEPS: usize = 12;
+/// Greatest number of ways that are looked for in one plan; each costs a search.
+const MAX_WAYS: usize = 64;
+
+/// Collects what is found in one plan.
+pub(super) struct Report<'a, 'b> {
+    view: &'a View<'b>,
+    unset: &'a mut [Vec<Option<String>>; 2],
+    diags: &'a mut Diagnostics,
+    ways: usize,
+}
+
+impl<'a, 'b> Report<'a, 'b> {
+    /// A report without findings.
+    pub fn new(
+        view: &'a View<'b>,
+        unset: &'a mut [Vec<Option<String>>; 2],
+        diags: &'a mut Diagnostics,
+    ) -> Self {
+        Report { view, unset, diags, ways: 0 }
+    }
+
+    /// Reports the places that read an entry before it has a value.
+    pub fn reads(
+        &mut self,
+        entry: EntryId,
+        reads: &Reads<'_>,
+        may_lack: &dyn Fn(Node) -> bool,
+        writes: &[u32],
+    ) {
+        let early = |read: &&Read<'_>| read.node.is_none_or(may_lack);
+        let mut early = reads.of_entry(entry).iter().filter(early);
+        let Some(first) = early.next() else { return };
+        let declared = &self.view.plan.entries[entry.index()];
+        let name = &declared.name;
+        let mut found = match first.node {
+            Some(_) => Diagnostic::new(
+                Code::E0303,
+                first.span,
+                format!("'{name}' may be read before anything has written it"),
+            ),
+            None => Diagnostic::new(Code::E0303, first.span, at_start(name, first)),
+        };
+        found = found.note(declared.span, "it has no value when the plan starts");
+        if let Some(node) = first.node {
+            let (way, blamed) = self.way(node, writes);
+            found = found.note(self.view.plan.start_span, format!("one way: {way}"));
+            found = blamed.into_iter().fold(found, |found, at| self.blame(found, at, entry));
+        }
+        for other in early.take(MAX_READS) {
+            found = found.note(other.span, "this reads it too early as well");
+        }
+        let help = match first.node {
+            Some(_) => format!("give '{name}' an initial value, or write it on every way to here"),
+            None => format!(
+                "give '{name}' an initial value, or watch with a supervisor of an element that runs later"
+            ),
+        };
+        self.diags.push(found.help(help));
+    }
+
+    /// Notes that a sub-plan on the way does not surely write the entry.
+    fn blame(&self, found: Diagnostic, at: usize, entry: EntryId) -> Diagnostic {
+        let Cause::State(id, state) = self.view.edges[at].cause else { return found };
+        let element = &self.view.plan.elements[id.index()];
+        let Some(inner) = self.view.summary(element) else { return found };
+        let bound = element.outputs.iter().filter(|output| output.entry == entry);
+        let unset = &inner.unset[usize::from(state)];
+        let mut ways = bound.filter_map(|output| unset.get(usize::from(output.port))?.as_ref());
+        match ways.next() {
+            Some(way) => found.note(
+                element.span,
+                format!("'{}' may end without a value for it: {way}", element.name),
+            ),
+            None => found,
+        }
+    }
+
+    /// Takes down that an `out` entry may have no value at an ending, and warns of it.
+    pub fn endings(&mut self, entry: EntryId, lacks: [bool; 2], writes: &[u32]) {
+        let entries = &self.view.plan.entries;
+        let declared = &entries[entry.index()];
+        if declared.kind != EntryKind::Out {
+            return;
+        }
+        let before = entries[..entry.index()].iter();
+        let port = before.filter(|other| other.kind == EntryKind::Out).count();
+        for ending in [OK, INTERRUPTED] {
+            if lacks[ending] {
+                let (way, _) = self.way(self.view.end(ending), writes);
+                self.unset[ending][port] = Some(way);
+            }
+        }
+        let Some(way) = &self.unset[OK][port] else { return };
+        let message = format!("'{}' may have no value when the plan ends", declared.name);
+        self.diags.push(
+            Diagnostic::new(Code::E0310, declared.span, message)
+                .note(self.view.plan.start_span, format!("one way: {way}"))
+                .help(format!(
+                    "give '{}' an initial value, or write it on every way to 'terminate'",
+                    declared.name
+                )),
+        );
+    }
+
+    /// A way to a node on which nothing writes an entry, in words, with its edges.
+    fn way(&mut self, goal: Node, writes: &[u32]) -> (String, Vec<usize>) {
+        self.ways += 1;
+        if self.ways > MAX_WAYS {
+            return ("not looked for, since there are so many".to_owned(), Vec::new());
+        }
+        let passes = |at: usize| writes.binary_search(&(at as u32)).is_err();
+        let edges = lanes::way(self.view, goal, passes).unwrap_or_default();
+        (self.spell(&edges), edges)
+    }
+
+    fn spell(&self, edges: &[usize]) -> String {
+        let mut steps = vec![format!("start '{}'", self.view.node_name(self.view.start()))];
+        let mut active = None;
+        for at in edges {
+            let edge = &self.view.edges[*at];
+            let label = self.view.label(edge.cause);
+            if matches!(edge.cause, Cause::Active(_)) {
+                active = Some(label);
+                continue;
+            }
+            let during = active.take().map(|name| format!(" during '{name}'"));
+            let target = self.view.node_name(edge.to);
+            steps.push(format!("'{label}'{} -> '{target}'", during.unwrap_or_default()));
+        }
+        if steps.len() > MAX_STEPS {
+            let left = steps.len() - MAX_STEPS;
+            let half = MAX_STEPS / 2;
+            steps.splice(half..half + left, [format!("... {left} more ...")]);
+        }
+        steps.join(", ")
+    }
+}
+
+fn at_start(name: &str, read: &Read<'_>) -> String {
+    let supervisor = read.supervisor.map_or("", |supervisor| supervisor.name.as_str());
+    format!("'{supervisor}' reads '{name}' when the plan starts, before anything has written it")
+}

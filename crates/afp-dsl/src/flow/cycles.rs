@@ -1,0 +1,227 @@
+//! Cycles that take no time: computations that go round for ever, and conditions which, holding
+//! together, pass the robot from one look to the next within a single step.
+//!
+//! Without time pass: computations, elements left by an event of the look or by a fault of their
+//! start, and sub-plans that can end through those alone. Global supervisors are asked once in a
+//! step, so at their own level they close no cycle.
+
+mod count;
+mod instant;
+
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::flow::strong;
+use crate::flow::view::{Cause, Edge, Node, View, takes_time};
+use crate::flow::{INTERRUPTED, OK};
+
+/// Greatest number of elements of a cycle that a message names.
+const MAX_NAMES: usize = 8;
+/// Greatest number of conditions that a diagnostic shows.
+const MAX_CONDITIONS: usize = 8;
+
+/// Reports each cycle once, at the edge that closes it; tells which endings can come within one
+/// step, and whether the plan never takes time.
+pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> ([bool; 2], bool) {
+    let sure = Quick::of(view, |edge| is_sure(view, edge.cause));
+    for (members, inner) in sure.cycles() {
+        match sure.has_exit(&members) {
+            true => count::check(view, &members, inner.len(), diags),
+            false => sure.report_endless(&inner, diags),
+        }
+    }
+    // A counter with a small limit lets a cycle be taken a few times only.
+    let lasting =
+        Quick::of(view, |edge| is_quick(view, edge) && !count::is_bounded(view, edge.cause));
+    for (_, inner) in lasting.cycles() {
+        if inner.iter().any(|edge| !is_sure(view, edge.cause)) {
+            lasting.report_conditions(&inner, diags);
+        }
+    }
+    let quick = Quick::of(view, |edge| is_quick(view, edge));
+    (instant::endings(view, &quick.edges), timeless(view))
+}
+
+/// Whether a plan consists of computations only.
+fn timeless(view: &View<'_>) -> bool {
+    view.elements().all(|(_, element)| {
+        !takes_time(element) || view.summary(element).is_some_and(|inner| inner.timeless)
+    })
+}
+
+/// Whether an element that is entered surely leaves by one of these edges at once.
+fn is_sure(view: &View<'_>, cause: Cause) -> bool {
+    let Cause::State(id, _) = cause else { return false };
+    let element = &view.plan.elements[id.index()];
+    !takes_time(element) || view.summary(element).is_some_and(|inner| inner.timeless)
+}
+
+/// Whether an edge can be taken in the step in which its origin is entered.
+fn is_quick(view: &View<'_>, edge: &Edge) -> bool {
+    match edge.cause {
+        Cause::State(id, state) => {
+            let element = &view.plan.elements[id.index()];
+            !takes_time(element)
+                || view.summary(element).is_some_and(|inner| inner.instant[usize::from(state)])
+        }
+        Cause::Error(_) => true,
+        // An event that leads back to the element being entered is not taken.
+        Cause::Event(..) => edge.from != view.anywhere() && edge.from != edge.to,
+        // The look never raises it.
+        Cause::Miss(_) | Cause::Active(_) => false,
+    }
+}
+
+/// The edges that take no time.
+struct Quick<'a, 'b> {
+    view: &'a View<'b>,
+    /// Those that begin at elements that can be reached.
+    edges: Vec<Edge>,
+    /// For each node where its edges begin.
+    first: Vec<u32>,
+    /// For each node its strongly connected component.
+    component: Vec<u32>,
+}
+
+impl<'a, 'b> Quick<'a, 'b> {
+    /// The edges that `takes` lets through.
+    fn of(view: &'a View<'b>, takes: impl Fn(&Edge) -> bool) -> Self {
+        let mut edges = Vec::new();
+        let mut first = Vec::with_capacity(view.nodes() + 1);
+        for node in 0..view.nodes() {
+            first.push(edges.len() as u32);
+            if view.reached[node] {
+                let quick = view.from(node).iter().filter(|edge| takes(edge));
+                edges.extend(quick.copied());
+            }
+        }
+        first.push(edges.len() as u32);
+        let targets: Vec<u32> = edges.iter().map(|edge| edge.to as u32).collect();
+        let component = strong::components(&first, &targets);
+        Quick { view, edges, first, component }
+    }
+
+    /// The components that hold a cycle: their nodes, and the edges between them.
+    fn cycles(&self) -> Vec<(Vec<Node>, Vec<&Edge>)> {
+        let count = self.component.iter().max().map_or(0, |last| *last as usize + 1);
+        let mut members = vec![Vec::new(); count];
+        for (node, component) in self.component.iter().enumerate() {
+            members[*component as usize].push(node);
+        }
+        let with_edges = members.into_iter().map(|members| {
+            let edges = members.iter().flat_map(|node| self.from(*node));
+            let inner = |edge: &&Edge| self.component[edge.from] == self.component[edge.to];
+            let inner = edges.filter(inner).collect::<Vec<_>>();
+            (members, inner)
+        });
+        with_edges.filter(|(_, inner)| !inner.is_empty()).collect()
+    }
+
+    fn from(&self, node: Node) -> &[Edge] {
+        &self.edges[self.first[node] as usize..self.first[node + 1] as usize]
+    }
+
+    /// Whether any edge, quick or not, leads out of a component.
+    fn has_exit(&self, members: &[Node]) -> bool {
+        let mut edges = members.iter().flat_map(|node| self.view.from(*node));
+        edges.any(|edge| {
+            !matches!(edge.cause, Cause::Active(_))
+                && edge.possible
+                && self.component[edge.from] != self.component[edge.to]
+        })
+    }
+
+    /// The cycle that an edge closes: itself, then a shortest way from its end to its beginning.
+    fn cycle(&self, closing: &Edge) -> Vec<Edge> {
+        let mut came_by: std::collections::BTreeMap<Node, &Edge> = Default::default();
+        let mut open = std::collections::VecDeque::from([closing.to]);
+        while let Some(node) = open.pop_front() {
+            if node == closing.from {
+                break;
+            }
+            let component = self.component[node];
+            for edge in self.from(node).iter().filter(|edge| self.component[edge.to] == component) {
+                if edge.to != closing.to && !came_by.contains_key(&edge.to) {
+                    came_by.insert(edge.to, edge);
+                    open.push_back(edge.to);
+                }
+            }
+        }
+        let mut back = Vec::new();
+        let mut node = closing.from;
+        while node != closing.to {
+            let Some(edge) = came_by.get(&node) else { break };
+            back.push(**edge);
+            node = edge.from;
+        }
+        back.push(*closing);
+        back.reverse();
+        back
+    }
+
+    fn names(&self, cycle: &[Edge]) -> String {
+        let name = |node: Node| format!("'{}'", self.view.node_name(node));
+        let mut names: Vec<_> = cycle.iter().take(MAX_NAMES).map(|edge| name(edge.from)).collect();
+        if cycle.len() > MAX_NAMES {
+            names.push("...".to_owned());
+        }
+        names.extend(cycle.first().map(|edge| name(edge.from)));
+        names.join(" -> ")
+    }
+
+    fn report_endless(&self, inner: &[&Edge], diags: &mut Diagnostics) {
+        let Some(closing) = self.closing(inner.iter().copied()) else { return };
+        let cycle = self.cycle(closing);
+        let message = format!("computations without a way out: {}", self.names(&cycle));
+        diags.push(
+            Diagnostic::new(Code::E0305, self.view.span(closing.cause), message)
+                .help("lead one of their states to an element outside of the cycle"),
+        );
+    }
+
+    fn report_conditions(&self, inner: &[&Edge], diags: &mut Diagnostics) {
+        let unsure = inner.iter().copied().filter(|edge| !is_sure(self.view, edge.cause));
+        let Some(closing) = self.closing(unsure) else { return };
+        let cycle = self.cycle(closing);
+        let conditions: Vec<_> = cycle.iter().filter(|edge| self.is_condition(edge)).collect();
+        let labels: Vec<_> =
+            conditions.iter().take(MAX_NAMES).map(|edge| self.view.label(edge.cause)).collect();
+        let all = crate::words::list(labels.iter().map(String::as_str), "and");
+        let more = if conditions.len() > MAX_NAMES { " and others" } else { "" };
+        let message = match labels.len() {
+            1 => format!("{all} holding on ends the run in a livelock"),
+            _ => format!("{all}{more} together end the run in a livelock"),
+        };
+        let mut found = Diagnostic::new(Code::E0306, self.view.span(closing.cause), message);
+        for edge in
+            conditions.iter().filter(|edge| edge.cause != closing.cause).take(MAX_CONDITIONS)
+        {
+            let text = format!("this leads on to '{}'", self.view.node_name(edge.to));
+            found = found.note(self.view.span(edge.cause), text);
+        }
+        let help = match conditions.len() {
+            1 => "lead it to an element that takes time, such as an actor that waits",
+            _ => {
+                "lead one of them to an element that is not left at once, such as one without that supervisor"
+            }
+        };
+        diags.push(found.help(help));
+    }
+
+    /// Whether something has to hold for an edge to be taken: computations may decide as well.
+    fn is_condition(&self, edge: &Edge) -> bool {
+        let others = self.view.from(edge.from).iter();
+        !is_sure(self.view, edge.cause)
+            || others
+                .filter(|other| is_sure(self.view, other.cause))
+                .any(|other| other.to != edge.to)
+    }
+
+    /// The edge that closes a cycle for somebody who reads the text from above.
+    fn closing<'e>(&self, edges: impl Iterator<Item = &'e Edge>) -> Option<&'e Edge> {
+        edges.max_by_key(|edge| (edge.to <= edge.from, self.view.span(edge.cause)))
+    }
+}
+
+/// What instant endings need to know of the kinds of endings.
+fn ending_of(view: &View<'_>, node: Node) -> Option<usize> {
+    [OK, INTERRUPTED].into_iter().find(|ending| view.end(*ending) == node)
+}

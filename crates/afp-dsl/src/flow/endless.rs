@@ -1,0 +1,67 @@
+//! Plans that never end, and elements that none of their endings can be reached from.
+
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::flow::view::View;
+use crate::flow::{INTERRUPTED, OK};
+
+/// Warns of a plan that cannot end, notes elements from which it cannot; tells which endings can
+/// come.
+pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [bool; 2] {
+    let forth = forward(view);
+    let ends = [forth[view.end(OK)], forth[view.end(INTERRUPTED)]];
+    if ends == [false, false] {
+        let message = format!("'{}' can never end: nothing leads to 'terminate'", view.plan.name);
+        diags.push(
+            Diagnostic::new(Code::E0307, view.plan.span, message)
+                .help("lead a state or an event to 'terminate', such as that of an escape button"),
+        );
+        return ends;
+    }
+    let back = backward(view);
+    for (node, element) in view.elements() {
+        if !back[node] && forth[node] {
+            let message = format!("once '{}' is reached, the plan cannot end", element.name);
+            diags.push(
+                Diagnostic::new(Code::E0311, element.span, message)
+                    .help("lead one of its states, or one of those behind it, to 'terminate'"),
+            );
+        }
+    }
+    ends
+}
+
+fn forward(view: &View<'_>) -> Vec<bool> {
+    let mut seen = vec![false; view.nodes()];
+    let mut open = vec![view.start()];
+    while let Some(node) = open.pop() {
+        if !std::mem::replace(&mut seen[node], true) {
+            open.extend(view.from(node).iter().filter(|edge| edge.possible).map(|edge| edge.to));
+        }
+    }
+    seen
+}
+
+/// The nodes from which an ending can be reached.
+fn backward(view: &View<'_>) -> Vec<bool> {
+    let mut first = vec![0u32; view.nodes() + 1];
+    for edge in view.edges.iter().filter(|edge| edge.possible) {
+        first[edge.to + 1] += 1;
+    }
+    for node in 0..view.nodes() {
+        first[node + 1] += first[node];
+    }
+    let mut next = first.clone();
+    let mut into = vec![0usize; first[view.nodes()] as usize];
+    for edge in view.edges.iter().filter(|edge| edge.possible) {
+        into[next[edge.to] as usize] = edge.from;
+        next[edge.to] += 1;
+    }
+    let mut seen = vec![false; view.nodes()];
+    let mut open = vec![view.end(OK), view.end(INTERRUPTED)];
+    while let Some(node) = open.pop() {
+        if !std::mem::replace(&mut seen[node], true) {
+            open.extend(&into[first[node] as usize..first[node + 1] as usize]);
+        }
+    }
+    seen
+}

@@ -1,0 +1,39 @@
+//! Inputs of global supervisors that are read once, at the start of the plan, from entries that
+//! change afterwards.
+
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::flow::view::{View, each_entry};
+
+/// Warns of every such input, at the entry that it reads.
+pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
+    let globals = &view.plan.supervisors[..usize::from(view.plan.globals)];
+    if globals.is_empty() {
+        return;
+    }
+    let mut written = vec![false; view.plan.entries.len()];
+    let of_elements = view.elements().flat_map(|(_, element)| &element.outputs);
+    let of_supervisors = view.supervisors().flat_map(|supervisor| &supervisor.outputs);
+    of_elements.chain(of_supervisors).for_each(|output| written[output.entry.index()] = true);
+    for supervisor in globals {
+        let template = view.model.template(supervisor.template);
+        for (port, formula) in template.inputs.iter().zip(&supervisor.inputs) {
+            if port.live {
+                continue;
+            }
+            each_entry(formula, &mut |entry, span| {
+                if !written[entry.index()] {
+                    return;
+                }
+                let message = format!(
+                    "'{}' is read once, when the plan starts, but the entry changes",
+                    port.name
+                );
+                diags.push(
+                    Diagnostic::new(Code::E0301, span, message)
+                        .note(port.span, "the port is not 'live'")
+                        .help("watch with a supervisor of the element that needs the new value, or use an entry that nothing writes"),
+                );
+            });
+        }
+    }
+}

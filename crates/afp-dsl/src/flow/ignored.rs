@@ -1,0 +1,20 @@
+//! Supervisors that are asked for nothing: all of their events are ignored.
+
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::flow::view::View;
+use crate::graph::Target;
+
+/// Warns of each, at its name.
+pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
+    for supervisor in view.supervisors() {
+        let mut targets = supervisor.events.iter().chain(&supervisor.on_miss);
+        if targets.any(|target| *target != Target::Ignore) {
+            continue;
+        }
+        let message = format!("'{}' watches for nothing: every event is ignored", supervisor.name);
+        diags.push(
+            Diagnostic::new(Code::E0308, supervisor.span, message)
+                .help("lead one of its events to an element or to 'terminate', or remove it"),
+        );
+    }
+}

@@ -1,0 +1,71 @@
+//! Sixty-four searches at once: which lanes reach which node, when edges stop some of them.
+//!
+//! "Can this be reached without passing that?" is asked for every entry and for every event of a
+//! global supervisor. One bit for each question makes the answers cheap.
+
+use crate::flow::view::{Node, View};
+
+/// How many lanes there are.
+pub(super) const WIDTH: usize = 64;
+
+/// The lanes that reach each node, all of them beginning at `start`; `stops` holds for each edge
+/// the lanes that do not pass it.
+pub(super) fn spread(view: &View<'_>, lanes: u64, stops: &[u64]) -> Vec<u64> {
+    let mut reached = vec![0u64; view.nodes()];
+    let mut waiting = vec![false; view.nodes()];
+    let mut open = std::collections::VecDeque::from([view.start()]);
+    reached[view.start()] = lanes;
+    while let Some(node) = open.pop_front() {
+        waiting[node] = false;
+        for at in view.range(node) {
+            let edge = &view.edges[at];
+            if !edge.possible {
+                continue;
+            }
+            let new = reached[node] & !stops[at] & !reached[edge.to];
+            if new != 0 {
+                reached[edge.to] |= new;
+                if !std::mem::replace(&mut waiting[edge.to], true) {
+                    open.push_back(edge.to);
+                }
+            }
+        }
+    }
+    reached
+}
+
+/// A shortest way from `start` to `goal` that takes only edges which `passes` allows, as the indices
+/// of its edges; `None` when there is none.
+pub(super) fn way(
+    view: &View<'_>,
+    goal: Node,
+    passes: impl Fn(usize) -> bool,
+) -> Option<Vec<usize>> {
+    let mut came_by = vec![usize::MAX; view.nodes()];
+    let mut seen = vec![false; view.nodes()];
+    let mut open = std::collections::VecDeque::from([view.start()]);
+    seen[view.start()] = true;
+    while let Some(node) = open.pop_front() {
+        if node == goal {
+            break;
+        }
+        for at in view.range(node) {
+            let edge = &view.edges[at];
+            if edge.possible && passes(at) && !std::mem::replace(&mut seen[edge.to], true) {
+                came_by[edge.to] = at;
+                open.push_back(edge.to);
+            }
+        }
+    }
+    if !seen[goal] {
+        return None;
+    }
+    let mut edges = Vec::new();
+    let mut node = goal;
+    while node != view.start() {
+        edges.push(came_by[node]);
+        node = view.edges[came_by[node]].from;
+    }
+    edges.reverse();
+    Some(edges)
+}

@@ -1,0 +1,19 @@
+//! Elements that no way from `start` leads to.
+
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::flow::view::View;
+
+/// Warns of each, at its name.
+pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
+    for (node, element) in view.plan.elements.iter().enumerate() {
+        if view.reached[node] {
+            continue;
+        }
+        let message = format!("'{}' can never be reached", element.name);
+        diags.push(
+            Diagnostic::new(Code::E0302, element.span, message)
+                .note(view.plan.start_span, "no way from here leads to it")
+                .help("lead a state or an event to it, or remove it"),
+        );
+    }
+}

@@ -1,0 +1,317 @@
+//! A plan as a plain graph of nodes and edges, which is what searches need.
+//!
+//! Beside the elements there are three nodes: "anywhere", which stands for every actor and sub-plan
+//! at once and is where the events of global supervisors begin, and the two endings. Edges to
+//! `ignore` are left out.
+
+use crate::flow::{INTERRUPTED, Model, OK, Summary};
+use crate::graph::{Component, Element, ElementId, Output, Plan, Supervisor, SupervisorId, Target};
+use crate::source::Span;
+
+/// A node of a [`View`].
+pub(crate) type Node = usize;
+
+/// What makes the flow go along an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Cause {
+    /// An element ends in a state.
+    State(ElementId, u16),
+    /// An element ends in a fault.
+    Error(ElementId),
+    /// A supervisor reports an event.
+    Event(SupervisorId, u16),
+    /// A supervisor misses its deadline.
+    Miss(SupervisorId),
+    /// An actor or sub-plan is active, so global supervisors are asked.
+    Active(ElementId),
+}
+
+/// An edge of a [`View`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Edge {
+    /// What takes it.
+    pub cause: Cause,
+    /// Where it begins.
+    pub from: Node,
+    /// Where it leads.
+    pub to: Node,
+    /// Whether it can be taken at all: the ending of a sub-plan may never come.
+    pub possible: bool,
+}
+
+/// A plan as a graph.
+pub(crate) struct View<'a> {
+    /// The plan.
+    pub plan: &'a Plan,
+    /// What it is part of.
+    pub model: &'a Model<'a>,
+    /// All edges, grouped by the node where they begin.
+    pub edges: Vec<Edge>,
+    /// Which nodes can be reached from `start`, by node.
+    pub reached: Vec<bool>,
+    summaries: &'a [Option<Summary>],
+    first: Vec<u32>,
+}
+
+impl<'a> View<'a> {
+    /// Looks at a plan; `summaries` holds those of its sub-plans, as far as they are known.
+    pub fn new(model: &'a Model<'a>, plan: &'a Plan, summaries: &'a [Option<Summary>]) -> View<'a> {
+        let count = plan.elements.len() + 3;
+        let mut view = View {
+            plan,
+            model,
+            edges: Vec::new(),
+            reached: vec![false; count],
+            summaries,
+            first: Vec::with_capacity(count + 1),
+        };
+        for (place, element) in plan.elements.iter().enumerate() {
+            view.first.push(view.edges.len() as u32);
+            view.add_element(place, element);
+        }
+        view.first.push(view.edges.len() as u32);
+        for place in 0..plan.globals {
+            view.add_supervisor(view.anywhere(), SupervisorId(place));
+        }
+        view.first.resize(count + 1, view.edges.len() as u32);
+        view.reach();
+        view
+    }
+
+    fn add_element(&mut self, node: Node, element: &'a Element) {
+        let Ok(id) = u16::try_from(node).map(ElementId) else { return };
+        for (state, target) in element.states.iter().enumerate() {
+            let possible = self.summary(element).is_none_or(|inner| inner.ends[state]);
+            if let Some(target) = target {
+                self.add(Cause::State(id, state as u16), node, *target, OK, possible);
+            }
+        }
+        if let Some(target) = element.on_error {
+            self.add(Cause::Error(id), node, target, OK, true);
+        }
+        for supervisor in &element.supervisors {
+            self.add_supervisor(node, *supervisor);
+        }
+        if takes_time(element) {
+            let to = self.anywhere();
+            self.edges.push(Edge { cause: Cause::Active(id), from: node, to, possible: true });
+        }
+    }
+
+    fn add_supervisor(&mut self, from: Node, id: SupervisorId) {
+        let supervisor = &self.plan.supervisors[id.index()];
+        for (event, target) in supervisor.events.iter().enumerate() {
+            self.add(Cause::Event(id, event as u16), from, *target, INTERRUPTED, true);
+        }
+        if let Some(target) = supervisor.on_miss {
+            self.add(Cause::Miss(id), from, target, INTERRUPTED, true);
+        }
+    }
+
+    fn add(&mut self, cause: Cause, from: Node, target: Target, ending: usize, possible: bool) {
+        let to = match target {
+            Target::Element(id) => id.index(),
+            Target::Terminate => self.end(ending),
+            Target::Ignore => return,
+        };
+        self.edges.push(Edge { cause, from, to, possible });
+    }
+
+    fn reach(&mut self) {
+        let mut open = vec![self.start()];
+        while let Some(node) = open.pop() {
+            if !std::mem::replace(&mut self.reached[node], true) {
+                open.extend(self.from(node).iter().map(|edge| edge.to));
+            }
+        }
+    }
+
+    /// How many nodes there are.
+    pub fn nodes(&self) -> usize {
+        self.reached.len()
+    }
+
+    /// The node of the first element.
+    pub fn start(&self) -> Node {
+        self.plan.start.index()
+    }
+
+    /// The node that stands for every actor and sub-plan.
+    pub fn anywhere(&self) -> Node {
+        self.plan.elements.len()
+    }
+
+    /// The node of an ending, [`OK`] or [`INTERRUPTED`].
+    pub fn end(&self, ending: usize) -> Node {
+        self.plan.elements.len() + 1 + ending
+    }
+
+    /// The edges that begin at a node.
+    pub fn from(&self, node: Node) -> &[Edge] {
+        &self.edges[self.range(node)]
+    }
+
+    /// The indices of the edges that begin at a node.
+    pub fn range(&self, node: Node) -> std::ops::Range<usize> {
+        self.first[node] as usize..self.first[node + 1] as usize
+    }
+
+    /// The element of a node, unless it is one of the three others.
+    pub fn element(&self, node: Node) -> Option<&'a Element> {
+        self.plan.elements.get(node)
+    }
+
+    /// A supervisor by index.
+    pub fn supervisor(&self, id: SupervisorId) -> &'a Supervisor {
+        &self.plan.supervisors[id.index()]
+    }
+
+    /// The supervisors that are ever started: global ones, and those of reached elements.
+    pub fn supervisors(&self) -> impl Iterator<Item = &'a Supervisor> {
+        let plan = self.plan;
+        let started = |supervisor: &&Supervisor| match supervisor.owner {
+            Some(owner) => self.reached[owner.index()],
+            None => true,
+        };
+        plan.supervisors.iter().filter(started)
+    }
+
+    /// The elements that can be reached, with their nodes.
+    pub fn elements(&self) -> impl Iterator<Item = (Node, &'a Element)> {
+        let plan = self.plan;
+        plan.elements.iter().enumerate().filter(|(node, _)| self.reached[*node])
+    }
+
+    /// What is known of the flow of a sub-plan.
+    pub fn summary(&self, element: &Element) -> Option<&'a Summary> {
+        match element.component {
+            Component::SubPlan(id) => self.summaries.get(id.index())?.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// The outputs that are committed when an edge is taken.
+    pub fn writes(&self, cause: Cause) -> impl Iterator<Item = &'a Output> {
+        let (outputs, carried): (&[Output], _) = match cause {
+            Cause::State(id, state) => {
+                let element = &self.plan.elements[id.index()];
+                (&element.outputs, self.carried(element, state))
+            }
+            Cause::Event(id, event) => {
+                let supervisor = self.supervisor(id);
+                let template = self.model.template(supervisor.template);
+                let on = template.outputs.iter().map(|port| port.on.contains(&event));
+                (&supervisor.outputs, on.collect())
+            }
+            Cause::Error(_) | Cause::Miss(_) | Cause::Active(_) => (&[], Vec::new()),
+        };
+        outputs
+            .iter()
+            .filter(move |output| carried.get(usize::from(output.port)).copied().unwrap_or(true))
+    }
+
+    /// Which output ports of an element surely carry a value in a state.
+    fn carried(&self, element: &Element, state: u16) -> Vec<bool> {
+        match element.component {
+            Component::Actor(id) | Component::Computation(id) => {
+                let ports = &self.model.template(id).outputs;
+                ports.iter().map(|port| port.on.contains(&state)).collect()
+            }
+            Component::SubPlan(_) => self.summary(element).map_or(Vec::new(), |inner| {
+                inner.unset[usize::from(state)].iter().map(Option::is_none).collect()
+            }),
+        }
+    }
+
+    /// Where the text says that an edge is there.
+    pub fn span(&self, cause: Cause) -> Span {
+        let (edges, own) = match cause {
+            Cause::State(id, _) | Cause::Error(id) | Cause::Active(id) => {
+                let element = &self.plan.elements[id.index()];
+                (&element.edges, element.span)
+            }
+            Cause::Event(id, _) | Cause::Miss(id) => {
+                let supervisor = self.supervisor(id);
+                (&supervisor.edges, supervisor.span)
+            }
+        };
+        let written = match cause {
+            Cause::State(_, place) | Cause::Event(_, place) => {
+                edges.outcomes.get(usize::from(place)).copied().flatten()
+            }
+            Cause::Error(_) | Cause::Miss(_) => edges.extra,
+            Cause::Active(_) => None,
+        };
+        written.unwrap_or(own)
+    }
+
+    /// What takes an edge, as a path such as `searchFirstWall.touch.TouchSensorPressed`.
+    pub fn label(&self, cause: Cause) -> String {
+        match cause {
+            Cause::State(id, state) => {
+                let element = &self.plan.elements[id.index()];
+                format!("{}.{}", element.name, self.state_name(element, state))
+            }
+            Cause::Error(id) => format!("{}.Error", self.plan.elements[id.index()].name),
+            Cause::Event(id, event) => {
+                let template = self.model.template(self.supervisor(id).template);
+                let name = template.outcomes.get(usize::from(event)).map_or("", |e| &e.name);
+                format!("{}.{name}", self.supervisor_path(id))
+            }
+            Cause::Miss(id) => format!("{}.DeadlineMissed", self.supervisor_path(id)),
+            Cause::Active(id) => self.plan.elements[id.index()].name.clone(),
+        }
+    }
+
+    fn state_name(&self, element: &Element, state: u16) -> &str {
+        match element.component {
+            Component::Actor(id) | Component::Computation(id) => {
+                let outcomes = &self.model.template(id).outcomes;
+                outcomes.get(usize::from(state)).map_or("", |outcome| &outcome.name)
+            }
+            Component::SubPlan(_) if usize::from(state) == OK => "OK",
+            Component::SubPlan(_) => "Interrupted",
+        }
+    }
+
+    /// `touch` of a global supervisor, `searchFirstWall.touch` of a local one.
+    pub fn supervisor_path(&self, id: SupervisorId) -> String {
+        let supervisor = self.supervisor(id);
+        match supervisor.owner {
+            Some(owner) => {
+                format!("{}.{}", self.plan.elements[owner.index()].name, supervisor.name)
+            }
+            None => supervisor.name.clone(),
+        }
+    }
+
+    /// The name of a node behind an arrow.
+    pub fn node_name(&self, node: Node) -> &str {
+        self.element(node).map_or("terminate", |element| &element.name)
+    }
+}
+
+/// Whether an element is an actor or a sub-plan, so that supervisors watch it.
+pub(crate) fn takes_time(element: &Element) -> bool {
+    !matches!(element.component, Component::Computation(_))
+}
+
+/// Calls `visit` with every entry that a formula reads, and its place.
+pub(crate) fn each_entry(
+    formula: &crate::graph::Formula,
+    visit: &mut dyn FnMut(crate::graph::EntryId, Span),
+) {
+    use crate::graph::FormulaKind;
+    let mut open = vec![formula];
+    while let Some(formula) = open.pop() {
+        match &formula.kind {
+            FormulaKind::Entry(id) => visit(*id, formula.span),
+            FormulaKind::Neg(inner) | FormulaKind::Convert(_, inner) => open.push(inner),
+            FormulaKind::Binary(_, left, right) => {
+                open.push(right);
+                open.push(left);
+            }
+            _ => {}
+        }
+    }
+}
