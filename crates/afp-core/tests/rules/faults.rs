@@ -66,6 +66,23 @@ fn output_of_an_actor_commits_nothing_and_interrupts_it() {
 }
 
 #[test]
+fn what_a_failed_commit_had_staged_is_not_part_of_the_next() {
+    let plan = plan("p")
+        .var("x")
+        .var("y")
+        .with(actor("a").on("Done", "a").writes("Done", "x", 1).on_error("b"))
+        .with(actor("b").on("Done", "b").writes("Done", "y", 2));
+    let world = World::default().says("a", 0, 10..11).fails("a", Phase::Output, 10..11).says(
+        "b",
+        0,
+        20..21,
+    );
+    let mut run = Run::started(plan, world);
+    run.until(20);
+    assert_eq!((run.entry("x"), run.entry("y")), (Value::Unset, Value::Int(2)));
+}
+
+#[test]
 fn start_of_a_local_supervisor_takes_its_actors_error_edge_without_a_stop() {
     let run = Run::started(guarded_actor(), World::default().fails("g", Phase::Start, 0..1));
     assert_eq!(stops(&run), [""; 0]);
