@@ -17,7 +17,9 @@ fn supervisors_stay_on_their_grid_however_late_a_step_is() {
     assert_eq!(run.step(13), Wake::At(ms(20)));
     assert_eq!(run.step(20), Wake::At(ms(30)));
     assert_eq!(run.step(57), Wake::At(ms(60)));
-    assert_eq!(run.calls("poll"), ["0 poll g", "13 poll g", "20 poll g", "57 poll g"]);
+    assert_eq!(run.step(60), Wake::At(ms(70)));
+    let polls = ["0 poll g", "13 poll g", "20 poll g", "57 poll g", "60 poll g"];
+    assert_eq!(run.calls("poll"), polls);
 }
 
 #[test]
