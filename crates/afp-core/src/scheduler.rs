@@ -133,6 +133,9 @@ impl<P: PlanState> Scheduler<P> {
         self.state = State::Running;
         self.last = now;
         self.prepare(clock, now);
+        if self.stop_requested {
+            return Ok(self.stop_now(env, sink, clock));
+        }
         let flow = self.machine.start(&mut context(env, sink, clock, now, &mut self.step));
         Ok(self.conclude(flow, env, sink))
     }
@@ -218,19 +221,26 @@ impl<P: PlanState> Scheduler<P> {
         self.writes.push_back((entry, value)).map_err(|_| WriteError::QueueFull)
     }
 
-    /// Asks the plan to stop: the next step interrupts it and ends it as `Interrupted`.
+    /// Asks the plan to stop: the next step interrupts it and ends it as `Interrupted`. A plan that
+    /// has not started then ends at its start, before anything runs.
     pub fn request_stop(&mut self) {
         self.stop_requested = true;
     }
 
     /// The plan cannot be stepped any more, for instance because a component panicked: the
-    /// platform stops, the run ends in `Error`.
+    /// platform stops, the run ends in `Error` unless it has ended before.
     pub fn abort<E, S>(&mut self, env: &mut E, sink: &mut S, fault: Fault) -> Wake
     where
         E: Environment + ?Sized,
         S: Sink,
     {
-        self.conclude(Flow::Fatal(fault), env, sink)
+        match self.state {
+            State::Ended(ending) => {
+                env.emergency_stop();
+                Wake::Ended(ending)
+            }
+            State::Ready | State::Running => self.conclude(Flow::Fatal(fault), env, sink),
+        }
     }
 
     #[inline]

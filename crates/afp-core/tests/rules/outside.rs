@@ -92,6 +92,26 @@ fn a_stop_request_comes_before_the_writes_and_interrupts() {
 }
 
 #[test]
+fn a_stop_request_before_the_start_lets_nothing_run() {
+    let mut run = Run::ready(watched(), World::default());
+    run.scheduler.request_stop();
+    assert_eq!(run.start(), Ok(Wake::Ended(Ending::Interrupted)));
+    assert_lines(&run.trace(), "0.000000 stop requested\n0.000000 p ended Interrupted");
+    assert_eq!(run.calls("start"), [""; 0]);
+}
+
+#[test]
+fn aborting_a_plan_that_has_ended_stops_the_platform_and_changes_nothing_else() {
+    let mut run = Run::started(watched(), World::default());
+    run.scheduler.request_stop();
+    run.step(10);
+    run.trace();
+    run.abort();
+    assert_eq!((run.ending(), run.emergency_stops()), (Some(Ending::Interrupted), 1));
+    assert_eq!(run.trace(), [""; 0]);
+}
+
+#[test]
 fn a_stop_request_whose_interrupt_fails_is_an_emergency() {
     let mut run = Run::started(watched(), World::default().fails("a", Phase::Interrupt, 0..100));
     run.scheduler.request_stop();
