@@ -33,8 +33,8 @@ pub(crate) struct Report {
     out: Box<dyn Write>,
     json: bool,
     progress: Progress,
-    /// Standard output is gone; whoever read it has seen enough.
-    closed: bool,
+    /// Why nothing can be written any more.
+    failure: Option<io::Error>,
 }
 
 impl Report {
@@ -45,12 +45,12 @@ impl Report {
             true => Box::new(anstream::stdout()),
             false => Box::new(io::BufWriter::new(anstream::stdout())),
         };
-        Report { out, json, progress: Progress::new(end), closed: false }
+        Report { out, json, progress: Progress::new(end), failure: None }
     }
 
-    /// Whether nobody reads any more.
+    /// Whether nobody reads any more, or nothing can be written.
     pub(crate) fn is_closed(&self) -> bool {
-        self.closed
+        self.failure.is_some()
     }
 
     /// The lines that say what runs.
@@ -87,14 +87,17 @@ impl Report {
 
     /// Time has passed.
     pub(crate) fn pass(&mut self, now: Instant) {
-        if self.progress.pass(now) && !self.json {
-            // A pipe sees the timeline while it grows.
+        if self.progress.pass(now) {
+            // A pipe sees the output while it grows.
             let _ = self.out.flush();
         }
     }
 
     /// The last lines.
-    pub(crate) fn end(&mut self, summary: &Summary) {
+    ///
+    /// # Errors
+    /// Something could not be written, unless whoever read it has seen enough.
+    pub(crate) fn end(mut self, summary: &Summary) -> io::Result<()> {
         self.progress.clear();
         if !self.json {
             let text = summary.for_people();
@@ -102,12 +105,16 @@ impl Report {
         }
         let line = summary.json(self.json);
         self.write(&line);
-        let _ = self.out.flush();
+        let flushed = self.out.flush();
+        match self.failure.map_or(flushed, Err) {
+            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error),
+            _ => Ok(()),
+        }
     }
 
     fn write(&mut self, text: &str) {
-        if !self.closed && writeln!(self.out, "{text}").is_err() {
-            self.closed = true;
+        if self.failure.is_none() {
+            self.failure = writeln!(self.out, "{text}").err();
         }
     }
 }

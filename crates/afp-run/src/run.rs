@@ -119,8 +119,11 @@ where
     }
     let lost = written.as_ref().map_or(0, |written: &Written| written.lost);
     let log = written.map(|written| written.path);
-    drive.report.end(&Summary { figures, speed, log, svg: paths.svg.clone(), lost });
-    match drive.judge.ending {
+    let ending = drive.judge.ending;
+    let summary = Summary { figures, speed, log, svg: paths.svg.clone(), lost };
+    let told = drive.report.end(&summary);
+    told.map_err(RunError::file("cannot write to", "standard output".as_ref()))?;
+    match ending {
         Some(Ending::Error(_)) => Ok(EXIT_PLAN_ERROR),
         _ => Ok(EXIT_OK),
     }

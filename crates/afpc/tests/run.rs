@@ -193,6 +193,23 @@ fn one_times_real_time_takes_its_time() {
     assert_eq!(said.out, place.afpc(&paced.replace("--speed 1x", "--speed max")).out);
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_no_success_and_a_closed_pipe_no_failure() {
+    use std::fs::OpenOptions;
+    use std::process::Stdio;
+    let place = Place::with_plan();
+    let run = "run wall_following.afp --until 1s --log none --svg none";
+    let mut command = place.command();
+    command.args(run.split(' ')).stdout(OpenOptions::new().write(true).open("/dev/full").unwrap());
+    let full = common::said(command.output().unwrap());
+    full.fails(1, &["error: cannot write to 'standard output'"]);
+    let mut command = place.command();
+    let mut child = command.args(run.split(' ')).stdout(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    assert!(child.wait().unwrap().success());
+}
+
 #[cfg(unix)]
 mod signals {
     use std::io::{BufRead, BufReader, Read};
