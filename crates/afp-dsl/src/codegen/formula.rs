@@ -204,6 +204,10 @@ impl<'a> Formulas<'a> {
                 let text = self.text(inner);
                 atom(convert(self.home, conversion, text))
             }
+            Conversion::ToText(_) => {
+                let value = self.expr(inner).at(Bond::Atom);
+                atom(convert(self.home, conversion, value))
+            }
             _ => atom(convert(self.home, conversion, self.value(inner))),
         }
     }
@@ -234,7 +238,7 @@ fn borrowed_text(formulas: &Formulas<'_>, formula: &Formula) -> Option<TokenStre
     }
 }
 
-/// A value converted; a text comes as an `&str`.
+/// A value converted; a text comes as an `&str`, a quantity to be printed as an operand of `.`.
 pub fn convert(home: &Home<'_>, conversion: &Conversion, value: TokenStream) -> TokenStream {
     match conversion {
         Conversion::IntToFloat => quote!(int_to_float(#value)),
@@ -245,7 +249,7 @@ pub fn convert(home: &Home<'_>, conversion: &Conversion, value: TokenStream) -> 
             Type::Quantity(Dimension::NONE) => quote!(print_quantity(#value, "")?),
             Type::Quantity(dimension) => {
                 let unit = dimension.si_unit();
-                quote!(print_quantity((#value).si(), #unit)?)
+                quote!(print_quantity(#value.si(), #unit)?)
             }
             Type::Enum(_) => quote!(print_choice(#value)?),
             _ => quote!(Text::print(#value)?),

@@ -59,13 +59,21 @@ pub fn file(tokens: TokenStream) -> String {
 fn airy(text: &str) -> String {
     let mut airy = String::with_capacity(text.len() + text.len() / 16);
     let mut before = "";
-    for line in text.lines() {
+    let mut lines = text.lines().peekable();
+    while let Some(line) = lines.next() {
         if separated(before, line) {
             airy.push('\n');
         }
         airy += line;
-        airy.push('\n');
         before = line;
+        // The printer breaks what is empty, too.
+        if line.ends_with(" {")
+            && let Some(end) = lines.next_if(|next| next.trim_start().starts_with('}'))
+        {
+            airy += end.trim_start();
+            before = end;
+        }
+        airy.push('\n');
     }
     airy
 }

@@ -873,10 +873,8 @@ where
     ) -> Fired {
         match supervisor {
             SEEK_WATCH => {
-                let (watch, live) = (
-                    &mut self.supervisors.seek_watch,
-                    seek_watch_live(&self.config),
-                );
+                let live = seek_watch_live(&self.config);
+                let watch = &mut self.supervisors.seek_watch;
                 Fired::supervisor(
                     cx.poll_supervisor(watch, live),
                     |outcome| seek_watch_outputs(&mut self.staged, outcome),
@@ -1224,7 +1222,7 @@ fn first_outputs(staged: &mut Staged, outcome: kit::seek::State) -> Result<(), F
 /// Where the ids of `round` begin.
 const ROUND_PLACE: Child = Child {
     components: 10,
-    entries: 14,
+    entries: 15,
 };
 
 /// Inputs of `round`.
@@ -1278,7 +1276,7 @@ fn compare(config: &Config) -> Result<std_templates::compare::Inputs<Length>, Fa
 /// Where the ids of `again` begin.
 const AGAIN_PLACE: Child = Child {
     components: 14,
-    entries: 23,
+    entries: 24,
 };
 
 /// Inputs of `again`.
@@ -1300,6 +1298,17 @@ fn again(config: &Config, to: &mut super::round::Config) -> Result<(), Fault> {
     Ok(())
 }
 
+/// Results of `again`.
+fn again_outputs(staged: &mut Staged, from: &super::round::Config) -> Result<(), Fault> {
+    if let Some(value) = from.turned.value() {
+        staged.text = Some(print_quantity(value.si(), "rad")?);
+    }
+    if let Some(value) = from.size.value() {
+        staged.text2 = Some(print_quantity(value.si(), "m^2")?);
+    }
+    Ok(())
+}
+
 /// Inputs of `show`.
 fn show(config: &Config) -> Result<std_templates::log::Inputs<Text>, Fault> {
     Ok(std_templates::log::Inputs {
@@ -1309,7 +1318,7 @@ fn show(config: &Config) -> Result<std_templates::log::Inputs<Text>, Fault> {
                             join(
                                     join(
                                             "at ",
-                                            print_quantity((config.dist()).si(), "m")?.as_str(),
+                                            print_quantity(config.dist().si(), "m")?.as_str(),
                                         )?
                                         .as_str(),
                                     ", ",
@@ -1448,6 +1457,8 @@ pub struct Config {
     pub size: Entry<Quantity<2, 0, 0, 0, 0, 0>>,
     /// `var text: string`
     pub text: Entry<Text>,
+    /// `var text2: string`
+    pub text2: Entry<Text>,
     /// `var dist: length`
     pub dist: Entry<Length>,
     /// `var flag: bool`
@@ -1471,6 +1482,7 @@ struct Staged {
     turns: Option<f64>,
     size: Option<Quantity<2, 0, 0, 0, 0, 0>>,
     text: Option<Text>,
+    text2: Option<Text>,
     dist: Option<Length>,
     flag: Option<bool>,
     count: Option<i64>,
@@ -1643,6 +1655,13 @@ impl Everything {
         self.config.text.value().map(|text| text.as_str())
     }
 
+    /// `var text2: string`
+    ///
+    /// `None` while nobody has written it.
+    pub fn text2(&self) -> Option<&str> {
+        self.config.text2.value().map(|text| text.as_str())
+    }
+
     /// `var dist: length`
     ///
     /// `None` while nobody has written it.
@@ -1712,6 +1731,7 @@ impl PlanState for Everything {
         config.turns.clear();
         config.size.clear();
         config.text.clear();
+        config.text2.clear();
         config.dist.clear();
         config.flag.clear();
         config.count.clear();
@@ -1754,10 +1774,11 @@ impl PlanState for Everything {
             7 => self.config.turns.as_value(),
             8 => self.config.size.as_value(),
             9 => self.config.text.as_value(),
-            10 => self.config.dist.as_value(),
-            11 => self.config.flag.as_value(),
-            12 => self.config.count.as_value(),
-            13 => self.config.half.as_value(),
+            10 => self.config.text2.as_value(),
+            11 => self.config.dist.as_value(),
+            12 => self.config.flag.as_value(),
+            13 => self.config.count.as_value(),
+            14 => self.config.half.as_value(),
             _ => ValueRef::Unset,
         }
     }
@@ -1774,10 +1795,11 @@ impl PlanState for Everything {
             7 => WriteError::check::<f64>(value),
             8 => WriteError::check::<Quantity<2, 0, 0, 0, 0, 0>>(value),
             9 => WriteError::check::<Text>(value),
-            10 => WriteError::check::<Length>(value),
-            11 => WriteError::check::<bool>(value),
-            12 => WriteError::check::<i64>(value),
-            13 => Err(WriteError::ReadOnly),
+            10 => WriteError::check::<Text>(value),
+            11 => WriteError::check::<Length>(value),
+            12 => WriteError::check::<bool>(value),
+            13 => WriteError::check::<i64>(value),
+            14 => Err(WriteError::ReadOnly),
             _ => Err(WriteError::Unknown),
         }
     }
@@ -1792,9 +1814,10 @@ impl PlanState for Everything {
             7 => stage_outside(&mut self.staged.turns, value),
             8 => stage_outside(&mut self.staged.size, value),
             9 => stage_outside(&mut self.staged.text, value),
-            10 => stage_outside(&mut self.staged.dist, value),
-            11 => stage_outside(&mut self.staged.flag, value),
-            12 => stage_outside(&mut self.staged.count, value),
+            10 => stage_outside(&mut self.staged.text2, value),
+            11 => stage_outside(&mut self.staged.dist, value),
+            12 => stage_outside(&mut self.staged.flag, value),
+            13 => stage_outside(&mut self.staged.count, value),
             _ => {}
         }
     }
@@ -1831,14 +1854,17 @@ impl PlanState for Everything {
         if let Some(value) = self.staged.text.take() {
             to.write(9, &mut self.config.text, value);
         }
+        if let Some(value) = self.staged.text2.take() {
+            to.write(10, &mut self.config.text2, value);
+        }
         if let Some(value) = self.staged.dist.take() {
-            to.write(10, &mut self.config.dist, value);
+            to.write(11, &mut self.config.dist, value);
         }
         if let Some(value) = self.staged.flag.take() {
-            to.write(11, &mut self.config.flag, value);
+            to.write(12, &mut self.config.flag, value);
         }
         if let Some(value) = self.staged.count.take() {
-            to.write(12, &mut self.config.count, value);
+            to.write(13, &mut self.config.count, value);
         }
     }
 
@@ -1870,8 +1896,7 @@ where
                     .start_supervisor(inputs, Events::from_bits(0b1))?;
             }
             NEAR => {
-                let inputs = Ok(std_templates::check_value::Inputs {
-                });
+                let inputs = Ok(std_templates::check_value::Inputs {});
                 self.supervisors.near = cx
                     .start_supervisor(inputs, Events::from_bits(0b1))?;
             }
@@ -1893,27 +1918,21 @@ where
     ) -> Fired {
         match supervisor {
             WILD => {
-                let (watch, live) = (
-                    &mut self.supervisors.wild,
-                    wild_live(&self.config),
-                );
+                let live = wild_live(&self.config);
+                let watch = &mut self.supervisors.wild;
                 Fired::supervisor(
                     cx.poll_supervisor(watch, live),
                     |outcome| wild_outputs(&mut self.staged, outcome),
                 )
             }
             NEAR => {
-                let (watch, live) = (
-                    &mut self.supervisors.near,
-                    near_live(&self.config),
-                );
+                let live = near_live(&self.config);
+                let watch = &mut self.supervisors.near;
                 Fired::supervisor(cx.poll_supervisor(watch, live), |_| Ok(()))
             }
             FIRST_WATCH => {
-                let (watch, live) = (
-                    &mut self.supervisors.first_watch,
-                    first_watch_live(&self.config),
-                );
+                let live = first_watch_live(&self.config);
+                let watch = &mut self.supervisors.first_watch;
                 Fired::supervisor(
                     cx.poll_supervisor(watch, live),
                     |outcome| first_watch_outputs(&mut self.staged, outcome),
@@ -1978,7 +1997,10 @@ where
                 }
                 let mut machine = Machine::new(plan);
                 let flow = cx.start_sub_plan(AGAIN_PLACE, &mut machine);
-                let started = Started::sub_plan(flow, || Ok(()));
+                let started = Started::sub_plan(
+                    flow,
+                    || again_outputs(&mut self.staged, &machine.plan().config),
+                );
                 self.active = Active::Again(machine);
                 return started;
             }
@@ -2025,7 +2047,10 @@ where
             }
             Active::Again(machine) => {
                 let flow = cx.inside(AGAIN_PLACE, |cx| machine.step(cx));
-                Polled::sub_plan(flow, || Ok(()))
+                Polled::sub_plan(
+                    flow,
+                    || again_outputs(&mut self.staged, &machine.plan().config),
+                )
             }
         }
     }
@@ -2071,7 +2096,7 @@ impl Tables for Rules {
         PlanTable {
             start: HERE,
             globals: 2,
-            entries: 14,
+            entries: 15,
             elements: &ELEMENTS,
             supervisors: &SUPERVISORS,
             edges: &EDGES,
@@ -2406,6 +2431,7 @@ pub static NAMES: NameTable = NameTable {
         EntryRow::new("turns", EntryKind::Var, "float", "", &[]),
         EntryRow::new("size", EntryKind::Var, "length^2", "m^2", &[]),
         EntryRow::new("text", EntryKind::Var, "string", "", &[]),
+        EntryRow::new("text2", EntryKind::Var, "string", "", &[]),
         EntryRow::new("dist", EntryKind::Var, "length", "m", &[]),
         EntryRow::new("flag", EntryKind::Var, "bool", "", &[]),
         EntryRow::new("count", EntryKind::Var, "int", "", &[]),
@@ -2453,7 +2479,7 @@ impl NamedPlan for Everything {
             2 => &super::units::LENGTH2_PER_DURATION,
             6 => &super::units::ANGLE,
             8 => &super::units::LENGTH2,
-            10 => &super::units::LENGTH,
+            11 => &super::units::LENGTH,
             _ => &[],
         };
         units.iter().copied()

@@ -365,14 +365,12 @@ where
     ) -> Result<(), Fault> {
         match supervisor {
             ESCAPE => {
-                let inputs = Ok(carbot::check_escape_button::Inputs {
-                });
+                let inputs = Ok(carbot::check_escape_button::Inputs {});
                 self.supervisors.escape = cx
                     .start_supervisor(inputs, Events::from_bits(0b1))?;
             }
             SEARCH_FIRST_WALL_TOUCH => {
-                let inputs = Ok(carbot::check_touch_sensor::Inputs {
-                });
+                let inputs = Ok(carbot::check_touch_sensor::Inputs {});
                 self.supervisors.search_first_wall_touch = cx
                     .start_supervisor(inputs, Events::from_bits(0b1))?;
             }
@@ -382,8 +380,7 @@ where
                     .start_supervisor(inputs, Events::from_bits(0b1))?;
             }
             FOLLOW_WALL_WALL_TOUCH => {
-                let inputs = Ok(carbot::check_touch_sensor::Inputs {
-                });
+                let inputs = Ok(carbot::check_touch_sensor::Inputs {});
                 self.supervisors.follow_wall_wall_touch = cx
                     .start_supervisor(inputs, Events::from_bits(0b1))?;
             }
@@ -400,34 +397,23 @@ where
     ) -> Fired {
         match supervisor {
             ESCAPE => {
-                let (watch, live) = (
-                    &mut self.supervisors.escape,
-                    Ok(carbot::check_escape_button::Live {
-                    }),
-                );
+                let live = Ok(carbot::check_escape_button::Live {});
+                let watch = &mut self.supervisors.escape;
                 Fired::supervisor(cx.poll_supervisor(watch, live), |_| Ok(()))
             }
             SEARCH_FIRST_WALL_TOUCH => {
-                let (watch, live) = (
-                    &mut self.supervisors.search_first_wall_touch,
-                    Ok(carbot::check_touch_sensor::Live {
-                    }),
-                );
+                let live = Ok(carbot::check_touch_sensor::Live {});
+                let watch = &mut self.supervisors.search_first_wall_touch;
                 Fired::supervisor(cx.poll_supervisor(watch, live), |_| Ok(()))
             }
             SEARCH_FIRST_WALL_CHECK_LANE => {
-                let (watch, live) = (
-                    &mut self.supervisors.search_first_wall_check_lane,
-                    search_first_wall_check_lane_live(&self.config),
-                );
+                let live = search_first_wall_check_lane_live(&self.config);
+                let watch = &mut self.supervisors.search_first_wall_check_lane;
                 Fired::supervisor(cx.poll_supervisor(watch, live), |_| Ok(()))
             }
             FOLLOW_WALL_WALL_TOUCH => {
-                let (watch, live) = (
-                    &mut self.supervisors.follow_wall_wall_touch,
-                    Ok(carbot::check_touch_sensor::Live {
-                    }),
-                );
+                let live = Ok(carbot::check_touch_sensor::Live {});
+                let watch = &mut self.supervisors.follow_wall_wall_touch;
                 Fired::supervisor(cx.poll_supervisor(watch, live), |_| Ok(()))
             }
             _ => Fired::fault(Fault::INTERNAL),

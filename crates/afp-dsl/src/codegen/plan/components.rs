@@ -131,7 +131,8 @@ fn poll_supervisor(context: &Context<'_>) -> TokenStream {
             quote! {
                 #number => {
                     #rooms
-                    let (watch, live) = (&mut self.supervisors.#field, #call);
+                    let live = #call;
+                    let watch = &mut self.supervisors.#field;
                     Fired::supervisor(cx.poll_supervisor(watch, live), #outputs)
                 }
             }

@@ -8,7 +8,7 @@ use super::context::{ComponentNames, Context, is_bare};
 use crate::codegen::formula::{Formulas, is_literal};
 use crate::codegen::layout::{comment, doc};
 use crate::graph::{Component, Element, Entry, EntryKind, PlanId, TemplateId};
-use crate::types::Type;
+use crate::types::{Conversion, Dimension, Type};
 
 /// Numbers, the enum of the active element, and the bindings of each element.
 pub fn elements(context: &Context<'_>) -> TokenStream {
@@ -169,6 +169,12 @@ fn result(
         (None, Type::Quantity(_)) => quote!(finite(*value)?),
         (None, _) => quote!(*value),
         (Some(conversion), Type::Text) => converted(home, conversion, &Type::Text, quote!(value)),
+        // A method call finds its way through the reference by itself.
+        (Some(conversion @ Conversion::ToText(_)), Type::Quantity(dimension))
+            if *dimension != Dimension::NONE =>
+        {
+            converted(home, conversion, &entry.ty, quote!(value))
+        }
         (Some(conversion), ty) => converted(home, conversion, ty, quote!(*value)),
     });
     Some(quote! {
