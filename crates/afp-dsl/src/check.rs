@@ -32,7 +32,7 @@ use crate::words;
 
 use entries::EntryDraft;
 use imports::Import;
-use names::Names;
+use names::{Names, Places};
 use types::Types;
 
 /// A file and everything that its plans can name.
@@ -59,6 +59,8 @@ pub(crate) struct PlanHead {
     pub name: Option<Name>,
     /// Its entries.
     pub entries: Vec<EntryDraft>,
+    /// Where the entries stand.
+    pub places: Places,
     /// The edge by which it can end as `Interrupted`.
     pub interrupting: Option<Span>,
 }
@@ -132,11 +134,10 @@ fn context<'a>(
         _ => None,
     });
     let plans: Vec<_> = nodes
-        .map(|node| PlanHead {
-            name: node.name(),
-            entries: entries::read(&node, &types, text, diags),
-            interrupting: endings::interrupting(&node),
-            node,
+        .map(|node| {
+            let (entries, places) = entries::read(&node, &types, text, diags);
+            let interrupting = endings::interrupting(&node);
+            PlanHead { name: node.name(), entries, places, interrupting, node }
         })
         .collect();
     let mut names = Names::default();

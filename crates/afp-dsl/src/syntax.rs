@@ -55,6 +55,12 @@ pub fn parse(text: &str, file: u16, diags: &mut Diagnostics) -> Parse {
     Parse { green, file }
 }
 
+/// Cuts a text into tokens and tells how many there are: the first thing a compilation does, and
+/// the measure for what the rest of it may take.
+pub fn count_tokens(text: &str) -> usize {
+    lexer::lex(text, 0, &mut Diagnostics::default()).len()
+}
+
 /// The place of a token.
 pub(crate) fn token_span(token: &Token, file: u16) -> Span {
     let range = token.text_range();
@@ -63,14 +69,18 @@ pub(crate) fn token_span(token: &Token, file: u16) -> Span {
 
 /// The place of a node without the trivia at its ends.
 pub(crate) fn node_span(node: &Node, file: u16) -> Span {
-    let tokens = || node.descendants_with_tokens().filter_map(|element| element.into_token());
-    let mut solid = tokens().filter(|token| !token.kind().is_trivia());
-    let Some(first) = solid.next() else {
-        let start = node.text_range().start().into();
-        return Span { file, start, end: start };
-    };
-    let last = solid.last().unwrap_or_else(|| first.clone());
-    token_span(&first, file).to(token_span(&last, file))
+    let range = node.text_range();
+    let inside = |token: &Token| range.contains_range(token.text_range());
+    let solid = |token: &Token| !token.kind().is_trivia();
+    let forth = std::iter::successors(node.first_token(), Token::next_token);
+    let back = std::iter::successors(node.last_token(), Token::prev_token);
+    match (forth.take_while(inside).find(solid), back.take_while(inside).find(solid)) {
+        (Some(first), Some(last)) => token_span(&first, file).to(token_span(&last, file)),
+        _ => {
+            let start = range.start().into();
+            Span { file, start, end: start }
+        }
+    }
 }
 
 #[cfg(test)]

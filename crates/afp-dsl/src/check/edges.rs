@@ -1,6 +1,6 @@
 //! Where states and events lead: every one of them is connected, once, to something that is there.
 
-use crate::check::names::unknown;
+use crate::check::names::{Places, unknown};
 use crate::check::signature::{Signature, SignatureKind};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{EdgeSpans, ElementId, Target};
@@ -37,11 +37,30 @@ pub(crate) struct Origin<'a> {
     pub supervisor: bool,
 }
 
-/// Checks the edges of one component; `elements` are the names of the plan's elements by place.
+/// The elements of a plan by name.
+pub(crate) struct Elements {
+    names: Vec<Option<Name>>,
+    places: Places,
+}
+
+impl Elements {
+    /// Takes the names of a plan's elements by place.
+    pub fn new(names: Vec<Option<Name>>) -> Elements {
+        let texts = names.iter().map(|name| name.as_ref().map(|name| name.text.as_str()));
+        Elements { places: Places::of(texts), names }
+    }
+
+    /// The names that are there, as written.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.names.iter().flatten().map(|name| name.text.as_str())
+    }
+}
+
+/// Checks the edges of one component; `elements` are those of the plan.
 pub(crate) fn check(
     origin: &Origin<'_>,
     edges: &[Edge],
-    elements: &[Option<Name>],
+    elements: &Elements,
     diags: &mut Diagnostics,
 ) -> Connected {
     let signature = origin.signature;
@@ -99,7 +118,7 @@ fn unknown_outcome(origin: &Origin<'_>, name: &Name, extra: &str) -> Diagnostic 
 fn target(
     to: &Name,
     supervisor: bool,
-    elements: &[Option<Name>],
+    elements: &Elements,
     diags: &mut Diagnostics,
 ) -> Option<Target> {
     match to.text.as_str() {
@@ -118,14 +137,9 @@ fn target(
 }
 
 /// The element of that name; reports when there is none.
-pub(crate) fn find(
-    to: &Name,
-    elements: &[Option<Name>],
-    diags: &mut Diagnostics,
-) -> Option<ElementId> {
-    let named = |name: &Option<Name>| name.as_ref().is_some_and(|name| name.text == to.text);
-    let Some(place) = elements.iter().position(named) else {
-        let names = elements.iter().flatten().map(|name| name.text.as_str());
+pub(crate) fn find(to: &Name, elements: &Elements, diags: &mut Diagnostics) -> Option<ElementId> {
+    let Some(place) = elements.places.find(&to.text) else {
+        let names = elements.names();
         let message = format!("the plan has no element '{}'", to.text);
         let none = "add an element of that name, or write 'terminate'";
         diags.push(unknown(Code::E0216, to.span, message, &to.text, names, none));

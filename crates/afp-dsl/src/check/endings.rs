@@ -1,17 +1,24 @@
 //! Whether a plan can end as `Interrupted`: some event of an element that can be reached leads to
 //! `terminate`.
 
+use crate::check::names::Places;
 use crate::source::Span;
 use crate::syntax::ast::{Edge, Element, Guard, Plan};
 
 /// The first edge, as written, that ends the plan as `Interrupted`.
 pub(crate) fn interrupting(plan: &Plan) -> Option<Span> {
+    let ending = |guards: Vec<Guard>| {
+        let mut edges = guards.into_iter().flat_map(|guard| guard.edges());
+        edges.find(|edge| leads_to(edge) == "terminate").map(|edge| edge.span())
+    };
+    if let Some(edge) = ending(plan.guards()) {
+        return Some(edge);
+    }
     let elements = plan.elements();
+    let first = elements.iter().position(|element| ending(element.guards()).is_some())?;
     let reached = reached(plan, &elements);
-    let local = elements.iter().zip(reached).filter(|(_, reached)| *reached);
-    let guards = plan.guards().into_iter().chain(local.flat_map(|(element, _)| element.guards()));
-    let edges: Vec<_> = guards.flat_map(|guard| guard.edges()).collect();
-    edges.iter().find(|edge| leads_to(edge) == "terminate").map(Edge::span)
+    let local = elements.iter().zip(reached).skip(first).filter(|(_, reached)| *reached);
+    local.into_iter().find_map(|(element, _)| ending(element.guards()))
 }
 
 fn leads_to(edge: &Edge) -> String {
@@ -20,8 +27,8 @@ fn leads_to(edge: &Edge) -> String {
 
 /// Which elements can be reached from `start` and from global supervisors, which can fire anywhere.
 fn reached(plan: &Plan, elements: &[Element]) -> Vec<bool> {
-    let name = |element: &Element| element.name().map(|name| name.text).unwrap_or_default();
-    let names: Vec<_> = elements.iter().map(name).collect();
+    let names: Vec<_> = elements.iter().map(Element::name).collect();
+    let places = Places::of(names.iter().map(|name| name.as_ref().map(|name| name.text.as_str())));
     let mut open: Vec<String> =
         plan.starts().iter().filter_map(|start| Some(start.target()?.text)).collect();
     if open.is_empty() {
@@ -30,7 +37,7 @@ fn reached(plan: &Plan, elements: &[Element]) -> Vec<bool> {
     open.extend(plan.guards().iter().flat_map(Guard::edges).map(|edge| leads_to(&edge)));
     let mut reached = vec![false; elements.len()];
     while let Some(next) = open.pop() {
-        let Some(place) = names.iter().position(|name| *name == next) else { continue };
+        let Some(place) = places.find(&next) else { continue };
         if std::mem::replace(&mut reached[place], true) {
             continue;
         }

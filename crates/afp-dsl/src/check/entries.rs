@@ -2,6 +2,7 @@
 //! known: `const`, then `in`, then the others.
 
 use crate::check::formula::Scope;
+use crate::check::names::Places;
 use crate::check::types::Types;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{EntryKind, Formula};
@@ -28,13 +29,14 @@ pub(crate) struct EntryDraft {
     pub value: Option<Constant>,
 }
 
-/// The entries of a plan as written; those without a name are left out.
+/// The entries of a plan as written; those without a name are left out. Also tells where which one
+/// stands.
 pub(crate) fn read(
     plan: &ast::Plan,
     types: &Types,
     text: &str,
     diags: &mut Diagnostics,
-) -> Vec<EntryDraft> {
+) -> (Vec<EntryDraft>, Places) {
     let written: Vec<_> =
         plan.entries().into_iter().filter_map(|entry| Some((entry.name()?, entry))).collect();
     let mut drafts: Vec<_> = written
@@ -49,14 +51,23 @@ pub(crate) fn read(
             value: None,
         })
         .collect();
+    let places = Places::of(written.iter().map(|(name, _)| Some(name.text.as_str())));
+    let site = Site { places: &places, types, text };
     for kinds in [&[EntryKind::Const][..], &[EntryKind::In], &[EntryKind::Var, EntryKind::Out]] {
         for place in 0..drafts.len() {
             if kinds.contains(&drafts[place].kind) {
-                initialise(place, &written[place].1, &mut drafts, types, text, diags);
+                initialise(place, &written[place].1, &mut drafts, &site, diags);
             }
         }
     }
-    drafts
+    (drafts, places)
+}
+
+/// What initial values can name.
+struct Site<'a> {
+    places: &'a Places,
+    types: &'a Types,
+    text: &'a str,
 }
 
 fn kind(entry: &ast::Entry) -> EntryKind {
@@ -72,10 +83,10 @@ fn initialise(
     place: usize,
     entry: &ast::Entry,
     drafts: &mut [EntryDraft],
-    types: &Types,
-    text: &str,
+    site: &Site<'_>,
     diags: &mut Diagnostics,
 ) {
+    let Site { places, types, text } = *site;
     let own = &drafts[place];
     let (kind, ty) = (own.kind, own.ty.clone());
     let Some(formula) = entry.init() else {
@@ -102,7 +113,7 @@ fn initialise(
         EntryKind::Var | EntryKind::Out => "an initial value may use 'const' and 'in' entries",
     };
     // A type that is written and unknown is reported once; the value is still looked at.
-    let scope = Scope { types, entries: drafts, readable: &readable, unreadable, text };
+    let scope = Scope { types, entries: drafts, places, readable: &readable, unreadable, text };
     let checked = scope.check(&formula, ty.as_ref(), diags);
     let needs_type = matches!(kind, EntryKind::In | EntryKind::Out) && entry.ty().is_none();
     if needs_type {

@@ -8,7 +8,7 @@ use std::cell::Cell;
 use crate::check::constant::{self, Fault};
 use crate::check::convert::coerce;
 use crate::check::entries::EntryDraft;
-use crate::check::names::unknown;
+use crate::check::names::{Places, unknown};
 use crate::check::types::{Types, qualified};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{EntryId, EntryKind, Formula, FormulaKind};
@@ -28,6 +28,8 @@ pub(crate) struct Scope<'a> {
     pub types: &'a Types,
     /// Entries of the plan.
     pub entries: &'a [EntryDraft],
+    /// Where they stand.
+    pub places: &'a Places,
     /// Which of them can be read here, by place.
     pub readable: &'a dyn Fn(usize) -> bool,
     /// Why the others cannot.
@@ -195,7 +197,7 @@ impl Typer<'_> {
 
     fn entry(&self, name: &ast::Name, diags: &mut Diagnostics) -> Option<Formula> {
         let scope = self.scope;
-        let place = scope.entries.iter().position(|entry| entry.name.text == name.text);
+        let place = scope.places.find(&name.text);
         let Some(place) = place else {
             diags.push(self.unknown_entry(name));
             return None;

@@ -1,6 +1,6 @@
 //! Names of one scope: each is used once, can be spelled in Rust, and differs in more than case.
 
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::source::Span;
@@ -13,7 +13,7 @@ const REFUSED: &[&str] = &["self", "Self", "super", "crate", "true", "false"];
 /// The names declared in one scope so far.
 #[derive(Default)]
 pub(crate) struct Names {
-    declared: BTreeMap<String, Name>,
+    declared: HashMap<String, Name>,
 }
 
 impl Names {
@@ -43,6 +43,28 @@ impl Names {
     }
 }
 
+/// Where names stand in a list. Of names that occur twice the first counts.
+#[derive(Default)]
+pub(crate) struct Places(HashMap<String, usize>);
+
+impl Places {
+    /// The places in a list, in which there may be holes.
+    pub fn of<'a>(names: impl IntoIterator<Item = Option<&'a str>>) -> Places {
+        let mut places = HashMap::new();
+        for (place, name) in names.into_iter().enumerate() {
+            if let Some(name) = name {
+                places.entry(name.to_owned()).or_insert(place);
+            }
+        }
+        Places(places)
+    }
+
+    /// The place of a name.
+    pub fn find(&self, name: &str) -> Option<usize> {
+        self.0.get(name).copied()
+    }
+}
+
 /// Reports an element whose name means something else behind `->`.
 pub(crate) fn element(name: &Name, diags: &mut Diagnostics) {
     if matches!(name.text.as_str(), "terminate" | "ignore") {
@@ -69,7 +91,10 @@ fn refuse(name: &Name, diags: &mut Diagnostics) {
 
 /// What is left of a name in every spelling of it.
 fn key(name: &str) -> String {
-    name.chars().filter(|each| *each != '_').collect::<String>().to_lowercase()
+    match name.is_ascii() {
+        true => name.chars().filter(|each| *each != '_').map(|c| c.to_ascii_lowercase()).collect(),
+        false => name.chars().filter(|each| *each != '_').collect::<String>().to_lowercase(),
+    }
 }
 
 /// Builds the diagnostic for a name that is not there: says what was probably meant, or what there

@@ -2,6 +2,7 @@
 
 mod component;
 
+use crate::check::edges::Elements;
 use crate::check::formula::Scope;
 use crate::check::names::{self, Names};
 use crate::check::resources::Users;
@@ -26,6 +27,7 @@ pub(crate) fn check(
     let scope = Scope {
         types: &context.types,
         entries: &head.entries,
+        places: &head.places,
         readable: &|_| true,
         unreadable: "",
         text: context.text,
@@ -101,13 +103,13 @@ fn finish(
     })
 }
 
-/// Checks the names of the plan's scope and gives those of the elements by place.
+/// Checks the names of the plan's scope and gives the elements.
 fn declare(
     context: &Context<'_>,
     place: usize,
     elements: &[ast::Element],
     diags: &mut Diagnostics,
-) -> Vec<Option<ast::Name>> {
+) -> Elements {
     let head = &context.plans[place];
     let mut scope = Names::default();
     for entry in &head.entries {
@@ -131,12 +133,12 @@ fn declare(
             }
         }
     }
-    elements.iter().map(ast::Element::name).collect()
+    Elements::new(elements.iter().map(ast::Element::name).collect())
 }
 
 fn start(
     plan: &ast::Plan,
-    names: &[Option<ast::Name>],
+    elements: &Elements,
     diags: &mut Diagnostics,
 ) -> Option<(ElementId, Span)> {
     let starts = plan.starts();
@@ -145,7 +147,7 @@ fn start(
         let span = name.as_ref().map_or_else(|| plan.span(), |name| name.span);
         if !half_typed(plan, diags) {
             let text = name.map(|name| name.text).unwrap_or_default();
-            let one = names.iter().flatten().next().map_or("first", |name| name.text.as_str());
+            let one = elements.names().next().unwrap_or("first");
             diags.push(
                 Diagnostic::new(
                     Code::E0215,
@@ -165,7 +167,7 @@ fn start(
         );
     }
     let target = first.target()?;
-    Some((edges::find(&target, names, diags)?, target.span))
+    Some((edges::find(&target, elements, diags)?, target.span))
 }
 
 /// Whether an item of the plan itself, not of an element in it, could not be read.

@@ -65,7 +65,7 @@ fn output(
     entry: &Name,
     diags: &mut Diagnostics,
 ) -> Option<Output> {
-    let Some(place) = scope.entries.iter().position(|known| known.name.text == entry.text) else {
+    let Some(place) = scope.places.find(&entry.text) else {
         let writable =
             scope.entries.iter().filter(|e| matches!(e.kind, EntryKind::Var | EntryKind::Out));
         let known = writable.map(|known| known.name.text.as_str());

@@ -3,7 +3,7 @@
 use crate::check::Context;
 use crate::check::bindings::{self, Site};
 use crate::check::callee::Wanted;
-use crate::check::edges::{self, Connected, Origin};
+use crate::check::edges::{self, Connected, Elements, Origin};
 use crate::check::formula::Scope;
 use crate::check::resources::User;
 use crate::check::signature::{Signature, SignatureKind};
@@ -19,8 +19,8 @@ pub(super) struct Components<'a> {
     pub context: &'a Context<'a>,
     /// What formulas can name.
     pub scope: &'a Scope<'a>,
-    /// The names of the plan's elements by place.
-    pub elements: &'a [Option<ast::Name>],
+    /// The elements that edges can lead to.
+    pub elements: &'a Elements,
 }
 
 impl Components<'_> {

@@ -1,6 +1,7 @@
 //! Ports of a template: types, defaults, ranges.
 
 use crate::check::formula::Scope;
+use crate::check::names::Places;
 use crate::check::names::{Names, unknown};
 use crate::check::types::Types;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
@@ -89,6 +90,7 @@ impl Values<'_> {
         let scope = Scope {
             types: self.types,
             entries: &[],
+            places: &Places::default(),
             readable: &|_| false,
             unreadable: "",
             text: self.source,
