@@ -8,6 +8,7 @@ mod compile;
 pub mod diagnostics;
 pub mod draw;
 mod flow;
+mod format;
 pub mod graph;
 pub mod source;
 pub mod syntax;
@@ -17,3 +18,4 @@ pub mod unfold;
 mod words;
 
 pub use compile::{Compiled, compile, compile_plan, compile_unchecked};
+pub use format::format;

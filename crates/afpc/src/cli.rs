@@ -2,7 +2,7 @@
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::commands::{build, check, completions, explain, graph, later, log, run};
+use crate::commands::{build, check, completions, explain, fmt, graph, later, log, run};
 
 /// Compiles, checks, draws and runs Action Flow Plans.
 #[derive(Parser, Debug)]
@@ -20,6 +20,9 @@ pub enum Command {
     Check(check::Arguments),
     /// Explains an error code
     Explain(explain::Arguments),
+    /// Puts plans and toolboxes into canonical form
+    #[command(after_help = fmt::EXAMPLES)]
+    Fmt(fmt::Arguments),
     /// Draws a plan
     #[command(after_help = graph::EXAMPLES)]
     Graph(graph::Arguments),

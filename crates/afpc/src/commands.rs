@@ -4,6 +4,7 @@ pub mod build;
 pub mod check;
 pub mod completions;
 pub mod explain;
+pub mod fmt;
 pub mod graph;
 pub mod later;
 pub mod log;
@@ -21,6 +22,7 @@ pub fn dispatch(command: &Command) -> ExitCode {
     let result = match command {
         Command::Check(arguments) => check::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),
+        Command::Fmt(arguments) => fmt::run(arguments),
         Command::Graph(arguments) => graph::run(arguments),
         Command::Run(arguments) => run::run(arguments),
         Command::Build(arguments) => build::run(arguments),

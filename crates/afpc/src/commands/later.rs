@@ -5,7 +5,6 @@ use afp_run::RunError;
 /// Name and what it waits for.
 const LATER: &[(&str, &str)] = &[
     ("new", "project templates"),
-    ("fmt", "the formatter"),
     ("lsp", "the language server"),
     ("test", "scenarios"),
     ("sweep", "sweeps over seeds"),

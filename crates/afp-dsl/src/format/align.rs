@@ -1,0 +1,111 @@
+//! From lines to text: columns of neighbouring lines are made equally wide.
+//!
+//! A run of entries shares the width of its keywords, also across comments; names are padded among
+//! directly adjacent lines only. So are the names of edges and the times of scenarios, and comments
+//! behind the code.
+
+/// One line of the result.
+#[derive(Debug, Default)]
+pub(super) struct Line {
+    /// How many levels it is indented.
+    pub indent: usize,
+    /// Whether a blank line stands above it.
+    pub blank: bool,
+    /// What it is, as far as columns are concerned.
+    pub columns: Columns,
+    /// Its code, cut where a column can begin.
+    pub cells: Vec<String>,
+    /// The comment behind the code.
+    pub comment: Option<String>,
+}
+
+/// What the columns of a line are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Columns {
+    /// There are none.
+    #[default]
+    None,
+    /// A comment on a line of its own.
+    Comment,
+    /// Keyword, name and type of an entry or port.
+    Entry,
+    /// Name and target of an edge.
+    Edge,
+    /// Time and action of a scenario's line.
+    Stimulus,
+}
+
+/// The text of all lines, each ended by a line break.
+pub(super) fn text(mut lines: Vec<Line>) -> String {
+    let keyword_follows =
+        |line: &Line| matches!(line.columns, Columns::Entry | Columns::Comment) && !line.blank;
+    for_runs(&mut lines, keyword_follows, |run| pad(run, 0, &[Columns::Entry], 1));
+    for columns in [Columns::Entry, Columns::Edge, Columns::Stimulus] {
+        let (cell, least) = if columns == Columns::Entry { (1, 2) } else { (0, 1) };
+        let follows = |line: &Line| line.columns == columns && !line.blank;
+        for_runs(&mut lines, follows, |run| pad(run, cell, &[columns], least));
+    }
+    let code_of = |line: &Line| {
+        let blanks = if line.cells.is_empty() { 0 } else { 4 * line.indent };
+        format!("{}{}", " ".repeat(blanks), line.cells.join(" "))
+    };
+    let mut code: Vec<String> = lines.iter().map(code_of).collect();
+    pad_comments(&lines, &mut code);
+    let mut text = String::new();
+    for (line, code) in lines.iter().zip(code) {
+        let blank = if line.blank { "\n" } else { "" };
+        let comment = line.comment.as_deref().map(|comment| format!(" {comment}"));
+        text += &format!("{blank}{code}{}\n", comment.unwrap_or_default());
+    }
+    text
+}
+
+/// Cuts the lines before each one that does not follow the one above it, and visits the pieces.
+fn for_runs(
+    lines: &mut [Line],
+    follows: impl Fn(&Line) -> bool,
+    mut visit: impl FnMut(&mut [Line]),
+) {
+    let mut rest = lines;
+    while !rest.is_empty() {
+        let indent = rest[0].indent;
+        let end = rest[1..].iter().position(|line| !follows(line) || line.indent != indent);
+        let (run, others) = rest.split_at_mut(end.map_or(rest.len(), |end| end + 1));
+        visit(run);
+        rest = others;
+    }
+}
+
+/// Makes a cell equally wide in all lines of those columns that have more than `least` cells.
+fn pad(run: &mut [Line], cell: usize, columns: &[Columns], least: usize) {
+    let takes_part =
+        |line: &Line| columns.contains(&line.columns) && line.cells.len() > least.max(cell);
+    let widths = run.iter().filter(|line| takes_part(line)).map(|line| width(&line.cells[cell]));
+    let widest = widths.max().unwrap_or(0);
+    for line in run.iter_mut().filter(|line| takes_part(line)) {
+        let missing = widest - width(&line.cells[cell]);
+        line.cells[cell] += &" ".repeat(missing);
+    }
+}
+
+fn pad_comments(lines: &[Line], code: &mut [String]) {
+    let mut start = 0;
+    while start < lines.len() {
+        let mut end = start + 1;
+        let commented = |at: usize| lines[at].comment.is_some();
+        let together = |at: usize| !lines[at].blank && lines[at].indent == lines[start].indent;
+        while end < lines.len() && commented(start) && commented(end) && together(end) {
+            end += 1;
+        }
+        let widest = code[start..end].iter().map(|code| width(code)).max().unwrap_or(0);
+        for code in code[start..end].iter_mut().filter(|_| commented(start)) {
+            let missing = widest - width(code);
+            code.push_str(&" ".repeat(missing));
+        }
+        start = end;
+    }
+}
+
+fn width(text: &str) -> usize {
+    text.chars().count()
+}

@@ -1,0 +1,103 @@
+//! `afpc fmt`: plans and toolboxes in canonical form.
+
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+
+use afp_dsl::source::{Source, Sources};
+use afp_run::{EXIT_FAILED, EXIT_OK, RunError, write_whole};
+use clap::Args;
+use similar::TextDiff;
+
+use super::print;
+use crate::plan_file::NoPlan;
+
+/// Arguments of `afpc fmt`.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// Files to format in place; '-' formats standard input to standard output
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<String>,
+
+    /// Changes nothing; prints what would change and fails if something would
+    #[arg(long)]
+    check: bool,
+}
+
+pub const EXAMPLES: &str = "\
+Examples:
+  afpc fmt plans/*.afp
+  afpc fmt --check plans/*.afp
+  afpc fmt - < plan.afp
+
+Exit codes: 0 all is formatted, 1 a file has syntax errors or cannot be read or written, or '--check' found a difference";
+
+/// Formats all files; the worst exit code wins.
+///
+/// # Errors
+/// A closed standard output. A file that cannot be read, understood or written is reported, and
+/// the others are still formatted.
+pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
+    let mut code = EXIT_OK;
+    for name in &arguments.files {
+        code = code.max(match one(name, arguments.check) {
+            Ok(code) => code,
+            Err(NoPlan::File(error)) => {
+                error.report();
+                EXIT_FAILED
+            }
+            Err(NoPlan::Wrong) => EXIT_FAILED,
+        });
+    }
+    Ok(code)
+}
+
+fn one(name: &str, check: bool) -> Result<u8, NoPlan> {
+    let standard = name == "-";
+    let shown = if standard { "<stdin>" } else { name };
+    let text = read(name)?;
+    let formatted = formatted(shown, &text)?;
+    match (check, standard) {
+        (true, _) if formatted == text => Ok(EXIT_OK),
+        (true, _) => {
+            print(&difference(shown, &text, &formatted))?;
+            Ok(EXIT_FAILED)
+        }
+        (false, true) => print(&formatted),
+        // A file that is formatted keeps its time, so that nothing is built again for it.
+        (false, false) if formatted == text => Ok(EXIT_OK),
+        (false, false) => {
+            write_whole("cannot write the plan", Path::new(name), &formatted)?;
+            Ok(EXIT_OK)
+        }
+    }
+}
+
+fn read(name: &str) -> Result<String, RunError> {
+    if name != "-" {
+        return fs::read_to_string(name)
+            .map_err(RunError::file("cannot read the plan", name.as_ref()));
+    }
+    let mut text = String::new();
+    std::io::stdin()
+        .read_to_string(&mut text)
+        .map_err(RunError::file("cannot read", "standard input".as_ref()))?;
+    Ok(text)
+}
+
+fn formatted(shown: &str, text: &str) -> Result<String, NoPlan> {
+    afp_dsl::format(text).map_err(|diags| {
+        let mut sources = Sources::default();
+        sources.add(Source::new(shown, text).into());
+        anstream::eprintln!("{}", diags.render(&sources, true));
+        anstream::eprintln!("{shown}: left as it is, since it has syntax errors");
+        NoPlan::Wrong
+    })
+}
+
+/// The lines that would change, as a unified diff.
+fn difference(shown: &str, text: &str, formatted: &str) -> String {
+    let diff = TextDiff::from_lines(text, formatted);
+    let formatted_name = format!("{shown} (formatted)");
+    diff.unified_diff().context_radius(2).header(shown, &formatted_name).to_string()
+}
