@@ -1,7 +1,7 @@
 //! A minute of wall following in the simulator, against the same engine without any of it.
 //!
-//! The baseline is the same number of rapier steps of the same room and body, and as many rays
-//! cast as the range sensor casts.
+//! The baseline is the same number of rapier steps of the same room and body, and the same rays as
+//! the range sensor casts on the way.
 
 use std::hint::black_box;
 use std::time;
@@ -11,7 +11,7 @@ use afp_core::trace::{NoTrace, Sink};
 use afp_core::{Instant, Scheduler, StillClock, Wake};
 use afp_log::robot::{Pose2, Ranging};
 use afp_log::{About, NameTable, Recorder, WhenFull};
-use afp_sim::{Bare, STEP, Simulation, World};
+use afp_sim::{Bare, Pose, STEP, Simulation, World};
 
 use crate::measure::{Race, Times};
 use crate::plans::wall_following::WallFollowing;
@@ -34,8 +34,10 @@ const OF_REAL_TIME: f64 = 500.0;
 pub fn run(rounds: u32, report: &mut Report) {
     let world = World::parse(include_str!("../../worlds/wall_following.toml"));
     let world = &world.unwrap_or_else(|why| panic!("{why:?}"));
+    let mut pings = Pings::default();
+    follow(world, &mut pings);
     let mut race = Race::default();
-    race.add("bare engine", |count| (0..count).for_each(|_| bare(world)));
+    race.add("bare engine", |count| (0..count).for_each(|_| bare(world, &pings.sent)));
     race.add("no log", |count| (0..count).for_each(|_| follow(world, &mut NoLog)));
     race.add("log", |count| (0..count).for_each(|_| logged(world)));
     let times = race.run(rounds.div_ceil(25));
@@ -62,12 +64,15 @@ pub fn run(rounds: u32, report: &mut Report) {
 }
 
 /// The engine alone.
-fn bare(world: &World) {
+fn bare(world: &World, pings: &[(Pose, f64)]) {
     let mut engine = Bare::new(world).unwrap_or_else(|why| panic!("{why:?}"));
+    let mut pings = pings.iter();
     for step in 0..END.as_nanos() / STEP.as_nanos() {
         engine.step();
-        if step % STEPS_PER_PING == 0 {
-            black_box(engine.ping());
+        if step % STEPS_PER_PING == 0
+            && let Some((from, bearing)) = pings.next()
+        {
+            black_box(engine.ping(*from, *bearing));
         }
     }
 }
@@ -87,6 +92,30 @@ impl Sink for NoLog {
 
 impl RobotSink for NoLog {
     fn robot(&mut self, _: &Simulation) {}
+}
+
+/// Notes from where the range sensor pings, and along which bearing.
+#[derive(Default)]
+struct Pings {
+    sent: Vec<(Pose, f64)>,
+    last: Option<Instant>,
+}
+
+impl Sink for Pings {
+    const ENABLED: bool = NoTrace::ENABLED;
+    fn record(&mut self, _: Instant, _: &afp_core::trace::Record<'_>) {}
+}
+
+impl RobotSink for Pings {
+    fn robot(&mut self, sim: &Simulation) {
+        let snapshot = sim.snapshot();
+        if let Some(sonar) = snapshot.sonar
+            && self.last != Some(sonar.time)
+        {
+            self.last = Some(sonar.time);
+            self.sent.push((snapshot.pose, sonar.bearing));
+        }
+    }
 }
 
 impl RobotSink for Recorder {

@@ -1,14 +1,16 @@
 //! The engine alone: what a benchmark measures the simulation against.
 
-use super::{Built, build};
+use super::{Built, HIGH, ROBOT, build};
+use crate::robot::{SONAR_FORWARD, sonar};
+use crate::truth::Pose;
 use crate::world::{World, WorldError};
+use rapier2d::geometry::{InteractionGroups, InteractionTestMode};
 use rapier2d::math::Vector;
-use rapier2d::prelude::{PhysicsWorld, QueryFilter, Ray, RigidBodyHandle};
+use rapier2d::prelude::{PhysicsWorld, QueryFilter, Ray};
 
 /// The same world and body without wheels, sensors, bumper and judge.
 pub struct Bare {
     physics: PhysicsWorld,
-    body: RigidBodyHandle,
 }
 
 impl Bare {
@@ -19,7 +21,7 @@ impl Bare {
     pub fn new(world: &World) -> Result<Self, WorldError> {
         let Built { mut physics, body, .. } = build(world)?;
         physics.bodies[body].set_linvel(Vector::new(0.01, 0.0), true);
-        Ok(Bare { physics, body })
+        Ok(Bare { physics })
     }
 
     /// One physics step.
@@ -27,20 +29,19 @@ impl Bare {
         self.physics.step();
     }
 
-    /// Casts the rays of one ping straight ahead; returns how many met something.
-    pub fn ping(&self) -> usize {
-        let at = self.physics.bodies[self.body].position();
-        let filter = QueryFilter::new().exclude_rigid_body(self.body);
-        let queries = self.physics.query_pipeline_with_filter(filter);
-        let rays = (0..crate::robot::sonar::RAYS).map(|i| {
-            let aside = i as f32 * 0.06 - 0.24;
-            at.transform_vector(Vector::new(1.0 - aside * aside / 2.0, aside))
+    /// Casts the rays of one ping as the sensor does whose robot stands at `from` and looks along
+    /// `bearing` against its heading, in radians; returns how many met something.
+    pub fn ping(&self, from: Pose, bearing: f64) -> usize {
+        let heard = InteractionGroups::new(ROBOT, HIGH, InteractionTestMode::And);
+        let queries = self.physics.query_pipeline_with_filter(QueryFilter::new().groups(heard));
+        let (sin, cos) = libm::sincos(from.heading);
+        let ahead = SONAR_FORWARD;
+        let origin = Vector::new((from.x + ahead * cos) as f32, (from.y + ahead * sin) as f32);
+        let rays = (0..sonar::RAYS).map(|i| {
+            let (sin, cos) = libm::sincos(from.heading + bearing + i as f64 * 0.06 - 0.24);
+            Ray::new(origin, Vector::new(cos as f32, sin as f32))
         });
-        let range = crate::robot::sonar::MAX as f32;
-        rays.filter(|way| {
-            let ray = Ray::new(at.translation, *way);
-            queries.cast_ray_and_get_normal(&ray, range, true).is_some()
-        })
-        .count()
+        let range = sonar::MAX as f32;
+        rays.filter(|ray| queries.cast_ray_and_get_normal(ray, range, true).is_some()).count()
     }
 }
