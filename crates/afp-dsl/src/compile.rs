@@ -7,6 +7,7 @@ use crate::diagnostics::Diagnostics;
 use crate::graph::Graph;
 use crate::source::{Source, Sources, Span};
 use crate::syntax;
+use crate::timing;
 use crate::toolbox::Toolboxes;
 
 /// What became of a text.
@@ -60,6 +61,9 @@ fn compile_with(
     let end = u32::try_from(source.text.len()).unwrap_or(u32::MAX);
     let whole = Span { file, start: 0, end };
     let graph = check::check(&tree, &source.text, whole, toolboxes, plan, flow, &mut diags);
+    if let Some(graph) = graph.as_ref().filter(|_| flow == Flow::Checked) {
+        timing::check_responses(graph, &mut diags);
+    }
     diags.sort();
     Compiled { graph: graph.filter(|_| !diags.has_errors()), diags, sources }
 }

@@ -11,7 +11,7 @@ mod frozen;
 mod ignored;
 mod lanes;
 mod recovery;
-mod strong;
+pub(crate) mod strong;
 mod unreachable;
 mod unread;
 pub(crate) mod view;
@@ -22,6 +22,7 @@ use crate::diagnostics::Diagnostics;
 use crate::graph::{Plan, TemplateId};
 use crate::toolbox::{Template, Toolbox};
 
+pub(crate) use cycles::{count_limit, is_quick};
 use view::View;
 
 /// The plans of a compilation; [`crate::graph::Component::SubPlan`] is an index into them.
@@ -59,14 +60,15 @@ pub(crate) struct Summary {
     pub unset: [Vec<Option<String>>; 2],
 }
 
-/// Checks all plans of a model.
-pub(crate) fn check(model: &Model<'_>, diags: &mut Diagnostics) {
+/// Checks all plans of a model, and sums them up.
+pub(crate) fn check(model: &Model<'_>, diags: &mut Diagnostics) -> Vec<Option<Summary>> {
     let mut summaries: Vec<Option<Summary>> = vec![None; model.plans.len()];
     for place in &model.order {
         let Some(plan) = model.plans[*place] else { continue };
         let view = View::new(model, plan, &summaries);
         summaries[*place] = Some(check_plan(&view, diags));
     }
+    summaries
 }
 
 fn check_plan(view: &View<'_>, diags: &mut Diagnostics) -> Summary {

@@ -12,6 +12,7 @@ mod format;
 pub mod graph;
 pub mod source;
 pub mod syntax;
+pub mod timing;
 pub mod toolbox;
 pub mod types;
 pub mod unfold;

@@ -55,7 +55,7 @@ fn is_sure(view: &View<'_>, cause: Cause) -> bool {
 }
 
 /// Whether an edge can be taken in the step in which its origin is entered.
-fn is_quick(view: &View<'_>, edge: &Edge) -> bool {
+pub(crate) fn is_quick(view: &View<'_>, edge: &Edge) -> bool {
     match edge.cause {
         Cause::State(id, state) => {
             let element = &view.plan.elements[id.index()];
@@ -68,6 +68,12 @@ fn is_quick(view: &View<'_>, edge: &Edge) -> bool {
         // The look never raises it.
         Cause::Miss(_) | Cause::Active(_) => false,
     }
+}
+
+/// How often a counter lets a cycle be taken, where a node is one with a written limit.
+pub(crate) fn count_limit(view: &View<'_>, node: Node) -> Option<u64> {
+    let limit = count::limit(view, view.element(node)?)?;
+    Some(u64::try_from(limit).unwrap_or(0))
 }
 
 /// The edges that take no time.

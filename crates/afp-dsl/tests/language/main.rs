@@ -4,4 +4,5 @@ mod errors;
 mod explanations;
 mod graph;
 mod support;
+mod timing;
 mod totality;

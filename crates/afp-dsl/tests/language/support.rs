@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use afp_dsl::Compiled;
 use afp_dsl::source::{Source, Sources};
+use afp_dsl::timing::{Target, check_target};
 use afp_dsl::toolbox::Toolboxes;
 
 /// The built-in toolboxes and those of `tests/toolboxes/`.
@@ -22,7 +23,8 @@ pub fn toolboxes() -> Toolboxes {
     toolboxes
 }
 
-/// Compiles a plan file, or reads a toolbox; a first line `// plan: NAME` chooses the plan.
+/// Compiles a plan file, or reads a toolbox; a first line `// plan: NAME` chooses the plan, one
+/// `// target: NAME` what it shall run on.
 pub fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
     let source = Source::new("case.afp", text);
     if text.lines().any(|line| line.starts_with("toolbox ")) && !text.contains("// as a plan") {
@@ -32,7 +34,14 @@ pub fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
         return Compiled { graph: None, diags, sources: sources.clone() };
     }
     let plan = text.lines().next().and_then(|line| line.strip_prefix("// plan: "));
-    afp_dsl::compile_plan(&source, toolboxes, plan)
+    let mut compiled = afp_dsl::compile_plan(&source, toolboxes, plan);
+    let target = text.lines().next().and_then(|line| line.strip_prefix("// target: "));
+    if let (Some(name), Some(graph)) = (target, &compiled.graph) {
+        compiled.diags.extend(check_target(graph, &Target::built_in(name).unwrap()));
+        compiled.diags.sort();
+        compiled.graph = compiled.graph.filter(|_| !compiled.diags.has_errors());
+    }
+    compiled
 }
 
 /// The `.afp` files of a folder of this crate, sorted.

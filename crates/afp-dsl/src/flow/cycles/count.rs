@@ -42,7 +42,7 @@ pub(super) fn is_bounded(view: &View<'_>, cause: Cause) -> bool {
 }
 
 /// How far a `Count` of the standard toolbox counts, where that is written.
-fn limit(view: &View<'_>, element: &Element) -> Option<i64> {
+pub(super) fn limit(view: &View<'_>, element: &Element) -> Option<i64> {
     let Component::Computation(id) = element.component else { return None };
     let toolbox = &view.model.toolboxes[id.toolbox.index()];
     if toolbox.name != "std" || view.model.template(id).name != "Count" {

@@ -1,0 +1,169 @@
+//! What can be said of time before a plan runs: demand, longest step, responses, and how long the
+//! robot may go on after a supervisor's condition has come to hold.
+//!
+//! All of it rests on what the toolboxes declare (`budget`, `stop`) and on the plan's periods and
+//! deadlines. Where a declaration is missing, the result says so instead of guessing. Every search
+//! goes over sub-plans once, however often they are used, so the effort is linear.
+
+mod check;
+mod cost;
+mod level;
+mod response;
+mod step;
+mod table;
+mod target;
+
+use std::sync::Arc;
+
+use crate::flow::view::View;
+use crate::flow::{self, Model};
+use crate::graph::Graph;
+use crate::source::Span;
+
+use level::{Levels, Outside};
+
+pub(crate) use check::check_responses;
+pub use check::check_target;
+pub use target::{BUILT_IN, Target, TargetError, targets};
+
+/// What is known of the time behaviour of a plan and its sub-plans.
+#[derive(Clone, Debug)]
+pub struct Timing {
+    /// The plan that runs.
+    pub plan: String,
+    /// The longest that one step may take, budgets added up: supervisors, the active actor, and what
+    /// is entered behind it. `Err` names the declaration that is missing.
+    pub longest_step: Result<u64, String>,
+    /// The greatest share of the processor that is ever asked for (1 is all of it), and the path of
+    /// the element that is active then. `Err` names the declaration that is missing.
+    pub demand: Result<(f64, String), String>,
+    /// Every supervisor that can run, sub-plans last. One in a sub-plan stands for all uses of it,
+    /// at its worst.
+    pub supervisors: Vec<SupervisorTiming>,
+}
+
+/// What is known of one supervisor.
+#[derive(Clone, Debug)]
+pub struct SupervisorTiming {
+    /// The plan that it stands in.
+    pub plan: String,
+    /// Its path in that plan, such as `searchFirstWall.touch`.
+    pub path: String,
+    /// Its period in nanoseconds.
+    pub every: u64,
+    /// Its deadline in nanoseconds.
+    pub deadline: u64,
+    /// How long after its release its poll is over. `Err` names the declaration that is missing.
+    pub response: Result<Response, String>,
+    /// How long after its condition has come to hold the robot stands still; `None` when it
+    /// interrupts nothing.
+    pub interruption: Option<Interruption>,
+    /// Its name in the text.
+    pub span: Span,
+}
+
+/// The response of a supervisor and what it is made of, in nanoseconds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Response {
+    /// How late the target may notice the release: one tick.
+    pub tick: u64,
+    /// The step that is running then; a step is not interrupted.
+    pub step: u64,
+    /// The supervisors that are polled before.
+    pub before: u64,
+    /// The supervisor's own poll.
+    pub own: u64,
+}
+
+impl Response {
+    /// The sum of all parts.
+    pub fn total(&self) -> u64 {
+        let first = self.tick.saturating_add(self.step);
+        first.saturating_add(self.before).saturating_add(self.own)
+    }
+}
+
+/// How far the bound of an interruption can be trusted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trust {
+    /// It follows from the declared budgets.
+    Proved,
+    /// It holds when every deadline is kept, which does not follow from the declared budgets.
+    Assumed,
+    /// There is none, since a declaration is missing.
+    Unknown,
+}
+
+impl Trust {
+    /// The word for it.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Trust::Proved => "proved",
+            Trust::Assumed => "assumed",
+            Trust::Unknown => "unknown",
+        }
+    }
+}
+
+/// From the moment at which a condition holds at the sensor to standstill.
+///
+/// Delays of the sensor itself come on top. It does not hold across a look that diverts, nor for an
+/// event that is not taken because its target is active already.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Interruption {
+    /// How far it can be trusted.
+    pub trust: Trust,
+    /// Its parts in nanoseconds, by name: `period`, `response` or `deadline`, `interrupt`, `stop`.
+    pub terms: Vec<(&'static str, u64)>,
+    /// Why it is not proved; empty when it is.
+    pub reason: String,
+}
+
+impl Interruption {
+    /// The sum of all terms; `None` when the bound is unknown.
+    pub fn total(&self) -> Option<u64> {
+        let sum = || self.terms.iter().fold(0u64, |sum, (_, time)| sum.saturating_add(*time));
+        (self.trust != Trust::Unknown).then(sum)
+    }
+}
+
+/// Works out the timing of a plan; without a target, ticks count as infinitely fine.
+pub fn timing(graph: &Graph, target: Option<&Target>) -> Timing {
+    let model = model(graph);
+    let summaries = flow::check(&model, &mut Default::default());
+    let view = |plan| View::new(&model, plan, &summaries);
+    let views: Vec<View<'_>> = graph.plans.iter().map(view).collect();
+    let levels = Levels::of(&views);
+    let outside = Outside::of(&views, &levels, graph.main.index());
+    let main = &levels.all[graph.main.index()];
+    let tick = target.and_then(|target| target.tick).unwrap_or(0);
+    let longest = main.longest_step.clone();
+    let supervisors = response::rows(&views, &levels, &outside, &longest, tick);
+    let demand = match &main.demand_unknown {
+        Some(reason) => Err(reason.to_string()),
+        None => Ok((main.demand, levels.busiest(&views, graph.main.index()))),
+    };
+    let plan = graph.main().name.clone();
+    Timing { plan, longest_step: longest.known(), demand, supervisors }
+}
+
+/// A time for people: microseconds, milliseconds or seconds, exact.
+fn readable(nanoseconds: u64) -> String {
+    let (size, unit) = match nanoseconds {
+        0..1_000 => return format!("{nanoseconds} ns"),
+        1_000..1_000_000 => (1_000, "us"),
+        1_000_000..1_000_000_000 => (1_000_000, "ms"),
+        _ => (1_000_000_000, "s"),
+    };
+    let digits = format!("{size}").len() - 1;
+    let text = format!("{}.{:0digits$}", nanoseconds / size, nanoseconds % size);
+    format!("{} {unit}", text.trim_end_matches('0').trim_end_matches('.'))
+}
+
+fn model(graph: &Graph) -> Model<'_> {
+    Model {
+        plans: graph.plans.iter().map(Some).collect(),
+        order: (0..graph.plans.len()).collect(),
+        toolboxes: graph.toolboxes.iter().map(Arc::clone).collect(),
+    }
+}

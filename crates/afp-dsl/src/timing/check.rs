@@ -1,0 +1,140 @@
+//! What is wrong with the timing of a plan, by itself and on a target.
+
+use std::collections::BTreeSet;
+
+use crate::check::timing::spell;
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::flow::view::View;
+use crate::graph::{Component, Graph};
+
+use super::level::{Levels, Outside};
+use super::{Response, SupervisorTiming, Target, model, readable, timing};
+
+/// Warns of supervisors whose response may be longer than their deadline, on any target.
+pub(crate) fn check_responses(graph: &Graph, diags: &mut Diagnostics) {
+    for row in timing(graph, None).supervisors {
+        if let Some(response) = late(&row) {
+            let message = format!(
+                "'{}' may take {} from its release to the end of its poll, longer than its deadline of {}",
+                row.path,
+                readable(response.total()),
+                readable(row.deadline)
+            );
+            diags.push(parts(Diagnostic::new(Code::E0405, row.span, message), &response));
+        }
+    }
+}
+
+fn late(row: &SupervisorTiming) -> Option<Response> {
+    row.response.as_ref().ok().filter(|response| response.total() > row.deadline).copied()
+}
+
+/// Says what the response is made of.
+fn parts(diagnostic: Diagnostic, response: &Response) -> Diagnostic {
+    let parts = [
+        (response.tick, "of the target's tick"),
+        (response.step, "of a step that is running"),
+        (response.before, "of supervisors before it"),
+        (response.own, "of its own"),
+    ];
+    let parts = parts.into_iter().filter(|(time, _)| *time > 0);
+    let sum: Vec<_> = parts.map(|(time, text)| format!("{} {text}", readable(time))).collect();
+    diagnostic.help(format!(
+        "give it a longer period and deadline, or use templates with smaller budgets: it is {}",
+        sum.join(", ")
+    ))
+}
+
+/// Checks a plan against a target: ticks, demand, and responses that only its tick makes too long.
+///
+/// What the target does not say is not checked.
+pub fn check_target(graph: &Graph, target: &Target) -> Diagnostics {
+    let mut diags = Diagnostics::default();
+    if let Some(tick) = target.tick {
+        ticks(graph, target, tick, &mut diags);
+        responses(graph, target, &mut diags);
+    }
+    demand(graph, target, &mut diags);
+    diags.sort();
+    diags
+}
+
+/// The plans that the main plan reaches, as views.
+fn used<R>(graph: &Graph, look: impl FnOnce(&mut dyn Iterator<Item = &View<'_>>) -> R) -> R {
+    let model = model(graph);
+    let views: Vec<_> = graph.plans.iter().map(|plan| View::new(&model, plan, &[])).collect();
+    let levels = Levels::of(&views);
+    let outside = Outside::of(&views, &levels, graph.main.index());
+    let reached = views.iter().zip(&outside.before).filter(|(_, before)| before.is_some());
+    look(&mut reached.map(|(view, _)| view))
+}
+
+fn ticks(graph: &Graph, target: &Target, tick: u64, diags: &mut Diagnostics) {
+    let mut report = |span, name: &str, every: u64, help: &str| {
+        let message = format!(
+            "'{name}' is polled every {}, but '{}' ticks every {}",
+            spell(every),
+            target.name,
+            spell(tick)
+        );
+        diags.push(Diagnostic::new(Code::E0403, span, message).help(help));
+    };
+    used(graph, |views| {
+        for view in views {
+            for supervisor in view.supervisors().filter(|supervisor| supervisor.every < tick) {
+                let span = supervisor.every_span.unwrap_or(supervisor.span);
+                let help = format!("write at least 'every {}'", spell(tick));
+                report(span, &supervisor.name, supervisor.every, &help);
+            }
+            for (_, element) in view.elements() {
+                let Component::Actor(id) = element.component else { continue };
+                let every = view.model.template(id).every;
+                if every < tick {
+                    let help = "use a template with a longer period, or a target with a finer tick";
+                    report(element.span, &element.name, every, help);
+                }
+            }
+        }
+    });
+}
+
+fn responses(graph: &Graph, target: &Target, diags: &mut Diagnostics) {
+    let known: BTreeSet<_> = {
+        let mut anywhere = Diagnostics::default();
+        check_responses(graph, &mut anywhere);
+        anywhere.iter().map(|diagnostic| diagnostic.span).collect()
+    };
+    for row in timing(graph, Some(target)).supervisors {
+        let Some(response) = late(&row).filter(|_| !known.contains(&row.span)) else { continue };
+        let message = format!(
+            "'{}' may take {} on '{}' from its release to the end of its poll, longer than its deadline of {}",
+            row.path,
+            readable(response.total()),
+            target.name,
+            readable(row.deadline)
+        );
+        diags.push(parts(Diagnostic::new(Code::E0405, row.span, message), &response));
+    }
+}
+
+fn demand(graph: &Graph, target: &Target, diags: &mut Diagnostics) {
+    let Ok((share, path)) = timing(graph, None).demand else { return };
+    if share <= target.capacity {
+        return;
+    }
+    let percent = |share: f64| format!("{:.1} %", share * 100.0);
+    let message = format!(
+        "while '{path}' is active, the plan asks for {} of the processor; '{}' gives {}",
+        percent(share),
+        target.name,
+        percent(target.capacity)
+    );
+    let first = path.split('.').next().unwrap_or("");
+    let main = graph.main();
+    let element = main.elements.iter().find(|element| element.name == first);
+    let span = element.map_or(main.span, |element| element.span);
+    diags.push(
+        Diagnostic::new(Code::E0404, span, message)
+            .help("poll its supervisors less often, or use templates with smaller budgets"),
+    );
+}

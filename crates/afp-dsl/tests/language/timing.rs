@@ -1,0 +1,46 @@
+//! What is said of time, as tables behind the plans.
+//!
+//! `AFP_BLESS=1` rewrites the tables; check the sums by hand.
+
+use crate::support;
+
+use afp_dsl::timing::{Target, Trust, timing};
+
+const MARK: &str = "\n// Timing:\n";
+
+#[test]
+fn every_case_has_the_timing_it_should() {
+    let toolboxes = support::toolboxes();
+    let mut wrong = Vec::new();
+    for path in support::files("tests/timing") {
+        let case = support::read(&path);
+        let text = case.split(MARK).next().unwrap();
+        let compiled = support::compile(text, &toolboxes);
+        let Some(graph) = &compiled.graph else {
+            panic!("{}:\n{}", path.display(), compiled.render(false));
+        };
+        let target = text.lines().next().and_then(|line| line.strip_prefix("// target: "));
+        let target = target.map(|name| Target::built_in(name).unwrap());
+        let table = timing(graph, target.as_ref()).text();
+        let table: String =
+            table.lines().map(|line| format!("//  {line}").trim_end().to_owned() + "\n").collect();
+        wrong.extend(support::compare(&path, &case, &format!("{text}{MARK}{table}")));
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_plan_of_the_paper_is_proved_on_every_target() {
+    let text = include_str!("../../../../plans/wall_following.afp");
+    let compiled = support::compile(text, &support::toolboxes());
+    let graph = compiled.graph.unwrap();
+    for (name, ..) in afp_dsl::timing::BUILT_IN {
+        let target = Target::built_in(name).unwrap();
+        let found = afp_dsl::timing::check_target(&graph, &target);
+        assert!(found.is_empty(), "{name}: {}", found.render(&compiled.sources, false));
+        for row in timing(&graph, Some(&target)).supervisors {
+            let bound = row.interruption.unwrap();
+            assert_eq!(bound.trust, Trust::Proved, "{name}: {}", row.path);
+        }
+    }
+}
