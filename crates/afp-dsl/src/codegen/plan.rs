@@ -137,12 +137,13 @@ impl Generated {
         let about = doc("", &format!("The plan `{plan}` and what it uses."));
         quote! {
             #about
-            #[allow(dead_code, unused_imports, clippy::all)]
+            #[allow(dead_code, non_camel_case_types, unused_imports, unused_parens, clippy::all)]
             pub mod #main {
                 #(#modules)*
                 pub use self::#main::*;
                 #(pub use self::#homes::#types;)*
             }
+            #[allow(unused_imports, reason = "whoever embeds the plan may name its module")]
             pub use self::#main::#plan;
         }
     }
