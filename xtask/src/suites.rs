@@ -96,7 +96,8 @@ fn again(name: &str) -> String {
 
 /// All tests of the crates and of the examples.
 fn workspace() -> Result<(), Failure> {
-    let all = ["test", "--workspace", "--exclude", "afp-bench", "--exclude", "xtask"];
+    let all =
+        ["test", "--workspace", "--no-fail-fast", "--exclude", "afp-bench", "--exclude", "xtask"];
     run_command(cargo().args(all))
 }
 
