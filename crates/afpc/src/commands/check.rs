@@ -1,7 +1,11 @@
 //! `afpc check`: everything that is wrong with plans and toolboxes.
 
-use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_USAGE, RunError};
+mod targets;
+
+use afp_dsl::timing::{Target, check_target, timing};
+use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_USAGE};
 use clap::Args;
+use serde_json::json;
 
 use super::print;
 use crate::plan_file::{NoPlan, PlanFile};
@@ -17,35 +21,37 @@ pub struct Arguments {
     #[arg(long)]
     json: bool,
 
-    /// Prints what is known of timing (comes with the checks of time)
+    /// Prints response and interruption bound of every supervisor, and what they are made of
     #[arg(long)]
     timing: bool,
+
+    /// What the plan shall run on: host, pi, pi32, mcu or a target of afp.toml (without it all that
+    /// afp.toml has)
+    #[arg(long, value_name = "NAME")]
+    target: Option<String>,
 }
 
 pub const EXAMPLES: &str = "\
 Examples:
   afpc check plans/wall_following.afp
-  afpc check plans/*.afp --json";
+  afpc check plans/*.afp --json
+  afpc check plans/wall_following.afp --timing --target pi";
 
 /// Checks all files; the worst exit code wins.
 ///
 /// # Errors
-/// An option that is not there yet, a closed standard output.
+/// A target that there is not, a broken `afp.toml`, a closed standard output.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
-    if arguments.timing {
-        let message = "'--timing' waits for the checks of time";
-        return Err(RunError::usage(message, "'afpc check FILE' does all other checks").into());
-    }
     let mut code = EXIT_OK;
     for name in &arguments.files {
-        code = code.max(check(name, arguments.json)?);
+        code = code.max(check(name, arguments)?);
     }
     debug_assert!(code < EXIT_USAGE);
     Ok(code)
 }
 
-fn check(name: &str, json: bool) -> Result<u8, NoPlan> {
-    let file = match PlanFile::read(name) {
+fn check(name: &str, arguments: &Arguments) -> Result<u8, NoPlan> {
+    let mut file = match PlanFile::read(name) {
         Ok(file) => file,
         // The other files are still worth checking.
         Err(error) => {
@@ -53,19 +59,57 @@ fn check(name: &str, json: bool) -> Result<u8, NoPlan> {
             return Ok(EXIT_FAILED);
         }
     };
-    let compiled = &file.compiled;
-    match json {
+    let targets = targets::choose(&file.path, arguments.target.as_deref())?;
+    let compiled = &mut file.compiled;
+    if let Some(graph) = &compiled.graph {
+        targets.iter().for_each(|target| compiled.diags.extend(check_target(graph, target)));
+        compiled.diags.sort();
+    }
+    match arguments.json {
         true => {
             print(&compiled.diags.json_lines(&compiled.sources))?;
         }
         false if compiled.diags.is_empty() => {}
         false => anstream::eprintln!("{}", compiled.render(true)),
     }
-    if compiled.diags.has_errors() {
+    if arguments.timing {
+        show_timing(&file, &targets, arguments.json)?;
+    }
+    if file.compiled.diags.has_errors() {
         return Ok(EXIT_FAILED);
     }
-    if !json {
+    if !arguments.json {
         print(&format!("{}: no errors\n", file.path.display()))?;
     }
     Ok(EXIT_OK)
+}
+
+/// Prints a table for each target, or one for none in particular; nothing for a plan with errors of
+/// names, types or flow, whose timing means nothing.
+fn show_timing(file: &PlanFile, targets: &[Target], json: bool) -> Result<(), NoPlan> {
+    let Some(graph) = &file.compiled.graph else { return Ok(()) };
+    let path = file.path.display();
+    let all = match targets {
+        [] => vec![None],
+        some => some.iter().map(Some).collect(),
+    };
+    for target in all {
+        let timing = timing(graph, target);
+        let name = target.map(|target| target.name.as_str());
+        if json {
+            let line = json!({ "file": path.to_string(), "target": name, "timing": timing.json() });
+            print(&format!("{line}\n"))?;
+            continue;
+        }
+        let on = match target {
+            Some(target) => format!("target '{}'", target.name),
+            None => {
+                "no target: ticks and capacity are not checked; name one with '--target', or add \
+                 '[target.NAME]' to afp.toml"
+                    .to_owned()
+            }
+        };
+        print(&format!("{path}: timing of '{}', {on}\n\n{}\n", timing.plan, timing.text()))?;
+    }
+    Ok(())
 }

@@ -1,0 +1,69 @@
+//! Large plans: deep ones need no deep stack, long ones no more than linear effort.
+
+use crate::support;
+
+use std::fmt::Write;
+use std::time::{Duration, Instant};
+
+use afp_dsl::timing::timing;
+
+/// Sub-plans in sub-plans.
+fn nested(depth: usize) -> String {
+    let mut text = String::from("use carbot\n");
+    for level in 0..depth {
+        let inner = level + 1;
+        let _ =
+            writeln!(text, "plan P{level} {{ start a subplan a: P{inner} {{ OK -> terminate }} }}");
+    }
+    text + &format!(
+        "plan P{depth} {{ start a actor a: Forward {{ ForwardSuccessful -> terminate }} }}\n"
+    )
+}
+
+/// One actor behind the other, each with a supervisor that leads back, and an entry for each.
+fn long(length: usize) -> String {
+    let mut text = String::from(
+        "use carbot\nplan P {\n    start a0\n    supervise escape: CheckEscapeButton { EscapeButtonPressed -> terminate }\n",
+    );
+    for at in 0..length {
+        let next = match at + 1 == length {
+            true => "terminate".to_owned(),
+            false => format!("a{}", at + 1),
+        };
+        let before = at.saturating_sub(1);
+        let distance = if at == 0 { "1 m".to_owned() } else { format!("v{before}") };
+        let _ = writeln!(
+            text,
+            "    out v{at}: length\n    actor a{at}: Forward(distance = {distance}, driven => v{at}) {{\n        supervise touch: CheckTouchSensor {{ TouchSensorPressed -> terminate }}\n        ForwardSuccessful -> {next}\n    }}"
+        );
+    }
+    text + "}\n"
+}
+
+#[test]
+fn a_thousand_nested_sub_plans_fit_on_the_stack() {
+    let compiled = support::compile(&nested(1000), &support::toolboxes());
+    let graph = compiled.graph.unwrap();
+    assert!(compiled.diags.is_empty());
+    let timing = timing(&graph, None);
+    let (_, path) = timing.demand.unwrap();
+    assert_eq!(path.split('.').count(), 1001);
+}
+
+#[test]
+fn ten_times_the_plan_takes_about_ten_times_as_long() {
+    let toolboxes = support::toolboxes();
+    let best = |length: usize| {
+        let text = long(length);
+        let run = || {
+            let begin = Instant::now();
+            let compiled = support::compile(&text, &toolboxes);
+            assert!(compiled.graph.is_some(), "{}", compiled.render(false));
+            begin.elapsed()
+        };
+        (0..3).map(|_| run()).min().unwrap_or(Duration::ZERO)
+    };
+    let (short, long) = (best(400), best(4000));
+    // A quadratic part would show as a hundred times; the machine may be busy.
+    assert!(long < short * 35, "{short:?} for 400 actors, {long:?} for 4000");
+}
