@@ -7,6 +7,7 @@ pub mod codegen;
 mod compile;
 pub mod diagnostics;
 pub mod draw;
+pub mod edit;
 mod flow;
 mod format;
 pub mod graph;

@@ -1,11 +1,6 @@
-//! The canonical form: idempotent, and nothing but white space and commas changes.
-
-use proptest::prelude::*;
+//! What the canonical form looks like, case by case.
 
 use super::format;
-use crate::diagnostics::Diagnostics;
-use crate::syntax::kind::Kind;
-use crate::syntax::parse;
 
 const WALL_FOLLOWING: &str = include_str!("../../../../plans/wall_following.afp");
 const SCENARIO: &str = "\
@@ -161,75 +156,4 @@ fn a_text_with_syntax_errors_is_left_alone() {
     assert_eq!(formatted(""), "");
     assert_eq!(formatted("\u{feff}\r\n"), "");
     assert_eq!(formatted("// a\r\nuse std\r\n"), "// a\nuse std\n");
-}
-
-/// Solid tokens without list commas, and comments, each in order.
-fn content(text: &str) -> (Vec<String>, Vec<String>) {
-    let root = parse(text, 0, &mut Diagnostics::default()).root();
-    let tokens = root.descendants_with_tokens().filter_map(|each| each.into_token());
-    let tokens = tokens.filter(|token| !matches!(token.kind(), Kind::Whitespace | Kind::Comma));
-    let (comments, solid): (Vec<_>, Vec<_>) = tokens.partition(|token| token.kind().is_trivia());
-    let texts = |tokens: Vec<crate::syntax::Token>| {
-        tokens.into_iter().map(|token| token.text().trim_end().to_owned()).collect()
-    };
-    (texts(solid), texts(comments))
-}
-
-/// Replaces white space between tokens, now and then by a comment.
-fn mutated(text: &str, picks: &[u8]) -> String {
-    let root = parse(text, 0, &mut Diagnostics::default()).root();
-    let mut result = String::new();
-    let mut picks = picks.iter().cycle();
-    for token in root.descendants_with_tokens().filter_map(|each| each.into_token()) {
-        if token.kind() != Kind::Whitespace {
-            result += token.text();
-            continue;
-        }
-        result += match picks.next().copied().unwrap_or(0) % 16 {
-            0 => " // a comment\n",
-            1 => "\n// an own line\n",
-            2 => "\n\n// free\n\n",
-            3 => "\n /// help\n",
-            4 => "\n",
-            5 => "\n\n\n",
-            6 => "\t",
-            7 => ",\n",
-            8 => ", // behind a comma\n",
-            _ if token.prev_token().is_some_and(|t| t.kind().is_trivia()) => "\n",
-            _ => " ",
-        };
-    }
-    result
-}
-
-const CASES: &[&str] = &[
-    WALL_FOLLOWING,
-    SCENARIO,
-    include_str!("../../tests/graph/sub_plans.afp"),
-    afp_toolboxes::ALL[0].text,
-    afp_toolboxes::ALL[1].text,
-];
-
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(512))]
-
-    #[test]
-    fn formatting_is_idempotent_and_keeps_tokens_and_comments(
-        which in 0..CASES.len(),
-        quiet in 0..3_u8,
-        picks in prop::collection::vec(any::<u8>(), 1..400),
-    ) {
-        // Few mutations first: most texts with many of them have syntax errors.
-        let picks: Vec<_> = picks.iter().map(|pick| match quiet {
-            0 => pick % 16,
-            1 if pick % 5 > 0 => 15,
-            2 if pick % 29 > 0 => 15,
-            _ => pick / 8,
-        }).collect();
-        let text = mutated(CASES[which], &picks);
-        if let Ok(once) = format(&text) {
-            prop_assert_eq!(&formatted(&once), &once);
-            prop_assert_eq!(content(&once), content(&text));
-        }
-    }
 }

@@ -1,0 +1,366 @@
+//! Changes of meaning as changes of text, for the editor and for code actions.
+//!
+//! Every change comes to the smallest edits of the text: what it does not mean stays byte for byte,
+//! with its comments, blank lines and order. Comments above an item up to a blank line and the
+//! comment behind it go where the item goes. The text may have errors elsewhere; only the items
+//! that a change touches must be whole.
+
+mod add;
+mod connect;
+mod doc;
+mod draft;
+mod entry;
+mod extract;
+mod fragment;
+mod inline;
+mod list;
+mod name;
+mod port;
+mod refer;
+mod relocate;
+mod remove;
+mod rename;
+mod tree;
+
+use std::fmt;
+
+use draft::Draft;
+
+pub use crate::diagnostics::Edit as TextEdit;
+
+/// An item of a file, found by names.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Item {
+    /// A plan.
+    Plan {
+        /// Its name.
+        name: String,
+    },
+    /// An entry, an element or a global supervisor, which share one scope.
+    Inner {
+        /// The plan that it is in.
+        plan: String,
+        /// Its name.
+        name: String,
+    },
+    /// A local supervisor.
+    Local {
+        /// The plan that it is in.
+        plan: String,
+        /// The element that it belongs to.
+        owner: String,
+        /// Its name.
+        name: String,
+    },
+}
+
+/// What a port is bound to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Binding {
+    /// `port = formula`
+    In(String),
+    /// `port => entry`
+    Out(String),
+}
+
+/// A change of meaning. Fragments of text are checked before anything is changed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// Adds `use toolbox as alias` below the other `use` lines.
+    AddUse {
+        /// The toolbox.
+        toolbox: String,
+        /// Its short name.
+        alias: Option<String>,
+    },
+    /// Adds plans, given as text, below the last plan.
+    AddPlan {
+        /// The text of one or more plans.
+        text: String,
+    },
+    /// Adds entries, elements or supervisors, given as text.
+    Add {
+        /// The plan that they are put into.
+        plan: String,
+        /// The element that they belong to; supervisors only.
+        owner: Option<String>,
+        /// The text of one or more items.
+        text: String,
+        /// The item above which they stand; without one they go below their like.
+        before: Option<String>,
+    },
+    /// Removes an item with its comments. With an element go the edges to it and a `start` that
+    /// names it, with an entry the outputs that are bound to it.
+    Remove {
+        /// The item.
+        item: Item,
+    },
+    /// Gives an item another name wherever the file refers to it, scenarios included.
+    Rename {
+        /// The item.
+        item: Item,
+        /// Its new name.
+        to: String,
+    },
+    /// Connects a state or event, or leads its edge elsewhere.
+    Connect {
+        /// The element or supervisor.
+        from: Item,
+        /// The state or event.
+        outcome: String,
+        /// An element of the plan, `terminate`, or `ignore` for an event.
+        to: String,
+    },
+    /// Removes the edge of a state or event.
+    Disconnect {
+        /// The element or supervisor.
+        from: Item,
+        /// The state or event.
+        outcome: String,
+    },
+    /// Lets the plan start with an element.
+    SetStart {
+        /// The plan.
+        plan: String,
+        /// The element.
+        to: String,
+    },
+    /// Moves an item above another one of its list, or below its like.
+    Reorder {
+        /// The item.
+        item: Item,
+        /// The item that it shall stand above.
+        before: Option<String>,
+    },
+    /// Binds a port, or changes what it is bound to.
+    Bind {
+        /// The element or supervisor.
+        component: Item,
+        /// The port.
+        port: String,
+        /// What it is bound to.
+        to: Binding,
+    },
+    /// Removes the binding of a port.
+    Unbind {
+        /// The element or supervisor.
+        component: Item,
+        /// The port.
+        port: String,
+    },
+    /// Makes an element or supervisor from another template; bindings and edges stay.
+    SetTemplate {
+        /// The element or supervisor.
+        component: Item,
+        /// `Name` or `home.Name`
+        template: String,
+    },
+    /// Sets, or without a value removes, `every` or `deadline` of a supervisor.
+    SetTiming {
+        /// The supervisor.
+        supervisor: Item,
+        /// `every` or `deadline`
+        keyword: String,
+        /// A time such as `10 ms`.
+        value: Option<String>,
+    },
+    /// Makes an entry an `in`, `out`, `var` or `const`.
+    SetEntryKind {
+        /// The entry.
+        entry: Item,
+        /// The keyword.
+        keyword: String,
+    },
+    /// Sets or removes the type of an entry.
+    SetEntryType {
+        /// The entry.
+        entry: Item,
+        /// The type.
+        ty: Option<String>,
+    },
+    /// Sets or removes the initial value of an entry.
+    SetEntryValue {
+        /// The entry.
+        entry: Item,
+        /// A formula.
+        value: Option<String>,
+    },
+    /// Sets or removes the help text above an item.
+    SetDoc {
+        /// The item.
+        item: Item,
+        /// Its lines, without the slashes; empty for none.
+        text: String,
+    },
+    /// Moves an entry, element or supervisor to another plan, or a supervisor to another owner.
+    ///
+    /// Edges whose target is not in the new plan, and edges of the old plan to what has moved, are
+    /// removed: their states and events are unconnected then.
+    Move {
+        /// The item.
+        item: Item,
+        /// The plan that it is put into.
+        plan: String,
+        /// The element that it belongs to from now on; supervisors only.
+        owner: Option<String>,
+    },
+    /// Makes a plan of some elements and puts a sub-plan in their place.
+    ///
+    /// What the elements write is visible outside when the sub-plan ends, no longer at once.
+    Extract {
+        /// The plan.
+        plan: String,
+        /// The elements.
+        elements: Vec<String>,
+        /// The name of the new plan.
+        new_plan: String,
+        /// The name of the sub-plan in the old plan.
+        element: String,
+    },
+    /// Puts the elements of a sub-plan in its place; the plan that it was made from stays.
+    Inline {
+        /// The plan.
+        plan: String,
+        /// The sub-plan.
+        element: String,
+    },
+}
+
+/// Why a change cannot be made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refused {
+    /// The reason: lower case, no final period, names in single quotes.
+    pub reason: String,
+}
+
+impl Refused {
+    fn new(reason: impl Into<String>) -> Refused {
+        Refused { reason: reason.into() }
+    }
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.reason)
+    }
+}
+
+impl std::error::Error for Refused {}
+
+impl Item {
+    /// A plan.
+    pub fn plan(name: impl Into<String>) -> Item {
+        Item::Plan { name: name.into() }
+    }
+
+    /// An entry, an element or a global supervisor of a plan.
+    pub fn inner(plan: impl Into<String>, name: impl Into<String>) -> Item {
+        Item::Inner { plan: plan.into(), name: name.into() }
+    }
+
+    /// A local supervisor of an element.
+    pub fn local(
+        plan: impl Into<String>,
+        owner: impl Into<String>,
+        name: impl Into<String>,
+    ) -> Item {
+        Item::Local { plan: plan.into(), owner: owner.into(), name: name.into() }
+    }
+
+    /// Its own name.
+    pub fn name(&self) -> &str {
+        match self {
+            Item::Plan { name } | Item::Inner { name, .. } | Item::Local { name, .. } => name,
+        }
+    }
+
+    /// The plan that it is in; its own name when it is one.
+    pub fn plan_name(&self) -> &str {
+        match self {
+            Item::Plan { name } => name,
+            Item::Inner { plan, .. } | Item::Local { plan, .. } => plan,
+        }
+    }
+}
+
+/// `Plan`, `Plan.element` or `Plan.element.supervisor`
+impl fmt::Display for Item {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Item::Plan { name } => write!(f, "{name}"),
+            Item::Inner { plan, name } => write!(f, "{plan}.{name}"),
+            Item::Local { plan, owner, name } => write!(f, "{plan}.{owner}.{name}"),
+        }
+    }
+}
+
+/// The edits of a file that make a change, in order and without overlaps; spans are in file 0.
+///
+/// A change that is already made needs no edits.
+///
+/// # Errors
+/// The change names what is not there, a fragment of text cannot be read, a name cannot be used, or
+/// the change would alter more than it says; the reason tells which.
+pub fn edit(text: &str, change: &Change) -> Result<Vec<TextEdit>, Refused> {
+    let mut draft = Draft::new(text);
+    let errors = draft.syntax_errors();
+    make(&mut draft, change)?;
+    if draft.syntax_errors() > errors {
+        return Err(Refused::new("the text could not be read any more"));
+    }
+    Ok(draft.edits(text.len()))
+}
+
+/// The text after edits, which must be in order and without overlaps, as [`edit`] gives them.
+///
+/// Edits that do not fit the text are left out.
+pub fn apply(text: &str, edits: &[TextEdit]) -> String {
+    let mut result = String::new();
+    let mut at = 0;
+    for edit in edits {
+        let (start, end) = (edit.span.start as usize, edit.span.end as usize);
+        let Some(kept) = text.get(at..start).filter(|_| text.get(start..end).is_some()) else {
+            continue;
+        };
+        result += kept;
+        result += &edit.text;
+        at = end;
+    }
+    result + text.get(at..).unwrap_or_default()
+}
+
+fn make(draft: &mut Draft, change: &Change) -> Result<(), Refused> {
+    match change {
+        Change::AddUse { toolbox, alias } => add::line_of_use(draft, toolbox, alias.as_deref()),
+        Change::AddPlan { text } => add::plans(draft, text),
+        Change::Add { plan, owner, text, before } => {
+            add::items(draft, plan, owner.as_deref(), text, before.as_deref())
+        }
+        Change::Remove { item } => remove::item(draft, item),
+        Change::Rename { item, to } => rename::item(draft, item, to),
+        Change::Connect { from, outcome, to } => connect::connect(draft, from, outcome, to),
+        Change::Disconnect { from, outcome } => connect::disconnect(draft, from, outcome),
+        Change::SetStart { plan, to } => connect::start(draft, plan, to),
+        Change::Reorder { item, before } => relocate::reorder(draft, item, before.as_deref()),
+        Change::Bind { component, port, to } => port::bind(draft, component, port, to),
+        Change::Unbind { component, port } => port::unbind(draft, component, port),
+        Change::SetTemplate { component, template } => {
+            port::set_template(draft, component, template)
+        }
+        Change::SetTiming { supervisor, keyword, value } => {
+            port::set_timing(draft, supervisor, keyword, value.as_deref())
+        }
+        Change::SetEntryKind { entry, keyword } => entry::set_kind(draft, entry, keyword),
+        Change::SetEntryType { entry, ty } => entry::set_type(draft, entry, ty.as_deref()),
+        Change::SetEntryValue { entry, value } => entry::set_value(draft, entry, value.as_deref()),
+        Change::SetDoc { item, text } => doc::set(draft, item, text),
+        Change::Move { item, plan, owner } => relocate::shift(draft, item, plan, owner.as_deref()),
+        Change::Extract { plan, elements, new_plan, element } => {
+            extract::run(draft, plan, elements, new_plan, element)
+        }
+        Change::Inline { plan, element } => inline::run(draft, plan, element),
+    }
+}
+
+#[cfg(test)]
+mod tests;

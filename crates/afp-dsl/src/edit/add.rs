@@ -1,0 +1,175 @@
+//! Adding: `use` lines, plans, and the items of a plan.
+
+use super::draft::Draft;
+use super::list::{Page, Place};
+use super::name;
+use super::tree::{self, Scope, children, name_of};
+use super::{Refused, fragment};
+use crate::syntax::Node;
+use crate::syntax::kind::Kind;
+
+/// Adds a `use` line below the others.
+pub(super) fn line_of_use(
+    draft: &mut Draft,
+    toolbox: &str,
+    alias: Option<&str>,
+) -> Result<(), Refused> {
+    name::check(toolbox)?;
+    alias.map_or(Ok(()), name::check)?;
+    let root = draft.root();
+    let alias = alias.map(|alias| format!(" as {alias}")).unwrap_or_default();
+    let line = format!("use {toolbox}{alias}");
+    let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+    let same = |node: &Node| {
+        let range = tree::solid_range(node).unwrap_or_default();
+        words(draft.text()[range].trim_end_matches(',')) == words(&line)
+    };
+    if children(&root, Kind::Use).any(|node| same(&node)) {
+        return Ok(());
+    }
+    let last = children(&root, Kind::Use).last().or_else(|| children(&root, Kind::Version).next());
+    let first = root.children().next();
+    let (place, apart) = match (last, first) {
+        (Some(last), _) => (Place::After(last), false),
+        (None, Some(first)) => (Place::Before(first), true),
+        (None, None) => (Place::Top, true),
+    };
+    let page = Page { text: draft.text(), root: root.clone() };
+    let splice = page.insert_lines(&root, place, &line, apart)?;
+    draft.splice(vec![splice]);
+    Ok(())
+}
+
+/// Adds plans below the last one.
+pub(super) fn plans(draft: &mut Draft, text: &str) -> Result<(), Refused> {
+    let (lines, nodes) = fragment::plans(text)?;
+    let root = draft.root();
+    let scope = Scope::File(root.clone());
+    new_names(&nodes, &scope)?;
+    let last = children(&root, Kind::Plan).last();
+    below_plan(draft, last.or_else(|| root.children().last()), &lines)
+}
+
+/// Puts a plan below an item of the file, or at the top.
+pub(super) fn below_plan(
+    draft: &mut Draft,
+    item: Option<Node>,
+    lines: &str,
+) -> Result<(), Refused> {
+    let root = draft.root();
+    let page = Page { text: draft.text(), root: root.clone() };
+    let place = item.map_or(Place::Top, Place::After);
+    let splice = page.insert_lines(&root, place, lines, true)?;
+    draft.splice(vec![splice]);
+    Ok(())
+}
+
+/// Adds items to a plan or supervisors to an element.
+pub(super) fn items(
+    draft: &mut Draft,
+    plan: &str,
+    owner: Option<&str>,
+    text: &str,
+    before: Option<&str>,
+) -> Result<(), Refused> {
+    let root = draft.root();
+    let (lines, nodes) = fragment::items(text, owner.is_some())?;
+    let (list, scope) = match owner {
+        None => {
+            let list = tree::plan(&root, plan)?;
+            (list.clone(), Scope::Plan(list))
+        }
+        Some(owner) => {
+            let list = tree::element(&root, plan, owner)?;
+            can_be_supervised(&list)?;
+            (list.clone(), Scope::Element(list))
+        }
+    };
+    new_names(&nodes, &scope)?;
+    place(draft, &list, &lines, nodes[0].kind(), before)
+}
+
+/// Refuses supervisors on computations.
+pub(super) fn can_be_supervised(element: &Node) -> Result<(), Refused> {
+    match tree::keyword(element) {
+        Some(keyword) if keyword.text() == "computation" => {
+            let name = name_of(element).unwrap_or_default();
+            Err(Refused::new(format!("'{name}' is a computation, which has no supervisors")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Checks that the names of new items can be used, are free and differ.
+fn new_names(nodes: &[Node], scope: &Scope) -> Result<(), Refused> {
+    let mut seen: Vec<String> = Vec::new();
+    for node in nodes {
+        let new = name_of(node).unwrap_or_default();
+        match node.kind() {
+            Kind::Element => name::check_element(&new)?,
+            _ => name::check(&new)?,
+        }
+        name::check_free(scope, &new, None)?;
+        if name::fresh(&new, &seen) != new {
+            return Err(Refused::new(format!("'{new}' is there twice")));
+        }
+        seen.push(new);
+    }
+    Ok(())
+}
+
+/// Puts lines into a plan or element: above the item `before`, else below their like.
+pub(super) fn place(
+    draft: &mut Draft,
+    list: &Node,
+    lines: &str,
+    kind: Kind,
+    before: Option<&str>,
+) -> Result<(), Refused> {
+    let page = Page { text: draft.text(), root: draft.root() };
+    let neighbour = match before {
+        Some(before) => Place::Before(sibling(list, before)?),
+        None => usual_place(list, kind),
+    };
+    let tall = lines.contains('\n');
+    let apart = match &neighbour {
+        Place::Top => {
+            let next = list.children().next();
+            list.kind() == Kind::Plan && next.is_some_and(|next| tall || next.kind() != kind)
+        }
+        Place::Before(item) | Place::After(item) => {
+            list.kind() == Kind::Plan
+                && (item.kind() != kind || (kind != Kind::Entry && (tall || is_tall(item))))
+        }
+    };
+    let splice = page.insert_lines(list, neighbour, lines, apart)?;
+    draft.splice(vec![splice]);
+    Ok(())
+}
+
+/// A named item of a list.
+pub(super) fn sibling(list: &Node, name: &str) -> Result<Node, Refused> {
+    let found = match list.kind() {
+        Kind::Plan => tree::inner(list, name),
+        Kind::File => children(list, Kind::Plan).find(|plan| tree::is_named(plan, name)),
+        _ => children(list, Kind::Guard).find(|guard| tree::is_named(guard, name)),
+    };
+    found.ok_or_else(|| Refused::new(format!("there is no '{name}' to stand above")))
+}
+
+/// Below the last item of the kind, else below what usually stands above that kind.
+fn usual_place(list: &Node, kind: Kind) -> Place {
+    let above: &[Kind] = match (list.kind(), kind) {
+        (Kind::Plan, Kind::Entry) => &[Kind::Entry],
+        (Kind::Plan, Kind::Start) => &[Kind::Entry],
+        (Kind::Plan, Kind::Guard) => &[Kind::Guard, Kind::Start, Kind::Entry],
+        (Kind::Plan, _) => &[Kind::Element, Kind::Guard, Kind::Start, Kind::Entry],
+        _ => &[Kind::Guard],
+    };
+    let last = above.iter().find_map(|kind| children(list, *kind).last());
+    last.map_or(Place::Top, Place::After)
+}
+
+fn is_tall(item: &Node) -> bool {
+    tree::solid_range(item).is_some_and(|_| item.text().to_string().trim().contains('\n'))
+}

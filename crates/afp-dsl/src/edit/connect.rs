@@ -1,0 +1,98 @@
+//! Edges and the start of a plan.
+
+use super::draft::Draft;
+use super::list::Page;
+use super::tree::{self, children, edges, name_token, range};
+use super::{Item, Refused, add, name};
+use crate::syntax::Node;
+use crate::syntax::kind::Kind;
+
+/// Connects a state or event, or leads its edge elsewhere.
+pub(super) fn connect(
+    draft: &mut Draft,
+    from: &Item,
+    outcome: &str,
+    to: &str,
+) -> Result<(), Refused> {
+    name::check(outcome)?;
+    let root = draft.root();
+    let component = tree::component(&root, from)?;
+    check_target(&tree::plan(&root, from.plan_name())?, &component, to)?;
+    let Some(edge) = tree::edge(&component, outcome) else {
+        let text = format!("{} -> {to}", padded(&component, outcome, draft.text()));
+        let all: Vec<_> = edges(&component).collect();
+        let page = Page { text: draft.text(), root };
+        let splice = page.append(&component, &all, &text)?;
+        draft.splice(vec![splice]);
+        return Ok(());
+    };
+    match tree::target(&edge) {
+        Some(target) if target.text() == to => {}
+        Some(target) => draft.splice(vec![(range(&target), to.to_owned())]),
+        None => {
+            let arrow = tree::tokens(&edge, Kind::Arrow).next();
+            let end = arrow.or_else(|| name_token(&edge)).map(|token| (range(&token).end, token));
+            let Some((end, token)) = end else { return Err(Refused::new("the edge is not whole")) };
+            let sign = if token.kind() == Kind::Arrow { "" } else { " ->" };
+            draft.splice(vec![(end..end, format!("{sign} {to}"))]);
+        }
+    }
+    Ok(())
+}
+
+/// The name of a new edge, as wide as those above it are made.
+fn padded(component: &Node, outcome: &str, text: &str) -> String {
+    let Some(last) = edges(component).last() else { return outcome.to_owned() };
+    let arrow = tree::tokens(&last, Kind::Arrow).next().map(|arrow| range(&arrow).start);
+    let start = name_token(&last).map(|name| range(&name).start);
+    let width = match (start, arrow) {
+        (Some(start), Some(arrow)) if !text[start..arrow].contains('\n') => arrow - start - 1,
+        _ => 0,
+    };
+    let body = tree::solid_range(component).unwrap_or_default();
+    let wide = text[body].contains('\n') && edges(component).count() > 1;
+    if wide { format!("{outcome:width$}") } else { outcome.to_owned() }
+}
+
+fn check_target(plan: &Node, component: &Node, to: &str) -> Result<(), Refused> {
+    match to {
+        "terminate" => Ok(()),
+        "ignore" if component.kind() == Kind::Guard => Ok(()),
+        "ignore" => Err(Refused::new("a state cannot lead to 'ignore'")),
+        _ if children(plan, Kind::Element).any(|element| tree::is_named(&element, to)) => Ok(()),
+        _ => Err(Refused::new(format!("there is no element '{to}' in the plan"))),
+    }
+}
+
+/// Removes the edge of a state or event.
+pub(super) fn disconnect(draft: &mut Draft, from: &Item, outcome: &str) -> Result<(), Refused> {
+    let root = draft.root();
+    let component = tree::component(&root, from)?;
+    let edge = tree::edge(&component, outcome).ok_or_else(|| {
+        Refused::new(format!("'{outcome}' of '{}' is not connected", from.name()))
+    })?;
+    let page = Page { text: draft.text(), root };
+    let splice = page.remove(&edge);
+    draft.splice(vec![splice]);
+    Ok(())
+}
+
+/// Lets a plan start with an element.
+pub(super) fn start(draft: &mut Draft, plan: &str, to: &str) -> Result<(), Refused> {
+    let root = draft.root();
+    tree::element(&root, plan, to)?;
+    let node = tree::plan(&root, plan)?;
+    let Some(start) = children(&node, Kind::Start).next() else {
+        return add::place(draft, &node, &format!("start {to}"), Kind::Start, None);
+    };
+    match (name_token(&start), tree::keyword(&start)) {
+        (Some(name), _) if name.text() == to => {}
+        (Some(name), _) => draft.splice(vec![(range(&name), to.to_owned())]),
+        (None, Some(keyword)) => {
+            let end = range(&keyword).end;
+            draft.splice(vec![(end..end, format!(" {to}"))]);
+        }
+        (None, None) => return Err(Refused::new("the 'start' of the plan is not whole")),
+    }
+    Ok(())
+}

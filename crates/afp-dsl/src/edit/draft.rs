@@ -1,0 +1,164 @@
+//! A text that is changed in steps, and the one list of edits that the steps come to.
+//!
+//! A change such as an extraction cuts here and inserts there, each time on the tree of the text
+//! so far. The pieces of the first text that are still there tell the edits at the end.
+
+use std::ops::Range;
+
+use crate::diagnostics::{Diagnostics, Edit, Severity};
+use crate::source::Span;
+use crate::syntax::{Node, parse};
+
+/// A replacement of a range of bytes.
+pub(super) type Splice = (Range<usize>, String);
+
+/// A text in the making.
+pub(super) struct Draft {
+    text: String,
+    root: Node,
+    syntax_errors: usize,
+    pieces: Vec<Piece>,
+}
+
+#[derive(Clone, Debug)]
+enum Piece {
+    Kept(Range<usize>),
+    New(String),
+}
+
+impl Piece {
+    fn len(&self) -> usize {
+        match self {
+            Piece::Kept(range) => range.len(),
+            Piece::New(text) => text.len(),
+        }
+    }
+
+    fn cut(&self, at: usize) -> (Piece, Piece) {
+        match self {
+            Piece::Kept(range) => {
+                let middle = range.start + at;
+                (Piece::Kept(range.start..middle), Piece::Kept(middle..range.end))
+            }
+            Piece::New(text) => (Piece::New(text[..at].into()), Piece::New(text[at..].into())),
+        }
+    }
+}
+
+impl Draft {
+    /// Begins with a text.
+    pub fn new(text: &str) -> Draft {
+        let (root, syntax_errors) = tree(text);
+        let pieces = vec![Piece::Kept(0..text.len())];
+        Draft { text: text.to_owned(), root, syntax_errors, pieces }
+    }
+
+    /// The text so far.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The tree of the text so far.
+    pub fn root(&self) -> Node {
+        self.root.clone()
+    }
+
+    /// How many syntax errors the text so far has.
+    pub fn syntax_errors(&self) -> usize {
+        self.syntax_errors
+    }
+
+    /// Replaces ranges of the text so far; they must not overlap.
+    pub fn splice(&mut self, mut splices: Vec<Splice>) {
+        splices.sort_by_key(|(range, _)| (range.start, range.end));
+        for (range, text) in splices.into_iter().rev() {
+            self.replace(range, text);
+        }
+        (self.root, self.syntax_errors) = tree(&self.text);
+    }
+
+    fn replace(&mut self, range: Range<usize>, text: String) {
+        let mut before = Vec::new();
+        let mut after = Vec::new();
+        let mut at = 0;
+        for piece in self.pieces.drain(..) {
+            let (start, end) = (at, at + piece.len());
+            at = end;
+            if end <= range.start {
+                before.push(piece);
+            } else if start >= range.end {
+                after.push(piece);
+            } else {
+                if start < range.start {
+                    before.push(piece.cut(range.start - start).0);
+                }
+                if end > range.end {
+                    after.push(piece.cut(range.end - start).1);
+                }
+            }
+        }
+        self.text.replace_range(range, &text);
+        before.push(Piece::New(text));
+        before.append(&mut after);
+        self.pieces = before;
+    }
+
+    /// The edits that make the first text, of `length` bytes, into the present one, in order.
+    pub fn edits(self, length: usize) -> Vec<Edit> {
+        let mut edits = Vec::new();
+        let mut new = String::new();
+        let mut at = 0;
+        for piece in self.pieces.into_iter().chain([Piece::Kept(length..length)]) {
+            match piece {
+                Piece::New(text) => new += &text,
+                Piece::Kept(range) => {
+                    if range.start > at || !new.is_empty() {
+                        edits.push(Edit { span: span(at..range.start), text: new });
+                        new = String::new();
+                    }
+                    at = range.end;
+                }
+            }
+        }
+        edits
+    }
+}
+
+fn span(range: Range<usize>) -> Span {
+    let offset = |at| u32::try_from(at).unwrap_or(u32::MAX);
+    Span { file: 0, start: offset(range.start), end: offset(range.end) }
+}
+
+fn tree(text: &str) -> (Node, usize) {
+    let mut diags = Diagnostics::default();
+    let parse = parse(text, 0, &mut diags);
+    (parse.root(), diags.iter().filter(|each| each.severity == Severity::Error).count())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Draft;
+    use crate::edit::apply;
+
+    #[test]
+    fn steps_come_to_one_list_of_edits() {
+        let text = "plan P { start a }";
+        let mut draft = Draft::new(text);
+        draft.splice(vec![(5..6, "Q".into()), (15..16, "long".into())]);
+        draft.splice(vec![(15..17, "lo".into()), (0..0, "use x ".into())]);
+        let after = draft.text().to_owned();
+        let edits = draft.edits(text.len());
+        assert_eq!(edits.len(), 3);
+        assert_eq!(apply(text, &edits), after);
+    }
+
+    #[test]
+    fn what_is_cut_leaves_an_edit() {
+        let mut draft = Draft::new("abc");
+        draft.splice(vec![(1..3, String::new())]);
+        draft.splice(vec![(0..1, String::new())]);
+        let edits = draft.edits(3);
+        assert_eq!(edits.len(), 1);
+        assert_eq!(apply("abc", &edits), "");
+    }
+}

@@ -1,0 +1,151 @@
+//! A plan made of some elements, and a sub-plan in their place.
+//!
+//! A sub-plan has one way in and two ways out: its states lead to `OK`, its events to
+//! `Interrupted`. A selection that needs more is refused with the reason.
+
+mod data;
+mod flow;
+
+use super::draft::Draft;
+use super::list::{Page, indented};
+use super::tree::{self, Scope, children, is_named, name_of, range};
+use super::{Item, Refused, add, fragment, name, refer, remove};
+use crate::syntax::Node;
+use crate::syntax::kind::Kind;
+
+pub(super) use data::type_of;
+
+use data::Data;
+use flow::Flow;
+
+/// Elements of a plan that are to become a plan.
+pub(super) struct Selection {
+    /// The plan.
+    pub plan: Node,
+    /// The elements as written.
+    pub elements: Vec<Node>,
+}
+
+impl Selection {
+    fn new(root: &Node, plan: &str, names: &[String]) -> Result<Selection, Refused> {
+        for name in names {
+            tree::element(root, plan, name)?;
+        }
+        let plan = tree::plan(root, plan)?;
+        let is_chosen = |element: &Node| names.iter().any(|name| is_named(element, name));
+        let elements: Vec<_> = children(&plan, Kind::Element).filter(is_chosen).collect();
+        if elements.is_empty() {
+            return Err(Refused::new("no element is selected"));
+        }
+        Ok(Selection { plan, elements })
+    }
+
+    /// Whether an element of that name is selected.
+    pub fn holds(&self, name: &str) -> bool {
+        self.elements.iter().any(|element| is_named(element, name))
+    }
+}
+
+/// Extracts elements of a plan into a plan of their own.
+pub(super) fn run(
+    draft: &mut Draft,
+    plan: &str,
+    elements: &[String],
+    new_plan: &str,
+    element: &str,
+) -> Result<(), Refused> {
+    let root = draft.root();
+    let selection = Selection::new(&root, plan, elements)?;
+    check_names(&root, &selection, new_plan, element)?;
+    let flow = Flow::of(&selection)?;
+    let data = Data::of(&selection, &flow.first)?;
+    lead_through(draft, plan, &selection, &flow, element);
+    let text = plan_text(draft, plan, &selection, &flow, &data, new_plan)?;
+    let call = call_text(&flow, &data, new_plan, element);
+    let first = name_of(&selection.elements[0]).unwrap_or_default();
+    let list = tree::plan(&draft.root(), plan)?;
+    add::place(draft, &list, &call, Kind::Element, Some(&first))?;
+    while let Some(node) = chosen(&draft.root(), plan, &selection, new_plan).into_iter().next() {
+        remove::take_out(draft, &node);
+    }
+    let below = tree::plan(&draft.root(), plan)?;
+    add::below_plan(draft, Some(below), &text)
+}
+
+fn check_names(
+    root: &Node,
+    selection: &Selection,
+    new_plan: &str,
+    element: &str,
+) -> Result<(), Refused> {
+    name::check(new_plan)?;
+    name::check_free(&Scope::File(root.clone()), new_plan, None)?;
+    name::check_element(element)?;
+    let names = Scope::Plan(selection.plan.clone()).names();
+    let staying: Vec<_> = names.into_iter().filter(|name| !selection.holds(name)).collect();
+    if name::fresh(element, &staying) != element {
+        return Err(Refused::new(format!("'{element}' is already there")));
+    }
+    Ok(())
+}
+
+/// The selected elements in the text so far, without the sub-plan that stands for them.
+fn chosen(root: &Node, plan: &str, selection: &Selection, new_plan: &str) -> Vec<Node> {
+    let Ok(plan) = tree::plan(root, plan) else { return Vec::new() };
+    let is_call = |element: &Node| {
+        tree::is_subplan(element) && tree::template(element).as_deref() == Some(new_plan)
+    };
+    children(&plan, Kind::Element)
+        .filter(|element| name_of(element).is_some_and(|name| selection.holds(&name)))
+        .filter(|element| !is_call(element))
+        .collect()
+}
+
+/// Leads edges into the selection to the sub-plan, edges out of it to `terminate`, and paths of
+/// scenarios through the sub-plan.
+fn lead_through(draft: &mut Draft, plan: &str, selection: &Selection, flow: &Flow, element: &str) {
+    let root = draft.root();
+    let mut splices: Vec<_> =
+        flow.ways_in.iter().map(|token| (range(token), element.to_owned())).collect();
+    splices.extend(flow.ways_out.iter().map(|token| (range(token), "terminate".to_owned())));
+    let is_inside = |item: &Item| match item {
+        Item::Inner { plan: home, name } => home == plan && selection.holds(name),
+        _ => false,
+    };
+    for token in refer::in_scenarios(&root, is_inside) {
+        let start = range(&token).start;
+        splices.push((start..start, format!("{element}.")));
+    }
+    draft.splice(splices);
+}
+
+fn plan_text(
+    draft: &Draft,
+    plan: &str,
+    selection: &Selection,
+    flow: &Flow,
+    data: &Data,
+    new_plan: &str,
+) -> Result<String, Refused> {
+    let root = draft.root();
+    let page = Page { text: draft.text(), root: root.clone() };
+    let texts: Vec<_> =
+        chosen(&root, plan, selection, new_plan).iter().map(|node| page.lines_of(node)).collect();
+    let gap = if texts.iter().any(|text| text.contains('\n')) { "\n\n" } else { "\n" };
+    let entries = data.entries();
+    let entries = match entries.is_empty() {
+        true => String::new(),
+        false => fragment::items(&entries.join("\n"), false)?.0 + "\n\n",
+    };
+    let body = format!("{entries}start {}\n\n{}", flow.first, texts.join(gap));
+    Ok(format!("plan {new_plan} {{\n{}\n}}", indented(&body, "    ")))
+}
+
+fn call_text(flow: &Flow, data: &Data, new_plan: &str, element: &str) -> String {
+    let ports = data.ports().join(", ");
+    let args = if ports.is_empty() { String::new() } else { format!("({ports})") };
+    let ok = format!("OK -> {}", flow.ok.as_deref().unwrap_or("terminate"));
+    let interrupted = flow.interrupted.iter().map(|target| format!("Interrupted -> {target}"));
+    let edges: Vec<_> = std::iter::once(ok).chain(interrupted).collect();
+    format!("subplan {element}: {new_plan}{args} {{ {} }}", edges.join(", "))
+}

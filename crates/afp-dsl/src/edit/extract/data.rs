@@ -1,0 +1,177 @@
+//! The data that flows into a selection and out of it.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::Selection;
+use crate::edit::port::reads;
+use crate::edit::tree::{self, Scope, binds, children, edges, is_named, keyword, name_of, target};
+use crate::edit::{Refused, name};
+use crate::syntax::Node;
+use crate::syntax::kind::Kind;
+
+/// An entry of the plan that the selection uses.
+struct Used {
+    name: String,
+    ty: String,
+    written: bool,
+    /// The name of the input that brings its value, where one is needed.
+    input: Option<String>,
+}
+
+/// The entries that the new plan needs.
+pub(super) struct Data {
+    used: Vec<Used>,
+    consts: Vec<String>,
+}
+
+impl Data {
+    /// Finds the entries that a selection reads and writes, when it begins with `first`.
+    pub fn of(selection: &Selection, first: &str) -> Result<Data, Refused> {
+        let mut read = BTreeSet::new();
+        let mut written = BTreeSet::new();
+        for element in &selection.elements {
+            read.extend(read_by(element));
+            written.extend(written_by(element));
+            for guard in children(element, Kind::Guard) {
+                written.extend(written_by(&guard));
+            }
+        }
+        let before = read_before_written(selection, first);
+        let mut taken = Scope::Plan(selection.plan.clone()).names();
+        let mut data = Data { used: Vec::new(), consts: consts(&selection.plan, &read) };
+        for entry in children(&selection.plan, Kind::Entry) {
+            let Some(name) = name_of(&entry) else { continue };
+            let is_const = keyword(&entry).is_some_and(|word| word.text() == "const");
+            let is_written = written.contains(&name);
+            if is_const || !(is_written || read.contains(&name)) {
+                continue;
+            }
+            let input = match (is_written, before.contains(&name)) {
+                (false, _) => Some(name.clone()),
+                (true, true) => {
+                    let input = name::fresh(&format!("{name}Before"), &taken);
+                    taken.push(input.clone());
+                    Some(input)
+                }
+                (true, false) => None,
+            };
+            let ty = type_of(&entry).ok_or_else(|| {
+                Refused::new(format!("'{name}' has no written type, which the new plan needs"))
+            })?;
+            data.used.push(Used { name, ty, written: is_written, input });
+        }
+        Ok(data)
+    }
+
+    /// The entries of the new plan, one text for each.
+    pub fn entries(&self) -> Vec<String> {
+        let inputs = self.used.iter().filter_map(|used| {
+            let input = used.input.as_ref()?;
+            Some(format!("in {input}: {}", used.ty))
+        });
+        let outputs = self.used.iter().filter(|used| used.written).map(|used| {
+            let value = used.input.iter().map(|input| format!(" = {input}")).collect::<String>();
+            format!("out {}: {}{value}", used.name, used.ty)
+        });
+        inputs.chain(outputs).chain(self.consts.iter().cloned()).collect()
+    }
+
+    /// The bindings of the sub-plan.
+    pub fn ports(&self) -> Vec<String> {
+        let inputs = self.used.iter().filter_map(|used| {
+            let input = used.input.as_ref()?;
+            Some(format!("{input} = {}", used.name))
+        });
+        let outputs = self.used.iter().filter(|used| used.written);
+        inputs.chain(outputs.map(|used| format!("{0} => {0}", used.name))).collect()
+    }
+}
+
+/// The type of an entry as written.
+pub(in crate::edit) fn type_of(entry: &Node) -> Option<String> {
+    let ty = children(entry, Kind::Type).next()?;
+    let tokens = ty.descendants_with_tokens().filter_map(|each| each.into_token());
+    Some(tokens.filter(|token| !token.kind().is_trivia()).map(|t| t.text().to_owned()).collect())
+}
+
+/// The entries that an element and its supervisors read.
+fn read_by(element: &Node) -> BTreeSet<String> {
+    let guards = children(element, Kind::Guard).flat_map(|guard| binds(&guard));
+    let all = binds(element).into_iter().chain(guards);
+    all.flat_map(|bind| reads(&bind)).map(|token| token.text().to_owned()).collect()
+}
+
+/// The entries that a component's own outputs write.
+fn written_by(component: &Node) -> BTreeSet<String> {
+    let outputs = binds(component).into_iter().filter(|bind| bind.kind() == Kind::BindOut);
+    outputs.filter_map(|bind| target(&bind)).map(|token| token.text().to_owned()).collect()
+}
+
+/// The constants that are read, and those that they are made of, as written.
+fn consts(plan: &Node, read: &BTreeSet<String>) -> Vec<String> {
+    let all: Vec<_> = children(plan, Kind::Entry)
+        .filter(|entry| keyword(entry).is_some_and(|word| word.text() == "const"))
+        .collect();
+    let mut needed = read.clone();
+    let mut open: Vec<String> = read.iter().cloned().collect();
+    while let Some(name) = open.pop() {
+        for entry in all.iter().filter(|entry| is_named(entry, &name)) {
+            for part in reads(entry).iter().map(|token| token.text().to_owned()) {
+                if needed.insert(part.clone()) {
+                    open.push(part);
+                }
+            }
+        }
+    }
+    let is_needed = |entry: &&Node| name_of(entry).is_some_and(|name| needed.contains(&name));
+    let text = |entry: &Node| {
+        let tokens = entry.descendants_with_tokens().filter_map(|each| each.into_token());
+        let solid = tokens.filter(|token| !token.kind().is_trivia());
+        // A comma behind the entry is no part of it.
+        let words: Vec<_> = solid.map(|token| token.text().to_owned()).collect();
+        words.join(" ").trim_end_matches([',', ' ']).to_owned()
+    };
+    all.iter().filter(is_needed).map(text).collect()
+}
+
+/// The entries that some element may read before the selection has written them.
+///
+/// Outputs count as written in every state of their element: where that is wrong, the entry had a
+/// value before, and the checker says that it is missing now.
+fn read_before_written(selection: &Selection, first: &str) -> BTreeSet<String> {
+    let mut known: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    let mut open = vec![(first.to_owned(), BTreeSet::new())];
+    while let Some((name, arriving)) = open.pop() {
+        let met = match known.get(&name) {
+            Some(before) => before.intersection(&arriving).cloned().collect(),
+            None => arriving,
+        };
+        if known.get(&name) == Some(&met) {
+            continue;
+        }
+        known.insert(name.clone(), met.clone());
+        let element = selection.elements.iter().find(|element| is_named(element, &name));
+        let Some(element) = element else { continue };
+        let guards = children(element, Kind::Guard);
+        for component in std::iter::once(element.clone()).chain(guards) {
+            for edge in edges(&component) {
+                let Some(target) = target(&edge).filter(|t| selection.holds(t.text())) else {
+                    continue;
+                };
+                let mut leaving = met.clone();
+                let commits = !["Error", "DeadlineMissed"].iter().any(|n| is_named(&edge, n));
+                if commits {
+                    leaving.extend(written_by(&component));
+                }
+                open.push((target.text().to_owned(), leaving));
+            }
+        }
+    }
+    let mut before = BTreeSet::new();
+    for element in &selection.elements {
+        let surely = tree::name_of(element).and_then(|name| known.get(&name));
+        let read = read_by(element);
+        before.extend(read.into_iter().filter(|name| !surely.is_some_and(|s| s.contains(name))));
+    }
+    before
+}

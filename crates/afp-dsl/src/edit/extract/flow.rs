@@ -1,0 +1,73 @@
+//! The ways into a selection and out of it.
+
+use std::collections::BTreeSet;
+
+use super::Selection;
+use crate::edit::Refused;
+use crate::edit::tree::{below, children, edges, name_of, name_token, target};
+use crate::syntax::Token;
+use crate::syntax::kind::Kind;
+
+/// How action flows between a selection and the rest of its plan.
+pub(super) struct Flow {
+    /// The element that the new plan starts with.
+    pub first: String,
+    /// Where its states lead outside.
+    pub ok: Option<String>,
+    /// Where its events lead outside.
+    pub interrupted: Option<String>,
+    /// The targets outside that are inside.
+    pub ways_in: Vec<Token>,
+    /// The targets inside that are outside.
+    pub ways_out: Vec<Token>,
+}
+
+impl Flow {
+    /// Finds the ways; refuses what no sub-plan can do.
+    pub fn of(selection: &Selection) -> Result<Flow, Refused> {
+        let ways_in = ways_in(selection);
+        let states = exits(selection, false);
+        let events = exits(selection, true);
+        let firsts = one("'start' and edges lead to", &ways_in)?;
+        let ok = one("states lead to", &states)?;
+        let interrupted = one("events lead to", &events)?;
+        if interrupted.as_deref() == Some("terminate") {
+            return Err(Refused::new(
+                "an event of the selection ends the plan as Interrupted, which a sub-plan cannot do for the plan around it",
+            ));
+        }
+        let usual = || name_of(&selection.elements[0]).unwrap_or_default();
+        let first = firsts.unwrap_or_else(usual);
+        let ways_out = states.into_iter().chain(events).collect();
+        Ok(Flow { first, ok, interrupted, ways_in, ways_out })
+    }
+}
+
+/// The only name among tokens; several are refused.
+fn one(what: &str, tokens: &[Token]) -> Result<Option<String>, Refused> {
+    let names: BTreeSet<_> = tokens.iter().map(|token| token.text().to_owned()).collect();
+    if names.len() > 1 {
+        let list = crate::words::list(names.iter().map(String::as_str), "and");
+        return Err(Refused::new(format!("{what} {list}, but a sub-plan has one way for that")));
+    }
+    Ok(names.into_iter().next())
+}
+
+fn ways_in(selection: &Selection) -> Vec<Token> {
+    let outside =
+        |token: &Token| !token.parent_ancestors().any(|node| selection.elements.contains(&node));
+    let starts = children(&selection.plan, Kind::Start).filter_map(|start| name_token(&start));
+    let edges = below(&selection.plan, Kind::Edge).filter_map(|edge| target(&edge));
+    starts.chain(edges).filter(outside).filter(|token| selection.holds(token.text())).collect()
+}
+
+/// The targets outside of states, or of events.
+fn exits(selection: &Selection, events: bool) -> Vec<Token> {
+    let owners = selection.elements.iter().flat_map(|element| match events {
+        false => vec![element.clone()],
+        true => children(element, Kind::Guard).collect(),
+    });
+    let targets =
+        owners.flat_map(|owner| edges(&owner).filter_map(|edge| target(&edge)).collect::<Vec<_>>());
+    targets.filter(|token| token.text() != "ignore" && !selection.holds(token.text())).collect()
+}

@@ -1,0 +1,157 @@
+//! The elements of a sub-plan in its place.
+//!
+//! Only where nothing but the nesting goes: inputs must be what they are while the sub-plan runs,
+//! and its plan must begin without values of its own and have no supervisors of the whole.
+
+mod data;
+mod text;
+
+use super::draft::Draft;
+use super::tree::{self, Scope, children, name_of, name_token, range, target};
+use super::{Item, Refused, add, connect, name, refer, remove};
+use crate::syntax::Node;
+use crate::syntax::kind::Kind;
+
+use data::Data;
+
+/// A sub-plan that is to be replaced by its elements.
+struct Call {
+    /// The plan around it.
+    outer: Node,
+    /// The sub-plan.
+    element: Node,
+    /// The plan that it is made from.
+    inner: Node,
+    /// Where its states lead.
+    ok: String,
+    /// Where its events lead.
+    interrupted: Option<String>,
+    /// Where its faults lead.
+    error: Option<String>,
+    /// The elements of the inner plan and their new names.
+    names: Vec<(String, String)>,
+    /// The new name of the first one.
+    first: String,
+}
+
+/// Puts the elements of a sub-plan in its place.
+pub(super) fn run(draft: &mut Draft, plan: &str, element: &str) -> Result<(), Refused> {
+    let root = draft.root();
+    let call = Call::of(&root, plan, element)?;
+    let data = Data::of(&call)?;
+    let lines = text::elements(&call, &data, draft.text())?;
+    redirect(draft, &call, &data, plan, element)?;
+    let list = tree::plan(&draft.root(), plan)?;
+    add::place(draft, &list, &lines, Kind::Element, Some(element))?;
+    let inner = name_of(&call.inner).unwrap_or_default();
+    let list = tree::plan(&draft.root(), plan)?;
+    let is_call = |node: &Node| {
+        tree::is_named(node, element) && tree::template(node).as_deref() == Some(&inner)
+    };
+    if let Some(node) = children(&list, Kind::Element).find(is_call) {
+        remove::take_out(draft, &node);
+    }
+    for entry in &data.new_entries {
+        let list = tree::plan(&draft.root(), plan)?;
+        add::place(draft, &list, entry, Kind::Entry, None)?;
+    }
+    let Some(error) = &call.error else { return Ok(()) };
+    for (_, new) in &call.names {
+        let item = Item::inner(plan, new);
+        if tree::edge(&tree::find(&draft.root(), &item)?, "Error").is_none() {
+            connect::connect(draft, &item, "Error", error)?;
+        }
+    }
+    Ok(())
+}
+
+impl Call {
+    fn of(root: &Node, plan: &str, element: &str) -> Result<Call, Refused> {
+        let outer = tree::plan(root, plan)?;
+        let node = tree::element(root, plan, element)?;
+        let inner = tree::template(&node).filter(|_| tree::is_subplan(&node));
+        let inner = inner.ok_or_else(|| {
+            Refused::new(format!("'{element}' is no sub-plan of a plan in this file"))
+        })?;
+        let inner = tree::plan(root, &inner)?;
+        if inner == outer {
+            return Err(Refused::new(format!("'{plan}' contains itself")));
+        }
+        for (component, what) in [(&node, element), (&inner, &name_of(&inner).unwrap_or_default())]
+        {
+            if children(component, Kind::Guard).next().is_some() {
+                return Err(Refused::new(format!(
+                    "the supervisors of '{what}' watch it as a whole; move them to its elements first"
+                )));
+            }
+        }
+        let start = children(&inner, Kind::Start).next().and_then(|start| name_token(&start));
+        let names = new_names(&outer, &inner, element);
+        let first = start.and_then(|start| {
+            names.iter().find(|(old, _)| old == start.text()).map(|(_, new)| new.clone())
+        });
+        let first = first.ok_or_else(|| Refused::new("the sub-plan's plan starts nowhere"))?;
+        let leads = |outcome: &str| {
+            let target = tree::edge(&node, outcome).and_then(|edge| target(&edge))?;
+            Some(if target.text() == element { first.clone() } else { target.text().to_owned() })
+        };
+        let ok = leads("OK")
+            .ok_or_else(|| Refused::new(format!("'OK' of '{element}' leads nowhere")))?;
+        let (interrupted, error) = (leads("Interrupted"), leads("Error"));
+        Ok(Call { outer, inner, ok, interrupted, error, names, first, element: node })
+    }
+}
+
+/// New names for the elements of a plan, that are free in the plan around it.
+fn new_names(outer: &Node, inner: &Node, element: &str) -> Vec<(String, String)> {
+    let mut taken = Scope::Plan(outer.clone()).names();
+    taken.retain(|name| name != element);
+    let mut names = Vec::new();
+    for old in children(inner, Kind::Element).filter_map(|element| name_of(&element)) {
+        let new = name::fresh(&old, &taken);
+        taken.push(new.clone());
+        names.push((old, new));
+    }
+    names
+}
+
+/// Leads edges and scenarios to the elements in place of the sub-plan.
+fn redirect(
+    draft: &mut Draft,
+    call: &Call,
+    data: &Data,
+    plan: &str,
+    element: &str,
+) -> Result<(), Refused> {
+    let mut splices: Vec<_> = refer::to_element(&call.outer, element)
+        .iter()
+        .map(|token| (range(token), call.first.clone()))
+        .collect();
+    let wanted = Item::inner(plan, element);
+    let mut seen = Vec::new();
+    for token in refer::in_scenarios(&draft.root(), |item| *item == wanted) {
+        let names: Vec<_> = token
+            .parent()
+            .iter()
+            .flat_map(|path| tree::tokens(path, Kind::Name).collect::<Vec<_>>())
+            .collect();
+        let next = names.iter().skip_while(|name| **name != token).nth(1).cloned();
+        if seen.contains(&token) {
+            continue;
+        }
+        seen.push(token.clone());
+        splices.push(match next {
+            None => (range(&token), call.first.clone()),
+            Some(next) => {
+                let new = call.names.iter().find(|(old, _)| old == next.text());
+                let new = new.map(|(_, new)| new.as_str()).or_else(|| data.written_to(next.text()));
+                let new = new.ok_or_else(|| {
+                    Refused::new(format!("a scenario names '{element}.{}'", next.text()))
+                })?;
+                (range(&token).start..range(&next).end, new.to_owned())
+            }
+        });
+    }
+    draft.splice(splices);
+    Ok(())
+}

@@ -1,0 +1,84 @@
+//! The text of a sub-plan's elements in the plan around it.
+
+use super::Call;
+use super::data::Data;
+use crate::edit::draft::Splice;
+use crate::edit::list::{Page, dedented};
+use crate::edit::tree::{self, below, children, is_comment, name_token, own_range, range, target};
+use crate::edit::{Refused, port};
+use crate::syntax::Node;
+use crate::syntax::kind::Kind;
+
+/// All elements, one below the other; the comments of the sub-plan stand above the first.
+pub(super) fn elements(call: &Call, data: &Data, text: &str) -> Result<String, Refused> {
+    let root = call.inner.ancestors().last().unwrap_or_else(|| call.inner.clone());
+    let page = Page { text, root };
+    let mut texts = Vec::new();
+    for element in children(&call.inner, Kind::Element) {
+        let own = own_range(&element);
+        let mut part = text[own.clone()].to_owned();
+        let mut splices = splices(call, data, &element)?;
+        splices.sort_by_key(|(place, _)| place.start);
+        for (place, new) in splices.into_iter().rev() {
+            part.replace_range(place.start - own.start..place.end - own.start, &new);
+        }
+        texts.push(dedented(&part, page.indent(own.start)));
+    }
+    let gap = if texts.iter().any(|text| text.contains('\n')) { "\n\n" } else { "\n" };
+    Ok(comments(&call.element) + &texts.join(gap))
+}
+
+/// What changes in the text of an element.
+fn splices(call: &Call, data: &Data, element: &Node) -> Result<Vec<Splice>, Refused> {
+    let renamed = |name: &str| {
+        let found = call.names.iter().find(|(old, _)| old == name);
+        found.map(|(_, new)| new.clone())
+    };
+    let mut splices: Vec<Splice> = Vec::new();
+    let name = name_token(element);
+    splices.extend(name.and_then(|token| Some((range(&token), renamed(token.text())?))));
+    for edge in below(element, Kind::Edge) {
+        let Some(token) = target(&edge) else { continue };
+        let event = edge.parent().is_some_and(|parent| parent.kind() == Kind::Guard);
+        let new = match token.text() {
+            "terminate" if event => interrupted(call)?,
+            "terminate" => call.ok.clone(),
+            other => renamed(other).unwrap_or_else(|| other.to_owned()),
+        };
+        splices.push((range(&token), new));
+    }
+    for args in below(element, Kind::Args) {
+        for token in port::reads(&args) {
+            let new = data.read_as(token.text());
+            splices.extend(new.map(|new| (range(&token), new.to_owned())));
+        }
+    }
+    for token in below(element, Kind::BindOut).filter_map(|bind| target(&bind)) {
+        let new = data.written_to(token.text());
+        splices.extend(new.map(|new| (range(&token), new.to_owned())));
+    }
+    Ok(splices)
+}
+
+fn interrupted(call: &Call) -> Result<String, Refused> {
+    match call.interrupted.as_deref() {
+        None => Err(Refused::new("'Interrupted' of the sub-plan leads nowhere")),
+        Some("terminate") => Err(Refused::new(
+            "an event of the sub-plan would end the plan as Interrupted, which it now ends as OK",
+        )),
+        Some(target) => Ok(target.to_owned()),
+    }
+}
+
+/// The comments of the sub-plan, help text among them, as lines.
+fn comments(element: &Node) -> String {
+    let own = own_range(element);
+    let tokens = element.descendants_with_tokens().filter_map(|each| each.into_token());
+    let own = tokens.filter(|token| is_comment(token) && own.contains(&tree::range(token).start));
+    let line = |token: crate::syntax::Token| {
+        let text = token.text().trim_end();
+        let text = if token.kind() == Kind::Doc { &text[1..] } else { text };
+        format!("{text}\n")
+    };
+    own.map(line).collect()
+}

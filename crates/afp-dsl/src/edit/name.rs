@@ -1,0 +1,56 @@
+//! Names that a change brings: can they be used, and are they free.
+
+use super::Refused;
+use super::tree::Scope;
+
+/// Words that cannot be a name anywhere.
+const REFUSED: &[&str] = &["self", "Self", "super", "crate", "true", "false", "resume", "repeat"];
+
+/// Checks that a word can be a name.
+pub(super) fn check(name: &str) -> Result<(), Refused> {
+    let mut letters = name.chars();
+    let first = letters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_');
+    let rest = letters.all(|each| each.is_ascii_alphanumeric() || each == '_');
+    let begins = key(name).starts_with(|first: char| first.is_ascii_alphabetic());
+    if !first || !rest || !begins || REFUSED.contains(&name) {
+        return Err(Refused::new(format!("'{name}' cannot be a name")));
+    }
+    Ok(())
+}
+
+/// Checks that a word can be the name of an element.
+pub(super) fn check_element(name: &str) -> Result<(), Refused> {
+    check(name)?;
+    if matches!(name, "terminate" | "ignore") {
+        return Err(Refused::new(format!("'{name}' cannot be the name of an element")));
+    }
+    Ok(())
+}
+
+/// Checks that a name is not taken in a scope; `own` is a name there that does not count.
+pub(super) fn check_free(scope: &Scope, name: &str, own: Option<&str>) -> Result<(), Refused> {
+    let taken = scope
+        .names()
+        .into_iter()
+        .find(|known| own != Some(known.as_str()) && key(known) == key(name));
+    match taken {
+        None => Ok(()),
+        Some(known) if known == name => Err(Refused::new(format!("'{name}' is already there"))),
+        Some(known) => {
+            Err(Refused::new(format!("'{name}' and '{known}' differ only in case or '_'")))
+        }
+    }
+}
+
+/// The name itself, or with the least number behind it that makes it free.
+pub(super) fn fresh(name: &str, taken: &[String]) -> String {
+    let free = |name: &str| !taken.iter().any(|known| key(known) == key(name));
+    let numbered = (2_u32..).map(|number| format!("{name}{number}"));
+    let mut candidates = std::iter::once(name.to_owned()).chain(numbered);
+    candidates.find(|candidate| free(candidate)).unwrap_or_default()
+}
+
+/// What is left of a name in every spelling of it.
+fn key(name: &str) -> String {
+    name.chars().filter(|each| *each != '_').collect::<String>().to_lowercase()
+}

@@ -1,0 +1,195 @@
+//! What stands in the head of an element or supervisor: template, bindings, times.
+
+use super::draft::{Draft, Splice};
+use super::list::Page;
+use super::tree::{self, binds, children, name_of, name_token, range, solid_range};
+use super::{Binding, Item, Refused, fragment, name};
+use crate::syntax::kind::Kind;
+use crate::syntax::{Node, Token};
+
+/// Binds a port, or changes what it is bound to.
+pub(super) fn bind(
+    draft: &mut Draft,
+    component: &Item,
+    port: &str,
+    to: &Binding,
+) -> Result<(), Refused> {
+    name::check(port)?;
+    let root = draft.root();
+    let node = tree::component(&root, component)?;
+    let (sign, value) = match to {
+        Binding::In(formula) => {
+            fragment::formula(formula)?;
+            ("=", formula.trim())
+        }
+        Binding::Out(entry) => {
+            check_entry(&tree::plan(&root, component.plan_name())?, entry)?;
+            ("=>", entry.as_str())
+        }
+    };
+    let bound = binds(&node).into_iter().find(|bind| tree::is_named(bind, port));
+    let splice = match bound {
+        Some(bound) => rebound(draft.text(), &bound, sign, value)?,
+        None => new_binding(draft, &node, &format!("{port} {sign} {value}"))?,
+    };
+    draft.splice(splice.into_iter().collect());
+    Ok(())
+}
+
+fn check_entry(plan: &Node, entry: &str) -> Result<(), Refused> {
+    if children(plan, Kind::Entry).any(|node| tree::is_named(&node, entry)) {
+        return Ok(());
+    }
+    Err(Refused::new(format!("there is no entry '{entry}' in the plan")))
+}
+
+/// What is bound to a port: the formula, or the target.
+pub(super) fn value(bind: &Node) -> Option<Node> {
+    bind.children().find(|child| child.kind() != Kind::Error)
+}
+
+fn rebound(text: &str, bind: &Node, sign: &str, new: &str) -> Result<Option<Splice>, Refused> {
+    let whole = "the binding is not whole";
+    let is_sign = |token: &Token| matches!(token.kind(), Kind::Equal | Kind::FatArrow);
+    let tokens = bind.children_with_tokens().filter_map(|each| each.into_token());
+    let old_sign = tokens.into_iter().find(is_sign).ok_or_else(|| Refused::new(whole))?;
+    let value = value(bind).and_then(|value| Some((solid_range(&value)?, value)));
+    let Some((place, value)) = value else {
+        let end = range(&old_sign).end;
+        return Ok(Some((range(&old_sign).start..end, format!("{sign} {new}"))));
+    };
+    if tree::holds_comment(&value) {
+        return Err(Refused::new("a comment stands in the formula"));
+    }
+    if old_sign.text() != sign {
+        let old = range(&old_sign).start..place.end;
+        return Ok(Some((old, format!("{sign} {new}"))));
+    }
+    Ok((text[place.clone()] != *new).then(|| (place, new.to_owned())))
+}
+
+fn new_binding(draft: &Draft, node: &Node, text: &str) -> Result<Option<Splice>, Refused> {
+    let page = Page { text: draft.text(), root: draft.root() };
+    if let Some(args) = children(node, Kind::Args).next() {
+        return page.append(&args, &binds(node), text).map(Some);
+    }
+    let end = head_end(node)?;
+    Ok(Some((end..end, format!("({text})"))))
+}
+
+/// The place behind the template's name.
+fn head_end(node: &Node) -> Result<usize, Refused> {
+    let reference = children(node, Kind::Ref).next().and_then(|node| solid_range(&node));
+    let refused = || Refused::new("it has no template yet");
+    reference.map(|range| range.end).ok_or_else(refused)
+}
+
+/// Removes the binding of a port, and brackets that would be empty.
+pub(super) fn unbind(draft: &mut Draft, component: &Item, port: &str) -> Result<(), Refused> {
+    let root = draft.root();
+    let node = tree::component(&root, component)?;
+    let bound = binds(&node).into_iter().find(|bind| tree::is_named(bind, port));
+    let bound = bound
+        .ok_or_else(|| Refused::new(format!("'{port}' of '{}' is not bound", component.name())))?;
+    let splice = removal(draft, &node, &bound);
+    draft.splice(vec![splice]);
+    Ok(())
+}
+
+/// How a binding is taken out of its component.
+pub(super) fn removal(draft: &Draft, component: &Node, bind: &Node) -> Splice {
+    let page = Page { text: draft.text(), root: draft.root() };
+    if let Some(args) =
+        children(component, Kind::Args).next().filter(|_| binds(component).len() == 1)
+        && let (Some(all), Some(one)) = (solid_range(&args), solid_range(bind))
+        && draft.text()[all.start + 1..one.start].trim().is_empty()
+        && draft.text()[one.end..all.end].trim_end_matches(')').trim().is_empty()
+    {
+        return (all, String::new());
+    }
+    page.remove(bind)
+}
+
+/// Makes a component from another template.
+pub(super) fn set_template(
+    draft: &mut Draft,
+    component: &Item,
+    template: &str,
+) -> Result<(), Refused> {
+    fragment::reference(template)?;
+    let node = tree::component(&draft.root(), component)?;
+    let splice = match children(&node, Kind::Ref).next().and_then(|node| solid_range(&node)) {
+        Some(old) if draft.text()[old.clone()] == *template.trim() => return Ok(()),
+        Some(old) => (old, template.trim().to_owned()),
+        None => {
+            let colon = tree::tokens(&node, Kind::Colon).next();
+            let name = name_token(&node).ok_or_else(|| Refused::new("it has no name"))?;
+            let end = range(colon.as_ref().unwrap_or(&name)).end;
+            let sign = if colon.is_some() { "" } else { ":" };
+            (end..end, format!("{sign} {}", template.trim()))
+        }
+    };
+    draft.splice(vec![splice]);
+    Ok(())
+}
+
+/// Sets or removes `every` or `deadline` of a supervisor.
+pub(super) fn set_timing(
+    draft: &mut Draft,
+    supervisor: &Item,
+    keyword: &str,
+    value: Option<&str>,
+) -> Result<(), Refused> {
+    if !matches!(keyword, "every" | "deadline") {
+        return Err(Refused::new(format!("a supervisor has no '{keyword}'")));
+    }
+    value.map_or(Ok(()), fragment::time)?;
+    let node = tree::find(&draft.root(), supervisor)?;
+    if node.kind() != Kind::Guard {
+        return Err(Refused::new(format!("'{}' is no supervisor", supervisor.name())));
+    }
+    let timings: Vec<_> = children(&node, Kind::Timing).collect();
+    let is_meant = |timing: &&Node| tree::keyword(timing).is_some_and(|k| k.text() == keyword);
+    let old = timings.iter().find(is_meant).and_then(solid_range);
+    let splice = match (old, value.map(str::trim)) {
+        (None, None) => return Ok(()),
+        (Some(old), Some(value)) => {
+            let text = format!("{keyword} {value}");
+            if draft.text()[old.clone()] == text {
+                return Ok(());
+            }
+            (old, text)
+        }
+        (Some(old), None) => {
+            let before = draft.text()[..old.start].trim_end_matches([' ', '\t']).len();
+            (before..old.end, String::new())
+        }
+        (None, Some(value)) => {
+            let args = children(&node, Kind::Args).next().and_then(|args| solid_range(&args));
+            let timing = timings.last().and_then(solid_range);
+            // 'every' stands before 'deadline'.
+            let first = timings.first().and_then(solid_range).filter(|_| keyword == "every");
+            match first {
+                Some(first) => (first.start..first.start, format!("{keyword} {value} ")),
+                None => {
+                    let end = timing.or(args).map(|range| range.end);
+                    let end = end.map_or_else(|| head_end(&node), Ok)?;
+                    (end..end, format!(" {keyword} {value}"))
+                }
+            }
+        }
+    };
+    draft.splice(vec![splice]);
+    Ok(())
+}
+
+/// The names of the entries that a formula reads.
+pub(super) fn reads(formula: &Node) -> Vec<Token> {
+    let references = tree::below(formula, Kind::Ref);
+    references.filter_map(|reference| tree::single(&reference)).collect()
+}
+
+/// The port that a binding is for.
+pub(super) fn port_of(bind: &Node) -> String {
+    name_of(bind).unwrap_or_default()
+}

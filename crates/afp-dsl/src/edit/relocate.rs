@@ -1,0 +1,149 @@
+//! Other places for items: within their list, in another plan, at another owner.
+
+use std::collections::BTreeSet;
+
+use super::draft::Draft;
+use super::list::{Page, Place};
+use super::tree::{self, Scope, below, binds, children, is_named, name_of, target};
+use super::{Item, Refused, add, name, port, refer, remove};
+use crate::syntax::Node;
+use crate::syntax::kind::Kind;
+
+/// Moves an item above another one of its list, or below its like.
+pub(super) fn reorder(draft: &mut Draft, item: &Item, before: Option<&str>) -> Result<(), Refused> {
+    let root = draft.root();
+    let node = tree::find(&root, item)?;
+    let list_of = |root: &Node| match item {
+        Item::Plan { .. } => Ok(root.clone()),
+        Item::Inner { plan, .. } => tree::plan(root, plan),
+        Item::Local { plan, owner, .. } => tree::element(root, plan, owner),
+    };
+    let list = list_of(&root)?;
+    if before == Some(item.name()) || is_there(&list, &node, before)? {
+        return Ok(());
+    }
+    let lines = Page { text: draft.text(), root }.lines_of(&node);
+    let kind = node.kind();
+    remove::take_out(draft, &node);
+    let root = draft.root();
+    if kind != Kind::Plan {
+        return add::place(draft, &list_of(&root)?, &lines, kind, before);
+    }
+    let place = match before {
+        Some(before) => Place::Before(add::sibling(&root, before)?),
+        None => children(&root, Kind::Plan).last().map_or(Place::Top, Place::After),
+    };
+    let splice =
+        Page { text: draft.text(), root: root.clone() }.insert_lines(&root, place, &lines, true)?;
+    draft.splice(vec![splice]);
+    Ok(())
+}
+
+/// Whether an item stands where it should already.
+fn is_there(list: &Node, node: &Node, before: Option<&str>) -> Result<bool, Refused> {
+    let next = node.next_sibling();
+    Ok(match before {
+        Some(before) => next == Some(add::sibling(list, before)?),
+        None => children(list, node.kind()).last().as_ref() == Some(node),
+    })
+}
+
+/// Moves an item to another plan or owner.
+pub(super) fn shift(
+    draft: &mut Draft,
+    item: &Item,
+    plan: &str,
+    owner: Option<&str>,
+) -> Result<(), Refused> {
+    let root = draft.root();
+    let node = tree::find(&root, item)?;
+    let there = tree::plan(&root, plan)?;
+    let same_plan = item.plan_name() == plan;
+    check_kind(&node, item, same_plan, owner)?;
+    let scope = match owner {
+        None => Scope::Plan(there.clone()),
+        Some(owner) => {
+            let element = tree::element(&root, plan, owner)?;
+            add::can_be_supervised(&element)?;
+            Scope::Element(element)
+        }
+    };
+    name::check_free(&scope, item.name(), None)?;
+    match node.kind() {
+        Kind::Entry => check_unused(&root, item)?,
+        _ if !same_plan => check_entries(&node, &there, plan)?,
+        _ => {}
+    }
+    let own = item.name().to_owned();
+    let moves_along = |name: &str| node.kind() == Kind::Element && name == own;
+    remove::cut_edges_from(
+        draft,
+        |root| tree::find(root, item).ok(),
+        |target| {
+            moves_along(target)
+                || children(&there, Kind::Element).any(|element| is_named(&element, target))
+        },
+    );
+    let lines = {
+        let root = draft.root();
+        Page { text: draft.text(), root: root.clone() }.lines_of(&tree::find(&root, item)?)
+    };
+    let moved = tree::find(&draft.root(), item)?;
+    remove::take_out(draft, &moved);
+    if node.kind() == Kind::Element {
+        remove::cut_edges_to(draft, item.plan_name(), item.name());
+    }
+    let root = draft.root();
+    let list = match owner {
+        None => tree::plan(&root, plan)?,
+        Some(owner) => tree::element(&root, plan, owner)?,
+    };
+    add::place(draft, &list, &lines, node.kind(), None)
+}
+
+fn check_kind(
+    node: &Node,
+    item: &Item,
+    same_plan: bool,
+    owner: Option<&str>,
+) -> Result<(), Refused> {
+    let is_guard = node.kind() == Kind::Guard;
+    let is_home = match item {
+        Item::Local { owner: home, .. } => owner == Some(home.as_str()),
+        _ => owner.is_none(),
+    };
+    if node.kind() == Kind::Plan {
+        return Err(Refused::new("a plan stands in no other plan"));
+    }
+    if owner.is_some() && !is_guard {
+        return Err(Refused::new(format!("'{}' is no supervisor", item.name())));
+    }
+    if same_plan && is_home {
+        return Err(Refused::new(format!("'{}' is there already", item.name())));
+    }
+    Ok(())
+}
+
+fn check_unused(root: &Node, item: &Item) -> Result<(), Refused> {
+    match refer::to(root, item).len() {
+        0 | 1 => Ok(()),
+        _ => Err(Refused::new(format!("'{}' is used where it is", item.name()))),
+    }
+}
+
+/// Checks that a plan has the entries that a component reads and writes.
+fn check_entries(component: &Node, plan: &Node, name: &str) -> Result<(), Refused> {
+    let known: BTreeSet<_> = children(plan, Kind::Entry).filter_map(|e| name_of(&e)).collect();
+    let mut used: BTreeSet<String> = BTreeSet::new();
+    let components = below(component, Kind::Element).chain(below(component, Kind::Guard));
+    for bind in components.flat_map(|component| binds(&component)) {
+        used.extend(port::reads(&bind).iter().map(|token| token.text().to_owned()));
+        used.extend(target(&bind).map(|token| token.text().to_owned()));
+    }
+    let missing: Vec<_> = used.difference(&known).map(String::as_str).collect();
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let list = crate::words::list(missing, "and");
+    Err(Refused::new(format!("'{name}' has no entry {list}")))
+}

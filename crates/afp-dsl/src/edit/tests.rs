@@ -1,0 +1,79 @@
+//! Each change on a small plan: what becomes of the text, to the byte.
+
+mod data;
+mod flow;
+mod items;
+mod structure;
+
+use super::{Binding, Change, Item, apply, edit};
+use crate::format;
+
+/// A plan with comments in many places.
+const PLAN: &str = "\
+use std
+
+// About the plan.
+plan P {
+    in  limit: length = 30 cm // how far
+    var gap:   length
+
+    start go // at the beginning
+
+    // a free note
+
+    // belongs to 'go'
+    actor go: A(distance = limit, gap => gap) {
+        supervise touch: T every 1 ms { Pressed -> back }
+        Done  -> go // again
+        // the way out
+        Error -> terminate
+    }
+
+    /// Goes back.
+    actor back: B(
+        // why
+        distance = -limit, // because
+        speed = 3 cm/s,
+    ) { Done -> go, Lost -> terminate }
+}
+";
+
+/// The text after a change.
+#[track_caller]
+fn after(text: &str, change: Change) -> String {
+    match edit(text, &change) {
+        Ok(edits) => apply(text, &edits),
+        Err(refused) => panic!("{change:?}: {refused}"),
+    }
+}
+
+/// Checks that a change replaces exactly some texts in the plan, each of which is there once.
+#[track_caller]
+fn replaces(change: Change, pairs: &[(&str, &str)]) {
+    let mut expected = PLAN.to_owned();
+    for (old, new) in pairs {
+        assert_eq!(expected.matches(old).count(), 1, "{old}");
+        expected = expected.replace(old, new);
+    }
+    let changed = after(PLAN, change);
+    assert_eq!(changed, expected);
+    format(&changed).unwrap();
+}
+
+/// Checks that a change is refused for that reason.
+#[track_caller]
+fn refused(text: &str, change: Change, reason: &str) {
+    assert_eq!(edit(text, &change).map_err(|refused| refused.reason), Err(reason.to_owned()));
+}
+
+fn go() -> Item {
+    Item::inner("P", "go")
+}
+
+fn back() -> Item {
+    Item::inner("P", "back")
+}
+
+fn touch() -> Item {
+    Item::local("P", "go", "touch")
+}

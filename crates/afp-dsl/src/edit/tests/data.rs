@@ -1,0 +1,130 @@
+//! Ports, templates, times, entries, help text.
+
+use super::{Binding, Change, Item, PLAN, after, back, go, refused, replaces, touch};
+
+fn bind(component: Item, port: &str, formula: &str) -> Change {
+    Change::Bind { component, port: port.into(), to: Binding::In(formula.into()) }
+}
+
+fn bind_out(component: Item, port: &str, entry: &str) -> Change {
+    Change::Bind { component, port: port.into(), to: Binding::Out(entry.into()) }
+}
+
+fn unbind(component: Item, port: &str) -> Change {
+    Change::Unbind { component, port: port.into() }
+}
+
+#[test]
+fn a_port_gets_another_formula() {
+    replaces(bind(go(), "distance", "2 * limit"), &[("= limit, gap", "= 2 * limit, gap")]);
+    replaces(bind(back(), "distance", "limit"), &[("-limit", "limit")]);
+    replaces(bind(back(), "distance", "-limit"), &[]);
+    replaces(bind(go(), "gap", "1 cm"), &[("gap => gap", "gap = 1 cm")]);
+    replaces(bind_out(back(), "speed", "gap"), &[("speed = 3 cm/s", "speed => gap")]);
+}
+
+#[test]
+fn a_port_is_bound_as_its_neighbours_are() {
+    replaces(bind(go(), "speed", "1 cm/s"), &[("gap => gap)", "gap => gap, speed = 1 cm/s)")]);
+    replaces(
+        bind_out(back(), "driven", "gap"),
+        &[("3 cm/s,\n", "3 cm/s,\n        driven => gap,\n")],
+    );
+    replaces(
+        bind(touch(), "margin", "1 cm"),
+        &[("touch: T every", "touch: T(margin = 1 cm) every")],
+    );
+}
+
+#[test]
+fn a_binding_goes_with_its_comments() {
+    replaces(unbind(go(), "distance"), &[("distance = limit, gap", "gap")]);
+    replaces(unbind(go(), "gap"), &[(", gap => gap)", ")")]);
+    replaces(
+        unbind(back(), "distance"),
+        &[("        // why\n        distance = -limit, // because\n", "")],
+    );
+    let bound = after(PLAN, bind(touch(), "margin", "1 cm"));
+    assert_eq!(after(&bound, unbind(touch(), "margin")), PLAN);
+}
+
+#[test]
+fn a_fragment_is_one_formula() {
+    for text in ["", "1 +", "1, b = 2", "1 } }", "1 // c", "1 cm 2", ") + (", "a b"] {
+        let reason = format!("'{text}' is not a formula");
+        refused(PLAN, bind(go(), "distance", text), &reason);
+    }
+    refused(PLAN, bind_out(go(), "gap", "nowhere"), "there is no entry 'nowhere' in the plan");
+    refused(PLAN, unbind(go(), "speed"), "'speed' of 'go' is not bound");
+    let commented = PLAN.replace("-limit,", "-  // c\n limit,");
+    refused(&commented, bind(back(), "distance", "1 m"), "a comment stands in the formula");
+}
+
+#[test]
+fn templates_and_times_are_set() {
+    let template =
+        |template: &str| Change::SetTemplate { component: back(), template: template.into() };
+    replaces(template("c.Forward"), &[("back: B(", "back: c.Forward(")]);
+    refused(
+        PLAN,
+        template("c.F {} actor x: Y"),
+        "'c.F {} actor x: Y' is not the name of a template",
+    );
+    let timing = |keyword: &str, value: Option<&str>| Change::SetTiming {
+        supervisor: touch(),
+        keyword: keyword.into(),
+        value: value.map(str::to_owned),
+    };
+    replaces(timing("every", Some("2 ms")), &[("every 1 ms", "every 2 ms")]);
+    replaces(timing("every", None), &[("T every 1 ms {", "T {")]);
+    replaces(timing("deadline", Some("1 ms")), &[("1 ms {", "1 ms deadline 1 ms {")]);
+    replaces(timing("deadline", None), &[]);
+    let deadline = after(&after(PLAN, timing("every", None)), timing("deadline", Some("1 ms")));
+    assert!(
+        after(&deadline, timing("every", Some("5 ms"))).contains("T every 5 ms deadline 1 ms {")
+    );
+    refused(PLAN, timing("every", Some("gap")), "'gap' is not a time");
+    refused(PLAN, timing("budget", None), "a supervisor has no 'budget'");
+}
+
+#[test]
+fn entries_change_part_by_part() {
+    let limit = || Item::inner("P", "limit");
+    let ty = |ty: Option<&str>| Change::SetEntryType { entry: limit(), ty: ty.map(str::to_owned) };
+    let value = |value: Option<&str>| Change::SetEntryValue {
+        entry: limit(),
+        value: value.map(str::to_owned),
+    };
+    let kind = |name: &str, keyword: &str| Change::SetEntryKind {
+        entry: Item::inner("P", name),
+        keyword: keyword.into(),
+    };
+    replaces(ty(Some("length^2/mass")), &[("limit: length =", "limit: length^2/mass =")]);
+    replaces(ty(None), &[("limit: length =", "limit =")]);
+    replaces(value(Some("1 m + 2 cm")), &[("30 cm", "1 m + 2 cm")]);
+    replaces(value(None), &[(" = 30 cm // how", " // how")]);
+    let bare = after(&after(PLAN, value(None)), ty(None));
+    assert!(bare.contains("in  limit // how far\n"), "{bare}");
+    assert!(
+        after(&after(&bare, value(Some("1"))), ty(Some("int"))).contains("limit: int = 1 // how")
+    );
+    replaces(kind("limit", "out"), &[("in  limit", "out limit")]);
+    replaces(kind("limit", "const"), &[("in  limit", "const limit")]);
+    replaces(kind("gap", "in"), &[("var gap", "in gap")]);
+    refused(PLAN, kind("gap", "let"), "an entry is 'in', 'out', 'var' or 'const', not 'let'");
+    refused(PLAN, kind("go", "in"), "'go' is no entry");
+    refused(PLAN, ty(Some("length = 3")), "'length = 3' is not a type");
+}
+
+#[test]
+fn help_text_is_set() {
+    let doc = |item: Item, text: &str| Change::SetDoc { item, text: text.into() };
+    replaces(
+        doc(go(), "Drives.\n\nFar."),
+        &[("    actor go", "    /// Drives.\n    ///\n    /// Far.\n    actor go")],
+    );
+    replaces(doc(back(), "Returns."), &[("Goes back.", "Returns.")]);
+    replaces(doc(back(), ""), &[("    /// Goes back.\n", "")]);
+    replaces(doc(back(), "Goes back."), &[]);
+    replaces(doc(Item::plan("P"), "Help."), &[("plan P {", "/// Help.\nplan P {")]);
+}

@@ -1,0 +1,66 @@
+//! Edges and the start.
+
+use super::{Change, Item, PLAN, back, go, refused, replaces, touch};
+
+fn connect(from: Item, outcome: &str, to: &str) -> Change {
+    Change::Connect { from, outcome: outcome.into(), to: to.into() }
+}
+
+fn disconnect(from: Item, outcome: &str) -> Change {
+    Change::Disconnect { from, outcome: outcome.into() }
+}
+
+#[test]
+fn an_edge_leads_elsewhere() {
+    replaces(connect(go(), "Done", "back"), &[("Done  -> go // again", "Done  -> back // again")]);
+    replaces(connect(go(), "Done", "go"), &[]);
+    replaces(connect(touch(), "Pressed", "ignore"), &[("Pressed -> back", "Pressed -> ignore")]);
+}
+
+#[test]
+fn an_edge_is_added_as_its_neighbours_are() {
+    replaces(
+        connect(go(), "Lost", "back"),
+        &[("        Error -> terminate\n", "        Error -> terminate\n        Lost  -> back\n")],
+    );
+    replaces(
+        connect(touch(), "DeadlineMissed", "ignore"),
+        &[("Pressed -> back }", "Pressed -> back, DeadlineMissed -> ignore }")],
+    );
+    replaces(
+        connect(back(), "Error", "go"),
+        &[("Lost -> terminate }", "Lost -> terminate, Error -> go }")],
+    );
+}
+
+#[test]
+fn an_edge_goes_with_its_comments() {
+    replaces(disconnect(go(), "Done"), &[("        Done  -> go // again\n", "")]);
+    replaces(
+        disconnect(go(), "Error"),
+        &[("        // the way out\n        Error -> terminate\n", "")],
+    );
+    replaces(disconnect(back(), "Done"), &[("Done -> go, Lost", "Lost")]);
+    replaces(disconnect(back(), "Lost"), &[(", Lost -> terminate", "")]);
+    replaces(disconnect(touch(), "Pressed"), &[("{ Pressed -> back }", "{}")]);
+}
+
+#[test]
+fn the_start_leads_elsewhere() {
+    let start = |to: &str| Change::SetStart { plan: "P".into(), to: to.into() };
+    replaces(start("back"), &[("start go //", "start back //")]);
+    refused(PLAN, start("gap"), "'P' has no element 'gap'");
+}
+
+#[test]
+fn what_cannot_be_connected_is_refused() {
+    refused(PLAN, connect(go(), "Done", "ignore"), "a state cannot lead to 'ignore'");
+    refused(PLAN, connect(go(), "Done", "gap"), "there is no element 'gap' in the plan");
+    refused(PLAN, connect(go(), "Done -> x", "go"), "'Done -> x' cannot be a name");
+    refused(PLAN, disconnect(go(), "Lost"), "'Lost' of 'go' is not connected");
+    refused(
+        PLAN,
+        connect(Item::inner("P", "gap"), "Done", "go"),
+        "'gap' is no element or supervisor",
+    );
+}

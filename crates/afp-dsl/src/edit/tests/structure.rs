@@ -1,0 +1,244 @@
+//! Extracting elements into a plan and inlining a sub-plan.
+
+use super::{Change, after, refused};
+
+const PLAN: &str = "\
+plan P {
+    in  walldist: length = 30 cm
+    var angle:    angle
+    const half = 2 // of it
+    const slow = half * 1 cm/s
+
+    start find
+
+    supervise escape: E { Pressed -> terminate }
+
+    // looks around
+    actor find: Search(range = walldist, angle => angle) {
+        supervise touch: T { Touched -> back }
+        Found -> turn
+        Lost  -> back
+    }
+
+    actor turn: Turn(angle = angle, speed = slow) {
+        supervise touch: T { Touched -> back } // careful
+        Done -> follow
+    }
+
+    // a free note
+
+    actor follow: Follow(walldist = walldist) { Done -> find }
+    actor back: Forward(distance = -walldist) { Done -> find, Error -> terminate }
+}
+
+scenario \"s\" for P {
+    expect find -> turn
+    at 3 s: fire turn.touch.Touched
+    until 5 s
+}
+";
+
+fn extract(elements: &[&str]) -> Change {
+    Change::Extract {
+        plan: "P".into(),
+        elements: elements.iter().map(|name| (*name).to_owned()).collect(),
+        new_plan: "Align".into(),
+        element: "align".into(),
+    }
+}
+
+fn inline() -> Change {
+    Change::Inline { plan: "P".into(), element: "align".into() }
+}
+
+const ONE_WAY: &str = "        Lost  -> back\n";
+
+#[test]
+fn a_selection_becomes_a_plan() {
+    let text = PLAN.replace(ONE_WAY, "        Lost  -> follow\n");
+    let extracted = after(&text, extract(&["turn", "find"]));
+    let expected = "\
+plan P {
+    in  walldist: length = 30 cm
+    var angle:    angle
+    const half = 2 // of it
+    const slow = half * 1 cm/s
+
+    start align
+
+    supervise escape: E { Pressed -> terminate }
+
+    subplan align: Align(walldist = walldist, angle => angle) { OK -> follow, Interrupted -> back }
+
+    // a free note
+
+    actor follow: Follow(walldist = walldist) { Done -> align }
+    actor back: Forward(distance = -walldist) { Done -> align, Error -> terminate }
+}
+
+plan Align {
+    in  walldist: length
+    out angle:    angle
+    const half = 2
+    const slow = half * 1 cm/s
+
+    start find
+
+    // looks around
+    actor find: Search(range = walldist, angle => angle) {
+        supervise touch: T { Touched -> terminate }
+        Found -> turn
+        Lost  -> terminate
+    }
+
+    actor turn: Turn(angle = angle, speed = slow) {
+        supervise touch: T { Touched -> terminate } // careful
+        Done -> terminate
+    }
+}
+
+scenario \"s\" for P {
+    expect align.find -> align.turn
+    at 3 s: fire align.turn.touch.Touched
+    until 5 s
+}
+";
+    assert_eq!(extracted, expected);
+    let back =
+        after(&after(&extracted, inline()), Change::Remove { item: super::Item::plan("Align") });
+    assert_eq!(crate::format(&back).unwrap(), text);
+}
+
+#[test]
+fn a_value_from_before_comes_in_beside_the_output() {
+    let text =
+        PLAN.replace(ONE_WAY, "        Lost  -> follow\n").replace("start find", "start turn");
+    let text = text.replace("{ Done -> find", "{ Done -> turn");
+    let extracted = after(&text, extract(&["find", "turn"]));
+    assert!(extracted.contains("Align(walldist = walldist, angleBefore = angle, angle => angle)"));
+    assert!(extracted.contains("    in  walldist:    length\n    in  angleBefore: angle\n    out angle:       angle = angleBefore\n"));
+}
+
+#[test]
+fn what_a_sub_plan_cannot_do_is_refused() {
+    let ways = |what: &str| format!("{what}, but a sub-plan has one way for that");
+    refused(PLAN, extract(&["find", "turn"]), &ways("states lead to 'back' and 'follow'"));
+    refused(
+        PLAN,
+        extract(&["follow", "back"]),
+        &ways("'start' and edges lead to 'back' and 'follow'"),
+    );
+    let ends = PLAN.replace("{ Touched -> back } //", "{ Touched -> terminate } //");
+    refused(
+        &ends,
+        extract(&["turn"]),
+        "an event of the selection ends the plan as Interrupted, which a sub-plan cannot do for the plan around it",
+    );
+    refused(PLAN, extract(&[]), "no element is selected");
+    refused(PLAN, extract(&["x"]), "'P' has no element 'x'");
+    let untyped = PLAN.replace("var angle:    angle", "var angle = 3 deg");
+    refused(&untyped, extract(&["turn"]), "'angle' has no written type, which the new plan needs");
+}
+
+const CALL: &str = "\
+plan P {
+    var gap: length
+    const base = 1 m
+
+    start align
+
+    /// Aligns.
+    subplan align: Align(limit = base + 1 m, gap => gap) {
+        // well
+        OK          -> go
+        Interrupted -> align
+        Error       -> terminate // badly
+    }
+
+    actor go: A(x = gap) { Done -> align }
+}
+
+plan Align {
+    in  limit: length
+    in  scale: int = 2
+    out gap:   length
+    var own:   length
+    const base = 2 m
+    start go
+
+    // goes
+    actor go: A(x = 3 * limit / scale, y => own) {
+        supervise touch: T(far = base) { Touched -> terminate }
+        Done -> back
+    }
+
+    actor back: B(x = own, y => gap) { Done -> terminate, Error -> go }
+}
+";
+
+#[test]
+fn a_sub_plan_becomes_its_elements() {
+    let inlined = after(CALL, inline());
+    let expected = "\
+plan P {
+    var gap: length
+    const base = 1 m
+    const base2 = 2 m
+    var own: length
+
+    start go2
+
+    // Aligns.
+    // well
+    // badly
+    // goes
+    actor go2: A(x = 3 * (base + 1 m) / 2, y => own) {
+        supervise touch: T(far = base2) { Touched -> go2 }
+        Done -> back
+        Error -> terminate
+    }
+
+    actor back: B(x = own, y => gap) { Done -> go, Error -> go2 }
+
+    actor go: A(x = gap) { Done -> go2 }
+}
+";
+    assert_eq!(inlined, format!("{expected}{}", &CALL[CALL.find("\nplan Align").unwrap()..]));
+}
+
+#[test]
+fn what_would_mean_something_else_is_refused() {
+    let change = |old: &str, new: &str, reason: &str| {
+        assert!(CALL.contains(old), "{old}");
+        refused(&CALL.replace(old, new), inline(), reason);
+    };
+    change("base + 1 m", "gap", "'limit' is computed from 'gap', which the sub-plan changes");
+    change(
+        "var own:   length",
+        "var own: length = 1 m",
+        "'own' begins with a value at every activation",
+    );
+    change(
+        "    start go\n\n    // goes",
+        "    start go\n    supervise all: S {}\n    // goes",
+        "the supervisors of 'Align' watch it as a whole; move them to its elements first",
+    );
+    change(
+        "scale: int = 2",
+        "scale: int = 2.5",
+        "the value of 'scale' is converted on its way in; give it the type 'int' first",
+    );
+    change("out gap:   length", "out gap: int", "'gap' and 'gap' differ in type");
+    change("limit = base + 1 m, ", "", "'limit' is not bound");
+    change("        Interrupted -> align\n", "", "'Interrupted' of the sub-plan leads nowhere");
+    change(
+        "Interrupted -> align",
+        "Interrupted -> terminate",
+        "an event of the sub-plan would end the plan as Interrupted, which it now ends as OK",
+    );
+    change(
+        "subplan align: Align",
+        "actor align: Align",
+        "'align' is no sub-plan of a plan in this file",
+    );
+}

@@ -1,0 +1,247 @@
+//! Finding items, names and comments in the tree.
+
+use std::ops::Range;
+
+use super::{Item, Refused};
+use crate::syntax::kind::Kind;
+use crate::syntax::{Node, Token};
+
+/// Where names of one kind must differ.
+pub(super) enum Scope {
+    /// The plans of a file.
+    File(Node),
+    /// Entries, elements and global supervisors of a plan.
+    Plan(Node),
+    /// The local supervisors of an element.
+    Element(Node),
+}
+
+impl Scope {
+    /// The names in it.
+    pub fn names(&self) -> Vec<String> {
+        let (node, kinds): (_, &[Kind]) = match self {
+            Scope::File(node) => (node, &[Kind::Plan]),
+            Scope::Plan(node) => (node, &[Kind::Entry, Kind::Element, Kind::Guard]),
+            Scope::Element(node) => (node, &[Kind::Guard]),
+        };
+        let items = node.children().filter(|child| kinds.contains(&child.kind()));
+        items.filter_map(|item| name_of(&item)).collect()
+    }
+}
+
+/// The scope that an item's name is in.
+pub(super) fn scope_of(root: &Node, item: &Item) -> Result<Scope, Refused> {
+    Ok(match item {
+        Item::Plan { .. } => Scope::File(root.clone()),
+        Item::Inner { plan, .. } => Scope::Plan(self::plan(root, plan)?),
+        Item::Local { plan, owner, .. } => Scope::Element(element(root, plan, owner)?),
+    })
+}
+
+/// A plan by name.
+pub(super) fn plan(root: &Node, name: &str) -> Result<Node, Refused> {
+    let found = children(root, Kind::Plan).find(|plan| is_named(plan, name));
+    found.ok_or_else(|| Refused::new(format!("there is no plan '{name}'")))
+}
+
+/// An element by name.
+pub(super) fn element(root: &Node, plan: &str, name: &str) -> Result<Node, Refused> {
+    let node = self::plan(root, plan)?;
+    let found = children(&node, Kind::Element).find(|element| is_named(element, name));
+    found.ok_or_else(|| Refused::new(format!("'{plan}' has no element '{name}'")))
+}
+
+/// The node of an item.
+pub(super) fn find(root: &Node, item: &Item) -> Result<Node, Refused> {
+    match item {
+        Item::Plan { name } => plan(root, name),
+        Item::Inner { plan, name } => inner(&self::plan(root, plan)?, name)
+            .ok_or_else(|| Refused::new(format!("'{plan}' has no '{name}'"))),
+        Item::Local { plan, owner, name } => {
+            let element = element(root, plan, owner)?;
+            let found = children(&element, Kind::Guard).find(|guard| is_named(guard, name));
+            found.ok_or_else(|| Refused::new(format!("'{owner}' has no supervisor '{name}'")))
+        }
+    }
+}
+
+/// The node of an element or supervisor.
+pub(super) fn component(root: &Node, item: &Item) -> Result<Node, Refused> {
+    let node = find(root, item)?;
+    match node.kind() {
+        Kind::Element | Kind::Guard => Ok(node),
+        _ => Err(Refused::new(format!("'{}' is no element or supervisor", item.name()))),
+    }
+}
+
+/// An entry, element or global supervisor of a plan.
+pub(super) fn inner(plan: &Node, name: &str) -> Option<Node> {
+    plan.children().find(|child| {
+        matches!(child.kind(), Kind::Entry | Kind::Element | Kind::Guard) && is_named(child, name)
+    })
+}
+
+/// The token that names an item or edge.
+pub(super) fn name_token(node: &Node) -> Option<Token> {
+    tokens(node, Kind::Name).next()
+}
+
+/// The name of an item or edge.
+pub(super) fn name_of(node: &Node) -> Option<String> {
+    name_token(node).map(|token| token.text().to_owned())
+}
+
+/// Whether an item or edge has that name.
+pub(super) fn is_named(node: &Node, name: &str) -> bool {
+    name_token(node).is_some_and(|token| token.text() == name)
+}
+
+/// The children of a kind.
+pub(super) fn children(node: &Node, kind: Kind) -> impl Iterator<Item = Node> {
+    node.children().filter(move |child| child.kind() == kind)
+}
+
+/// All nodes of a kind below a node.
+pub(super) fn below(node: &Node, kind: Kind) -> impl Iterator<Item = Node> {
+    node.descendants().filter(move |child| child.kind() == kind)
+}
+
+/// The tokens of a kind among the children of a node.
+pub(super) fn tokens(node: &Node, kind: Kind) -> impl Iterator<Item = Token> {
+    all_tokens(node).filter(move |token| token.kind() == kind)
+}
+
+fn all_tokens(node: &Node) -> impl Iterator<Item = Token> {
+    node.children_with_tokens().filter_map(|element| element.into_token())
+}
+
+/// The keyword of an item.
+pub(super) fn keyword(node: &Node) -> Option<Token> {
+    tokens(node, Kind::Keyword).next()
+}
+
+/// Whether an element is a sub-plan.
+pub(super) fn is_subplan(element: &Node) -> bool {
+    keyword(element).is_some_and(|token| token.text() == "subplan")
+}
+
+/// The name behind the colon of an element or supervisor, when it has no home.
+pub(super) fn template(component: &Node) -> Option<String> {
+    let reference = children(component, Kind::Ref).next()?;
+    single(&reference).map(|token| token.text().to_owned())
+}
+
+/// The only name of a reference; `None` with a point.
+pub(super) fn single(reference: &Node) -> Option<Token> {
+    let mut names = tokens(reference, Kind::Name);
+    names.next().filter(|_| names.next().is_none())
+}
+
+/// The target of an edge, or the entry of an output.
+pub(super) fn target(node: &Node) -> Option<Token> {
+    children(node, Kind::Target).next().and_then(|target| name_token(&target))
+}
+
+/// The edges of a component, without those of its supervisors.
+pub(super) fn edges(component: &Node) -> impl Iterator<Item = Node> {
+    children(component, Kind::Edge)
+}
+
+/// The edge of a state or event.
+pub(super) fn edge(component: &Node, outcome: &str) -> Option<Node> {
+    edges(component).find(|edge| is_named(edge, outcome))
+}
+
+/// The bindings of a component.
+pub(super) fn binds(component: &Node) -> Vec<Node> {
+    let args = children(component, Kind::Args);
+    args.flat_map(|args| args.children())
+        .filter(|child| matches!(child.kind(), Kind::BindIn | Kind::BindOut))
+        .collect()
+}
+
+/// The bytes of a token.
+pub(super) fn range(token: &Token) -> Range<usize> {
+    token.text_range().into()
+}
+
+/// The bytes from the first to the last token that means something; `None` when there is none.
+pub(super) fn solid_range(node: &Node) -> Option<Range<usize>> {
+    let solid = |token: &Token| !token.kind().is_trivia();
+    let mut tokens = node.descendants_with_tokens().filter_map(|each| each.into_token());
+    let first = tokens.find(solid)?;
+    let end = tokens.filter(solid).last().map_or(range(&first).end, |last| range(&last).end);
+    Some(range(&first).start..end)
+}
+
+/// Whether a comment stands inside a node, between its first and last token.
+pub(super) fn holds_comment(node: &Node) -> bool {
+    let Some(solid) = solid_range(node) else { return false };
+    let mut tokens = node.descendants_with_tokens().filter_map(|each| each.into_token());
+    tokens.any(|token| is_comment(&token) && solid.contains(&range(&token).start))
+}
+
+/// Whether a token is a comment or help text.
+pub(super) fn is_comment(token: &Token) -> bool {
+    token.kind().is_trivia() && token.kind() != Kind::Whitespace
+}
+
+/// The bytes of an item with the comments that belong to it.
+///
+/// A comment on the line of the token before it stays there.
+pub(super) fn own_range(node: &Node) -> Range<usize> {
+    let all = Range::<usize>::from(node.text_range());
+    let mut on_new_line = node.first_token().is_none_or(|first| is_below(&first));
+    let tokens = node.descendants_with_tokens().filter_map(|each| each.into_token());
+    for token in tokens {
+        match token.kind() {
+            Kind::Whitespace => on_new_line |= token.text().contains('\n'),
+            Kind::Comment if !on_new_line => {}
+            _ => return range(&token).start..all.end,
+        }
+    }
+    all
+}
+
+/// Whether a line break, or nothing at all, stands between a token and the solid one before it.
+fn is_below(token: &Token) -> bool {
+    let mut before = token.prev_token();
+    while let Some(token) = before {
+        if !token.kind().is_trivia() {
+            return false;
+        }
+        if token.text().contains('\n') {
+            return true;
+        }
+        before = token.prev_token();
+    }
+    true
+}
+
+/// The last solid token before a place.
+pub(super) fn solid_before(root: &Node, at: usize) -> Option<Token> {
+    let mut token = root.token_at_offset(offset(at)).left_biased();
+    while let Some(found) = token {
+        if !found.kind().is_trivia() && range(&found).end <= at {
+            return Some(found);
+        }
+        token = found.prev_token();
+    }
+    None
+}
+
+/// The first solid token behind a place.
+pub(super) fn solid_after(root: &Node, at: usize) -> Option<Token> {
+    let mut token = root.token_at_offset(offset(at)).right_biased();
+    while let Some(found) = token {
+        if !found.kind().is_trivia() && range(&found).start >= at {
+            return Some(found);
+        }
+        token = found.next_token();
+    }
+    None
+}
+
+fn offset(at: usize) -> rowan::TextSize {
+    rowan::TextSize::try_from(at).unwrap_or_default()
+}
