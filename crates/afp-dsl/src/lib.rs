@@ -11,6 +11,7 @@ pub mod edit;
 mod flow;
 mod format;
 pub mod graph;
+pub mod layout_file;
 pub mod source;
 pub mod syntax;
 pub mod timing;

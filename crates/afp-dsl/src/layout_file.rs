@@ -1,0 +1,184 @@
+//! The side file with the positions of a drawing, `plan.afp.layout`.
+//!
+//! One line for each element, sorted, so that two people who move different elements do not get in
+//! each other's way: `Plan.element X Y`, in whole steps of the canvas. Local supervisors and entries
+//! have positions too; `start`, `terminate` and `ignore` name the tags of a plan. Positions never
+//! change what a plan means, and a file with errors still gives all the others.
+
+mod read;
+
+use std::collections::BTreeMap;
+use std::fmt::{self, Write};
+
+use crate::edit::{Change, Item};
+
+/// Where something is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Position {
+    /// To the right.
+    pub x: i32,
+    /// Downwards.
+    pub y: i32,
+}
+
+/// The positions of a file's elements.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Layout {
+    /// Lines that later versions may understand, and comments, in their order.
+    unknown: Vec<String>,
+    placed: BTreeMap<Item, Placed>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Placed {
+    position: Position,
+    /// What stands behind the position.
+    rest: String,
+}
+
+/// A line that cannot be used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LayoutError {
+    /// The line, from 1.
+    pub line: usize,
+    /// The column, from 1, in characters.
+    pub column: usize,
+    /// What is wrong there: lower case, no final period.
+    pub message: String,
+}
+
+impl fmt::Display for LayoutError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}: {}", self.line, self.column, self.message)
+    }
+}
+
+impl std::error::Error for LayoutError {}
+
+impl Layout {
+    /// Reads the text of a layout file.
+    ///
+    /// Lines that do not begin with the path of an item are kept for [`Layout::write`]. A path with
+    /// a wrong position, or placed a second time, is an error and left out.
+    pub fn read(text: &str) -> (Layout, Vec<LayoutError>) {
+        read::read(text)
+    }
+
+    /// The text of the file: unknown lines first, then the positions sorted by path.
+    pub fn write(&self) -> String {
+        let mut text = String::new();
+        for line in &self.unknown {
+            text += &format!("{line}\n");
+        }
+        let mut lines: Vec<_> =
+            self.placed.iter().map(|(item, placed)| (item.to_string(), placed)).collect();
+        lines.sort_by(|a, b| a.0.cmp(&b.0));
+        for (path, Placed { position, rest }) in lines {
+            let gap = if rest.is_empty() { "" } else { " " };
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{path} {} {}{gap}{rest}", position.x, position.y);
+        }
+        text
+    }
+
+    /// Where an item is drawn; `None` leaves it to the automatic layout.
+    pub fn get(&self, item: &Item) -> Option<Position> {
+        self.placed.get(item).map(|placed| placed.position)
+    }
+
+    /// Places an item.
+    pub fn set(&mut self, item: Item, position: Position) {
+        match self.placed.get_mut(&item) {
+            Some(placed) => placed.position = position,
+            None => {
+                self.placed.insert(item, Placed { position, rest: String::new() });
+            }
+        }
+    }
+
+    /// Leaves an item to the automatic layout, and what belongs to it.
+    pub fn remove(&mut self, item: &Item) {
+        self.placed.retain(|known, _| !belongs(known, item));
+    }
+
+    /// All items that have a position, in the order of their names.
+    pub fn iter(&self) -> impl Iterator<Item = (&Item, Position)> {
+        self.placed.iter().map(|(item, placed)| (item, placed.position))
+    }
+
+    /// Gives items their new names, places and plans after a change of the text.
+    ///
+    /// What a change adds has no position. Elements that are extracted keep theirs in the new plan,
+    /// the sub-plan stands where the first of them stood; elements that are inlined are left to the
+    /// automatic layout.
+    pub fn follow(&mut self, change: &Change) {
+        match change {
+            Change::Remove { item } => self.remove(item),
+            Change::Rename { item, to } => self.rename(item, to),
+            Change::Move { item, plan, owner } => {
+                let name = item.name();
+                let to = match owner {
+                    Some(owner) => Item::local(plan, owner, name),
+                    None => Item::inner(plan, name),
+                };
+                self.relocate(|known| moved(known, item, &to));
+            }
+            Change::Extract { plan, elements, new_plan, element } => {
+                let first = elements.iter().find_map(|name| self.get(&Item::inner(plan, name)));
+                for name in elements {
+                    let (from, to) = (Item::inner(plan, name), Item::inner(new_plan, name));
+                    self.relocate(|known| moved(known, &from, &to));
+                }
+                if let Some(position) = first {
+                    self.set(Item::inner(plan, element), position);
+                }
+            }
+            Change::Inline { plan, element } => self.remove(&Item::inner(plan, element)),
+            _ => {}
+        }
+    }
+
+    fn rename(&mut self, item: &Item, to: &str) {
+        let renamed = match item {
+            Item::Plan { .. } => Item::plan(to),
+            Item::Inner { plan, .. } => Item::inner(plan, to),
+            Item::Local { plan, owner, .. } => Item::local(plan, owner, to),
+        };
+        self.relocate(|known| moved(known, item, &renamed));
+    }
+
+    fn relocate(&mut self, place: impl Fn(&Item) -> Item) {
+        let old = std::mem::take(&mut self.placed);
+        self.placed = old.into_iter().map(|(item, placed)| (place(&item), placed)).collect();
+    }
+}
+
+/// Whether an item is another one or lies in it.
+fn belongs(known: &Item, item: &Item) -> bool {
+    match (item, known) {
+        (Item::Plan { name }, _) => known.plan_name() == name,
+        (Item::Inner { plan, name }, Item::Local { plan: home, owner, .. }) => {
+            (plan, name) == (home, owner)
+        }
+        _ => known == item,
+    }
+}
+
+/// The new path of an item when `from`, which it may lie in, becomes `to`.
+fn moved(known: &Item, from: &Item, to: &Item) -> Item {
+    match (known, from, to) {
+        _ if !belongs(known, from) => known.clone(),
+        _ if known == from => to.clone(),
+        (Item::Inner { name, .. }, _, Item::Plan { name: plan }) => Item::inner(plan, name),
+        (Item::Local { owner, name, .. }, _, Item::Plan { name: plan }) => {
+            Item::local(plan, owner, name)
+        }
+        (Item::Local { name, .. }, _, Item::Inner { plan, name: owner }) => {
+            Item::local(plan, owner, name)
+        }
+        _ => known.clone(),
+    }
+}
+
+#[cfg(test)]
+mod tests;

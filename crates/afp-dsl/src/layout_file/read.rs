@@ -1,0 +1,88 @@
+//! Reading a layout file, line by line.
+
+use super::{Layout, LayoutError, Placed, Position};
+use crate::edit::Item;
+
+/// Reads all lines; those with errors are left out.
+pub(super) fn read(text: &str) -> (Layout, Vec<LayoutError>) {
+    let mut layout = Layout::default();
+    let mut errors = Vec::new();
+    for (place, line) in text.lines().enumerate() {
+        if let Err((column, message)) = self::line(line.trim_end(), &mut layout) {
+            errors.push(LayoutError { line: place + 1, column, message });
+        }
+    }
+    (layout, errors)
+}
+
+/// Reads a line; an error has its column.
+fn line(line: &str, layout: &mut Layout) -> Result<(), (usize, String)> {
+    let mut words = Words { line, at: 0 };
+    let path = words.next();
+    let Some(item) = item(path) else {
+        if !line.is_empty() {
+            layout.unknown.push(line.to_owned());
+        }
+        return Ok(());
+    };
+    let column = words.column();
+    let x = number(words.next(), column)?;
+    let column = words.column();
+    let y = number(words.next(), column)?;
+    if layout.placed.contains_key(&item) {
+        return Err((1, format!("'{path}' is placed already")));
+    }
+    let rest = words.rest().to_owned();
+    layout.placed.insert(item, Placed { position: Position { x, y }, rest });
+    Ok(())
+}
+
+fn number(word: &str, column: usize) -> Result<i32, (usize, String)> {
+    let found =
+        if word.is_empty() { "the end of the line".to_owned() } else { format!("'{word}'") };
+    word.parse().map_err(|_| (column, format!("expected a whole number, found {found}")))
+}
+
+/// The item of a path with two or three names.
+fn item(path: &str) -> Option<Item> {
+    let names: Vec<_> = path.split('.').collect();
+    if !names.iter().all(|name| is_name(name)) {
+        return None;
+    }
+    match names.as_slice() {
+        [plan, name] => Some(Item::inner(*plan, *name)),
+        [plan, owner, name] => Some(Item::local(*plan, *owner, *name)),
+        _ => None,
+    }
+}
+
+fn is_name(word: &str) -> bool {
+    word.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_')
+        && word.chars().all(|each| each.is_ascii_alphanumeric() || each == '_')
+}
+
+/// The words of a line and their columns.
+struct Words<'t> {
+    line: &'t str,
+    at: usize,
+}
+
+impl<'t> Words<'t> {
+    fn next(&mut self) -> &'t str {
+        let rest = self.rest();
+        let word = rest.split_whitespace().next().unwrap_or_default();
+        self.at = self.line.len() - rest.len() + word.len();
+        word
+    }
+
+    /// What is left, without blanks before it.
+    fn rest(&self) -> &'t str {
+        self.line[self.at..].trim_start()
+    }
+
+    /// The column of the next word, from 1.
+    fn column(&self) -> usize {
+        let next = self.line.len() - self.rest().len();
+        self.line[..next].chars().count() + 1
+    }
+}

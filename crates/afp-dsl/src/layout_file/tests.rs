@@ -1,0 +1,106 @@
+//! Layout files: read, written, and carried along with changes.
+
+use proptest::prelude::*;
+
+use super::{Layout, LayoutError, Position};
+use crate::edit::{Change, Item};
+
+const FILE: &str = "\
+# placed by hand
+zoom 120
+P.back 300 -40
+P.go 10 20 folded wide
+P.go.touch 12 60
+Q.go 0 0
+";
+
+fn read(text: &str) -> Layout {
+    let (layout, errors) = Layout::read(text);
+    assert_eq!(errors, []);
+    layout
+}
+
+fn after(change: Change) -> String {
+    let mut layout = read(FILE);
+    layout.follow(&change);
+    layout.write()
+}
+
+#[test]
+fn what_is_read_is_written() {
+    let layout = read(FILE);
+    assert_eq!(layout.write(), FILE);
+    assert_eq!(layout.get(&Item::inner("P", "back")), Some(Position { x: 300, y: -40 }));
+    assert_eq!(layout.get(&Item::local("P", "go", "touch")), Some(Position { x: 12, y: 60 }));
+    assert_eq!(layout.get(&Item::inner("P", "touch")), None);
+    assert_eq!(read("P.b 1 1\r\n\n  P.a   2  2 \n").write(), "P.a 2 2\nP.b 1 1\n");
+}
+
+#[test]
+fn lines_are_sorted_as_texts_are() {
+    let mut layout = Layout::default();
+    for name in ["b", "a_b", "aB", "a"] {
+        layout.set(Item::inner("P", name), Position { x: 1, y: 2 });
+    }
+    layout.set(Item::local("P", "a", "z"), Position { x: 1, y: 2 });
+    assert_eq!(layout.write(), "P.a 1 2\nP.a.z 1 2\nP.aB 1 2\nP.a_b 1 2\nP.b 1 2\n");
+}
+
+#[test]
+fn errors_have_a_place_and_spoil_nothing_else() {
+    let (layout, errors) =
+        Layout::read("P.a 1\nP.b 1 2\nP.b 3 4\n  P.ä 1 2\nP.c 1.5 2\n  P.d 1 99999999999\n");
+    let error = |line, column, message: &str| LayoutError { line, column, message: message.into() };
+    let expected = [
+        error(1, 6, "expected a whole number, found the end of the line"),
+        error(3, 1, "'P.b' is placed already"),
+        error(5, 5, "expected a whole number, found '1.5'"),
+        error(6, 9, "expected a whole number, found '99999999999'"),
+    ];
+    assert_eq!(errors, expected);
+    assert_eq!(errors[0].to_string(), "1:6: expected a whole number, found the end of the line");
+    assert_eq!(layout.write(), "  P.ä 1 2\nP.b 1 2\n");
+}
+
+#[test]
+fn positions_follow_names() {
+    let rename = |item: Item, to: &str| after(Change::Rename { item, to: to.into() });
+    let go = rename(Item::inner("P", "go"), "drive");
+    assert_eq!(go, FILE.replace("P.go", "P.drive"));
+    assert_eq!(rename(Item::local("P", "go", "touch"), "bump"), FILE.replace("touch", "bump"));
+    assert_eq!(rename(Item::plan("P"), "A"), FILE.replace("P.", "A."));
+}
+
+#[test]
+fn positions_follow_other_changes() {
+    let go = || Item::inner("P", "go");
+    let removed = after(Change::Remove { item: go() });
+    assert_eq!(removed, "# placed by hand\nzoom 120\nP.back 300 -40\nQ.go 0 0\n");
+    let moved = after(Change::Move { item: go(), plan: "R".into(), owner: None });
+    assert!(moved.ends_with("Q.go 0 0\nR.go 10 20 folded wide\nR.go.touch 12 60\n"), "{moved}");
+    let owner = Some("back".to_owned());
+    let touch = Item::local("P", "go", "touch");
+    let moved = after(Change::Move { item: touch, plan: "P".into(), owner });
+    assert!(moved.contains("P.back 300 -40\nP.back.touch 12 60\nP.go 10"), "{moved}");
+    let extracted = after(Change::Extract {
+        plan: "P".into(),
+        elements: vec!["go".into()],
+        new_plan: "R".into(),
+        element: "inner".into(),
+    });
+    assert!(extracted.contains("P.back 300 -40\nP.inner 10 20\nQ.go 0 0\nR.go 10"), "{extracted}");
+    let inlined = after(Change::Inline { plan: "P".into(), element: "back".into() });
+    assert_eq!(inlined, FILE.replace("P.back 300 -40\n", ""));
+}
+
+proptest! {
+    #[test]
+    fn any_text_is_read_and_what_is_written_is_read_again(text in "([A-C]\\.[a-c](\\.[a-c])? -?[0-9]{1,3} -?[0-9]{1,12}( \\PC{0,5})?\n|\\PC{0,9}\n){0,20}") {
+        let (layout, _) = Layout::read(&text);
+        let written = layout.write();
+        let (again, errors) = Layout::read(&written);
+        prop_assert_eq!(errors, vec![]);
+        prop_assert_eq!(&again, &layout);
+        prop_assert_eq!(again.write(), written);
+    }
+}
