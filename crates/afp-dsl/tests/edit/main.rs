@@ -2,12 +2,13 @@
 //! is removed.
 
 mod changes;
+mod compiled;
 mod model;
 mod mutate;
 
 use std::collections::BTreeMap;
 
-use afp_dsl::edit::{Change, Item, apply, edit};
+use afp_dsl::edit::{Binding, Change, Item, apply, edit};
 use proptest::prelude::*;
 
 use changes::{Pick, change};
@@ -131,5 +132,91 @@ proptest! {
         let edits = edit(&inlined, &remove).unwrap();
         let back = apply(&inlined, &edits);
         prop_assert_eq!(Model::of(&back).sorted(), model.sorted(), "{}\n---\n{}", before, back);
+    }
+}
+
+/// Words that fit many changes and texts.
+const WORDS: &[&str] = &[
+    "P",
+    "x",
+    "y",
+    "z",
+    "l",
+    "g",
+    "a",
+    "b",
+    "S",
+    "new",
+    "terminate",
+    "in",
+    "3 cm",
+    "-(a + 1)",
+    "",
+];
+
+/// A change of any kind, about items that may be there.
+fn any_change(which: u8, words: [&str; 4]) -> Change {
+    let [one, two, three, four] = words.map(str::to_owned);
+    let some = |word: String| (!word.is_empty()).then_some(word);
+    let item = match which / 32 % 3 {
+        0 => Item::plan(&one),
+        1 => Item::inner("P", &one),
+        _ => Item::local("P", "x", &one),
+    };
+    let plan = "P".to_owned();
+    match which % 21 {
+        0 => Change::AddUse { toolbox: one, alias: some(two) },
+        1 => Change::AddPlan { text: format!("plan {one} {{ {two} }}") },
+        2 => Change::Add { plan, owner: None, text: format!("var {one}: int"), before: some(two) },
+        3 => {
+            let text = format!("supervise {one}: G {{}}");
+            Change::Add { plan, owner: some(two), text, before: some(three) }
+        }
+        4 => Change::Remove { item },
+        5 => Change::Rename { item, to: two },
+        6 => Change::Connect { from: item, outcome: two, to: three },
+        7 => Change::Disconnect { from: item, outcome: two },
+        8 => Change::SetStart { plan, to: one },
+        9 => Change::Reorder { item, before: some(two) },
+        10 => Change::Bind { component: item, port: two, to: Binding::In(three) },
+        11 => Change::Bind { component: item, port: two, to: Binding::Out(three) },
+        12 => Change::Unbind { component: item, port: two },
+        13 => Change::SetTemplate { component: item, template: two },
+        14 => Change::SetTiming { supervisor: item, keyword: "every".into(), value: some(two) },
+        15 => Change::SetEntryKind { entry: item, keyword: two },
+        16 => Change::SetEntryType { entry: item, ty: some(two) },
+        17 => Change::SetEntryValue { entry: item, value: some(two) },
+        18 => Change::SetDoc { item, text: two },
+        19 => Change::Move { item, plan: two, owner: some(three) },
+        _ => Change::Extract { plan, elements: vec![one, two], new_plan: three, element: four },
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1024))]
+
+    /// A broken text is changed, or the change is refused; a whole one stays whole.
+    #[test]
+    fn any_change_of_any_patchwork_is_answered(
+        base in any::<prop::sample::Index>(),
+        cuts in prop::collection::vec((any::<u16>(), 0..20_usize, 0..WORDS.len()), 0..4),
+        which in any::<u8>(),
+        words in any::<[prop::sample::Index; 4]>(),
+    ) {
+        let mut text: Vec<char> = PLANS[base.index(PLANS.len())].chars().collect();
+        for (place, length, word) in cuts {
+            let from = usize::from(place) % (text.len() + 1);
+            text.splice(from..(from + length).min(text.len()), WORDS[word].chars());
+        }
+        let text: String = text.into_iter().collect();
+        let change = any_change(which, words.map(|word| WORDS[word.index(WORDS.len())]));
+        let Ok(edits) = edit(&text, &change) else { return Ok(()) };
+        for pair in edits.windows(2) {
+            prop_assert!(pair[0].span.end <= pair[1].span.start, "{:?}", edits);
+        }
+        let after = apply(&text, &edits);
+        if afp_dsl::format(&text).is_ok() {
+            prop_assert!(afp_dsl::format(&after).is_ok(), "{:?}\n{}\n---\n{}", change, text, after);
+        }
     }
 }
