@@ -14,7 +14,6 @@ pub const TEST: &[Suite] = &[
     ("xtask", || run_command(cargo().args(["test", "--package", "xtask"]))),
     ("python", python::run),
     ("gate", gate::run),
-    ("install", install::run),
 ];
 
 /// What `cargo xtask nightly` runs.
@@ -89,6 +88,7 @@ fn again(name: &str) -> String {
         "random plans" => {
             format!("    AFP_RANDOM_PLANS={RANDOM_PLANS} cargo test -p afp-tests random")
         }
+        "install" => "    cargo xtask nightly".to_owned(),
         "benchmarks" => "    cargo xtask bench --check".to_owned(),
         other => format!("    cargo xtask test {other}"),
     }
@@ -98,7 +98,8 @@ fn again(name: &str) -> String {
 fn workspace() -> Result<(), Failure> {
     let all =
         ["test", "--workspace", "--no-fail-fast", "--exclude", "afp-bench", "--exclude", "xtask"];
-    run_command(cargo().args(all))
+    // Property tests search anew at each run by hand; here the same commit gives the same answer.
+    run_command(cargo().args(all).env("PROPTEST_RNG_SEED", "20"))
 }
 
 /// The interpreter against generated code on many random plans.
