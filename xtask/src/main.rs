@@ -1,7 +1,8 @@
-//! Chores of the project: `cargo xtask test`, `bench`, `gate`, `nightly`, `lint`.
+//! Chores of the project: `cargo xtask test`, `bench`, `gate`, `nightly`, `lint`, `book`.
 //!
 //! Each says what it runs, how long it took, and how to run just what failed.
 
+mod book;
 mod gate;
 mod image;
 mod install;
@@ -42,6 +43,8 @@ enum Chore {
     Nightly,
     /// Checks formatting and lints.
     Lint,
+    /// Renders the book of docs/ with mdBook.
+    Book,
 }
 
 fn main() -> ExitCode {
@@ -51,6 +54,7 @@ fn main() -> ExitCode {
         Chore::Gate => gate::run(),
         Chore::Nightly => suites::run(suites::NIGHTLY, &[]),
         Chore::Lint => suites::run(suites::LINT, &[]),
+        Chore::Book => book::run(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

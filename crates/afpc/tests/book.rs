@@ -1,0 +1,155 @@
+//! The commands in the book do what the book shows, and every option is in it.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use afp_book::{Block, blocks, pages};
+use tempfile::TempDir;
+
+const AFPC: &str = env!("CARGO_BIN_EXE_afpc");
+
+/// Commands of others that `sh` blocks may have; nothing runs them.
+const FOREIGN: &[&str] = &["cargo", "git", "mdbook", "cd"];
+
+fn docs() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs")
+}
+
+#[test]
+fn commands_print_what_the_book_shows() {
+    let mut wrong = Vec::new();
+    let mut page = Page::new("");
+    for block in blocks(&docs()).unwrap() {
+        if page.name != block.page {
+            page = Page::new(&block.page);
+        }
+        if let Err(why) = page.take(&block) {
+            wrong.push(format!("{}: {why}", block.place()));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A folder with the files that a page has shown so far.
+struct Page {
+    name: String,
+    folder: TempDir,
+    /// What the last command ended with.
+    code: i32,
+}
+
+impl Page {
+    fn new(name: &str) -> Page {
+        Page { name: name.to_owned(), folder: tempfile::tempdir().unwrap(), code: 0 }
+    }
+
+    fn take(&mut self, block: &Block) -> Result<(), String> {
+        if let Some(name) = block.value("file") {
+            let path = self.folder.path().join(name);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, &block.text).unwrap();
+        }
+        match block.kind.as_str() {
+            "console" => self.console(&block.text),
+            "sh" => block.text.lines().try_for_each(|line| self.shell(line)),
+            _ => Ok(()),
+        }
+    }
+
+    /// Commands behind `$ `, each with what it prints.
+    fn console(&mut self, text: &str) -> Result<(), String> {
+        let text = text.strip_prefix("$ ").ok_or("does not begin with '$ '")?;
+        for part in text.split("\n$ ") {
+            let (command, wanted) = part.split_once('\n').unwrap_or((part, ""));
+            let printed = self.run(command)?;
+            if !fits(&lines(wanted), &lines(&printed)) {
+                return Err(format!("'{command}' prints\n{printed}"));
+            }
+        }
+        Ok(())
+    }
+
+    /// A command that shall succeed.
+    fn shell(&mut self, line: &str) -> Result<(), String> {
+        let command = line.split(" #").next().unwrap_or_default().trim();
+        let first = command.split(' ').next().unwrap_or_default();
+        if command.is_empty() || FOREIGN.contains(&first) {
+            return Ok(());
+        }
+        let printed = self.run(command)?;
+        match self.code {
+            0 => Ok(()),
+            code => Err(format!("'{command}' ends with {code}:\n{printed}")),
+        }
+    }
+
+    /// What a command prints, on both outputs in the order of a terminal.
+    fn run(&mut self, command: &str) -> Result<String, String> {
+        if command == "echo $?" {
+            return Ok(format!("{}\n", self.code));
+        }
+        let arguments = command.strip_prefix("afpc ").ok_or(format!("'{command}' is not run"))?;
+        let path = self.folder.path().join(".printed");
+        let printed = File::create(&path).unwrap();
+        let mut afpc = Command::new(AFPC);
+        afpc.args(arguments.split_whitespace()).current_dir(self.folder.path());
+        afpc.stdin(Stdio::null()).stderr(printed.try_clone().unwrap()).stdout(printed);
+        self.code = afpc.status().unwrap().code().unwrap_or(-1);
+        Ok(fs::read_to_string(path).unwrap())
+    }
+}
+
+/// The lines of a text without blanks at their ends and empty lines at its end.
+fn lines(text: &str) -> Vec<&str> {
+    text.trim_end().lines().map(str::trim_end).collect()
+}
+
+/// Whether lines are those wanted; a wanted `...` stands for any number of lines, within a line for
+/// any text.
+fn fits(wanted: &[&str], lines: &[&str]) -> bool {
+    match wanted.split_first() {
+        None => lines.is_empty(),
+        Some((&"...", rest)) => (0..=lines.len()).any(|skipped| fits(rest, &lines[skipped..])),
+        Some((line, rest)) => {
+            lines.first().is_some_and(|first| line_fits(line, first)) && fits(rest, &lines[1..])
+        }
+    }
+}
+
+fn line_fits(wanted: &str, line: &str) -> bool {
+    match wanted.split_once("...") {
+        None => wanted == line,
+        Some((before, after)) => {
+            let long = line.len() >= before.len() + after.len();
+            long && line.starts_with(before) && line.ends_with(after)
+        }
+    }
+}
+
+#[test]
+fn every_command_and_option_is_on_the_page_of_the_command_line() {
+    let pages = pages(&docs()).unwrap();
+    let (_, page) = pages.iter().find(|(name, _)| name == "command-line").unwrap();
+    let help = |command: &str| {
+        let output = Command::new(AFPC).args([command, "--help"]).output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let all = help("help");
+    let commands = all.lines().skip_while(|line| *line != "Commands:").skip(1);
+    for line in commands.take_while(|line| !line.is_empty()) {
+        let command = line.split_whitespace().next().unwrap();
+        let heading = format!("\n## afpc {command}\n");
+        let Some((_, section)) = page.split_once(&heading) else {
+            assert_eq!(command, "help", "no section of 'afpc {command}'");
+            continue;
+        };
+        let section = section.split("\n## ").next().unwrap();
+        for word in help(command).lines().filter_map(|line| line.split("--").nth(1)) {
+            let option: String =
+                word.chars().take_while(|c| c.is_ascii_lowercase() || *c == '-').collect();
+            let there = option == "help" || section.contains(&format!("--{option}"));
+            assert!(there, "'afpc {command} --{option}' is not in the book");
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Plans and toolboxes in the book.
+
+use std::collections::BTreeMap;
+
+use afp_book::Block;
+use afp_dsl::diagnostics::Diagnostics;
+use afp_dsl::source::Source;
+use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::{compile, format, syntax};
+
+use crate::{blocks, toolboxes};
+
+/// Texts around a fragment that make it a file: none, a plan's body, an element's, a template's.
+const FRAMES: &[(&str, &str)] = &[
+    ("", ""),
+    ("plan P {\n", "}\n"),
+    ("plan P { actor a: T {\n", "}}\n"),
+    ("toolbox t\nactor T {\n", "}\n"),
+];
+
+#[test]
+fn plans_and_toolboxes_say_what_the_book_says() {
+    let mut toolboxes_of: BTreeMap<String, Toolboxes> = BTreeMap::new();
+    let mut wrong = Vec::new();
+    for block in blocks("afp") {
+        let own = toolboxes_of.entry(block.page.clone()).or_insert_with(toolboxes);
+        if let Some(why) = check(&block, own) {
+            wrong.push(format!("{}: {why}", block.place()));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// What is wrong with a block; a toolbox is there for the plans behind it on the page.
+fn check(block: &Block, toolboxes: &mut Toolboxes) -> Option<String> {
+    let name = block.value("file").unwrap_or("block.afp");
+    let source = Source::new(name, block.text.as_str());
+    if block.has("fragment") {
+        return fragment(&block.text);
+    }
+    let (diags, rendered) = match is_toolbox(&block.text) {
+        true => {
+            let mut alone = Toolboxes::default();
+            alone.add(source.clone(), "crate");
+            if block.value("file").is_some() {
+                toolboxes.add(source, "crate");
+            }
+            (alone.diagnostics().clone(), alone.diagnostics().render(alone.sources(), false))
+        }
+        false => {
+            let compiled = compile(&source, toolboxes);
+            (compiled.diags.clone(), compiled.render(false))
+        }
+    };
+    match block.value("error") {
+        Some(codes) => {
+            let found: Vec<_> = diags.iter().map(|each| each.code.as_str()).collect();
+            let found = found.join("+");
+            (found != codes).then(|| format!("expected {codes}, found '{found}'\n{rendered}"))
+        }
+        None if !diags.is_empty() => Some(rendered),
+        None => match format(&block.text) {
+            Ok(canonical) if canonical == block.text => None,
+            Ok(canonical) => Some(format!("'afpc fmt' writes it so:\n{canonical}")),
+            Err(_) => Some("it cannot be formatted".to_owned()),
+        },
+    }
+}
+
+/// Why a part of a file is no part of any file.
+fn fragment(text: &str) -> Option<String> {
+    let fits = |(before, after): &(&str, &str)| {
+        let mut diags = Diagnostics::default();
+        syntax::parse(&format!("{before}{text}{after}"), 0, &mut diags);
+        diags.is_empty()
+    };
+    (!FRAMES.iter().any(fits)).then(|| "the fragment fits nowhere".to_owned())
+}
+
+fn is_toolbox(text: &str) -> bool {
+    text.lines().any(|line| line.starts_with("toolbox "))
+}

@@ -1,0 +1,50 @@
+//! The book shows what is there: its blocks compile, its lists are whole, its links lead somewhere.
+//!
+//! What `afpc` prints in it is compared by a test of `afpc`. `AFP_BLESS=1` rewrites the lists.
+
+mod afp_blocks;
+mod grammar;
+mod lists;
+mod pages;
+mod rust_blocks;
+mod toml_blocks;
+
+use std::path::{Path, PathBuf};
+
+use afp_book::Block;
+use afp_dsl::source::Source;
+use afp_dsl::toolbox::Toolboxes;
+
+/// The book's folder.
+fn docs() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(afp_book::DOCS)
+}
+
+/// All blocks of a kind.
+fn blocks(kind: &str) -> Vec<Block> {
+    let mut blocks = afp_book::blocks(&docs()).unwrap();
+    blocks.retain(|block| block.kind == kind);
+    blocks
+}
+
+/// The built-in toolboxes.
+fn toolboxes() -> Toolboxes {
+    let mut toolboxes = Toolboxes::default();
+    for builtin in afp_toolboxes::ALL {
+        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
+    }
+    toolboxes
+}
+
+/// Compares a text of the book with what it should be; with `AFP_BLESS=1` rewrites it instead.
+#[track_caller]
+fn compare(file: &str, actual: &str, wanted: &str) {
+    if actual != wanted && std::env::var_os("AFP_BLESS").is_some() {
+        std::fs::write(docs().join(file), wanted).unwrap();
+        return;
+    }
+    assert!(
+        actual == wanted,
+        "docs/{file} is behind; AFP_BLESS=1 cargo test -p afp-book writes:\n{wanted}"
+    );
+}

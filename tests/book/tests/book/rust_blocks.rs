@@ -1,0 +1,12 @@
+//! The Rust in the book: it compiles here, and its tests and programs run.
+
+use crate::blocks;
+
+include!(concat!(env!("OUT_DIR"), "/rust.rs"));
+
+#[test]
+fn rust_is_compiled_whole() {
+    for block in blocks("rust") {
+        assert!(block.tags.is_empty(), "{}: Rust has no tags", block.place());
+    }
+}

@@ -1,0 +1,52 @@
+//! Worlds, project files and manifests in the book.
+
+use afp_book::Block;
+use afp_dsl::timing;
+use afp_run::settings::Settings;
+use afp_sim::World;
+use toml_edit::DocumentMut;
+
+use crate::blocks;
+
+#[test]
+fn files_in_toml_are_read() {
+    for block in blocks("toml") {
+        let read = match () {
+            () if block.has("world") => {
+                World::parse(&block.text).map(drop).map_err(|e| e.to_string())
+            }
+            () if block.has("project") => project(&block),
+            () if block.has("cargo") => manifest(&block),
+            () => Err("says neither 'world' nor 'project' nor 'cargo'".to_owned()),
+        };
+        assert_eq!(read, Ok(()), "{}", block.place());
+    }
+}
+
+fn project(block: &Block) -> Result<(), String> {
+    let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
+    std::fs::write(folder.path().join("afp.toml"), &block.text)
+        .map_err(|error| error.to_string())?;
+    timing::targets(&block.text).map_err(|error| error.to_string())?;
+    Settings::find(folder.path()).map(drop).map_err(|error| error.to_string())
+}
+
+/// A manifest names only crates of this workspace among those called `afp`, with features they have.
+fn manifest(block: &Block) -> Result<(), String> {
+    let document: DocumentMut = block.text.parse().map_err(|error| format!("{error}"))?;
+    let tables = ["dependencies", "dev-dependencies"]
+        .into_iter()
+        .filter_map(|name| document.get(name)?.as_table());
+    for (name, item) in tables.flat_map(|table| table.iter()) {
+        let folder = format!("{}/../../crates/{name}/Cargo.toml", env!("CARGO_MANIFEST_DIR"));
+        let theirs = std::fs::read_to_string(folder).map_err(|_| format!("no crate '{name}'"))?;
+        let theirs: DocumentMut = theirs.parse().map_err(|error| format!("{error}"))?;
+        let features = item.get("features").and_then(|features| features.as_array());
+        for feature in features.into_iter().flatten().filter_map(|feature| feature.as_str()) {
+            if theirs.get("features").and_then(|all| all.get(feature)).is_none() {
+                return Err(format!("'{name}' has no feature '{feature}'"));
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,23 @@
+//! Renders the book, for reading; its tests need none of this.
+
+use std::io::ErrorKind;
+
+use crate::shell::{Failure, program, root, run as run_command, target};
+
+/// Builds `docs/` with mdBook into `book/` of the target folder.
+///
+/// # Errors
+/// There is no mdBook, or it finds something wrong.
+pub fn run() -> Result<(), Failure> {
+    if let Err(error) = program("mdbook").arg("--version").output()
+        && error.kind() == ErrorKind::NotFound
+    {
+        let why = "error: there is no mdbook\n  help: 'cargo install mdbook --locked' gets it";
+        return Err(Failure(why.to_owned()));
+    }
+    let book = target().join("book");
+    run_command(program("mdbook").args(["build", "docs", "--dest-dir"]).arg(&book))?;
+    let page = root().join(book).join("index.html");
+    println!("{}", page.display());
+    Ok(())
+}
