@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use afp_dsl::diagnostics::Diagnostics;
 use afp_dsl::syntax::{self, Kind};
 
-use crate::blocks;
+use crate::{blocks, docs};
 use ebnf::Grammar;
 
 /// Random files that the parser must take.
@@ -53,6 +53,15 @@ fn the_words_of_the_grammar_are_those_of_the_parser() {
             assert!(known, "'{word}' in {} is not in the grammar", file.display());
         }
     }
+}
+
+#[test]
+fn the_words_that_the_book_colours_are_those_of_the_grammar() {
+    let script = fs::read_to_string(docs().join("theme/afp.js")).unwrap();
+    let (_, list) = script.split_once("const words =").unwrap();
+    let list = list.split(';').next().unwrap().replace(['"', '+'], " ");
+    let coloured: BTreeSet<String> = list.split_whitespace().map(str::to_owned).collect();
+    assert_eq!(coloured, grammar().words());
 }
 
 /// The words of the language in a text.
