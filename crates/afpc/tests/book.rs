@@ -31,17 +31,23 @@ fn commands_print_what_the_book_shows() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// How long the plans of the book are tried.
+const TRIAL: &str = "--until 15s --log none --svg none";
+
 /// A folder with the files that a page has shown so far.
 struct Page {
     name: String,
     folder: TempDir,
     /// What the last command ended with.
     code: i32,
+    /// Whether a toolbox is declared on the page: its Rust is tried elsewhere.
+    own_toolbox: bool,
 }
 
 impl Page {
     fn new(name: &str) -> Page {
-        Page { name: name.to_owned(), folder: tempfile::tempdir().unwrap(), code: 0 }
+        let folder = tempfile::tempdir().unwrap();
+        Page { name: name.to_owned(), folder, code: 0, own_toolbox: false }
     }
 
     fn take(&mut self, block: &Block) -> Result<(), String> {
@@ -52,9 +58,22 @@ impl Page {
         }
         match block.kind.as_str() {
             "console" => self.console(&block.text),
+            "afp" => self.plan(block),
             "sh" => block.text.lines().try_for_each(|line| self.shell(line)),
             _ => Ok(()),
         }
+    }
+
+    /// A complete plan runs, and no fault ends it.
+    fn plan(&mut self, block: &Block) -> Result<(), String> {
+        self.own_toolbox |= block.text.lines().any(|line| line.starts_with("toolbox "));
+        if self.own_toolbox || block.has("fragment") || block.value("error").is_some() {
+            return Ok(());
+        }
+        let name = block.value("file").unwrap_or("block.afp");
+        fs::write(self.folder.path().join(name), &block.text).unwrap();
+        let set = block.value("set").map(|set| format!("--set {set}")).unwrap_or_default();
+        self.shell(&format!("afpc run {name} {TRIAL} {set}"))
     }
 
     /// Commands behind `$ `, each with what it prints.

@@ -4,7 +4,7 @@
 //!
 //! | fence | how it is checked |
 //! |---|---|
-//! | `afp` | a plan or toolbox that compiles without a diagnostic, in canonical form |
+//! | `afp` | a plan or toolbox that compiles without a diagnostic, in canonical form; the plan runs |
 //! | `afp,fragment` | a part of one, without syntax errors |
 //! | `afp,error=E0203+E0211` | exactly these codes |
 //! | `rust` | compiled with the Rust above it on the page; its tests run |
@@ -14,7 +14,7 @@
 //! | `ebnf` | the grammar: the parser takes random sentences of it |
 //! | `text` | nothing: drawings |
 //!
-//! `file=NAME` puts a block's text into a file of that name, for the blocks after it on the page.
+//! `set=ENTRY=VALUE` gives a plan an input that it needs to run. `file=NAME` puts a block's text into a file of that name, for the blocks after it on the page.
 
 pub mod rust;
 
