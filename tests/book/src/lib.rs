@@ -12,7 +12,6 @@
 //! | `sh` | commands; those of `afpc` succeed |
 //! | `toml,world`, `toml,project`, `toml,cargo` | read as a world, as `afp.toml`, as a manifest |
 //! | `ebnf` | the grammar: the parser takes random sentences of it |
-//! | `text` | nothing: drawings |
 //!
 //! `set=ENTRY=VALUE` gives a plan an input that it needs to run. `file=NAME` puts a block's text into a file of that name, for the blocks after it on the page.
 

@@ -6,8 +6,8 @@ use afp_book::{blocks, pages};
 
 use crate::docs;
 
-/// The kinds of blocks that a test looks at, and drawings.
-const KINDS: &[&str] = &["afp", "rust", "toml", "console", "sh", "ebnf", "text"];
+/// The kinds of blocks that a test looks at.
+const KINDS: &[&str] = &["afp", "rust", "toml", "console", "sh", "ebnf"];
 
 #[test]
 fn no_block_goes_unchecked() {
