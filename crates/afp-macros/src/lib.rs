@@ -26,7 +26,7 @@ pub fn toolbox(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand(input.into(), toolbox_code).into()
 }
 
-/// Turns the first plan of a file, with the sub-plans it uses, into native code.
+/// Turns the first plan of a file, with the sub-plans it uses, from other files too, into native code.
 ///
 /// `plan!("plans/wall_following.afp")` takes a path relative to the crate's manifest. It makes a
 /// module for each plan and brings the plan's type into scope. Toolboxes that are not built in
@@ -53,16 +53,17 @@ fn toolbox_code(input: &Input) -> Result<TokenStream, TokenStream> {
 
 fn plan_code(input: &Input) -> Result<TokenStream, TokenStream> {
     let file = sources::read(&input.path).map_err(|text| error(&text))?;
-    let (toolboxes, texts) = sources::toolboxes(&input.toolboxes).map_err(|text| error(&text))?;
-    let compiled = afp_dsl::compile(&file.source, &toolboxes);
+    let (toolboxes, mut texts) =
+        sources::toolboxes(&input.toolboxes).map_err(|text| error(&text))?;
+    let compiled = afp_dsl::compile(&file.source, &toolboxes, &sources::used);
+    texts.extend(compiled.plan_sources().map(|source| sources::included(&source.name)));
     let graph = compiled.graph.ok_or_else(|| errors(&compiled.diags, &compiled.sources))?;
     let options = Options { core: input.core.clone(), ..Options::default() };
     let plan = codegen::code(codegen::plan(&graph, &options).tokens());
-    let text = file.text;
     // Cargo watches the files only because something includes them.
     Ok(quote! {
         #plan
-        const _: &[&str] = &[#text, #(#texts),*];
+        const _: &[&str] = &[#(#texts),*];
     })
 }
 

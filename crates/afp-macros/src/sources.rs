@@ -1,5 +1,6 @@
 //! Files beside the manifest, and the built-in toolboxes.
 
+use std::io::ErrorKind;
 use std::path::PathBuf;
 use std::{env, fs};
 
@@ -36,12 +37,31 @@ pub fn toolbox(path: &str) -> Result<File, String> {
 /// # Errors
 /// A sentence that says what is missing.
 pub fn read(path: &str) -> Result<File, String> {
+    let text = fs::read_to_string(full(path))
+        .map_err(|error| format!("error: cannot read '{}': {error}", full(path).display()))?;
+    Ok(File { source: Source::new(path, text), text: included(path) })
+}
+
+/// The text of a plan file that another one uses.
+///
+/// # Errors
+/// Why there is none.
+pub fn used(path: &str) -> Result<String, String> {
+    fs::read_to_string(full(path)).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => "there is no such file".to_owned(),
+        _ => error.to_string().to_lowercase(),
+    })
+}
+
+/// The expression of the text of a file beside the manifest.
+pub fn included(path: &str) -> TokenStream {
+    let full = full(path).to_string_lossy().into_owned();
+    quote!(include_str!(#full))
+}
+
+fn full(path: &str) -> PathBuf {
     let root = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from).unwrap_or_default();
-    let full = root.join(path);
-    let text = fs::read_to_string(&full)
-        .map_err(|error| format!("error: cannot read '{}': {error}", full.display()))?;
-    let full = full.to_string_lossy().into_owned();
-    Ok(File { source: Source::new(path, text), text: quote!(include_str!(#full)) })
+    root.join(path)
 }
 
 /// The built-in toolboxes, then those of these files, each with the module that implements it;

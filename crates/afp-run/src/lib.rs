@@ -42,8 +42,8 @@ pub struct Program<'a> {
     pub name: &'a str,
     /// The plan's file, as it was named; the world is looked for beside its folder.
     pub file: &'a str,
-    /// The plan's text, for the log.
-    pub text: &'a str,
+    /// Path and text of the plan's file, then of those that it uses, for the log.
+    pub texts: &'a [(&'a str, &'a str)],
 }
 
 /// The whole of a generated binary: reads the command line, runs the plan, tells what happened.

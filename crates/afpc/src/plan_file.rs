@@ -1,6 +1,7 @@
 //! From a file's name to a checked plan.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use afp_dsl::graph::Graph;
@@ -14,8 +15,6 @@ use afp_run::settings::Settings;
 pub struct PlanFile {
     /// The file as it was named.
     pub path: PathBuf,
-    /// Its text.
-    pub text: String,
     /// What became of it.
     pub compiled: Compiled,
 }
@@ -44,9 +43,9 @@ impl PlanFile {
         let text =
             fs::read_to_string(&path).map_err(RunError::file("cannot read the plan", &path))?;
         let toolboxes = toolboxes(&path)?;
-        let source = Source::new(path.display().to_string(), text.clone());
-        let compiled = compile_plan(&source, &toolboxes, plan);
-        Ok(PlanFile { path, text, compiled })
+        let source = Source::new(path.display().to_string(), text);
+        let compiled = compile_plan(&source, &toolboxes, &read_used, plan);
+        Ok(PlanFile { path, compiled })
     }
 
     /// Reads and compiles, tells standard error what is wrong, and gives the graph.
@@ -61,6 +60,14 @@ impl PlanFile {
         let graph = file.compiled.graph.take().ok_or(NoPlan::Wrong)?;
         Ok((file, graph))
     }
+}
+
+/// The text of a file that a plan file uses.
+fn read_used(path: &str) -> Result<String, String> {
+    fs::read_to_string(path).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => "there is no such file".to_owned(),
+        _ => error.to_string().to_lowercase(),
+    })
 }
 
 /// `FILE:Plan` taken apart; a file whose own name holds the colon wins.

@@ -13,8 +13,9 @@ use crate::graph::Graph;
 pub struct CrateOptions {
     /// The plan's file, as it was named.
     pub file: String,
-    /// The plan's text, which the crate carries along.
-    pub text: String,
+    /// Path and text of the plan's file and of those that it uses, see
+    /// [`crate::Compiled::plan_texts`]; the crate carries them along.
+    pub texts: Vec<(String, String)>,
     /// Where the `afp` crates come from.
     pub origin: Origin,
     /// Crates of toolboxes that are not built in: package name and value in the manifest.
@@ -52,12 +53,9 @@ impl Origin {
 /// The files of a crate: path below its folder, and text.
 pub fn crate_files(graph: &Graph, options: &CrateOptions) -> Vec<(String, String)> {
     let generated = plan(graph, &Options { core: quote!(afp::core), ..Options::default() });
-    let text_name = format!("{}.afp", snake(&graph.main().name));
-    let mut files = vec![
-        ("Cargo.toml".to_owned(), manifest(graph, options)),
-        (text_name.clone(), options.text.clone()),
-        ("src/lib.rs".to_owned(), library(graph, &generated, &text_name)),
-    ];
+    let mut files = vec![("Cargo.toml".to_owned(), manifest(graph, options))];
+    files.extend(options.texts.iter().cloned());
+    files.push(("src/lib.rs".to_owned(), library(graph, &generated, options)));
     if !options.lib {
         files.push(("src/main.rs".to_owned(), program(graph, &generated, options)));
     }
@@ -113,21 +111,25 @@ fn manifest(graph: &Graph, options: &CrateOptions) -> String {
     )
 }
 
-fn library(graph: &Graph, generated: &Generated, text_name: &str) -> String {
+fn library(graph: &Graph, generated: &Generated, options: &CrateOptions) -> String {
     let modules = generated.modules.iter().map(|module| {
         let name = &module.name;
         quote!(pub mod #name;)
     });
     let about = format!(" The plan `{}`, made from its text by `afpc build`.", graph.main().name);
     let (module, ty) = (&generated.main, &generated.plan);
-    let (help, path) = (doc("", "The text of the plan."), format!("../{text_name}"));
+    let help = doc("", "Path and text of the plan's file, then of those that it uses.");
+    let texts = options.texts.iter().map(|(path, _)| {
+        let place = format!("../{path}");
+        quote!((#path, include_str!(#place)))
+    });
     file(quote! {
         #![doc = #about]
         #![no_std]
         #(#modules)*
         pub use #module::#ty;
         #help
-        pub const TEXT: &str = include_str!(#path);
+        pub const TEXTS: &[(&str, &str)] = &[#(#texts),*];
     })
 }
 
@@ -144,7 +146,7 @@ fn program(graph: &Graph, generated: &Generated, options: &CrateOptions) -> Stri
         use #krate::#ty;
 
         fn main() -> ExitCode {
-            let program = Program { name: #name, file: #path, text: #krate::TEXT };
+            let program = Program { name: #name, file: #path, texts: #krate::TEXTS };
             afp_run::main(program, #ty::new)
         }
     })

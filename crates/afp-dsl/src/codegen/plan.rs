@@ -57,9 +57,10 @@ pub struct Module {
 pub fn plan(graph: &Graph, options: &Options) -> Generated {
     let blocks = unfold::blocks(graph);
     let places = (0..).zip(&graph.plans);
-    let mut modules = shared::modules(graph, options);
+    let enums = shared::enums_of(graph);
+    let mut modules = shared::modules(graph, &enums, options);
     for ((number, plan), block) in places.zip(&blocks) {
-        let context = Context::new(graph, plan, block);
+        let context = Context::new(graph, &enums, plan, block);
         modules.push(module(&context, options, PlanId(number)));
     }
     let plans = (0..graph.plans.len() as u16).map(|number| home(graph, PlanId(number)));
@@ -69,10 +70,11 @@ pub fn plan(graph: &Graph, options: &Options) -> Generated {
 
 fn module(context: &Context<'_>, options: &Options, id: PlanId) -> Module {
     let plan = context.plan;
+    let home = plan.file.as_ref().map(|file| format!(" of `{file}`")).unwrap_or_default();
     let about = if plan.doc.is_empty() {
-        format!("The plan `{}`.", plan.name)
+        format!("The plan `{}`{home}.", plan.name)
     } else {
-        format!("The plan `{}`: {}", plan.name, plan.doc)
+        format!("The plan `{}`{home}: {}", plan.name, plan.doc)
     };
     let sections = vec![
         ("Actors", elements::elements(context)),

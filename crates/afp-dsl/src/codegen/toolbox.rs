@@ -22,7 +22,9 @@ use crate::types::{Enum, Object, Type};
 pub fn toolbox(toolbox: &Toolbox, options: &Options) -> TokenStream {
     let (core, source) = (&options.core, &options.source);
     let text = doc("", "The text of the toolbox file.");
-    let enums = toolbox.enums.iter().map(|choices| enums::choices(core, choices));
+    let rust_name = |choices: &Enum| ident(&camel(&choices.name));
+    let enums = toolbox.enums.iter();
+    let enums = enums.map(|choices| enums::choices(core, choices, &rust_name(choices)));
     let templates = toolbox.templates.iter().map(|t| template(core, t));
     let register = register::register(core, toolbox);
     quote! {

@@ -1,6 +1,6 @@
 // enums.rs
 
-//! The enums of the plan file.
+//! The enums of the plan files.
 
 // **** Enums ****
 

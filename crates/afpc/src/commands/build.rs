@@ -78,7 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let folder = arguments.output.clone().unwrap_or_else(|| Path::new(BUILDS).join(stem));
     let options = CrateOptions {
         file: file.path.display().to_string(),
-        text: file.text,
+        texts: file.compiled.plan_texts(),
         origin: origin.clone(),
         dependencies: Vec::new(),
         lib: arguments.lib,

@@ -34,6 +34,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
         RunError::usage(error.to_string(), help)
     })?;
     let path = file.path.display().to_string();
-    let program = Program { name: &graph.main().name, file: &path, text: &file.text };
+    let texts = file.compiled.plan_texts();
+    let texts: Vec<_> = texts.iter().map(|(path, text)| (path.as_str(), text.as_str())).collect();
+    let program = Program { name: &graph.main().name, file: &path, texts: &texts };
     Ok(afp_run::run(&program, plan, &arguments.options)?)
 }
