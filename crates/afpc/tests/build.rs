@@ -46,7 +46,7 @@ fn shared_target() -> &'static Path {
 }
 
 #[test]
-#[ignore = "builds the physics engine in release mode; `cargo xtask nightly` runs it"]
+#[ignore = "builds the physics engine in release mode; `cargo xtask test install` runs it"]
 fn the_binary_says_the_same_as_the_interpreter_over_twenty_seeds() {
     let place = Place::with_plan();
     let mut command = place.command();
