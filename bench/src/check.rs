@@ -3,6 +3,7 @@
 use std::hint::black_box;
 
 use afp_dsl::compile;
+use afp_dsl::files::Texts;
 use afp_dsl::source::Source;
 use afp_dsl::syntax::count_tokens;
 use afp_dsl::toolbox::Toolboxes;
@@ -50,7 +51,7 @@ fn checks(toolboxes: &Toolboxes, texts: Vec<String>) -> impl FnMut(u64) {
     let mut next = 0;
     move |count| {
         for _ in 0..count {
-            let compiled = compile(black_box(&sources[next]), toolboxes);
+            let compiled = compile(black_box(&sources[next]), toolboxes, &Texts::default());
             assert!(compiled.graph.is_some(), "{}", compiled.render(false));
             black_box(&compiled);
             next = (next + 1) % sources.len();

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use afp_dsl::diagnostics::Diagnostics;
+use afp_dsl::files::Texts;
 use afp_dsl::layout_file::Layout;
 use afp_dsl::source::Source;
 use afp_dsl::syntax::{Node, kind::Kind, parse};
@@ -25,13 +26,13 @@ pub fn parser(data: &[u8]) {
     assert_eq!(parse(&text, 0, &mut diags).text(), text);
 }
 
-/// A compilation ends with a graph or with errors, and everything it says can be shown.
+/// A compilation, of several files where lines `// file: PATH` divide the text, ends with a graph or with errors, and everything it says can be shown.
 ///
 /// # Panics
 /// When it does not.
 pub fn checker(data: &[u8]) {
-    let source = Source::new("fuzzed.afp", text(data));
-    let compiled = compile(&source, &toolboxes());
+    let (first, files) = Texts::in_one(&text(data));
+    let compiled = compile(&Source::new("fuzzed.afp", first), &toolboxes(), &files);
     assert_eq!(compiled.graph.is_none(), compiled.diags.has_errors());
     assert_eq!(compiled.render(false).is_empty(), compiled.diags.is_empty());
 }
