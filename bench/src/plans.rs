@@ -1,7 +1,6 @@
 //! The plans of the benchmarks, compiled in and loaded.
 
 use afp::load::{LoadedPlan, Registry};
-use afp_dsl::files::Texts;
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 
@@ -35,7 +34,7 @@ pub fn loaded_transition() -> LoadedPlan<Board> {
 fn load(text: &str) -> LoadedPlan<Board> {
     let mut toolboxes = Toolboxes::default();
     toolboxes.add(Source::new("board.afp", templates::SOURCE), "crate::board");
-    let compiled = afp_dsl::compile(&Source::new("plan.afp", text), &toolboxes, &Texts::default());
+    let compiled = afp_dsl::compile(&Source::new("plan.afp", text), &toolboxes);
     let graph = compiled.graph.as_ref().unwrap_or_else(|| panic!("{}", compiled.render(false)));
     let mut registry = Registry::new();
     templates::register(&mut registry);

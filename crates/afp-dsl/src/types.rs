@@ -23,7 +23,7 @@ pub enum Type {
     Quantity(Dimension),
     /// `string`, at most 64 bytes of UTF-8
     Text,
-    /// An enum; equal by name and home, a toolbox or a plan file.
+    /// An enum; equal by name and home.
     Enum(Arc<Enum>),
     /// An object type; equal by name and home.
     Object(Arc<Object>),
@@ -80,8 +80,7 @@ pub enum Conversion {
 
 impl PartialEq for Enum {
     fn eq(&self, other: &Self) -> bool {
-        let home = |choices: &Enum| choices.toolbox.is_none().then_some(choices.span.file);
-        (&self.name, &self.toolbox, home(self)) == (&other.name, &other.toolbox, home(other))
+        (&self.name, &self.toolbox) == (&other.name, &other.toolbox)
     }
 }
 

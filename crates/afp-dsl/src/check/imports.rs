@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use crate::check::names::unknown;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
-use crate::graph::ToolboxId;
-use crate::syntax::ast::{File, Item, Name, Use};
+use crate::syntax::ast::{File, Item, Use};
 use crate::toolbox::{Toolbox, Toolboxes};
 
 /// A toolbox that a file uses.
@@ -14,26 +13,22 @@ pub(crate) struct Import {
     pub qualifier: String,
     /// The toolbox.
     pub toolbox: Arc<Toolbox>,
-    /// Its place among those that the files of the compilation use.
-    pub id: ToolboxId,
 }
 
-/// Resolves the `use` lines of a plan file that name toolboxes, and says whether one of them failed.
-/// What no other file used joins `linked`.
+/// Resolves the `use` lines of a plan file, and says whether one of them failed.
 pub(crate) fn read(
     file: &File,
     toolboxes: &Toolboxes,
-    linked: &mut Vec<Arc<Toolbox>>,
     diags: &mut Diagnostics,
 ) -> (Vec<Import>, bool) {
     let mut failed = false;
     let mut imports: Vec<(Import, crate::source::Span)> = Vec::new();
     let uses = file.items().into_iter().filter_map(|item| match item {
-        Item::Use(line) => line.toolbox().map(|name| (line, name)),
+        Item::Use(line) => Some(line),
         _ => None,
     });
-    for (line, name) in uses {
-        let Some(import) = one(&line, name, toolboxes, linked, diags) else {
+    for line in uses {
+        let Some(import) = one(&line, toolboxes, diags) else {
             failed = true;
             continue;
         };
@@ -60,13 +55,15 @@ pub(crate) fn read(
     (imports.into_iter().map(|(import, _)| import).collect(), failed)
 }
 
-fn one(
-    line: &Use,
-    name: Name,
-    toolboxes: &Toolboxes,
-    linked: &mut Vec<Arc<Toolbox>>,
-    diags: &mut Diagnostics,
-) -> Option<Import> {
+fn one(line: &Use, toolboxes: &Toolboxes, diags: &mut Diagnostics) -> Option<Import> {
+    if let Some(path) = line.path() {
+        diags.push(
+            Diagnostic::new(Code::E0501, path.span, "plans of other files cannot be used yet")
+                .help("put the plans that belong together into one file"),
+        );
+        return None;
+    }
+    let name = line.toolbox()?;
     let Some(toolbox) = toolboxes.get(&name.text) else {
         // A toolbox with errors of its own has been reported with them.
         if !toolboxes.is_broken(&name.text) {
@@ -84,12 +81,7 @@ fn one(
         return None;
     };
     let qualifier = line.alias().map_or(name.text, |alias| alias.text);
-    let known = linked.iter().position(|known| Arc::ptr_eq(known, toolbox));
-    let place = known.unwrap_or(linked.len());
-    if known.is_none() {
-        linked.push(toolbox.clone());
-    }
-    Some(Import { qualifier, toolbox: toolbox.clone(), id: ToolboxId(u16::try_from(place).ok()?) })
+    Some(Import { qualifier, toolbox: toolbox.clone() })
 }
 
 /// Reports items in places where they cannot stand: `use` below others, plans in a toolbox.

@@ -46,9 +46,6 @@ impl Dump<'_> {
         if main {
             head += " (main)";
         }
-        if let Some(file) = &plan.file {
-            head += &format!(" of {file}");
-        }
         if plan.interruptible {
             head += " (interruptible)";
         }
