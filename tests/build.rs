@@ -10,6 +10,7 @@ use std::{env, fs, io};
 
 use afp_dsl::codegen::{self, Options};
 use afp_dsl::compile_unchecked;
+use afp_dsl::files::Texts;
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 
@@ -89,7 +90,11 @@ pub const PLANS: &[fn(&afp_tests::script::Script) -> Vec<String>] = &[
 
 /// The Rust of a plan in a module of its own, with a function `new` that makes one.
 fn module(name: &str, path: &Path, text: &str, toolboxes: &Toolboxes) -> io::Result<String> {
-    let compiled = compile_unchecked(&Source::new(path.display().to_string(), text), toolboxes);
+    let (text, files) = Texts::in_one(text);
+    // Files of a case are named from its own folder.
+    let file = path.file_name().unwrap_or_default().to_string_lossy();
+    let source = Source::new(file, text);
+    let compiled = compile_unchecked(&source, toolboxes, &files);
     let errors = compiled.render(false);
     let graph = compiled.graph.ok_or_else(|| io::Error::other(errors))?;
     let generated = codegen::plan(&graph, &Options::default());

@@ -4,7 +4,9 @@
 //! machine that is busy with other things; the limits are on ratios alone.
 
 mod allocations;
+mod big_plan;
 mod board;
+mod check;
 mod clocks;
 mod copper;
 mod measure;
@@ -62,5 +64,6 @@ const GROUPS: &[(&str, Group)] = &[
     ("copper", copper::run),
     ("transition", transition::run),
     ("simulation", simulation::run),
+    ("check", check::run),
     ("allocations", allocations::run),
 ];

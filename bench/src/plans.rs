@@ -1,6 +1,7 @@
 //! The plans of the benchmarks, compiled in and loaded.
 
 use afp::load::{LoadedPlan, Registry};
+use afp_dsl::files::Texts;
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 
@@ -34,7 +35,7 @@ pub fn loaded_transition() -> LoadedPlan<Board> {
 fn load(text: &str) -> LoadedPlan<Board> {
     let mut toolboxes = Toolboxes::default();
     toolboxes.add(Source::new("board.afp", templates::SOURCE), "crate::board");
-    let compiled = afp_dsl::compile(&Source::new("plan.afp", text), &toolboxes);
+    let compiled = afp_dsl::compile(&Source::new("plan.afp", text), &toolboxes, &Texts::default());
     let graph = compiled.graph.as_ref().unwrap_or_else(|| panic!("{}", compiled.render(false)));
     let mut registry = Registry::new();
     templates::register(&mut registry);

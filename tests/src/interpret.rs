@@ -2,6 +2,7 @@
 
 use afp::load::{LoadedPlan, Registry};
 use afp_dsl::compile_unchecked;
+use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
@@ -20,12 +21,14 @@ pub fn toolboxes() -> Toolboxes {
     toolboxes
 }
 
-/// Compiles a plan.
+/// Compiles a plan, with the files that follow it below lines `// file: PATH`.
 ///
 /// # Errors
 /// Everything that is wrong with it, as text.
 pub fn graph(name: &str, text: &str) -> Result<Graph, String> {
-    let compiled = compile_unchecked(&Source::new(name, text), &toolboxes());
+    let (text, files) = Texts::in_one(text);
+    let compiled =
+        compile_unchecked(&Source::new(format!("{name}.afp"), text), &toolboxes(), &files);
     let all = compiled.render(false);
     compiled.graph.ok_or(all)
 }

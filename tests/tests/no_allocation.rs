@@ -1,4 +1,4 @@
-//! A million steps of a plan without one allocation, in either back end.
+//! Millions of steps of a plan without one allocation, in either back end.
 //!
 //! A test binary of its own, because it counts in the global allocator.
 #![allow(unsafe_code, reason = "a global allocator cannot be written without")]
@@ -18,21 +18,43 @@ mod plans {
     include!(concat!(env!("OUT_DIR"), "/steps.rs"));
 }
 
-const STEPS: u64 = 1_000_000;
+/// Steps between repetitions of [`TIMES`], one a millisecond.
+const ROUND: u64 = 1_000_000;
 
-/// Times change by the millisecond; faults and stops would end the run or need the log.
-const SCRIPT: &str = "show nothing
-    from 50000 ms to 200000 ms: near Seen
-    from 150000 ms to 300000 ms: drive Done
-    from 300000 ms to 500000 ms: drive Other
-    from 100000 ms to 250000 ms: work Done = 2
-    from 250000 ms to 320000 ms: work Other
-    from 320000 ms to 400000 ms: work Done = 4
-    from 400000 ms to 450000 ms: touch Seen
-    from 450000 ms to 900000 ms: work Other = 5
-    from 600000 ms to 650000 ms: work fault
-    from 700000 ms to 750000 ms: drive start fault
-    from 800000 ms to 850000 ms: global First";
+/// What components are told: from when to when in milliseconds, and what. Times change by the
+/// millisecond; faults that end the run and stops are left out.
+const TIMES: &[(u64, u64, &str)] = &[
+    (50_000, 200_000, "near Seen"),
+    (150_000, 300_000, "drive Done"),
+    (300_000, 500_000, "drive Other"),
+    (100_000, 250_000, "work Done = 2"),
+    (250_000, 320_000, "work Other"),
+    (320_000, 400_000, "work Done = 4"),
+    (400_000, 450_000, "touch Seen"),
+    (450_000, 900_000, "work Other = 5"),
+    (600_000, 650_000, "work fault"),
+    (700_000, 750_000, "drive start fault"),
+    (800_000, 850_000, "global First"),
+];
+
+/// How many steps are taken: a million unless `AFP_STEPS` says otherwise.
+fn steps() -> u64 {
+    let steps = std::env::var("AFP_STEPS").map(|text| text.parse().expect("AFP_STEPS is a number"));
+    steps.unwrap_or(ROUND)
+}
+
+/// The script of a run of so many steps.
+fn script(steps: u64) -> Script {
+    let rounds = (0..steps.div_ceil(ROUND)).map(|round| round * ROUND);
+    let lines = rounds.flat_map(|start| {
+        let line = move |(from, to, what): &(u64, u64, &str)| {
+            format!("from {} ms to {} ms: {what}", start + from, start + to)
+        };
+        TIMES.iter().map(line)
+    });
+    let lines: Vec<String> = std::iter::once("show nothing".to_owned()).chain(lines).collect();
+    lines.join("\n").parse().expect("a script that can be read")
+}
 
 thread_local! {
     /// Of this thread alone: the test harness allocates on its own.
@@ -61,13 +83,13 @@ static ALLOCATOR: Counting = Counting;
 /// Steps a plan each millisecond; how often it allocated, and how often the active element of the
 /// outermost plan changed.
 fn run<P: Plan<Platform>>(plan: P) -> (u64, u64) {
-    let script: Script = SCRIPT.parse().expect("a script that can be read");
-    let mut platform = Platform::new(script, Log::default(), CostClock::default());
+    let steps = steps();
+    let mut platform = Platform::new(script(steps), Log::default(), CostClock::default());
     let mut scheduler = Scheduler::new(plan);
     let started = scheduler.start(&mut platform, &mut NoTrace, &StillClock, Instant::ZERO);
     assert!(matches!(started, Ok(Wake::At(_))));
     let (before, mut changes) = (ALLOCATIONS.get(), 0);
-    for step in 1..=STEPS {
+    for step in 1..=steps {
         let active = scheduler.active();
         let now = Instant::from_nanos(step * 1_000_000);
         let wake = scheduler.step(&mut platform, &mut NoTrace, &StillClock, now);
@@ -85,5 +107,5 @@ fn neither_back_end_allocates_after_the_start() {
     let generated = run(plans::steps::new());
     assert_eq!(interpreted, generated);
     assert_eq!(generated.0, 0);
-    assert!(generated.1 > 1000, "only {} transitions", generated.1);
+    assert!(generated.1 > steps() / 1000, "only {} transitions", generated.1);
 }

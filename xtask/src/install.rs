@@ -8,23 +8,35 @@ use crate::shell::{Failure, cargo, output, program, root, run as run_command, ta
 /// Enough time for the robot to bump and back up.
 const UNTIL: [&str; 2] = ["--until", "10s"];
 
+/// Whether what is installed is optimised.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Profile {
+    /// As users install it: takes minutes.
+    Release,
+    /// With what other suites have built already.
+    Debug,
+}
+
 /// Installs the command line, runs and builds a copy of a plan far from the checkout, and compares
 /// what the program says with what the interpreter says, over twenty seeds.
 ///
 /// # Errors
 /// Whatever does not work.
-pub fn run() -> Result<(), Failure> {
+pub fn run(profile: Profile) -> Result<(), Failure> {
     let home = target().join("xtask/install");
-    let install = ["install", "--locked", "--force", "--path", "crates/afpc", "--root"];
-    run_command(cargo().args(install).arg(&home))?;
+    let mut install = cargo();
+    install.args(["install", "--locked", "--force", "--path", "crates/afpc", "--root"]).arg(&home);
+    if profile == Profile::Debug {
+        install.arg("--debug");
+    }
+    run_command(&mut install)?;
     let folder = std::env::temp_dir().join(format!("afp-install-{}", std::process::id()));
     fs::create_dir_all(&folder)?;
     let done = use_it(&home.join("bin/afpc"), &folder);
     fs::remove_dir_all(&folder)?;
     done?;
-    // The program against the interpreter over twenty seeds; toolboxes of one's own.
-    let long = ["--test", "build", "--test", "own_toolboxes", "--", "--ignored"];
-    run_command(cargo().args(["test", "--package", "afpc"]).args(long))
+    let twenty = ["test", "--package", "afpc", "--test", "build", "--", "--ignored"];
+    run_command(cargo().args(twenty))
 }
 
 fn use_it(afpc: &Path, folder: &Path) -> Result<(), Failure> {

@@ -1,8 +1,9 @@
-//! Chores of the project: `cargo xtask test`, `bench`, `gate`, `nightly`, `lint`, `book`.
+//! Chores of the project: `cargo xtask test`, `bench`, `book`, `fuzz`, `gate`, `nightly`, `lint`.
 //!
 //! Each says what it runs, how long it took, and how to run just what failed.
 
 mod book;
+mod fuzz;
 mod gate;
 mod image;
 mod install;
@@ -37,10 +38,21 @@ enum Chore {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         options: Vec<String>,
     },
+    /// Looks for texts that break a reader; needs a C++ compiler.
+    Fuzz {
+        /// Targets by name; all without any.
+        targets: Vec<String>,
+        /// How long each is searched for.
+        #[arg(long, default_value_t = 60)]
+        seconds: u32,
+    },
     /// Builds a plan for a microcontroller and refuses any panic in the image.
     Gate,
-    /// Runs the long suites: hundreds of random plans, long runs, benchmarks with their limits.
-    Nightly,
+    /// Runs the long suites: hundreds of random plans, long runs, fuzzing, benchmarks with limits.
+    Nightly {
+        /// Suites by name; all without any.
+        suites: Vec<String>,
+    },
     /// Checks formatting and lints.
     Lint,
     /// Renders the book of docs/ with mdBook.
@@ -51,8 +63,9 @@ fn main() -> ExitCode {
     let done = match Options::parse().chore {
         Chore::Test { suites } => suites::run(suites::TEST, &suites),
         Chore::Bench { options } => bench(&options),
+        Chore::Fuzz { targets, seconds } => fuzz::run(&targets, seconds),
         Chore::Gate => gate::run(),
-        Chore::Nightly => suites::run(suites::NIGHTLY, &[]),
+        Chore::Nightly { suites } => suites::run(suites::NIGHTLY, &suites),
         Chore::Lint => suites::run(suites::LINT, &[]),
         Chore::Book => book::run(),
     };

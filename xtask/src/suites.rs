@@ -2,8 +2,9 @@
 
 use std::time::{Duration, Instant};
 
+use crate::install::Profile;
 use crate::shell::{Failure, cargo, run as run_command};
-use crate::{bench, gate, install, python};
+use crate::{bench, fuzz, gate, install, python};
 
 /// A suite by its name.
 type Suite = (&'static str, fn() -> Result<(), Failure>);
@@ -14,6 +15,7 @@ pub const TEST: &[Suite] = &[
     ("xtask", || run_command(cargo().args(["test", "--package", "xtask"]))),
     ("python", python::run),
     ("gate", gate::run),
+    ("install", || install::run(Profile::Debug)),
 ];
 
 /// What `cargo xtask nightly` runs.
@@ -22,7 +24,9 @@ pub const NIGHTLY: &[Suite] = &[
     ("random plans", random_plans),
     ("python", python::run),
     ("gate", gate::run),
-    ("install", install::run),
+    ("install", || install::run(Profile::Release)),
+    ("long run", long_run),
+    ("fuzz", || fuzz::run(&[], FUZZED)),
     ("benchmarks", || bench(&["--check".to_owned()])),
 ];
 
@@ -32,6 +36,12 @@ pub const LINT: &[Suite] =
 
 /// Random plans that the nightly run compares.
 const RANDOM_PLANS: &str = "400";
+
+/// Steps that the nightly run takes without an allocation.
+const STEPS: &str = "10000000";
+
+/// Seconds that the nightly run looks for texts that break each reader.
+const FUZZED: u32 = 600;
 
 /// Runs the suites of those names, all of them without a name, and says how it went.
 ///
@@ -88,7 +98,10 @@ fn again(name: &str) -> String {
         "random plans" => {
             format!("    AFP_RANDOM_PLANS={RANDOM_PLANS} cargo test -p afp-tests random")
         }
-        "install" => "    cargo xtask nightly".to_owned(),
+        "long run" => {
+            format!("    AFP_STEPS={STEPS} cargo test --release -p afp-tests --test no_allocation")
+        }
+        "fuzz" => format!("    cargo xtask fuzz --seconds {FUZZED}"),
         "benchmarks" => "    cargo xtask bench --check".to_owned(),
         other => format!("    cargo xtask test {other}"),
     }
@@ -106,6 +119,12 @@ fn workspace() -> Result<(), Failure> {
 fn random_plans() -> Result<(), Failure> {
     let test = ["test", "--package", "afp-tests", "random", "--", "--nocapture"];
     run_command(cargo().args(test).env("AFP_RANDOM_PLANS", RANDOM_PLANS))
+}
+
+/// Ten million steps of a plan, without an allocation, equal in both back ends.
+fn long_run() -> Result<(), Failure> {
+    let test = ["test", "--release", "--package", "afp-tests", "--test", "no_allocation"];
+    run_command(cargo().args(test).env("AFP_STEPS", STEPS))
 }
 
 fn clippy() -> Result<(), Failure> {

@@ -1,12 +1,13 @@
 //! The front door: a plan's text in; its graph, or everything that is wrong with it, out.
 
-use std::sync::Arc;
+use std::ops::Range;
 
 use crate::check::{self, Flow};
 use crate::diagnostics::Diagnostics;
+use crate::files::{Files, below_all, normalised};
+use crate::gather;
 use crate::graph::Graph;
-use crate::source::{Source, Sources, Span};
-use crate::syntax;
+use crate::source::{Source, Sources};
 use crate::timing;
 use crate::toolbox::Toolboxes;
 
@@ -17,8 +18,11 @@ pub struct Compiled {
     pub graph: Option<Graph>,
     /// Everything there is to say, ordered by place.
     pub diags: Diagnostics,
-    /// The files that spans belong to: the toolboxes', then the plan's.
+    /// The files that spans belong to: the toolboxes', then the plan files.
     pub sources: Sources,
+    /// Which of [`Compiled::sources`] are plan files: the one that was compiled, then those that it
+    /// uses, directly or through others.
+    pub plan_files: Range<usize>,
 }
 
 impl Compiled {
@@ -26,44 +30,65 @@ impl Compiled {
     pub fn render(&self, colour: bool) -> String {
         self.diags.render(&self.sources, colour)
     }
+
+    /// The plan files: the one that was compiled, then those that it uses, directly or through
+    /// others.
+    pub fn plan_sources(&self) -> impl Iterator<Item = &Source> {
+        self.sources.iter().skip(self.plan_files.start).take(self.plan_files.len())
+    }
+
+    /// Path and text of each plan file, in the order of [`Compiled::plan_sources`]; paths are seen
+    /// from the deepest folder that all of them are in, so that they still find each other when
+    /// they are put elsewhere.
+    pub fn plan_texts(&self) -> Vec<(String, String)> {
+        let paths: Vec<_> = self.plan_sources().map(|source| normalised(&source.name)).collect();
+        let texts = self.plan_sources().map(|source| source.text.clone());
+        below_all(&paths).into_iter().zip(texts).collect()
+    }
 }
 
-/// Compiles the first plan of a file.
+/// Compiles the first plan of a file. `files` has the files that it uses; without any,
+/// `&Texts::default()` says so.
 ///
-/// All errors are reported, of plans that the first one does not use as well, and of toolboxes.
-pub fn compile(source: &Source, toolboxes: &Toolboxes) -> Compiled {
-    compile_plan(source, toolboxes, None)
+/// All errors are reported, of plans that the first one does not use as well, of all files, and of
+/// toolboxes.
+pub fn compile(source: &Source, toolboxes: &Toolboxes, files: &dyn Files) -> Compiled {
+    compile_plan(source, toolboxes, files, None)
 }
 
 /// Compiles the plan of that name in a file, the first one without a name.
-pub fn compile_plan(source: &Source, toolboxes: &Toolboxes, plan: Option<&str>) -> Compiled {
-    compile_with(source, toolboxes, plan, Flow::Checked)
+pub fn compile_plan(
+    source: &Source,
+    toolboxes: &Toolboxes,
+    files: &dyn Files,
+    plan: Option<&str>,
+) -> Compiled {
+    compile_with(source, toolboxes, files, plan, Flow::Checked)
 }
 
 /// Compiles the first plan of a file without the checks of flow: for tests of what the run time
 /// does with plans that they refuse.
 #[doc(hidden)]
-pub fn compile_unchecked(source: &Source, toolboxes: &Toolboxes) -> Compiled {
-    compile_with(source, toolboxes, None, Flow::Unchecked)
+pub fn compile_unchecked(source: &Source, toolboxes: &Toolboxes, files: &dyn Files) -> Compiled {
+    compile_with(source, toolboxes, files, None, Flow::Unchecked)
 }
 
 fn compile_with(
     source: &Source,
     toolboxes: &Toolboxes,
+    files: &dyn Files,
     plan: Option<&str>,
     flow: Flow,
 ) -> Compiled {
     let mut diags = toolboxes.diagnostics().clone();
     let mut sources = toolboxes.sources().clone();
-    // Beyond 65,536 files spans would be ambiguous; nothing can be said about such a compilation.
-    let file = sources.add(Arc::new(source.clone())).unwrap_or(u16::MAX);
-    let tree = syntax::parse(&source.text, file, &mut diags).file();
-    let end = u32::try_from(source.text.len()).unwrap_or(u32::MAX);
-    let whole = Span { file, start: 0, end };
-    let graph = check::check(&tree, &source.text, whole, toolboxes, plan, flow, &mut diags);
+    let first = sources.len();
+    let gathered = gather::gather(source, files, toolboxes, &mut sources, &mut diags);
+    let graph = check::check(&gathered, toolboxes, plan, flow, &mut diags);
     if let Some(graph) = graph.as_ref().filter(|_| flow == Flow::Checked) {
         timing::check_responses(graph, &mut diags);
     }
     diags.sort();
-    Compiled { graph: graph.filter(|_| !diags.has_errors()), diags, sources }
+    let plan_files = first..sources.len();
+    Compiled { graph: graph.filter(|_| !diags.has_errors()), diags, sources, plan_files }
 }

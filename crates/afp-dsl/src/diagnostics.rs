@@ -126,6 +126,11 @@ impl Diagnostics {
         self.list.extend(other.list);
     }
 
+    /// Drops those for which `keep` does not hold.
+    pub fn retain(&mut self, keep: impl FnMut(&Diagnostic) -> bool) {
+        self.list.retain(keep);
+    }
+
     /// Whether one of them is an error.
     pub fn has_errors(&self) -> bool {
         self.list.iter().any(|diagnostic| diagnostic.severity == Severity::Error)

@@ -60,13 +60,28 @@ pub(crate) struct Summary {
     pub unset: [Vec<Option<String>>; 2],
 }
 
-/// Checks all plans of a model, and sums them up.
-pub(crate) fn check(model: &Model<'_>, diags: &mut Diagnostics) -> Vec<Option<Summary>> {
+/// Checks all plans of a model.
+pub(crate) fn check(model: &Model<'_>, diags: &mut Diagnostics) {
+    in_order(model, |view| check_plan(view, diags));
+}
+
+/// Sums all plans of a model up, without what only the checks ask for: `unset` is empty.
+pub(crate) fn sum_up(model: &Model<'_>) -> Vec<Option<Summary>> {
+    in_order(model, |view| {
+        let (instant, timeless) = cycles::instant_endings(view);
+        Summary { ends: endless::endings(view), instant, timeless, unset: Default::default() }
+    })
+}
+
+/// Sums up each plan after its sub-plans.
+fn in_order(
+    model: &Model<'_>,
+    mut sum_up: impl FnMut(&View<'_>) -> Summary,
+) -> Vec<Option<Summary>> {
     let mut summaries: Vec<Option<Summary>> = vec![None; model.plans.len()];
     for place in &model.order {
         let Some(plan) = model.plans[*place] else { continue };
-        let view = View::new(model, plan, &summaries);
-        summaries[*place] = Some(check_plan(&view, diags));
+        summaries[*place] = Some(sum_up(&View::new(model, plan, &summaries)));
     }
     summaries
 }
@@ -79,6 +94,7 @@ fn check_plan(view: &View<'_>, diags: &mut Diagnostics) -> Summary {
     recovery::check(view, diags);
     let ends = endless::check(view, diags);
     let unset = assigned::check(view, diags);
-    let (instant, timeless) = cycles::check(view, diags);
+    cycles::check(view, diags);
+    let (instant, timeless) = cycles::instant_endings(view);
     Summary { ends, instant, timeless, unset }
 }

@@ -54,8 +54,12 @@ pub struct Graph {
 /// One plan: elements, supervisors, entries.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// Its name in the text.
+    /// Its name in the text. Plans of one name, from files that do not see each other, have `_2` and
+    /// so on behind it, but not the main plan.
     pub name: String,
+    /// The file that it stands in, seen from the folder of the main plan's file; `None` in that file
+    /// itself.
+    pub file: Option<String>,
     /// Its `///` lines, without the slashes.
     pub doc: String,
     /// Entries as written.

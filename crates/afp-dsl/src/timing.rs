@@ -24,7 +24,7 @@ use level::{Levels, Outside};
 
 pub(crate) use check::check_responses;
 pub use check::check_target;
-pub use target::{BUILT_IN, Target};
+pub use target::{BUILT_IN, Target, TargetError, targets};
 
 /// What is known of the time behaviour of a plan and its sub-plans.
 #[derive(Clone, Debug)]
@@ -130,7 +130,7 @@ impl Interruption {
 /// Works out the timing of a plan; without a target, ticks count as infinitely fine.
 pub fn timing(graph: &Graph, target: Option<&Target>) -> Timing {
     let model = model(graph);
-    let summaries = flow::check(&model, &mut Default::default());
+    let summaries = flow::sum_up(&model);
     let view = |plan| View::new(&model, plan, &summaries);
     let views: Vec<View<'_>> = graph.plans.iter().map(view).collect();
     let levels = Levels::of(&views);

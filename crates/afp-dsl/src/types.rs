@@ -23,7 +23,7 @@ pub enum Type {
     Quantity(Dimension),
     /// `string`, at most 64 bytes of UTF-8
     Text,
-    /// An enum; equal by name and home.
+    /// An enum; equal by name and home, a toolbox or a plan file.
     Enum(Arc<Enum>),
     /// An object type; equal by name and home.
     Object(Arc<Object>),
@@ -80,7 +80,8 @@ pub enum Conversion {
 
 impl PartialEq for Enum {
     fn eq(&self, other: &Self) -> bool {
-        (&self.name, &self.toolbox) == (&other.name, &other.toolbox)
+        let home = |choices: &Enum| choices.toolbox.is_none().then_some(choices.span.file);
+        (&self.name, &self.toolbox, home(self)) == (&other.name, &other.toolbox, home(other))
     }
 }
 

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-use afp_dsl::codegen::{self, CrateOptions, Dependency, Options, Origin};
+use afp_dsl::codegen::{self, CrateOptions, Options, Origin};
+use afp_dsl::files::Texts;
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::{Toolbox, Toolboxes};
 
@@ -36,7 +37,7 @@ fn generate(path: &Path) -> String {
         assert!(!diags.has_errors());
         return codegen::file(codegen::toolbox(&toolbox.unwrap(), &options));
     }
-    let compiled = afp_dsl::compile(&source, &toolboxes());
+    let compiled = afp_dsl::compile(&source, &toolboxes(), &Texts::default());
     assert!(compiled.graph.is_some(), "{}", compiled.render(false));
     let generated = codegen::plan(&compiled.graph.unwrap(), &options);
     let modules = generated.modules.iter();
@@ -63,18 +64,22 @@ fn plans_and_toolboxes_make_the_rust_beside_them() {
 fn a_crate_names_what_it_needs_and_carries_its_text() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/codegen/wall_following.afp");
     let text = fs::read_to_string(path).unwrap();
-    let compiled = afp_dsl::compile(&Source::new("wall_following.afp", text.clone()), &toolboxes());
+    let compiled = afp_dsl::compile(
+        &Source::new("wall_following.afp", text.clone()),
+        &toolboxes(),
+        &Texts::default(),
+    );
     let graph = compiled.graph.unwrap();
     let mut options = CrateOptions {
         file: "plans/wall_following.afp".to_owned(),
-        text: text.clone(),
+        texts: vec![("wall_following.afp".to_owned(), text.clone())],
         origin: Origin::Path("/home/a \"b\"".to_owned()),
         dependencies: Vec::new(),
         lib: false,
     };
     let files = codegen::crate_files(&graph, &options);
-    let get = |path: &str| files.iter().find(|file| file.path == path).map(|file| &file.text);
-    let names: Vec<_> = files.iter().map(|file| file.path.as_str()).collect();
+    let get = |path: &str| files.iter().find(|(known, _)| known == path).map(|(_, text)| text);
+    let names: Vec<_> = files.iter().map(|(path, _)| path.as_str()).collect();
     assert_eq!(
         names,
         [
@@ -94,20 +99,17 @@ fn a_crate_names_what_it_needs_and_carries_its_text() {
     assert!(!manifest.contains("afp-dsl"));
     assert_eq!(get("wall_following.afp"), Some(&text));
     assert!(get("src/main.rs").unwrap().contains("afp_run::main(program, WallFollowing::new)"));
+    options.texts.push(("lib/avoid.afp".to_owned(), "plan Avoid {}".to_owned()));
+    let files = codegen::crate_files(&graph, &options);
+    let text = files.iter().find(|(path, _)| path == "lib/avoid.afp").map(|(_, text)| &**text);
+    assert_eq!(text, Some("plan Avoid {}"));
+    let library = files.iter().find(|(path, _)| path == "src/lib.rs").map(|(_, text)| text);
+    assert!(library.unwrap().contains("include_str!(\"../lib/avoid.afp\")"), "{library:?}");
     options.lib = true;
     options.origin = Origin::Version("0.1.0".to_owned());
-    options.dependencies = vec![Dependency {
-        key: "afp-carbot".to_owned(),
-        package: "mine".to_owned(),
-        origin: Origin::Path("../mine".to_owned()),
-        defaults: true,
-    }];
+    options.dependencies = vec![("afp-carbot".to_owned(), "{ path = \"../mine\" }".to_owned())];
     let files = codegen::crate_files(&graph, &options);
-    assert!(files.iter().all(|file| file.path != "src/main.rs"));
-    assert!(
-        files[0].text.contains("afp-carbot = { path = \"../mine\", package = \"mine\" }"),
-        "{}",
-        files[0].text
-    );
-    assert!(!files[0].text.contains("afp-run"));
+    assert!(files.iter().all(|(path, _)| path != "src/main.rs"));
+    assert!(files[0].1.contains("afp-carbot = { path = \"../mine\" }"), "{}", files[0].1);
+    assert!(!files[0].1.contains("afp-run"));
 }

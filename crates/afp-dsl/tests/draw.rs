@@ -1,6 +1,7 @@
 //! Drawings as callers get them: JSON and GraphViz text of whole plans.
 
 use afp_dsl::draw::{Options, dot, json};
+use afp_dsl::files::Texts;
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 use afp_dsl::{Compiled, compile};
@@ -17,7 +18,7 @@ fn compiled(text: &str) -> Compiled {
     for builtin in afp_toolboxes::ALL {
         toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
     }
-    let compiled = compile(&Source::new("plan.afp", text), &toolboxes);
+    let compiled = compile(&Source::new("plan.afp", text), &toolboxes, &Texts::default());
     assert!(compiled.graph.is_some(), "{}", compiled.render(false));
     compiled
 }

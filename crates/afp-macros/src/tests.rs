@@ -36,6 +36,24 @@ fn a_missing_file_is_named() {
     assert!(errors[0].contains("nobody.afp"), "{errors:?}");
 }
 
+#[test]
+fn errors_of_used_files_have_their_own_place() {
+    let errors = errors(&expand(quote!("tests/wrong/files.afp"), plan_code));
+    assert_eq!(errors.len(), 2, "{errors:?}");
+    assert!(errors[0].contains("tests/wrong/files.afp:3:5"), "{}", errors[0]);
+    assert!(errors[0].contains("tests/wrong/used/nowhere.afp"), "{}", errors[0]);
+    assert!(errors[1].contains("tests/wrong/used/far.afp:5:"), "{}", errors[1]);
+}
+
+#[test]
+fn every_file_of_a_plan_is_watched() {
+    let text = expand(quote!("tests/files/main.afp"), plan_code).to_string();
+    for file in ["tests/files/main.afp", "tests/files/sub/pause.afp"] {
+        let end = format!("{file}\")");
+        assert!(text.contains("include_str !") && text.contains(&end), "{file}");
+    }
+}
+
 fn errors_of_toolbox(name: &str) -> Vec<String> {
     errors(&expand(quote!(#name), toolbox_code))
 }

@@ -129,6 +129,7 @@ use afp_core::quantity::Speed;
 use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::{Line, Names, NoTrace, Record, Sink};
 use afp_core::{Instant, Scheduler, StillClock, Value, Wake};
+use afp_dsl::files::Texts;
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 use kit::templates::seek::State;
@@ -174,7 +175,8 @@ fn loaded() -> LoadedPlan<Script> {
     }
     toolboxes.add(Source::new("toolbox.afp", kit::templates::SOURCE), "crate::kit");
     let text = include_str!("../../afp-dsl/tests/codegen/everything.afp");
-    let compiled = afp_dsl::compile(&Source::new("everything.afp", text), &toolboxes);
+    let compiled =
+        afp_dsl::compile(&Source::new("everything.afp", text), &toolboxes, &Texts::default());
     let mut registry = Registry::new();
     afp_std::templates::register(&mut registry);
     kit::templates::register(&mut registry);

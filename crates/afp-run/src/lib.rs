@@ -15,6 +15,7 @@ mod pace;
 mod report;
 mod robot;
 mod run;
+pub mod settings;
 mod stop;
 mod svg;
 mod tracer;
@@ -29,7 +30,6 @@ use clap::{Args, Command, FromArgMatches};
 use crate::options::RunOptions;
 
 pub use error::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, EXIT_USAGE, RunError};
-pub use hash::hash;
 pub use output::write_whole;
 pub use report::timeline;
 pub use run::run;
@@ -42,8 +42,8 @@ pub struct Program<'a> {
     pub name: &'a str,
     /// The plan's file, as it was named; the world is looked for beside its folder.
     pub file: &'a str,
-    /// The plan's text, for the log.
-    pub text: &'a str,
+    /// Path and text of the plan's file, then of those that it uses, for the log.
+    pub texts: &'a [(&'a str, &'a str)],
 }
 
 /// The whole of a generated binary: reads the command line, runs the plan, tells what happened.

@@ -187,7 +187,7 @@ fn about(program: &Program<'_>, options: &RunOptions, world: &LoadedWorld) -> Ab
     let facts = [
         ("plan", program.name.to_owned()),
         ("plan_file", program.file.to_owned()),
-        ("plan_hash", hash(program.text)),
+        ("plan_hash", plan_hash(program)),
         ("robot", "sim".to_owned()),
         ("seed", options.seed.to_string()),
         ("set", set.collect::<Vec<_>>().join("\n")),
@@ -201,12 +201,19 @@ fn about(program: &Program<'_>, options: &RunOptions, world: &LoadedWorld) -> Ab
         ),
         ("afp_version", env!("CARGO_PKG_VERSION").to_owned()),
     ];
-    let name = Path::new(program.file).file_name().unwrap_or_default().to_string_lossy();
-    About {
-        facts: facts.map(|(key, value)| (key.to_owned(), value)).to_vec(),
-        attachments: vec![
-            (name.into_owned(), "text/plain", program.text.to_owned()),
-            ("world.toml".to_owned(), "application/toml", world.text.clone()),
-        ],
+    let texts = program.texts.iter();
+    let mut attachments: Vec<_> =
+        texts.map(|(path, text)| ((*path).to_owned(), "text/plain", (*text).to_owned())).collect();
+    attachments.push(("world.toml".to_owned(), "application/toml", world.text.clone()));
+    About { facts: facts.map(|(key, value)| (key.to_owned(), value)).to_vec(), attachments }
+}
+
+/// The hash of the plan's text; of several files, that of their paths and texts.
+fn plan_hash(program: &Program<'_>) -> String {
+    match program.texts {
+        [(_, text)] => hash(text),
+        texts => {
+            hash(&texts.iter().map(|(path, text)| format!("{path}\0{text}\0")).collect::<String>())
+        }
     }
 }

@@ -5,6 +5,7 @@ use afp_carbot::devices::Navigator;
 use afp_core::quantity::{AngularSpeed, Speed};
 use afp_core::{Actor, Fault, Instant, Poll};
 use afp_dsl::compile;
+use afp_dsl::files::Texts;
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 use afp_log::proto::afp::plan_event::{Ending, Kind};
@@ -58,14 +59,14 @@ fn options(arguments: &[&str]) -> RunOptions {
 fn a_panic_stops_the_robot_and_ends_the_run() {
     let mut toolboxes = Toolboxes::default();
     toolboxes.add(Source::new("panicking.afp", templates::SOURCE), "panicking");
-    let compiled = compile(&Source::new("breaks.afp", PLAN), &toolboxes);
+    let compiled = compile(&Source::new("breaks.afp", PLAN), &toolboxes, &Texts::default());
     let graph = compiled.graph.as_ref().unwrap_or_else(|| panic!("{}", compiled.render(false)));
     let mut registry = Registry::<Simulation>::new();
     templates::register(&mut registry);
     let plan = LoadedPlan::new(graph, &registry).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let log = folder.path().join("a.mcap");
-    let program = Program { name: "Breaks", file: "breaks.afp", text: PLAN };
+    let program = Program { name: "Breaks", file: "breaks.afp", texts: &[("breaks.afp", PLAN)] };
     let log_name = log.to_str().unwrap();
     let options = options(&["--json", "--svg", "none", "--log", log_name]);
     assert_eq!(run(&program, plan, &options).unwrap(), EXIT_PLAN_ERROR);

@@ -5,6 +5,7 @@ use afp_core::rt::NamedPlan;
 use afp_core::trace::{Kind, Names, Record, Sink};
 use afp_core::{Duration, Instant, Scheduler, StillClock, Wake};
 use afp_dsl::compile;
+use afp_dsl::files::Texts;
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 use afp_sim::{Simulation, World};
@@ -48,7 +49,7 @@ fn load() -> LoadedPlan<Simulation> {
     for builtin in afp_toolboxes::ALL {
         toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
     }
-    let compiled = compile(&Source::new("wall_following.afp", PLAN), &toolboxes);
+    let compiled = compile(&Source::new("wall_following.afp", PLAN), &toolboxes, &Texts::default());
     let messages = compiled.render(false);
     let graph = compiled.graph.expect(&messages);
     let mut registry = Registry::new();

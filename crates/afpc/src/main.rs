@@ -1,7 +1,11 @@
-//! The command line of Action Flow Plans, with the built-in toolboxes alone.
+//! The command line of Action Flow Plans: arguments, files, exit codes.
+
+mod cli;
+mod commands;
+mod plan_file;
 
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    afpc::main(&[])
+    commands::dispatch(&cli::parse())
 }

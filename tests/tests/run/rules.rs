@@ -179,6 +179,11 @@ const RULES: &[Rule] = &[
     ),
     (
         "1.7",
+        "plans of other files are sub-plans like those of the file itself; each file has names of its own",
+        &["files_three"],
+    ),
+    (
+        "1.7",
         "exactly the 'out' entries written or initialised are committed, none on 'Error' or interruption",
         &[
             "sub_plan_interrupted",

@@ -1,15 +1,24 @@
 //! Finds the template or plan that an element or supervisor names.
 
-use crate::check::Context;
-use crate::check::names::unknown;
+use crate::check::names::{ambiguous, unknown};
 use crate::check::signature::{Signature, SignatureKind};
-use crate::check::types::qualified;
+use crate::check::{Context, PlanHead};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
-use crate::graph::{TemplateId, ToolboxId};
+use crate::files::relative;
+use crate::graph::TemplateId;
 use crate::source::Span;
 use crate::syntax::ast::{Name, Ref};
 use crate::toolbox::TemplateKind;
-use crate::words;
+
+/// Something of a name.
+struct Candidate<'a> {
+    /// What it is.
+    signature: Signature,
+    /// The name that qualifies it.
+    home: Option<&'a str>,
+    /// Where it is declared.
+    span: Span,
+}
 
 /// What the keyword in front of a component asks for, and where it stands.
 pub(crate) struct Wanted {
@@ -30,17 +39,22 @@ impl Context<'_> {
         let name = reference.name()?;
         let home = reference.home();
         let mut found = self.candidates(&name, home.as_ref());
+        let fits = |each: &Candidate<'_>| each.signature.kind.keyword() == wanted.keyword;
         // The keyword decides between a plan and a template of the same name.
-        if found.iter().any(|(_, each)| each.kind.keyword() == wanted.keyword) {
-            found.retain(|(_, each)| each.kind.keyword() == wanted.keyword);
+        if found.iter().any(fits) {
+            found.retain(fits);
         }
         if found.len() > 1 {
-            diags.push(ambiguous(&name, reference.span(), &found));
+            let plans = found.iter().all(|each| each.home.is_none());
+            let what = if plans { "a plan" } else { "a template" };
+            let places: Vec<_> = found.iter().map(|each| (each.home, each.span)).collect();
+            diags.push(ambiguous(what, &name.text, reference.span(), &places));
             return None;
         }
-        let Some((_, signature)) = found.pop() else {
-            // It may be in the toolbox that is missing.
-            if self.types.incomplete && wanted.keyword != "subplan" {
+        let Some(Candidate { signature, .. }) = found.pop() else {
+            // It may be in the toolbox or file that is missing.
+            let subplan = wanted.keyword == "subplan";
+            if if subplan { self.file.incomplete } else { self.file.types.incomplete } {
                 return None;
             }
             diags.push(self.not_found(&name, home.as_ref(), reference.span(), wanted));
@@ -53,30 +67,29 @@ impl Context<'_> {
         None
     }
 
-    /// Everything of that name, each with how it is written in full.
-    fn candidates(&self, name: &Name, home: Option<&Name>) -> Vec<(String, Signature)> {
+    /// Everything of that name.
+    fn candidates(&self, name: &Name, home: Option<&Name>) -> Vec<Candidate<'_>> {
         let mut found = Vec::new();
-        if home.is_none() {
-            let plans = self.plans.iter().enumerate();
-            let named = plans.filter(|(_, head)| {
-                head.name.as_ref().is_some_and(|known| known.text == name.text)
-            });
-            // A plan declared twice is reported where it is declared.
-            let first = named.take(1);
-            found.extend(first.map(|(at, head)| (name.text.clone(), Signature::of_plan(at, head))));
+        let plans = self.file.plans.get(&name.text).filter(|_| home.is_none());
+        for place in plans.into_iter().flatten() {
+            let head = &self.program.plans[*place];
+            let span = head.name.as_ref().map_or_else(|| head.node.span(), |name| name.span);
+            let signature = Signature::of_plan(*place, head);
+            found.push(Candidate { signature, home: None, span });
         }
-        for (place, import) in self.imports.iter().enumerate() {
+        for import in &self.file.imports {
             if home.is_some_and(|home| home.text != import.qualifier) {
                 continue;
             }
             let templates = &import.toolbox.templates;
-            let Some(index) = templates.iter().position(|each| each.name == name.text) else {
+            let Some(place) = templates.iter().position(|each| each.name == name.text) else {
                 continue;
             };
-            if let (Ok(place), Ok(index)) = (u16::try_from(place), u16::try_from(index)) {
-                let id = TemplateId { toolbox: ToolboxId(place), index };
-                let full = qualified(Some(&import.qualifier), &name.text);
-                found.push((full, Signature::of_template(import.toolbox.clone(), id)));
+            if let Ok(index) = u16::try_from(place) {
+                let id = TemplateId { toolbox: import.id, index };
+                let signature = Signature::of_template(import.toolbox.clone(), id);
+                let (home, span) = (Some(import.qualifier.as_str()), templates[place].span);
+                found.push(Candidate { signature, home, span });
             }
         }
         found
@@ -90,9 +103,9 @@ impl Context<'_> {
         wanted: &Wanted,
     ) -> Diagnostic {
         if let Some(home) = home
-            && !self.imports.iter().any(|import| import.qualifier == home.text)
+            && !self.file.imports.iter().any(|import| import.qualifier == home.text)
         {
-            let known = self.imports.iter().map(|import| import.qualifier.as_str());
+            let known = self.file.imports.iter().map(|import| import.qualifier.as_str());
             let message = format!("no toolbox is used as '{}'", home.text);
             let none = format!("add 'use {}' at the top of the file", home.text);
             return unknown(Code::E0201, home.span, message, &home.text, known, &none);
@@ -101,26 +114,30 @@ impl Context<'_> {
             "subplan" => format!("there is no plan '{}'", name.text),
             _ => format!("there is no template '{}'", name.text),
         };
-        let others = self
-            .toolboxes
-            .iter()
-            .filter(|toolbox| toolbox.templates.iter().any(|template| template.name == name.text));
+        if wanted.keyword == "subplan"
+            && let Some(path) = self.home_of_plan(name)
+        {
+            let line = format!("use \"{path}\"");
+            return Diagnostic::new(Code::E0201, span, message)
+                .help(format!("add '{line}' at the top of the file"))
+                .fix(self.file.top, format!("{line}\n"));
+        }
+        let others =
+            self.program.toolboxes.iter().filter(|toolbox| {
+                toolbox.templates.iter().any(|template| template.name == name.text)
+            });
         if let Some(other) = others.into_iter().next() {
             let line = format!("use {}", other.name);
             return Diagnostic::new(Code::E0201, span, message)
                 .help(format!("add '{line}' at the top of the file"))
-                .fix(self.top, format!("{line}\n"));
+                .fix(self.file.top, format!("{line}\n"));
         }
-        let templates = self.imports.iter().flat_map(|import| &import.toolbox.templates);
+        let templates = self.file.imports.iter().flat_map(|import| &import.toolbox.templates);
         let fitting = templates
             .filter(|template| SignatureKind::Template(template.kind).keyword() == wanted.keyword);
         let mut known: Vec<&str> = fitting.map(|template| template.name.as_str()).collect();
         if wanted.keyword == "subplan" {
-            known = self
-                .plans
-                .iter()
-                .filter_map(|head| Some(head.name.as_ref()?.text.as_str()))
-                .collect();
+            known = self.file.plans.keys().map(String::as_str).collect();
         }
         known.sort_unstable();
         known.dedup();
@@ -133,12 +150,13 @@ impl Context<'_> {
             "add 'use carbot' or another toolbox at the top of the file",
         )
     }
-}
 
-fn ambiguous(name: &Name, span: Span, found: &[(String, Signature)]) -> Diagnostic {
-    let full = words::list(found.iter().map(|(full, _)| full.as_str()), "or");
-    Diagnostic::new(Code::E0237, span, format!("several toolboxes have a template '{}'", name.text))
-        .help(format!("write {full}"))
+    /// The path of a file that has a plan of that name and is used by a used file only.
+    fn home_of_plan(&self, name: &Name) -> Option<String> {
+        let is_it = |head: &&PlanHead| head.name.as_ref().is_some_and(|n| n.text == name.text);
+        let head = self.program.plans.iter().find(is_it)?;
+        relative(self.file.path, self.program.files[head.file].path)
+    }
 }
 
 fn unfit(signature: &Signature, span: Span, wanted: &Wanted) -> Diagnostic {

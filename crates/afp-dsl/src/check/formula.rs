@@ -8,8 +8,8 @@ use std::cell::Cell;
 use crate::check::constant::{self, Fault};
 use crate::check::convert::coerce;
 use crate::check::entries::EntryDraft;
-use crate::check::names::{Places, unknown};
-use crate::check::types::{Types, qualified};
+use crate::check::names::{Places, ambiguous, unknown};
+use crate::check::types::Types;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{EntryId, EntryKind, Formula, FormulaKind};
 use crate::source::Span;
@@ -17,7 +17,6 @@ use crate::syntax::ast;
 use crate::toolbox::Constant;
 use crate::types::Type;
 use crate::types::literal::MAX_TEXT;
-use crate::words;
 
 /// Greatest number of literals, entries and operations in one formula.
 const MAX_SIZE: usize = 256;
@@ -244,14 +243,12 @@ impl Typer<'_> {
     ) -> Option<Formula> {
         let enums = || self.scope.types.enums.iter().filter(|(_, each)| each.name == home.text);
         if enums().count() > 1 {
-            let homes = enums().map(|(home, each)| qualified(home.as_deref(), &each.name));
-            let homes: Vec<_> = homes.collect();
-            let list = words::list(homes.iter().map(String::as_str), "and");
-            let message = format!("'{}' may be one of {list}", home.text);
-            diags.push(
-                Diagnostic::new(Code::E0237, home.span, message)
-                    .help("use only one of the toolboxes in this file"),
-            );
+            let places: Vec<_> = enums().map(|(home, each)| (home.as_deref(), each.span)).collect();
+            let error = ambiguous("an enum", &home.text, home.span, &places);
+            // Values of enums are written without the toolbox.
+            let of_toolbox = places.iter().any(|(home, _)| home.is_some());
+            let only = "use only one of the toolboxes in this file";
+            diags.push(if of_toolbox { error.help(only) } else { error });
             return None;
         }
         let Some((_, found)) = enums().next() else {

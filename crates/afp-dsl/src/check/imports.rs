@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use crate::check::names::unknown;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
-use crate::syntax::ast::{File, Item, Use};
+use crate::graph::ToolboxId;
+use crate::syntax::ast::{File, Item, Name, Use};
 use crate::toolbox::{Toolbox, Toolboxes};
 
 /// A toolbox that a file uses.
@@ -13,22 +14,26 @@ pub(crate) struct Import {
     pub qualifier: String,
     /// The toolbox.
     pub toolbox: Arc<Toolbox>,
+    /// Its place among those that the files of the compilation use.
+    pub id: ToolboxId,
 }
 
-/// Resolves the `use` lines of a plan file, and says whether one of them failed.
+/// Resolves the `use` lines of a plan file that name toolboxes, and says whether one of them failed.
+/// What no other file used joins `linked`.
 pub(crate) fn read(
     file: &File,
     toolboxes: &Toolboxes,
+    linked: &mut Vec<Arc<Toolbox>>,
     diags: &mut Diagnostics,
 ) -> (Vec<Import>, bool) {
     let mut failed = false;
     let mut imports: Vec<(Import, crate::source::Span)> = Vec::new();
     let uses = file.items().into_iter().filter_map(|item| match item {
-        Item::Use(line) => Some(line),
+        Item::Use(line) => line.toolbox().map(|name| (line, name)),
         _ => None,
     });
-    for line in uses {
-        let Some(import) = one(&line, toolboxes, diags) else {
+    for (line, name) in uses {
+        let Some(import) = one(&line, name, toolboxes, linked, diags) else {
             failed = true;
             continue;
         };
@@ -55,15 +60,13 @@ pub(crate) fn read(
     (imports.into_iter().map(|(import, _)| import).collect(), failed)
 }
 
-fn one(line: &Use, toolboxes: &Toolboxes, diags: &mut Diagnostics) -> Option<Import> {
-    if let Some(path) = line.path() {
-        diags.push(
-            Diagnostic::new(Code::E0501, path.span, "plans of other files cannot be used yet")
-                .help("put the plans that belong together into one file"),
-        );
-        return None;
-    }
-    let name = line.toolbox()?;
+fn one(
+    line: &Use,
+    name: Name,
+    toolboxes: &Toolboxes,
+    linked: &mut Vec<Arc<Toolbox>>,
+    diags: &mut Diagnostics,
+) -> Option<Import> {
     let Some(toolbox) = toolboxes.get(&name.text) else {
         // A toolbox with errors of its own has been reported with them.
         if !toolboxes.is_broken(&name.text) {
@@ -81,7 +84,12 @@ fn one(line: &Use, toolboxes: &Toolboxes, diags: &mut Diagnostics) -> Option<Imp
         return None;
     };
     let qualifier = line.alias().map_or(name.text, |alias| alias.text);
-    Some(Import { qualifier, toolbox: toolbox.clone() })
+    let known = linked.iter().position(|known| Arc::ptr_eq(known, toolbox));
+    let place = known.unwrap_or(linked.len());
+    if known.is_none() {
+        linked.push(toolbox.clone());
+    }
+    Some(Import { qualifier, toolbox: toolbox.clone(), id: ToolboxId(u16::try_from(place).ok()?) })
 }
 
 /// Reports items in places where they cannot stand: `use` below others, plans in a toolbox.

@@ -84,13 +84,35 @@ pub(crate) fn entry(name: &Name, diags: &mut Diagnostics) {
     }
 }
 
+/// Reports a name that several toolboxes and files declare. `found` has what qualifies each, which
+/// is nothing in files, and where it is declared.
+pub(crate) fn ambiguous(
+    what: &str,
+    name: &str,
+    span: Span,
+    found: &[(Option<&str>, Span)],
+) -> Diagnostic {
+    let full = found.iter().filter_map(|(home, _)| home.map(|home| format!("{home}.{name}")));
+    let full: Vec<_> = full.collect();
+    let write = crate::words::list(full.iter().map(String::as_str), "or");
+    let files = found.iter().filter(|(home, _)| home.is_none());
+    let (who, help) = match (full.len(), found.len() - full.len()) {
+        (_, 0) => ("toolboxes", format!("write {write}")),
+        (0, _) => ("files", "give one of them another name".to_owned()),
+        _ => ("files and toolboxes", format!("write {write}, or rename the one of the file")),
+    };
+    let message = format!("several {who} have {what} '{name}'");
+    let error = Diagnostic::new(Code::E0237, span, message).help(help);
+    files.fold(error, |error, (_, place)| error.note(*place, "declared here"))
+}
+
 fn refuse(name: &Name, diags: &mut Diagnostics) {
     let message = format!("'{}' cannot be a name here", name.text);
     diags.push(Diagnostic::new(Code::E0213, name.span, message).help("choose another name"));
 }
 
 /// What is left of a name in every spelling of it.
-fn key(name: &str) -> String {
+pub(crate) fn key(name: &str) -> String {
     match name.is_ascii() {
         true => name.chars().filter(|each| *each != '_').map(|c| c.to_ascii_lowercase()).collect(),
         false => name.chars().filter(|each| *each != '_').collect::<String>().to_lowercase(),

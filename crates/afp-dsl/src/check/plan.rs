@@ -6,7 +6,7 @@ use crate::check::edges::Elements;
 use crate::check::formula::Scope;
 use crate::check::names::{self, Names};
 use crate::check::resources::Users;
-use crate::check::{Context, edges};
+use crate::check::{Context, PlanHead, Program, edges};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{self, Element, ElementId, Supervisor, SupervisorId};
 use crate::source::Span;
@@ -15,22 +15,23 @@ use crate::syntax::ast;
 use component::Components;
 
 /// Checks a plan; `None` when its graph would have holes. [`graph::Component::SubPlan`] carries the
-/// place in the file for now.
+/// place in [`Program::plans`] for now.
 pub(crate) fn check(
-    context: &Context<'_>,
+    program: &Program<'_>,
     place: usize,
     diags: &mut Diagnostics,
 ) -> (Option<graph::Plan>, Users) {
-    let head = &context.plans[place];
+    let head = &program.plans[place];
+    let context = Context { program, file: &program.files[head.file] };
     let elements = head.node.elements();
-    let names = declare(context, place, &elements, diags);
+    let names = declare(head, &elements, diags);
     let scope = Scope {
-        types: &context.types,
+        types: &context.file.types,
         entries: &head.entries,
         places: &head.places,
         readable: &|_| true,
         unreadable: "",
-        text: context.text,
+        text: context.file.text,
     };
     let components = Components { context, scope: &scope, elements: &names };
     let mut users = Users::default();
@@ -56,7 +57,7 @@ pub(crate) fn check(
     }
     let start = start(&head.node, &names, diags);
     too_many(head.name.as_ref(), &[elements.len(), supervisors.len(), head.entries.len()], diags);
-    let plan = finish(head, drawn, supervisors, globals, start);
+    let plan = finish(context, head, drawn, supervisors, globals, start);
     (plan, users)
 }
 
@@ -72,7 +73,8 @@ fn own(mut element: Element, first: usize, end: usize) -> Option<Element> {
 }
 
 fn finish(
-    head: &crate::check::PlanHead,
+    context: Context<'_>,
+    head: &PlanHead,
     elements: Vec<Option<Element>>,
     supervisors: Vec<Option<Supervisor>>,
     globals: usize,
@@ -91,6 +93,7 @@ fn finish(
     let name = head.name.as_ref()?;
     Some(graph::Plan {
         name: name.text.clone(),
+        file: context.file_from_main(),
         doc: head.node.doc(),
         entries: entries.collect::<Option<_>>()?,
         elements: elements.into_iter().collect::<Option<_>>()?,
@@ -104,13 +107,7 @@ fn finish(
 }
 
 /// Checks the names of the plan's scope and gives the elements.
-fn declare(
-    context: &Context<'_>,
-    place: usize,
-    elements: &[ast::Element],
-    diags: &mut Diagnostics,
-) -> Elements {
-    let head = &context.plans[place];
+fn declare(head: &PlanHead, elements: &[ast::Element], diags: &mut Diagnostics) -> Elements {
     let mut scope = Names::default();
     for entry in &head.entries {
         scope.declare(&entry.name, diags);

@@ -1,15 +1,16 @@
 //! Plans that contain themselves, directly or through others: the graph is static, so there can be
 //! none.
 
-use crate::check::PlanHead;
+use crate::check::{PlanHead, Program};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::source::Span;
 use crate::syntax::ast::ElementKind;
 
 /// Reports each cycle once and gives the plans in an order in which sub-plans come before the plans
 /// that use them.
-pub(crate) fn order(plans: &[PlanHead], diags: &mut Diagnostics) -> Vec<usize> {
-    let uses: Vec<_> = plans.iter().map(|head| sub_plans(head, plans)).collect();
+pub(crate) fn order(program: &Program<'_>, diags: &mut Diagnostics) -> Vec<usize> {
+    let plans = &program.plans;
+    let uses: Vec<_> = plans.iter().map(|head| sub_plans(head, program)).collect();
     let mut search = Search {
         plans,
         uses: &uses,
@@ -24,18 +25,20 @@ pub(crate) fn order(plans: &[PlanHead], diags: &mut Diagnostics) -> Vec<usize> {
 }
 
 /// The plans that a plan uses, each with the place where it does.
-pub(crate) fn sub_plans(head: &PlanHead, plans: &[PlanHead]) -> Vec<(usize, Span)> {
+pub(crate) fn sub_plans(head: &PlanHead, program: &Program<'_>) -> Vec<(usize, Span)> {
     let sub_plans = head.node.elements().into_iter().filter(|e| e.kind() == ElementKind::SubPlan);
-    let place = |name: &str| {
-        plans.iter().position(|plan| plan.name.as_ref().is_some_and(|known| known.text == name))
-    };
+    let known = &program.files[head.file].plans;
     sub_plans
         .filter_map(|element| {
             let reference = element.template()?;
-            Some((place(&reference.name()?.text)?, reference.span()))
+            let place = known.get(&reference.name()?.text)?.first()?;
+            Some((*place, reference.span()))
         })
         .collect()
 }
+
+/// Greatest number of steps of a cycle that are shown at their places.
+const MAX_NOTES: usize = 8;
 
 #[derive(Clone, Copy, PartialEq)]
 enum State {
@@ -88,9 +91,15 @@ impl Search<'_> {
         let mut cycle: Vec<_> = path[from..].iter().map(|(plan, _)| name(*plan)).collect();
         cycle.push(name(used));
         let message = format!("'{}' contains itself: {}", name(used), cycle.join(" -> "));
-        self.diags.push(
-            Diagnostic::new(Code::E0222, span, message)
-                .help("lead back with an edge to an element instead of a sub-plan"),
-        );
+        let mut error = Diagnostic::new(Code::E0222, span, message)
+            .help("lead back with an edge to an element instead of a sub-plan");
+        let steps = path[from..].windows(2);
+        for step in steps.take(MAX_NOTES) {
+            let ((plan, next), (inner, _)) = (step[0], step[1]);
+            if let Some((_, place)) = self.uses[plan].get(next.saturating_sub(1)) {
+                error = error.note(*place, format!("'{}' contains '{}'", name(plan), name(inner)));
+            }
+        }
+        self.diags.push(error);
     }
 }

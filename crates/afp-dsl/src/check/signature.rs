@@ -32,7 +32,7 @@ pub(crate) struct Signature {
 pub(crate) enum SignatureKind {
     /// A template.
     Template(TemplateKind),
-    /// A plan, by its place in the file.
+    /// A plan, by its place in [`crate::check::Program::plans`].
     Plan(usize),
 }
 

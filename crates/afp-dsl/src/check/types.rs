@@ -1,12 +1,12 @@
 //! What the words of a type mean.
 
+use std::collections::HashSet;
 use std::sync::Arc;
 
-use crate::check::names::unknown;
+use crate::check::names::{ambiguous, unknown};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::syntax::ast::{self, Factor};
 use crate::types::{Dimension, Enum, Object, Type};
-use crate::words;
 
 /// The types that a text can name: the built-in ones and these.
 #[derive(Default)]
@@ -124,20 +124,23 @@ impl Types {
                     known.push(dimension);
                 }
                 known.extend(self.objects.iter().map(|(_, each)| each.name.as_str()));
+                let mut seen = HashSet::new();
+                known.retain(|name| seen.insert(*name));
                 let message = format!("there is no type '{}'", name.text);
                 diags.push(unknown(Code::E0232, reference.span(), message, &name.text, known, ""));
                 None
             }
             several => {
-                let spelled =
-                    several.iter().map(|(home, _)| qualified(home.as_deref(), &name.text));
-                let spelled: Vec<_> = spelled.collect();
-                let list = words::list(spelled.iter().map(String::as_str), "or");
-                let message = format!("several toolboxes have a type '{}'", name.text);
-                diags.push(
-                    Diagnostic::new(Code::E0237, reference.span(), message)
-                        .help(format!("write {list}")),
-                );
+                let places = several.iter().map(|(home, ty)| {
+                    let span = match ty {
+                        Type::Enum(home) => home.span,
+                        Type::Object(home) => home.span,
+                        _ => reference.span(),
+                    };
+                    (home.as_deref(), span)
+                });
+                let places: Vec<_> = places.collect();
+                diags.push(ambiguous("a type", &name.text, reference.span(), &places));
                 None
             }
         }
@@ -189,12 +192,4 @@ fn too_high(factor: &Factor, diags: &mut Diagnostics) {
         Diagnostic::new(Code::E0232, factor.span, "the exponent is too large")
             .help("exponents of a dimension go from -128 to 127"),
     );
-}
-
-/// `home.name`, or the name alone.
-pub(crate) fn qualified(home: Option<&str>, name: &str) -> String {
-    match home {
-        Some(home) => format!("{home}.{name}"),
-        None => name.to_owned(),
-    }
 }

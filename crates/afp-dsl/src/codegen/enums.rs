@@ -1,16 +1,14 @@
 //! Enums of toolboxes and plan files as Rust enums.
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use crate::codegen::layout::doc;
-use crate::codegen::names::{camel, ident};
 use crate::codegen::rust_type::variant;
 use crate::types::Enum;
 
-/// The enum with everything that entries and ports need of it.
-pub fn choices(core: &TokenStream, choices: &Enum) -> TokenStream {
-    let name = ident(&camel(&choices.name));
+/// The enum, under a Rust name, with everything that entries and ports need of it.
+pub fn choices(core: &TokenStream, choices: &Enum, name: &Ident) -> TokenStream {
     let help = doc(&choices.doc, &format!("The enum `{}`.", choices.name));
     let indices = || 0..choices.variants.len() as u16;
     let variants: Vec<_> = indices().map(|index| variant(choices, index)).collect();

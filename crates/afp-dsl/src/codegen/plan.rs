@@ -23,7 +23,6 @@ use crate::codegen::Options;
 use crate::codegen::layout::{comment, doc};
 use crate::codegen::names::camel;
 use crate::graph::{Graph, PlanId};
-use crate::source::Span;
 use crate::unfold;
 use context::Context;
 pub(crate) use shared::units_name;
@@ -52,17 +51,16 @@ pub struct Module {
     pub imports: TokenStream,
     /// Its sections, each with its title.
     pub sections: Vec<(&'static str, TokenStream)>,
-    /// The plan that it is made from.
-    pub span: Span,
 }
 
 /// The Rust code of all plans of a graph.
 pub fn plan(graph: &Graph, options: &Options) -> Generated {
     let blocks = unfold::blocks(graph);
     let places = (0..).zip(&graph.plans);
-    let mut modules = shared::modules(graph, options);
+    let enums = shared::enums_of(graph);
+    let mut modules = shared::modules(graph, &enums, options);
     for ((number, plan), block) in places.zip(&blocks) {
-        let context = Context::new(graph, plan, block);
+        let context = Context::new(graph, &enums, plan, block);
         modules.push(module(&context, options, PlanId(number)));
     }
     let plans = (0..graph.plans.len() as u16).map(|number| home(graph, PlanId(number)));
@@ -72,10 +70,11 @@ pub fn plan(graph: &Graph, options: &Options) -> Generated {
 
 fn module(context: &Context<'_>, options: &Options, id: PlanId) -> Module {
     let plan = context.plan;
+    let home = plan.file.as_ref().map(|file| format!(" of `{file}`")).unwrap_or_default();
     let about = if plan.doc.is_empty() {
-        format!("The plan `{}`.", plan.name)
+        format!("The plan `{}`{home}.", plan.name)
     } else {
-        format!("The plan `{}`: {}", plan.name, plan.doc)
+        format!("The plan `{}`{home}: {}", plan.name, plan.doc)
     };
     let sections = vec![
         ("Actors", elements::elements(context)),
@@ -85,7 +84,7 @@ fn module(context: &Context<'_>, options: &Options, id: PlanId) -> Module {
         ("Names", names::names(context, id)),
     ];
     let imports = imports::imports(&options.core, context, &sections);
-    Module { name: context.module.clone(), doc: about, imports, sections, span: plan.span }
+    Module { name: context.module.clone(), doc: about, imports, sections }
 }
 
 fn plan_section(context: &Context<'_>) -> TokenStream {

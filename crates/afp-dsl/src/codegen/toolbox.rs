@@ -3,7 +3,6 @@
 //! A crate that implements a toolbox puts this into a module `templates`; the types that implement
 //! the templates carry the templates' names in the module around it.
 
-mod declared;
 mod outcomes;
 mod ports;
 mod register;
@@ -19,13 +18,13 @@ use crate::codegen::rust_type::Home;
 use crate::toolbox::{InPort, Template, TemplateKind, Toolbox};
 use crate::types::{Enum, Object, Type};
 
-pub use declared::declaration;
-
 /// Everything that `toolbox!` makes.
 pub fn toolbox(toolbox: &Toolbox, options: &Options) -> TokenStream {
     let (core, source) = (&options.core, &options.source);
     let text = doc("", "The text of the toolbox file.");
-    let enums = toolbox.enums.iter().map(|choices| enums::choices(core, choices));
+    let rust_name = |choices: &Enum| ident(&camel(&choices.name));
+    let enums = toolbox.enums.iter();
+    let enums = enums.map(|choices| enums::choices(core, choices, &rust_name(choices)));
     let templates = toolbox.templates.iter().map(|t| template(core, t));
     let register = register::register(core, toolbox);
     quote! {

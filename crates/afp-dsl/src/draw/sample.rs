@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::files::Texts;
 use crate::source::Source;
 use crate::toolbox::Toolboxes;
 use crate::{Compiled, compile};
@@ -18,7 +19,7 @@ pub(super) fn compiled(text: &str) -> Compiled {
     for builtin in afp_toolboxes::ALL {
         toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
     }
-    let compiled = compile(&Source::new("sample.afp", text), &toolboxes);
+    let compiled = compile(&Source::new("sample.afp", text), &toolboxes, &Texts::default());
     assert!(compiled.graph.is_some(), "{}", compiled.render(false));
     compiled
 }

@@ -18,9 +18,8 @@ const MAX_NAMES: usize = 8;
 /// Greatest number of conditions that a diagnostic shows.
 const MAX_CONDITIONS: usize = 8;
 
-/// Reports each cycle once, at the edge that closes it; tells which endings can come within one
-/// step, and whether the plan never takes time.
-pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> ([bool; 2], bool) {
+/// Reports each cycle once, at the edge that closes it.
+pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     let sure = Quick::of(view, |edge| is_sure(view, edge.cause));
     for (members, inner) in sure.cycles() {
         match sure.has_exit(&members) {
@@ -36,8 +35,13 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> ([bool; 2], boo
             lasting.report_conditions(&inner, diags);
         }
     }
-    let quick = Quick::of(view, |edge| is_quick(view, edge));
-    (instant::endings(view, &quick.edges), timeless(view))
+}
+
+/// Which endings can come within the step that starts the plan, and whether it never takes time.
+pub(super) fn instant_endings(view: &View<'_>) -> ([bool; 2], bool) {
+    let reached = view.edges.iter().filter(|edge| view.reached[edge.from]);
+    let quick: Vec<Edge> = reached.filter(|edge| is_quick(view, edge)).copied().collect();
+    (instant::endings(view, &quick), timeless(view))
 }
 
 /// Whether a plan consists of computations only.

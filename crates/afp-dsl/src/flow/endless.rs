@@ -8,7 +8,7 @@ use crate::flow::{INTERRUPTED, OK};
 /// come.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [bool; 2] {
     let forth = forward(view);
-    let ends = [forth[view.end(OK)], forth[view.end(INTERRUPTED)]];
+    let ends = ends(view, &forth);
     if ends == [false, false] {
         let message = format!("'{}' can never end: nothing leads to 'terminate'", view.plan.name);
         diags.push(
@@ -28,6 +28,15 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [bool; 2] {
         }
     }
     ends
+}
+
+/// Which endings can come.
+pub(super) fn endings(view: &View<'_>) -> [bool; 2] {
+    ends(view, &forward(view))
+}
+
+fn ends(view: &View<'_>, forth: &[bool]) -> [bool; 2] {
+    [forth[view.end(OK)], forth[view.end(INTERRUPTED)]]
 }
 
 fn forward(view: &View<'_>) -> Vec<bool> {

@@ -46,6 +46,9 @@ impl Dump<'_> {
         if main {
             head += " (main)";
         }
+        if let Some(file) = &plan.file {
+            head += &format!(" of {file}");
+        }
         if plan.interruptible {
             head += " (interruptible)";
         }

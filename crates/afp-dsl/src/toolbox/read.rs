@@ -91,7 +91,7 @@ fn no_uses(items: &[Item], diags: &mut Diagnostics) {
     for item in items {
         if let Item::Use(line) = item {
             diags.push(
-                Diagnostic::new(Code::E0501, line.span(), "a toolbox cannot use others yet")
+                Diagnostic::new(Code::E0114, line.span(), "a toolbox cannot use other files")
                     .help("declare the types that it needs in this file"),
             );
         }

@@ -1,6 +1,6 @@
 // enums.rs
 
-//! The enums of the plan file.
+//! The enums of the plan files.
 
 // **** Enums ****
 
@@ -503,9 +503,7 @@ struct Supervisors {
 
 /// Inputs of `seek.watch`.
 fn seek_watch<'a>() -> Result<kit::watch::Inputs<'a>, Fault> {
-    Ok(kit::watch::Inputs {
-        label: "i",
-    })
+    Ok(kit::watch::Inputs { label: "i" })
 }
 
 /// Live inputs of `seek.watch`.

@@ -2,6 +2,7 @@
 
 use afp_dsl::compile;
 use afp_dsl::edit::{Change, Item, apply, edit};
+use afp_dsl::files::Texts;
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 
@@ -15,7 +16,7 @@ fn dump(text: &str) -> String {
     for builtin in afp_toolboxes::ALL {
         toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
     }
-    let compiled = compile(&Source::new("case.afp", text), &toolboxes);
+    let compiled = compile(&Source::new("case.afp", text), &toolboxes, &Texts::default());
     let graph = compiled.graph.as_ref();
     graph.unwrap_or_else(|| panic!("{}\n{text}", compiled.render(false))).dump()
 }

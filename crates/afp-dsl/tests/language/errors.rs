@@ -18,32 +18,33 @@ fn stripped(case: &str) -> String {
     lines.collect()
 }
 
-/// Column and text of a place, with line and file where they are others than `line` of the case.
-fn place(compiled: &Compiled, span: Span, line: Option<usize>) -> String {
+/// Column and text of a place, with line and file where they are others than those of `here`.
+fn place(compiled: &Compiled, span: Span, here: (&str, usize)) -> String {
     let source = compiled.sources.get(span.file).unwrap();
-    let (own, column) = source.line_column(span.start);
+    let (line, column) = source.line_column(span.start);
     let text = compiled.sources.text(span);
     let first = text.lines().next().unwrap_or("");
     let more = if text.lines().count() > 1 { " ..." } else { "" };
-    let case = source.name == "case.afp";
-    match line {
-        Some(line) if line == own && case => format!("{column} `{first}`{more}"),
-        _ if case => format!("{own}:{column} `{first}`{more}"),
+    let plan_file = compiled.plan_sources().any(|each| each.name == source.name);
+    match here {
+        (file, own) if file == source.name && own == line => format!("{column} `{first}`{more}"),
+        (file, _) if file == source.name => format!("{line}:{column} `{first}`{more}"),
+        _ if plan_file => format!("{}:{line}:{column} `{first}`{more}", source.name),
         _ => format!("{} `{first}`{more}", source.name),
     }
 }
 
-fn expectation(compiled: &Compiled, diagnostic: &Diagnostic, line: usize) -> String {
+fn expectation(compiled: &Compiled, diagnostic: &Diagnostic, here: (&str, usize)) -> String {
     let Diagnostic { code, severity, message, span, notes, help, fix } = diagnostic;
-    let shown = place(compiled, *span, Some(line));
+    let shown = place(compiled, *span, here);
     let mut text = format!("{MARK}{}[{}] {shown}: {message}\n", severity.as_str(), code.as_str());
     for note in notes {
-        let shown = place(compiled, note.span, Some(line));
+        let shown = place(compiled, note.span, here);
         text += &format!("{MARK}  note {shown}: {}\n", note.text);
     }
     text += &format!("{MARK}  help: {help}\n");
     if let Some(fix) = fix {
-        let shown = place(compiled, fix.span, Some(line));
+        let shown = place(compiled, fix.span, here);
         text += &format!("{MARK}  fix {shown}: {}\n", fix.text.escape_debug());
     }
     text
@@ -52,12 +53,18 @@ fn expectation(compiled: &Compiled, diagnostic: &Diagnostic, line: usize) -> Str
 /// The case with what the compiler says about it.
 fn annotated(text: &str, compiled: &Compiled) -> String {
     let mut result = String::new();
-    for (place, line) in text.split_inclusive('\n').enumerate() {
+    let (mut file, mut number) = (support::CASE, 0);
+    for line in text.split_inclusive('\n') {
         result += line;
+        if let Some(next) = support::head(line) {
+            (file, number) = (next, 0);
+            continue;
+        }
+        number += 1;
         for diagnostic in compiled.diags.iter() {
             let source = compiled.sources.get(diagnostic.span.file).unwrap();
-            if source.line_column(diagnostic.span.start).0 == place + 1 {
-                result += &expectation(compiled, diagnostic, place + 1);
+            if source.name == file && source.line_column(diagnostic.span.start).0 == number {
+                result += &expectation(compiled, diagnostic, (file, number));
             }
         }
     }
@@ -108,7 +115,10 @@ fn a_fix_mends_what_it_is_for() {
         for diagnostic in compiled.diags.iter() {
             let Some(fix) = &diagnostic.fix else { continue };
             let mut mended = text.clone();
-            mended.replace_range(fix.span.start as usize..fix.span.end as usize, &fix.text);
+            let name = &compiled.sources.get(fix.span.file).unwrap().name;
+            let first = support::offset(&text, name);
+            let range = first + fix.span.start as usize..first + fix.span.end as usize;
+            mended.replace_range(range, &fix.text);
             let after = support::compile(&mended, &toolboxes);
             assert!(
                 !has(&after, diagnostic),

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use afp_dsl::Compiled;
+use afp_dsl::files::Texts;
 use afp_dsl::source::{Source, Sources};
 use afp_dsl::timing::{Target, check_target};
 use afp_dsl::toolbox::Toolboxes;
@@ -23,18 +24,22 @@ pub fn toolboxes() -> Toolboxes {
     toolboxes
 }
 
-/// Compiles a plan file, or reads a toolbox; a first line `// plan: NAME` chooses the plan, one
-/// `// target: NAME` what it shall run on.
+/// The name of the first file of a case.
+pub const CASE: &str = "case.afp";
+
+/// Compiles a plan file with those that follow it below lines `// file: PATH`, or reads a toolbox; a
+/// first line `// plan: NAME` chooses the plan, one `// target: NAME` what it shall run on.
 pub fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
-    let source = Source::new("case.afp", text);
+    let (text, files) = &Texts::in_one(text);
+    let source = Source::new(CASE, text);
     if text.lines().any(|line| line.starts_with("toolbox ")) && !text.contains("// as a plan") {
         let mut own = Toolboxes::default();
         own.add(source, "mine");
         let (diags, sources): (_, &Sources) = (own.diagnostics().clone(), own.sources());
-        return Compiled { graph: None, diags, sources: sources.clone() };
+        return Compiled { graph: None, diags, sources: sources.clone(), plan_files: 0..0 };
     }
     let plan = text.lines().next().and_then(|line| line.strip_prefix("// plan: "));
-    let mut compiled = afp_dsl::compile_plan(&source, toolboxes, plan);
+    let mut compiled = afp_dsl::compile_plan(&source, toolboxes, files, plan);
     let target = text.lines().next().and_then(|line| line.strip_prefix("// target: "));
     if let (Some(name), Some(graph)) = (target, &compiled.graph) {
         compiled.diags.extend(check_target(graph, &Target::built_in(name).unwrap()));
@@ -42,6 +47,24 @@ pub fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
         compiled.graph = compiled.graph.filter(|_| !compiled.diags.has_errors());
     }
     compiled
+}
+
+/// The file that begins with a line of a case, if one does.
+pub fn head(line: &str) -> Option<&str> {
+    line.strip_prefix("// file: ").map(str::trim_end)
+}
+
+/// Where the text of a file begins in its case.
+pub fn offset(case: &str, file: &str) -> usize {
+    let mut at = 0;
+    for line in case.split_inclusive('\n') {
+        at += line.len();
+        if head(line) == Some(file) {
+            return at;
+        }
+    }
+    assert_eq!(file, CASE);
+    0
 }
 
 /// The `.afp` files of a folder of this crate, sorted.

@@ -2,6 +2,13 @@
 
 mod targets;
 
+use std::collections::HashSet;
+use std::path::PathBuf;
+
+use afp_dsl::Compiled;
+use afp_dsl::diagnostics::Code;
+use afp_dsl::files::normalised;
+use afp_dsl::source::Span;
 use afp_dsl::timing::{Target, check_target, timing};
 use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_USAGE};
 use clap::Args;
@@ -40,17 +47,21 @@ Examples:
 /// Checks all files; the worst exit code wins.
 ///
 /// # Errors
-/// A target that there is not, a closed standard output.
+/// A target that there is not, a broken `afp.toml`, a closed standard output.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let mut code = EXIT_OK;
+    let mut told = HashSet::new();
     for name in &arguments.files {
-        code = code.max(check(name, arguments)?);
+        code = code.max(check(name, arguments, &mut told)?);
     }
     debug_assert!(code < EXIT_USAGE);
     Ok(code)
 }
 
-fn check(name: &str, arguments: &Arguments) -> Result<u8, NoPlan> {
+/// What has been told already, since files may be used by several others: file, place, message.
+type Told = HashSet<(PathBuf, Span, Code, String)>;
+
+fn check(name: &str, arguments: &Arguments, told: &mut Told) -> Result<u8, NoPlan> {
     let mut file = match PlanFile::read(name) {
         Ok(file) => file,
         // The other files are still worth checking.
@@ -59,12 +70,14 @@ fn check(name: &str, arguments: &Arguments) -> Result<u8, NoPlan> {
             return Ok(EXIT_FAILED);
         }
     };
-    let targets = targets::choose(&file.own.project.project, arguments.target.as_deref())?;
+    let targets = targets::choose(&file.path, arguments.target.as_deref())?;
     let compiled = &mut file.compiled;
     if let Some(graph) = &compiled.graph {
         targets.iter().for_each(|target| compiled.diags.extend(check_target(graph, target)));
         compiled.diags.sort();
     }
+    let wrong = compiled.diags.has_errors();
+    leave_out_told(compiled, told);
     match arguments.json {
         true => {
             print(&compiled.diags.json_lines(&compiled.sources))?;
@@ -75,13 +88,23 @@ fn check(name: &str, arguments: &Arguments) -> Result<u8, NoPlan> {
     if arguments.timing {
         show_timing(&file, &targets, arguments.json)?;
     }
-    if file.compiled.diags.has_errors() {
+    if wrong {
         return Ok(EXIT_FAILED);
     }
     if !arguments.json {
         print(&format!("{}: no errors\n", file.path.display()))?;
     }
     Ok(EXIT_OK)
+}
+
+fn leave_out_told(compiled: &mut Compiled, told: &mut Told) {
+    let sources = &compiled.sources;
+    compiled.diags.retain(|diagnostic| {
+        let name = sources.get(diagnostic.span.file).map_or("", |source| &source.name);
+        let path = std::path::absolute(normalised(name)).unwrap_or_else(|_| name.into());
+        let place = Span { file: 0, ..diagnostic.span };
+        told.insert((path, place, diagnostic.code, diagnostic.message.clone()))
+    });
 }
 
 /// Prints a table for each target, or one for none in particular; nothing for a plan with errors of

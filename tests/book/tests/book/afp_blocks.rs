@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use afp_book::Block;
 use afp_dsl::diagnostics::Diagnostics;
+use afp_dsl::files::Texts;
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 use afp_dsl::{compile, format, syntax};
@@ -20,10 +21,11 @@ const FRAMES: &[(&str, &str)] = &[
 
 #[test]
 fn plans_and_toolboxes_say_what_the_book_says() {
-    let mut toolboxes_of: BTreeMap<String, Toolboxes> = BTreeMap::new();
+    let mut shown: BTreeMap<String, Shown> = BTreeMap::new();
     let mut wrong = Vec::new();
     for block in blocks("afp") {
-        let own = toolboxes_of.entry(block.page.clone()).or_insert_with(toolboxes);
+        let nothing = || Shown { toolboxes: toolboxes(), files: Texts::default() };
+        let own = shown.entry(block.page.clone()).or_insert_with(nothing);
         if let Some(why) = check(&block, own) {
             wrong.push(format!("{}: {why}", block.place()));
         }
@@ -31,8 +33,15 @@ fn plans_and_toolboxes_say_what_the_book_says() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// What is wrong with a block; a toolbox is there for the plans behind it on the page.
-fn check(block: &Block, toolboxes: &mut Toolboxes) -> Option<String> {
+/// What a page has shown so far.
+struct Shown {
+    toolboxes: Toolboxes,
+    files: Texts,
+}
+
+/// What is wrong with a block; toolboxes and named files are there for the plans behind them on the
+/// page.
+fn check(block: &Block, shown: &mut Shown) -> Option<String> {
     let name = block.value("file").unwrap_or("block.afp");
     let source = Source::new(name, block.text.as_str());
     if block.has("fragment") {
@@ -43,12 +52,13 @@ fn check(block: &Block, toolboxes: &mut Toolboxes) -> Option<String> {
             let mut alone = Toolboxes::default();
             alone.add(source.clone(), "crate");
             if block.value("file").is_some() {
-                toolboxes.add(source, "crate");
+                shown.toolboxes.add(source, "crate");
             }
             (alone.diagnostics().clone(), alone.diagnostics().render(alone.sources(), false))
         }
         false => {
-            let compiled = compile(&source, toolboxes);
+            let compiled = compile(&source, &shown.toolboxes, &shown.files);
+            shown.files.add(name, block.text.as_str());
             (compiled.diags.clone(), compiled.render(false))
         }
     };

@@ -16,7 +16,7 @@ use crate::syntax::ast::{self, ElementKind};
 /// What the components of one plan are checked against.
 pub(super) struct Components<'a> {
     /// The file.
-    pub context: &'a Context<'a>,
+    pub context: Context<'a>,
     /// What formulas can name.
     pub scope: &'a Scope<'a>,
     /// The elements that edges can lead to.

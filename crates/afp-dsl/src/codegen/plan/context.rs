@@ -12,6 +12,7 @@ use crate::types::{Enum, Object, Type};
 use crate::unfold::Block;
 
 use super::imports::{CORE, QUANTITY, RT};
+use super::shared::FileEnum;
 
 /// Types of the module itself, and names that are always there.
 const OWN: &[&str] = &[
@@ -41,6 +42,8 @@ const VALUES: &[&str] =
 /// One plan, with the names of its parts.
 pub struct Context<'a> {
     pub graph: &'a Graph,
+    /// The enums of the plan files.
+    pub enums: &'a [FileEnum],
     pub plan: &'a Plan,
     pub block: &'a Block,
     /// The module.
@@ -96,7 +99,7 @@ pub fn type_name(name: &str) -> Ident {
 
 impl<'a> Context<'a> {
     /// Names everything in a plan.
-    pub fn new(graph: &'a Graph, plan: &'a Plan, block: &'a Block) -> Self {
+    pub fn new(graph: &'a Graph, enums: &'a [FileEnum], plan: &'a Plan, block: &'a Block) -> Self {
         let mut namer = Namer::new();
         let elements: Vec<_> =
             plan.elements.iter().map(|element| namer.name(&element.name, &element.name)).collect();
@@ -113,6 +116,7 @@ impl<'a> Context<'a> {
         let supervisors = supervisors.collect();
         Context {
             graph,
+            enums,
             plan,
             block,
             module: module_name(&plan.name),
@@ -155,7 +159,7 @@ impl<'a> Context<'a> {
 
     /// Gives the types as this plan's module sees them.
     pub fn with_home<R>(&self, run: impl FnOnce(&Home<'_>) -> R) -> R {
-        let choice = &|choices: &Enum| enum_path(self.graph, choices);
+        let choice = &|choices: &Enum| self.enum_path(choices);
         let object = &|object: &Object| {
             let toolbox = self.graph.toolboxes.iter().find(|t| t.name == object.toolbox);
             let (home, name) =
@@ -163,6 +167,19 @@ impl<'a> Context<'a> {
             quote!(#home::#name)
         };
         run(&Home { core: TokenStream::new(), quantity: TokenStream::new(), choice, object })
+    }
+
+    /// The path of an enum, from the plan's module.
+    fn enum_path(&self, choices: &Enum) -> TokenStream {
+        let camel = || ident(&camel(&choices.name));
+        let Some(toolbox) = &choices.toolbox else {
+            let named = self.enums.iter().find(|(known, _)| **known == *choices);
+            let name = named.map_or_else(camel, |(_, name)| name.clone());
+            return quote!(super::enums::#name);
+        };
+        let home = self.graph.toolboxes.iter().find(|known| known.name == *toolbox);
+        let (home, name) = (path(home.map_or("crate", |home| &home.rust_path)), camel());
+        quote!(#home::templates::#name)
     }
 
     /// The Rust type of a value.
@@ -216,19 +233,6 @@ pub fn alias(toolbox: &str) -> Ident {
     match name.as_str() {
         "std" | "core" | "alloc" | "rt" | "enums" | "units" => format_ident!("{name}_templates"),
         name => ident(name),
-    }
-}
-
-/// The path of an enum, from a plan's module.
-fn enum_path(graph: &Graph, choices: &Enum) -> TokenStream {
-    let name = ident(&camel(&choices.name));
-    match &choices.toolbox {
-        None => quote!(super::enums::#name),
-        Some(toolbox) => {
-            let home = graph.toolboxes.iter().find(|known| known.name == *toolbox);
-            let home = path(home.map_or("crate", |home| &home.rust_path));
-            quote!(#home::templates::#name)
-        }
     }
 }
 

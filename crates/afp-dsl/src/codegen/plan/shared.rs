@@ -1,4 +1,4 @@
-//! What the plans of a file share: enums of the file, and units that texts may carry.
+//! What the plans of a graph share: enums of their files, and units that texts may carry.
 
 use std::sync::Arc;
 
@@ -9,25 +9,23 @@ use super::Module;
 use crate::codegen::Options;
 use crate::codegen::enums;
 use crate::codegen::layout::doc;
-use crate::codegen::names::ident;
+use crate::codegen::names::{Names, camel, ident};
 use crate::codegen::rust_type::{float, int};
 use crate::graph::{EntryKind, Formula, FormulaKind, Graph};
 use crate::types::readable::{ReadableUnit, Scale, readable};
 use crate::types::{Conversion, Dimension, Enum, Type};
 
 /// The modules `enums` and `units`, where they have anything in them.
-pub fn modules(graph: &Graph, options: &Options) -> Vec<Module> {
+pub fn modules(graph: &Graph, enums: &[FileEnum], options: &Options) -> Vec<Module> {
     let core = &options.core;
     let mut modules = Vec::new();
-    let enums = enums_of(graph);
     if !enums.is_empty() {
-        let items = enums.iter().map(|choices| enums::choices(core, choices));
+        let items = enums.iter().map(|(choices, name)| enums::choices(core, choices, name));
         modules.push(Module {
             name: ident("enums"),
-            doc: "The enums of the plan file.".to_owned(),
+            doc: "The enums of the plan files.".to_owned(),
             imports: TokenStream::new(),
             sections: vec![("Enums", quote!(#(#items)*))],
-            span: graph.main().span,
         });
     }
     let dimensions = dimensions_of(graph);
@@ -38,7 +36,6 @@ pub fn modules(graph: &Graph, options: &Options) -> Vec<Module> {
             doc: "The units that a quantity may be written in.".to_owned(),
             imports: quote!(use #core::rt::{Scale, Unit};),
             sections: vec![("Units", quote!(#(#items)*))],
-            span: graph.main().span,
         });
     }
     modules
@@ -85,15 +82,20 @@ fn unit(unit: &ReadableUnit) -> TokenStream {
     quote!(Unit { name: #name, scale: Scale::#scale })
 }
 
-/// The enums of the plan file itself that any entry or formula has, in the order of first use.
-fn enums_of(graph: &Graph) -> Vec<Arc<Enum>> {
-    let mut enums: Vec<Arc<Enum>> = Vec::new();
+/// An enum of a plan file, with its Rust name.
+pub type FileEnum = (Arc<Enum>, Ident);
+
+/// The enums of the plan files that any entry or formula has, in the order of first use.
+pub fn enums_of(graph: &Graph) -> Vec<FileEnum> {
+    let mut enums: Vec<FileEnum> = Vec::new();
+    let mut names = Names::default();
     types(graph, &mut |ty| {
         if let Type::Enum(choices) = ty
             && choices.toolbox.is_none()
-            && !enums.contains(choices)
+            && !enums.iter().any(|(known, _)| known == choices)
         {
-            enums.push(choices.clone());
+            let name = ident(&names.unique(camel(&choices.name)));
+            enums.push((choices.clone(), name));
         }
     });
     enums

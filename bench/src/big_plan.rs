@@ -1,0 +1,69 @@
+//! Plans of any size that look like plans somebody wrote: several supervisors, data in and out,
+//! comments, and edges back and forth.
+
+use std::fmt::Write;
+
+/// Data entries; each actor writes one and reads another.
+const ENTRIES: usize = 50;
+
+/// The text of a plan with that many actors, about 400 bytes each.
+pub fn text(actors: usize) -> String {
+    let mut text = String::from("use carbot\n\n/// Drives here and there.\nplan Big {\n");
+    text += "    in walldist: length = 30 cm\n";
+    // Writing to a string cannot fail.
+    for entry in 0..ENTRIES {
+        let _ = writeln!(text, "    var angle{entry}: angle = {entry} deg");
+    }
+    text += "\n    start drive0\n\n    supervise escape: CheckEscapeButton {\n";
+    text += "        EscapeButtonPressed -> terminate\n    }\n";
+    for actor in 0..actors {
+        actor_text(&mut text, actor, actors);
+    }
+    text += "}\n";
+    text
+}
+
+fn actor_text(text: &mut String, actor: usize, actors: usize) {
+    let next = (actor + 1) % actors;
+    let back = actor.saturating_sub(1);
+    let entry = actor % ENTRIES;
+    let _ = match actor % 3 {
+        0 => writeln!(
+            text,
+            "
+    // Ahead, unless something stands there.
+    actor drive{actor}: Forward(distance = 2 * walldist + {actor} mm, speed = 20 cm/s) {{
+        supervise touch{actor}: CheckTouchSensor every 5 ms {{
+            TouchSensorPressed -> drive{next}
+        }}
+        supervise lane{actor}: CheckDrivingLane(distance = walldist, clearance = 10 cm, margin = 10 cm, halfwidth = 25 cm) {{
+            LaneNotFree -> drive{back}
+        }}
+        ForwardSuccessful -> drive{next}
+    }}"
+        ),
+        1 => writeln!(
+            text,
+            "
+    actor drive{actor}: SearchWall(sweep = 60 deg, range = walldist * 5, angle => angle{entry}) {{
+        supervise touch{actor}: CheckTouchSensor {{
+            TouchSensorPressed -> drive{back}
+        }}
+        WallFound   -> drive{next} // there it is
+        NoWallFound -> drive{back}
+        Error       -> terminate
+    }}"
+        ),
+        _ => writeln!(
+            text,
+            "
+    actor drive{actor}: Turn(angle = angle{entry} / 2 - 5 deg) {{
+        supervise touch{actor}: CheckTouchSensor every 10 ms deadline 5 ms {{
+            TouchSensorPressed -> drive{back}
+            DeadlineMissed     -> terminate
+        }}
+        TurnSuccessful -> drive{next}
+    }}"
+        ),
+    };
+}

@@ -1,0 +1,79 @@
+//! What checking a plan costs: by the size of the plan, beside cutting its text into tokens.
+
+use std::hint::black_box;
+
+use afp_dsl::compile;
+use afp_dsl::files::Texts;
+use afp_dsl::source::Source;
+use afp_dsl::syntax::count_tokens;
+use afp_dsl::toolbox::Toolboxes;
+
+use crate::big_plan;
+use crate::measure::{Race, Times};
+use crate::report::{Report, Row};
+
+/// A turn takes about as long as a thousand turns of the shortest cases.
+const ROUNDS: u32 = 25;
+
+/// Races checks of a thousand and of ten thousand actors with the lexer.
+pub fn run(rounds: u32, report: &mut Report) {
+    let toolboxes = toolboxes();
+    let (small, large) = (big_plan::text(1_000), big_plan::text(10_000));
+    let changed = small.replacen("30 cm", "31 cm", 1);
+    let megabytes = large.len() as f64 / 1e6;
+    let mut race = Race::default();
+    race.add("1,000 actors", checks(&toolboxes, vec![small.clone()]));
+    race.add("10,000 actors", checks(&toolboxes, vec![large.clone()]));
+    race.add("tokens of 10,000 actors", |count| {
+        for _ in 0..count {
+            black_box(count_tokens(black_box(&large)));
+        }
+    });
+    race.add("1,000 actors, a character changed", checks(&toolboxes, vec![changed, small]));
+    let times = race.run(rounds.div_ceil(ROUNDS));
+    let [small, large, tokens, again] = times.as_slice() else { return };
+    report.add(Row::new("check/text of 10,000 actors", megabytes, "MB"));
+    report.add(milliseconds(small));
+    report.add(against(large, small, 12.0));
+    report.add(milliseconds(tokens));
+    report.add(against(large, tokens, 15.0));
+    let within = again.best < 15e6 || again.ratio(small) <= 1.0 / 3.0;
+    report.add(
+        milliseconds(again)
+            .against("check/1,000 actors", again.ratio(small))
+            .limit("<= 0.33 or < 15 ms", within),
+    );
+}
+
+/// Checks the texts in turn; each must be a plan without errors.
+fn checks(toolboxes: &Toolboxes, texts: Vec<String>) -> impl FnMut(u64) {
+    let sources: Vec<_> = texts.into_iter().map(|text| Source::new("big.afp", text)).collect();
+    let mut next = 0;
+    move |count| {
+        for _ in 0..count {
+            let compiled = compile(black_box(&sources[next]), toolboxes, &Texts::default());
+            assert!(compiled.graph.is_some(), "{}", compiled.render(false));
+            black_box(&compiled);
+            next = (next + 1) % sources.len();
+        }
+    }
+}
+
+fn toolboxes() -> Toolboxes {
+    let mut toolboxes = Toolboxes::default();
+    for toolbox in afp_toolboxes::ALL {
+        toolboxes.add(Source::new(toolbox.file_name, toolbox.text), toolbox.rust_path);
+    }
+    toolboxes
+}
+
+fn milliseconds(case: &Times) -> Row {
+    Row::new(format!("check/{}", case.name), case.best / 1e6, "ms")
+}
+
+fn against(case: &Times, baseline: &Times, at_most: f64) -> Row {
+    let ratio = case.ratio(baseline);
+    milliseconds(case)
+        .against(format!("check/{}", baseline.name), ratio)
+        .limit(format!("<= {at_most}"), ratio <= at_most)
+}

@@ -1,0 +1,61 @@
+//! Puts the plans that one plan needs into one graph, sub-plans first.
+
+use crate::check::names::key;
+use crate::check::{Program, recursion};
+use crate::graph::{self, Component, Graph, PlanId};
+
+/// The graph of the plan `main`; `order` has sub-plans before their users.
+pub(super) fn graph(
+    program: Program<'_>,
+    mut plans: Vec<Option<graph::Plan>>,
+    order: &[usize],
+    main: usize,
+) -> Option<Graph> {
+    let needed = needed(&program, main);
+    let chosen: Vec<_> = order.iter().copied().filter(|place| needed[*place]).collect();
+    let mut ids = vec![None; plans.len()];
+    for (id, place) in (0..=u16::MAX).zip(&chosen) {
+        ids[*place] = Some(PlanId(id));
+    }
+    let mut drawn = Vec::with_capacity(chosen.len());
+    for place in &chosen {
+        let mut plan = plans[*place].take()?;
+        for element in &mut plan.elements {
+            if let Component::SubPlan(sub_plan) = &mut element.component {
+                *sub_plan = ids[sub_plan.index()]?;
+            }
+        }
+        drawn.push(plan);
+    }
+    let main = ids[main]?;
+    tell_apart(&mut drawn, main);
+    Some(Graph { plans: drawn, main, toolboxes: program.linked })
+}
+
+/// Which plans `main` is made of, itself included.
+fn needed(program: &Program<'_>, main: usize) -> Vec<bool> {
+    let mut needed = vec![false; program.plans.len()];
+    let mut open = vec![main];
+    while let Some(place) = open.pop() {
+        if !std::mem::replace(&mut needed[place], true) {
+            let used = recursion::sub_plans(&program.plans[place], program);
+            open.extend(used.into_iter().map(|(used, _)| used));
+        }
+    }
+    needed
+}
+
+/// Gives plans of one name, which come from files that do not see each other, numbers; the main
+/// plan keeps its name.
+fn tell_apart(plans: &mut [graph::Plan], main: PlanId) {
+    let mut taken = std::collections::HashSet::from([key(&plans[main.index()].name)]);
+    for (place, plan) in plans.iter_mut().enumerate() {
+        if place == main.index() || taken.insert(key(&plan.name)) {
+            continue;
+        }
+        let numbered = (2_u32..).map(|number| format!("{}_{number}", plan.name));
+        if let Some(free) = numbered.into_iter().find(|name| taken.insert(key(name))) {
+            plan.name = free;
+        }
+    }
+}

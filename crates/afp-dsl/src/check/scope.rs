@@ -1,0 +1,144 @@
+//! What each plan file can name: its toolboxes, its own plans and enums, and those of the files
+//! that it uses, but not of the files that those use.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use crate::check::imports::{self, Import};
+use crate::check::names::Names;
+use crate::check::types::Types;
+use crate::check::{PlanHead, Program, endings, entries, enums, shadows};
+use crate::diagnostics::Diagnostics;
+use crate::gather::PlanFile;
+use crate::source::Span;
+use crate::syntax::ast::{Item, Name};
+use crate::toolbox::{Toolbox, Toolboxes};
+use crate::types::Enum;
+
+/// What the plans of one file can name.
+pub(crate) struct FileScope<'a> {
+    /// Its normalised path.
+    pub path: &'a str,
+    /// Its text.
+    pub text: &'a str,
+    /// The toolboxes that it uses.
+    pub imports: Vec<Import>,
+    /// The types that it can name.
+    pub types: Types,
+    /// Whether a file that it wants to use is missing.
+    pub incomplete: bool,
+    /// The plans that it can name, by name and by place in [`Program::plans`]: its own first, of
+    /// each file the first one.
+    pub plans: HashMap<String, Vec<usize>>,
+    /// Where a `use` line can be added.
+    pub top: Span,
+}
+
+/// Reads what all files declare.
+pub(super) fn program<'a>(
+    files: &'a [PlanFile],
+    toolboxes: &'a Toolboxes,
+    diags: &mut Diagnostics,
+) -> Program<'a> {
+    let enums: Vec<_> = files.iter().map(|file| own_enums(file, diags)).collect();
+    let mut linked = Vec::new();
+    let places = files.iter().enumerate();
+    let mut scopes: Vec<_> =
+        places.map(|file| scope(file, toolboxes, &enums, &mut linked, diags)).collect();
+    let mut plans = Vec::new();
+    let mut own: Vec<HashMap<String, usize>> = Vec::new();
+    for (place, file) in files.iter().enumerate() {
+        let first = plans.len();
+        plans.extend(heads(file, place, &scopes[place].types, diags));
+        let mut names = HashMap::new();
+        for (at, head) in plans.iter().enumerate().skip(first) {
+            if let Some(name) = &head.name {
+                names.entry(name.text.clone()).or_insert(at);
+            }
+        }
+        own.push(names);
+    }
+    for (place, file) in files.iter().enumerate() {
+        for seen in std::iter::once(&place).chain(&file.uses) {
+            for (name, at) in &own[*seen] {
+                scopes[place].plans.entry(name.clone()).or_default().push(*at);
+            }
+        }
+    }
+    Program { toolboxes, linked, files: scopes, plans }
+}
+
+/// A scope without plans. `enums` has those of all files.
+fn scope<'a>(
+    (place, file): (usize, &'a PlanFile),
+    toolboxes: &Toolboxes,
+    enums: &[Vec<Arc<Enum>>],
+    linked: &mut Vec<Arc<Toolbox>>,
+    diags: &mut Diagnostics,
+) -> FileScope<'a> {
+    let (imports, failed) = imports::read(&file.tree, toolboxes, linked, diags);
+    let mut types = Types { incomplete: failed || file.incomplete, ..Types::default() };
+    let seen = std::iter::once(&place).chain(&file.uses).flat_map(|seen| &enums[*seen]);
+    types.enums.extend(seen.map(|each| (None, each.clone())));
+    for import in &imports {
+        let qualifier = || Some(import.qualifier.clone());
+        types.enums.extend(import.toolbox.enums.iter().map(|each| (qualifier(), each.clone())));
+        types.objects.extend(import.toolbox.objects.iter().map(|each| (qualifier(), each.clone())));
+    }
+    FileScope {
+        path: &file.path,
+        text: &file.source.text,
+        imports,
+        types,
+        incomplete: file.incomplete,
+        plans: HashMap::new(),
+        top: top(file),
+    }
+}
+
+/// The enums that a file declares.
+fn own_enums(file: &PlanFile, diags: &mut Diagnostics) -> Vec<Arc<Enum>> {
+    let mut found = Vec::new();
+    let mut names = Names::default();
+    for item in file.tree.items() {
+        let Item::Enum(node) = item else { continue };
+        let Some(home) = enums::read(&node, None, diags) else { continue };
+        let name = Name { text: home.name.clone(), span: home.span };
+        if Types::is_built_in(&name.text) {
+            shadows(&name, diags);
+        } else if names.declare(&name, diags) {
+            found.push(home);
+        }
+    }
+    found
+}
+
+/// The plans of a file, without what they are made of.
+fn heads(file: &PlanFile, place: usize, types: &Types, diags: &mut Diagnostics) -> Vec<PlanHead> {
+    let nodes = file.tree.items().into_iter().filter_map(|item| match item {
+        Item::Plan(plan) => Some(plan),
+        _ => None,
+    });
+    let heads: Vec<_> = nodes
+        .map(|node| {
+            let (entries, places) = entries::read(&node, types, &file.source.text, diags);
+            let interrupting = endings::interrupting(&node);
+            PlanHead { name: node.name(), file: place, entries, places, interrupting, node }
+        })
+        .collect();
+    let mut names = Names::default();
+    for name in heads.iter().filter_map(|head| head.name.as_ref()) {
+        names.declare(name, diags);
+    }
+    heads
+}
+
+/// The place below the version of the language.
+fn top(file: &PlanFile) -> Span {
+    let Some(version) = file.tree.version() else { return file.whole().before() };
+    let text = &file.source.text;
+    let line = text[version.span.end as usize..].find('\n').map_or(text.len() as u32, |length| {
+        version.span.end + u32::try_from(length + 1).unwrap_or(0)
+    });
+    Span { start: line, end: line, ..version.span }
+}

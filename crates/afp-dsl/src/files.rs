@@ -1,0 +1,193 @@
+//! The plan files that plan files use: where their texts come from, and what their paths mean.
+//!
+//! The compiler reads nothing itself. Whoever calls it hands over [`Files`]: the disk, texts that
+//! an editor has not saved yet, or texts that a program carries along.
+
+use std::collections::BTreeMap;
+
+/// Where the texts of used plan files come from.
+pub trait Files {
+    /// The text of a file. The path is that of the using file's folder joined with what stands
+    /// behind `use`, without `.` and with `..` resolved as far as it goes; its parts are separated
+    /// by `/`.
+    ///
+    /// # Errors
+    /// Why there is no text: lower case, no final period.
+    fn read(&self, path: &str) -> Result<String, String>;
+}
+
+impl<F: Fn(&str) -> Result<String, String>> Files for F {
+    fn read(&self, path: &str) -> Result<String, String> {
+        self(path)
+    }
+}
+
+/// Texts by path; without any, a plan file has only itself.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Texts(BTreeMap<String, String>);
+
+impl Texts {
+    /// Adds a text, or puts it in place of the one that the path has.
+    pub fn add(&mut self, path: &str, text: impl Into<String>) {
+        self.0.insert(normalised(path), text.into());
+    }
+
+    /// Takes a text apart in which further files follow, each below a line `// file: PATH`: the
+    /// first file, and the others.
+    #[doc(hidden)]
+    pub fn in_one(text: &str) -> (String, Texts) {
+        const HEAD: &str = "// file: ";
+        let (mut first, mut texts) = (String::new(), Texts::default());
+        let mut path = None;
+        for line in text.split_inclusive('\n') {
+            if let Some(next) = line.strip_prefix(HEAD) {
+                path = Some(normalised(next.trim_end()));
+            }
+            match &path {
+                None => first += line,
+                Some(path) => {
+                    let text = texts.0.entry(path.clone()).or_default();
+                    *text += if line.starts_with(HEAD) { "" } else { line };
+                }
+            }
+        }
+        (first, texts)
+    }
+}
+
+impl Files for Texts {
+    fn read(&self, path: &str) -> Result<String, String> {
+        self.0.get(&normalised(path)).cloned().ok_or_else(|| "there is no such file".to_owned())
+    }
+}
+
+/// A path without `.` and empty parts and with `..` resolved as far as it goes, its parts separated
+/// by `/`: two paths of one file are equal then, links aside.
+pub fn normalised(path: &str) -> String {
+    let path = path.replace('\\', "/");
+    let root = if path.starts_with('/') { "/" } else { "" };
+    let mut parts: Vec<&str> = Vec::new();
+    for part in path.split('/').filter(|part| !matches!(*part, "" | ".")) {
+        match (part, parts.last()) {
+            ("..", Some(last)) if *last != ".." => {
+                parts.pop();
+            }
+            ("..", None) if !root.is_empty() => {}
+            _ => parts.push(part),
+        }
+    }
+    format!("{root}{}", parts.join("/"))
+}
+
+/// The path of a file that the file `user` names as `written`.
+pub(crate) fn joined(user: &str, written: &str) -> String {
+    let user = normalised(user);
+    match user.rsplit_once('/') {
+        Some((folder, _)) => normalised(&format!("{folder}/{written}")),
+        None => normalised(written),
+    }
+}
+
+/// How the file `user` can name the file `path`, both normalised; `None` when no path leads there.
+pub(crate) fn relative(user: &str, path: &str) -> Option<String> {
+    if user.starts_with('/') != path.starts_with('/') {
+        return None;
+    }
+    let mut from: Vec<&str> = user.split('/').collect();
+    from.pop();
+    let to: Vec<&str> = path.split('/').collect();
+    let same = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
+    // Nobody knows the name of the folder that '..' leaves.
+    if from[same..].contains(&"..") {
+        return None;
+    }
+    let up = std::iter::repeat_n("..", from.len() - same);
+    Some(up.chain(to[same..].iter().copied()).collect::<Vec<_>>().join("/"))
+}
+
+/// The normalised paths, seen from the deepest folder that all of them are in. Where some lead out
+/// of the current folder and others do not, that one is called `here`.
+pub(crate) fn below_all(paths: &[String]) -> Vec<String> {
+    let ups = |path: &str| path.split('/').take_while(|part| *part == "..").count();
+    let highest = paths.iter().map(|path| ups(path)).max().unwrap_or(0);
+    let grounded = paths.iter().map(|path| {
+        let up = ups(path);
+        "here/".repeat(highest - up) + &path["../".len() * up..]
+    });
+    let paths: Vec<_> = grounded.collect();
+    let folder = |path: &str| path.rfind('/').map_or(0, |slash| slash + 1);
+    let mut shared = paths.first().map_or("", |path| &path[..folder(path)]);
+    while let Some(other) = paths.iter().find(|path| !path.starts_with(shared)) {
+        let same = shared.bytes().zip(other.bytes()).take_while(|(a, b)| a == b).count();
+        // What is the same may end inside a letter; a folder's border never does.
+        let cut = shared.as_bytes()[..same].iter().rposition(|byte| *byte == b'/');
+        shared = &shared[..cut.map_or(0, |slash| slash + 1)];
+    }
+    paths.iter().map(|path| path[shared.len()..].to_owned()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Files, Texts, below_all, joined, normalised, relative};
+
+    #[test]
+    fn paths_of_one_file_become_equal() {
+        for (path, same) in [
+            ("a.afp", "a.afp"),
+            ("./x//a.afp", "x/a.afp"),
+            ("x/../a.afp", "a.afp"),
+            ("../x/a.afp", "../x/a.afp"),
+            ("../../a.afp", "../../a.afp"),
+            ("/x/../../a.afp", "/a.afp"),
+            (r"x\y\a.afp", "x/y/a.afp"),
+        ] {
+            assert_eq!(normalised(path), same);
+        }
+    }
+
+    #[test]
+    fn a_path_begins_in_the_folder_of_the_file_that_names_it() {
+        assert_eq!(joined("plans/main.afp", "lib/a.afp"), "plans/lib/a.afp");
+        assert_eq!(joined("plans/main.afp", "../a.afp"), "a.afp");
+        assert_eq!(joined("main.afp", "../a.afp"), "../a.afp");
+        assert_eq!(joined("/main.afp", "a.afp"), "/a.afp");
+        assert_eq!(joined("./main.afp", "./a.afp"), "a.afp");
+    }
+
+    #[test]
+    fn a_relative_path_leads_to_the_file() {
+        for (user, path) in [
+            ("plans/main.afp", "plans/lib/a.afp"),
+            ("plans/lib/a.afp", "plans/main.afp"),
+            ("a.afp", "../b.afp"),
+            ("/x/a.afp", "/y/b.afp"),
+        ] {
+            assert_eq!(joined(user, &relative(user, path).unwrap()), path);
+        }
+        assert_eq!(relative("../a.afp", "b.afp"), None);
+        assert_eq!(relative("/a.afp", "b.afp"), None);
+    }
+
+    #[test]
+    fn what_all_paths_begin_with_goes() {
+        let below = |paths: &[&str]| {
+            below_all(&paths.iter().map(|path| (*path).to_owned()).collect::<Vec<_>>())
+        };
+        assert_eq!(below(&["x/y/a.afp"]), ["a.afp"]);
+        assert_eq!(below(&["x/y/a.afp", "x/z/b.afp"]), ["y/a.afp", "z/b.afp"]);
+        assert_eq!(below(&["x/ya/a.afp", "x/yb/b.afp"]), ["ya/a.afp", "yb/b.afp"]);
+        assert_eq!(below(&["../x/a.afp", "../b.afp"]), ["x/a.afp", "b.afp"]);
+        assert_eq!(below(&["x/a.afp", "../b.afp"]), ["here/x/a.afp", "b.afp"]);
+        assert_eq!(below(&["/a.afp", "/x/b.afp"]), ["a.afp", "x/b.afp"]);
+        assert_eq!(below(&["a.afp", "x/b.afp"]), ["a.afp", "x/b.afp"]);
+    }
+
+    #[test]
+    fn files_in_one_text_come_apart() {
+        let (first, texts) = Texts::in_one("one\n// file: x/b.afp\ntwo\nthree\n// file: c.afp\n");
+        assert_eq!(first, "one\n");
+        assert_eq!(texts.read("x/b.afp").unwrap(), "two\nthree\n");
+        assert_eq!(texts.read("./c.afp").unwrap(), "");
+        assert!(texts.read("b.afp").is_err());
+    }
+}

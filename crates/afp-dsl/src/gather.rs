@@ -1,0 +1,225 @@
+//! Collects the plan files of a compilation: the one that is compiled, and those that it uses,
+//! directly or through others.
+//!
+//! Each file is read once, however many use it; files may use one another in a circle, since only
+//! plans that contain themselves have no meaning.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use crate::check::text::unquote;
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::files::{Files, joined, normalised};
+use crate::source::{Source, Sources, Span};
+use crate::syntax::ast::{File, Item, Name};
+use crate::syntax::{self, Parse};
+use crate::toolbox::Toolboxes;
+
+/// A plan file of a compilation.
+pub(crate) struct PlanFile {
+    /// Its normalised path.
+    pub path: String,
+    /// Its text.
+    pub source: Arc<Source>,
+    /// Its tree.
+    pub tree: File,
+    /// Its index among the sources.
+    pub index: u16,
+    /// The files that it uses, by their places among the gathered ones, as written.
+    pub uses: Vec<usize>,
+    /// Whether a file that it wants to use is missing.
+    pub incomplete: bool,
+}
+
+impl PlanFile {
+    /// The place of the whole text.
+    pub fn whole(&self) -> Span {
+        let end = u32::try_from(self.source.text.len()).unwrap_or(u32::MAX);
+        Span { file: self.index, start: 0, end }
+    }
+}
+
+/// Collects the files, the compiled one first, the others as they are found; their texts join
+/// `sources`.
+pub(crate) fn gather(
+    source: &Source,
+    files: &dyn Files,
+    toolboxes: &Toolboxes,
+    sources: &mut Sources,
+    diags: &mut Diagnostics,
+) -> Vec<PlanFile> {
+    let mut gathering =
+        Gathering { files, toolboxes, sources, diags, found: Vec::new(), known: HashMap::new() };
+    gathering.first(source);
+    let mut next = 0;
+    while next < gathering.found.len() {
+        gathering.follow(next);
+        next += 1;
+    }
+    gathering.found
+}
+
+struct Gathering<'a> {
+    files: &'a dyn Files,
+    toolboxes: &'a Toolboxes,
+    sources: &'a mut Sources,
+    diags: &'a mut Diagnostics,
+    found: Vec<PlanFile>,
+    /// What became of each path: a place in `found`, or nothing with the reason.
+    known: HashMap<String, Result<usize, Unusable>>,
+}
+
+/// Why a file cannot be used.
+#[derive(Clone)]
+enum Unusable {
+    /// It cannot be read.
+    Unread(String),
+    /// It is a toolbox of that name.
+    Toolbox(String),
+}
+
+impl Gathering<'_> {
+    fn first(&mut self, source: &Source) {
+        let source = Arc::new(source.clone());
+        // Beyond 65,536 files spans would be ambiguous; nothing can be said about such a
+        // compilation.
+        let index = self.sources.add(source.clone()).unwrap_or(u16::MAX);
+        let tree = syntax::parse(&source.text, index, self.diags);
+        self.add(normalised(&source.name), source, index, &tree);
+    }
+
+    fn add(&mut self, path: String, source: Arc<Source>, index: u16, tree: &Parse) -> usize {
+        let place = self.found.len();
+        self.known.insert(path.clone(), Ok(place));
+        let (tree, uses) = (tree.file(), Vec::new());
+        self.found.push(PlanFile { path, source, tree, index, uses, incomplete: false });
+        place
+    }
+
+    /// Finds the files that a gathered file uses.
+    fn follow(&mut self, user: usize) {
+        let mut lines: Vec<(usize, Span)> = Vec::new();
+        for item in self.found[user].tree.items() {
+            let Item::Use(line) = item else { continue };
+            let Some(written) = line.path() else { continue };
+            let Some(used) = self.used(user, &written) else {
+                self.found[user].incomplete = true;
+                continue;
+            };
+            if let Some((_, first)) = lines.iter().find(|(known, _)| *known == used) {
+                let message = format!("{} is used twice", written.text.replace('"', "'"));
+                self.diags.push(
+                    Diagnostic::new(Code::E0212, line.span(), message)
+                        .note(*first, "first used here")
+                        .help("remove one of the lines"),
+                );
+                continue;
+            }
+            lines.push((used, line.span()));
+            self.found[user].uses.push(used);
+        }
+    }
+
+    /// The file behind one `use`; reports when there is none.
+    fn used(&mut self, user: usize, written: &Name) -> Option<usize> {
+        let mut wrong = Diagnostics::default();
+        let text = unquote(written, &mut wrong);
+        if wrong.is_empty()
+            && let Some(error) = path_error(&text, written.span)
+        {
+            wrong.push(error);
+        }
+        if !wrong.is_empty() {
+            self.diags.extend(wrong);
+            return None;
+        }
+        let path = joined(&self.found[user].source.name, &text);
+        if path == self.found[user].path {
+            self.diags.push(
+                Diagnostic::new(Code::E0507, written.span, "the file uses itself")
+                    .help("remove the line; plans of one file see each other"),
+            );
+            return None;
+        }
+        let known = match self.known.get(&path) {
+            Some(known) => known.clone(),
+            None => {
+                let read = self.read(&path);
+                self.known.insert(path.clone(), read.clone());
+                read
+            }
+        };
+        known.map_err(|why| self.diags.push(self.unusable(&why, &path, written.span))).ok()
+    }
+
+    fn read(&mut self, path: &str) -> Result<usize, Unusable> {
+        let text = self.files.read(path).map_err(Unusable::Unread)?;
+        let source = Arc::new(Source::new(path, text));
+        let mut diags = Diagnostics::default();
+        let next = u16::try_from(self.sources.len()).unwrap_or(u16::MAX);
+        let tree = syntax::parse(&source.text, next, &mut diags);
+        let heads = tree.file().items().into_iter().filter_map(|item| match item {
+            Item::Toolbox(head) => Some(head),
+            _ => None,
+        });
+        if let Some(head) = heads.into_iter().next() {
+            let name = head.name().map(|name| name.text).unwrap_or_default();
+            return Err(Unusable::Toolbox(name));
+        }
+        let too_many = || Unusable::Unread("there are too many files".to_owned());
+        let index = self.sources.add(source.clone()).ok_or_else(too_many)?;
+        self.diags.extend(diags);
+        Ok(self.add(path.to_owned(), source, index, &tree))
+    }
+
+    fn unusable(&self, why: &Unusable, path: &str, span: Span) -> Diagnostic {
+        match why {
+            Unusable::Unread(reason) => {
+                Diagnostic::new(Code::E0506, span, format!("cannot read '{path}': {reason}"))
+                    .help("write the path of a plan file, seen from the folder of this file")
+            }
+            Unusable::Toolbox(name) => {
+                let message =
+                    format!("'{path}' is the toolbox '{name}', which is used by its name");
+                let error = Diagnostic::new(Code::E0508, span, message);
+                if self.toolboxes.get(name).is_some() {
+                    return error.help(format!("write 'use {name}'")).replace(name);
+                }
+                error.help(format!(
+                    "write 'use {name}', and list it in afp.toml: \
+                     '[toolboxes] {name} = {{ path = \"...\", crate = \"...\" }}'"
+                ))
+            }
+        }
+    }
+}
+
+/// What is wrong with a path as it is written.
+fn path_error(path: &str, span: Span) -> Option<Diagnostic> {
+    let refused = |message: String| Diagnostic::new(Code::E0507, span, message);
+    let quoted = |path: &str| format!("\"{path}\"");
+    if path.trim().is_empty() {
+        let error = refused("the path is empty".to_owned());
+        return Some(error.help("write the path of a plan file, such as \"avoid.afp\""));
+    }
+    if path.starts_with(['/', '\\']) || path.get(1..2) == Some(":") {
+        let help =
+            "write the path from the folder of this file, so that it holds on other computers too";
+        return Some(refused(format!("'{path}' is an absolute path")).help(help));
+    }
+    if path.contains('\\') {
+        let right = quoted(&path.replace('\\', "/"));
+        let error = refused("the parts of a path are separated by '/'".to_owned());
+        return Some(error.help(format!("write {right}")).replace(right));
+    }
+    let name = path.rsplit('/').next().unwrap_or(path);
+    if name.ends_with(".afp") && name != ".afp" {
+        return None;
+    }
+    let error = refused(format!("'{path}' does not end in '.afp'"));
+    if name.contains('.') || name.is_empty() {
+        return Some(error.help("write the path of a plan file"));
+    }
+    let right = quoted(&format!("{path}.afp"));
+    Some(error.help(format!("write {right}")).replace(right))
+}

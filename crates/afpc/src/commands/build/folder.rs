@@ -1,0 +1,68 @@
+//! Writes a generated crate into its folder.
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::Path;
+
+use afp_dsl::codegen::Origin;
+use afp_run::{RunError, write_whole};
+
+/// How the manifest of a generated crate begins.
+const MADE_BY: &str = "# Made by 'afpc build'";
+
+/// Writes the files that differ from what is there, so that cargo builds only what changed, and
+/// removes sources of an earlier plan.
+///
+/// # Errors
+/// The folder holds a crate that somebody else made, or cannot be written.
+pub(super) fn write(
+    folder: &Path,
+    files: &[(String, String)],
+    origin: &Origin,
+) -> Result<(), RunError> {
+    let manifest = folder.join("Cargo.toml");
+    match fs::read_to_string(&manifest) {
+        Ok(text) if !text.starts_with(MADE_BY) => {
+            return Err(RunError::usage(
+                format!("'{}' holds a crate that 'afpc build' did not make", folder.display()),
+                "give an empty folder with '-o DIR'",
+            ));
+        }
+        Ok(_) => remove_old(folder, files)?,
+        Err(error) if error.kind() == ErrorKind::NotFound => {}
+        Err(error) => return Err(RunError::file("cannot read", &manifest)(error)),
+    }
+    for (name, text) in files {
+        let path = folder.join(name);
+        if let Some(parent) = path.parent() {
+            fs::create_dir_all(parent).map_err(RunError::file("cannot make the folder", parent))?;
+        }
+        if fs::read_to_string(&path).is_ok_and(|old| old == *text) {
+            continue;
+        }
+        write_whole("cannot write", &path, text)?;
+    }
+    pin(folder, origin)
+}
+
+/// The versions that the checkout was tested with: another physics engine drives other paths.
+fn pin(folder: &Path, origin: &Origin) -> Result<(), RunError> {
+    let (Origin::Path(root), lock) = (origin, folder.join("Cargo.lock")) else { return Ok(()) };
+    match fs::read_to_string(Path::new(root).join("Cargo.lock")) {
+        Ok(text) if !lock.exists() => write_whole("cannot write", &lock, &text),
+        // Without it cargo chooses versions by the manifests.
+        _ => Ok(()),
+    }
+}
+
+fn remove_old(folder: &Path, files: &[(String, String)]) -> Result<(), RunError> {
+    let sources = folder.join("src");
+    let Ok(entries) = fs::read_dir(&sources) else { return Ok(()) };
+    for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
+        let kept = files.iter().any(|(name, _)| folder.join(name) == path);
+        if !kept && path.extension().is_some_and(|extension| extension == "rs") {
+            fs::remove_file(&path).map_err(RunError::file("cannot remove", &path))?;
+        }
+    }
+    Ok(())
+}

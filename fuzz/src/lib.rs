@@ -1,0 +1,25 @@
+//! What must hold for any text, one function for each thing that reads one.
+//!
+//! Each takes whatever bytes a fuzzer finds and panics when a property does not hold. The same
+//! functions run over the corpora in `cargo test`.
+
+mod edits;
+mod names;
+mod text;
+
+pub use edits::edits;
+pub use text::{checker, formatter, layout, parser, settings, world};
+
+/// A property of bytes.
+pub type Target = fn(&[u8]);
+
+/// Every target by the name of its fuzzer and of the folder of its corpus.
+pub const TARGETS: &[(&str, Target)] = &[
+    ("parser", parser),
+    ("checker", checker),
+    ("formatter", formatter),
+    ("edits", edits),
+    ("settings", settings),
+    ("layout", layout),
+    ("world", world),
+];

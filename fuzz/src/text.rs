@@ -1,0 +1,98 @@
+//! Properties of the readers: nothing panics, nothing is lost, and every error has a place.
+
+use std::borrow::Cow;
+
+use afp_dsl::diagnostics::Diagnostics;
+use afp_dsl::files::Texts;
+use afp_dsl::layout_file::Layout;
+use afp_dsl::source::Source;
+use afp_dsl::syntax::{Node, kind::Kind, parse};
+use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::{compile, format};
+use afp_sim::World;
+
+/// Bytes as a reader of files gives them on.
+pub(crate) fn text(data: &[u8]) -> Cow<'_, str> {
+    String::from_utf8_lossy(data)
+}
+
+/// The tree holds the text byte for byte.
+///
+/// # Panics
+/// When it does not.
+pub fn parser(data: &[u8]) {
+    let text = text(data);
+    let mut diags = Diagnostics::default();
+    assert_eq!(parse(&text, 0, &mut diags).text(), text);
+}
+
+/// A compilation, of several files where lines `// file: PATH` divide the text, ends with a graph or with errors, and everything it says can be shown.
+///
+/// # Panics
+/// When it does not.
+pub fn checker(data: &[u8]) {
+    let (first, files) = Texts::in_one(&text(data));
+    let compiled = compile(&Source::new("fuzzed.afp", first), &toolboxes(), &files);
+    assert_eq!(compiled.graph.is_none(), compiled.diags.has_errors());
+    assert_eq!(compiled.render(false).is_empty(), compiled.diags.is_empty());
+}
+
+/// The formatted text says the same with the same comments, and is its own formatted text.
+///
+/// # Panics
+/// When it does not or is not.
+pub fn formatter(data: &[u8]) {
+    let text = text(data);
+    let Ok(formatted) = format(&text) else { return };
+    assert_eq!(solid(&text), solid(&formatted), "the text changed:\n{formatted}");
+    assert_eq!(format(&formatted).as_deref().ok(), Some(formatted.as_str()), "not canonical");
+}
+
+/// The tokens but for white space and commas, which only the formatter decides.
+fn solid(text: &str) -> Vec<String> {
+    let root: Node = parse(text, 0, &mut Diagnostics::default()).root();
+    let tokens = root.descendants_with_tokens().filter_map(|each| each.into_token());
+    let kept = tokens.filter(|token| !matches!(token.kind(), Kind::Whitespace | Kind::Comma));
+    kept.map(|token| token.text().trim_end().to_owned()).collect()
+}
+
+/// What is written is read back.
+///
+/// # Panics
+/// When it is not.
+pub fn layout(data: &[u8]) {
+    let (layout, _) = Layout::read(&text(data));
+    let written = layout.write();
+    let (again, errors) = Layout::read(&written);
+    assert_eq!((again, errors.as_slice()), (layout, [].as_slice()), "{written}");
+}
+
+/// A world is read or refused at a place within the text.
+///
+/// # Panics
+/// When neither.
+pub fn world(data: &[u8]) {
+    let text = text(data);
+    if let Err(error) = World::parse(&text) {
+        assert!(!error.to_string().is_empty());
+    }
+}
+
+/// An `afp.toml` is read or refused with a reason.
+///
+/// # Panics
+/// When neither.
+pub fn settings(data: &[u8]) {
+    let text = text(data);
+    if let Err(error) = afp_dsl::timing::targets(&text) {
+        assert!(!error.message.is_empty() && text.get(error.span).is_some());
+    }
+}
+
+fn toolboxes() -> Toolboxes {
+    let mut toolboxes = Toolboxes::default();
+    for toolbox in afp_toolboxes::ALL {
+        toolboxes.add(Source::new(toolbox.file_name, toolbox.text), toolbox.rust_path);
+    }
+    toolboxes
+}

@@ -1,0 +1,37 @@
+//! Every file of the corpora, found cases among them, keeps its property.
+
+use std::fs;
+use std::path::Path;
+
+use afp_fuzz::TARGETS;
+
+#[test]
+fn every_file_of_the_corpora_keeps_its_property() {
+    let home = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
+    for (name, target) in TARGETS {
+        let mut files: Vec<_> = fs::read_dir(home.join(name))
+            .unwrap_or_else(|why| panic!("no corpus for '{name}': {why}"))
+            .map(|file| file.unwrap().path())
+            .collect();
+        files.sort();
+        assert!(!files.is_empty(), "the corpus of '{name}' is empty");
+        for file in files {
+            // Shown only when the target panics.
+            println!("{}", file.display());
+            target(&fs::read(&file).unwrap());
+        }
+    }
+}
+
+#[test]
+fn every_target_has_its_fuzzer() {
+    let home = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz_targets");
+    let fuzzers: Vec<_> = fs::read_dir(home)
+        .unwrap()
+        .map(|file| file.unwrap().path().file_stem().unwrap().to_str().unwrap().to_owned())
+        .collect();
+    assert_eq!(fuzzers.len(), TARGETS.len());
+    for (name, _) in TARGETS {
+        assert!(fuzzers.iter().any(|known| known == name), "{name}");
+    }
+}
