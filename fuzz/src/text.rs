@@ -78,14 +78,15 @@ pub fn world(data: &[u8]) {
     }
 }
 
-/// An `afp.toml` is read or refused with a reason.
+/// An `afp.toml` is read; what is wrong has a reason and a place.
 ///
 /// # Panics
-/// When neither.
+/// When it finds something.
 pub fn settings(data: &[u8]) {
     let text = text(data);
-    if let Err(error) = afp_dsl::timing::targets(&text) {
-        assert!(!error.message.is_empty() && text.get(error.span).is_some());
+    for mistake in afp_project::read(&text).1 {
+        assert!(text.get(mistake.span.clone()).is_some(), "{mistake:?}");
+        assert!(!mistake.message.is_empty());
     }
 }
 

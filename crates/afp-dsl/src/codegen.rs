@@ -9,18 +9,24 @@ mod enums;
 mod formula;
 mod krate;
 mod layout;
+mod manifest;
 mod names;
+mod places;
 mod plan;
+mod runner;
 mod rust_type;
 mod toolbox;
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
-pub use krate::{CrateOptions, Origin, crate_files};
+pub use krate::{CrateFile, CrateOptions, crate_files};
 pub use layout::{code, file};
+pub use manifest::{Dependency, MADE_BY, Origin};
+pub use places::Places;
 pub use plan::{Generated, Module, plan};
-pub use toolbox::toolbox;
+pub use runner::{RunnerOptions, runner_files};
+pub use toolbox::{declaration, toolbox};
 
 /// How generated code names what it uses.
 #[derive(Clone, Debug)]

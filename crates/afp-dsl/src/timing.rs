@@ -24,7 +24,7 @@ use level::{Levels, Outside};
 
 pub(crate) use check::check_responses;
 pub use check::check_target;
-pub use target::{BUILT_IN, Target, TargetError, targets};
+pub use target::{BUILT_IN, Target};
 
 /// What is known of the time behaviour of a plan and its sub-plans.
 #[derive(Clone, Debug)]

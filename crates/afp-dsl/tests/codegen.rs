@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-use afp_dsl::codegen::{self, CrateOptions, Options, Origin};
+use afp_dsl::codegen::{self, CrateOptions, Dependency, Options, Origin};
 use afp_dsl::files::Texts;
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::{Toolbox, Toolboxes};
@@ -78,8 +78,8 @@ fn a_crate_names_what_it_needs_and_carries_its_text() {
         lib: false,
     };
     let files = codegen::crate_files(&graph, &options);
-    let get = |path: &str| files.iter().find(|(known, _)| known == path).map(|(_, text)| text);
-    let names: Vec<_> = files.iter().map(|(path, _)| path.as_str()).collect();
+    let get = |path: &str| files.iter().find(|file| file.path == path).map(|file| &file.text);
+    let names: Vec<_> = files.iter().map(|file| file.path.as_str()).collect();
     assert_eq!(
         names,
         [
@@ -101,15 +101,24 @@ fn a_crate_names_what_it_needs_and_carries_its_text() {
     assert!(get("src/main.rs").unwrap().contains("afp_run::main(program, WallFollowing::new)"));
     options.texts.push(("lib/avoid.afp".to_owned(), "plan Avoid {}".to_owned()));
     let files = codegen::crate_files(&graph, &options);
-    let text = files.iter().find(|(path, _)| path == "lib/avoid.afp").map(|(_, text)| &**text);
-    assert_eq!(text, Some("plan Avoid {}"));
-    let library = files.iter().find(|(path, _)| path == "src/lib.rs").map(|(_, text)| text);
-    assert!(library.unwrap().contains("include_str!(\"../lib/avoid.afp\")"), "{library:?}");
+    let get = |path: &str| files.iter().find(|file| file.path == path).map(|file| &*file.text);
+    assert_eq!(get("lib/avoid.afp"), Some("plan Avoid {}"));
+    let library = get("src/lib.rs").unwrap();
+    assert!(library.contains("include_str!(\"../lib/avoid.afp\")"), "{library:?}");
     options.lib = true;
     options.origin = Origin::Version("0.1.0".to_owned());
-    options.dependencies = vec![("afp-carbot".to_owned(), "{ path = \"../mine\" }".to_owned())];
+    options.dependencies = vec![Dependency {
+        key: "afp-carbot".to_owned(),
+        package: "mine".to_owned(),
+        origin: Origin::Path("../mine".to_owned()),
+        defaults: true,
+    }];
     let files = codegen::crate_files(&graph, &options);
-    assert!(files.iter().all(|(path, _)| path != "src/main.rs"));
-    assert!(files[0].1.contains("afp-carbot = { path = \"../mine\" }"), "{}", files[0].1);
-    assert!(!files[0].1.contains("afp-run"));
+    assert!(files.iter().all(|file| file.path != "src/main.rs"));
+    assert!(
+        files[0].text.contains("afp-carbot = { path = \"../mine\", package = \"mine\" }"),
+        "{}",
+        files[0].text
+    );
+    assert!(!files[0].text.contains("afp-run"));
 }

@@ -26,11 +26,12 @@ pub fn toolbox(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand(input.into(), toolbox_code).into()
 }
 
-/// Turns the first plan of a file, with the sub-plans it uses, from other files too, into native code.
+/// Turns the first plan of a file, with the sub-plans it uses, into native code.
 ///
 /// `plan!("plans/wall_following.afp")` takes a path relative to the crate's manifest. It makes a
-/// module for each plan and brings the plan's type into scope. Toolboxes that are not built in
-/// follow: `plan!("x.afp", toolboxes = { "gripper.afp" => crate::gripper })`.
+/// module for each plan and brings the plan's type into scope. Toolboxes that are not built in are
+/// those of the project file `afp.toml`, which stands beside the manifest or above; others follow:
+/// `plan!("x.afp", toolboxes = { "gripper.afp" => crate::gripper })`.
 #[proc_macro]
 pub fn plan(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand(input.into(), plan_code).into()
@@ -53,11 +54,16 @@ fn toolbox_code(input: &Input) -> Result<TokenStream, TokenStream> {
 
 fn plan_code(input: &Input) -> Result<TokenStream, TokenStream> {
     let file = sources::read(&input.path).map_err(|text| error(&text))?;
-    let (toolboxes, mut texts) =
-        sources::toolboxes(&input.toolboxes).map_err(|text| error(&text))?;
-    let compiled = afp_dsl::compile(&file.source, &toolboxes, &sources::used);
-    texts.extend(compiled.plan_sources().map(|source| sources::included(&source.name)));
+    let available = sources::toolboxes(&input.toolboxes).map_err(|text| error(&text))?;
+    let compiled = afp_dsl::compile(&file.source, &available.toolboxes, &sources::used);
+    let plans = compiled.plan_sources().map(|source| sources::included(&source.name));
+    let texts: Vec<_> = plans.chain(available.texts).collect();
     let graph = compiled.graph.ok_or_else(|| errors(&compiled.diags, &compiled.sources))?;
+    for (name, why) in &available.without_crate {
+        if graph.toolboxes.iter().any(|toolbox| toolbox.name == *name) {
+            return Err(error(why));
+        }
+    }
     let options = Options { core: input.core.clone(), ..Options::default() };
     let plan = codegen::code(codegen::plan(&graph, &options).tokens());
     // Cargo watches the files only because something includes them.

@@ -1,11 +1,12 @@
-//! Files beside the manifest, and the built-in toolboxes.
+//! Files beside the manifest, and the toolboxes: built in, of the project, or named by the caller.
 
 use std::io::ErrorKind;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
+use afp_project::{CrateLink, ProjectError, ProjectFile};
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -37,9 +38,10 @@ pub fn toolbox(path: &str) -> Result<File, String> {
 /// # Errors
 /// A sentence that says what is missing.
 pub fn read(path: &str) -> Result<File, String> {
-    let text = fs::read_to_string(full(path))
-        .map_err(|error| format!("error: cannot read '{}': {error}", full(path).display()))?;
-    Ok(File { source: Source::new(path, text), text: included(path) })
+    let full = root().join(path);
+    let text = fs::read_to_string(&full)
+        .map_err(|error| format!("error: cannot read '{}': {error}", full.display()))?;
+    Ok(File { source: Source::new(path, text), text: include(&full) })
 }
 
 /// The text of a plan file that another one uses.
@@ -47,7 +49,7 @@ pub fn read(path: &str) -> Result<File, String> {
 /// # Errors
 /// Why there is none.
 pub fn used(path: &str) -> Result<String, String> {
-    fs::read_to_string(full(path)).map_err(|error| match error.kind() {
+    fs::read_to_string(root().join(path)).map_err(|error| match error.kind() {
         ErrorKind::NotFound => "there is no such file".to_owned(),
         _ => error.to_string().to_lowercase(),
     })
@@ -55,30 +57,79 @@ pub fn used(path: &str) -> Result<String, String> {
 
 /// The expression of the text of a file beside the manifest.
 pub fn included(path: &str) -> TokenStream {
-    let full = full(path).to_string_lossy().into_owned();
-    quote!(include_str!(#full))
+    include(&root().join(path))
 }
 
-fn full(path: &str) -> PathBuf {
-    let root = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from).unwrap_or_default();
-    root.join(path)
+/// The toolboxes that a plan can use.
+pub struct Available {
+    /// The toolboxes for the compiler of plans.
+    pub toolboxes: Toolboxes,
+    /// The expressions of the texts that were read, the project file's included.
+    pub texts: Vec<TokenStream>,
+    /// Toolboxes without a crate: the name and the error that says why.
+    pub without_crate: Vec<(String, String)>,
 }
 
-/// The built-in toolboxes, then those of these files, each with the module that implements it;
-/// and the expressions of the files' texts.
+/// The built-in toolboxes, then those of the project whose `afp.toml` stands beside the manifest or
+/// above, then those of `files`, each with the module that implements it.
 ///
 /// # Errors
-/// A sentence that says what is missing.
-pub fn toolboxes(files: &[(String, String)]) -> Result<(Toolboxes, Vec<TokenStream>), String> {
+/// A sentence that says what is missing or wrong.
+pub fn toolboxes(files: &[(String, String)]) -> Result<Available, String> {
     let mut toolboxes = Toolboxes::default();
     for builtin in afp_toolboxes::ALL {
         toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
     }
-    let mut texts = Vec::new();
+    let mut all = Available { toolboxes, texts: Vec::new(), without_crate: Vec::new() };
+    all.add_project().map_err(|error| error.to_string())?;
     for (path, module) in files {
         let file = read(path)?;
-        toolboxes.add(file.source, module);
-        texts.push(file.text);
+        all.toolboxes.add(file.source, module);
+        all.texts.push(file.text);
     }
-    Ok((toolboxes, texts))
+    Ok(all)
+}
+
+impl Available {
+    fn add_project(&mut self) -> Result<(), ProjectError> {
+        let root = root();
+        let project = ProjectFile::find(&root)?;
+        if project.exists {
+            self.texts.push(include(&project.path()));
+        }
+        for file in project.toolboxes()? {
+            let name = file.toolbox.name;
+            let path = match file.krate {
+                Ok(krate) => rust_path(&krate, &root),
+                Err(mistake) => {
+                    let error = project.wrong(vec![mistake]).to_string();
+                    self.without_crate.push((name.clone(), error));
+                    name
+                }
+            };
+            let shown = file.path.strip_prefix(&root).unwrap_or(&file.path).display().to_string();
+            self.toolboxes.add(Source::new(shown, file.text), &path);
+            self.texts.push(include(&file.path));
+        }
+        Ok(())
+    }
+}
+
+/// The path of a toolbox's module as the crate under compilation names it.
+fn rust_path(krate: &CrateLink, root: &Path) -> String {
+    let is_here = krate.folder.is_some() && krate.folder == root.canonicalize().ok();
+    let is_library = env::var("CARGO_CRATE_NAME").is_ok_and(|name| name == krate.rust_name())
+        && env::var_os("CARGO_BIN_NAME").is_none();
+    if is_here && is_library { krate.in_crate("crate") } else { krate.rust_path() }
+}
+
+/// The folder of the manifest.
+fn root() -> PathBuf {
+    env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from).unwrap_or_default()
+}
+
+/// `include_str!` of a file.
+fn include(path: &Path) -> TokenStream {
+    let path = path.to_string_lossy();
+    quote!(include_str!(#path))
 }

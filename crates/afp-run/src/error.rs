@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use afp_log::LogError;
+use afp_project::{ProjectError, excerpt};
 
 /// The process did what was asked.
 pub const EXIT_OK: u8 = 0;
@@ -53,6 +54,8 @@ pub enum RunError {
         /// What is wrong.
         message: String,
     },
+    /// The project file is wrong.
+    Project(ProjectError),
     /// The log cannot be written.
     Log(LogError),
 }
@@ -76,6 +79,7 @@ impl RunError {
             RunError::Missing { .. }
             | RunError::File { .. }
             | RunError::Content { .. }
+            | RunError::Project(_)
             | RunError::Log(_) => EXIT_FAILED,
         }
     }
@@ -86,14 +90,24 @@ impl RunError {
         ExitCode::from(self.code())
     }
 
-    fn styled(&self) -> String {
+    /// The text for a terminal.
+    pub fn styled(&self) -> String {
         let red = anstyle::AnsiColor::BrightRed.on_default().bold();
         let text = self.to_string();
-        match text.strip_prefix("error") {
+        let lines = text.lines().map(|line| match line.strip_prefix("error") {
             Some(rest) => format!("{red}error{red:#}{rest}"),
-            None => text,
-        }
+            None => line.to_owned(),
+        });
+        lines.collect::<Vec<_>>().join("\n")
     }
+}
+
+/// The byte at a line and column from 1.
+fn byte(text: &str, (line, column): (usize, usize)) -> usize {
+    let lines = text.split_inclusive('\n');
+    let before: usize = lines.clone().take(line.saturating_sub(1)).map(str::len).sum();
+    let line = lines.clone().nth(line.saturating_sub(1)).unwrap_or("");
+    before + line.chars().take(column.saturating_sub(1)).map(char::len_utf8).sum::<usize>()
 }
 
 impl fmt::Display for RunError {
@@ -113,21 +127,28 @@ impl fmt::Display for RunError {
                 write!(f, "error: {what} '{}': {error}", path.display())
             }
             RunError::Content { path, place, text, message } => {
-                let path = path.display();
-                write!(f, "error: {message}")?;
-                let Some((line, column)) = *place else { return write!(f, "\n  --> {path}") };
-                let excerpt = text.lines().nth(line - 1).unwrap_or("").trim_end();
-                let width = line.to_string().len();
-                let (gap, caret) = (" ".repeat(width), " ".repeat(column.saturating_sub(1)));
-                write!(f, "\n{gap}--> {path}:{line}:{column}\n{gap} |")?;
-                write!(f, "\n{line} | {excerpt}\n{gap} | {caret}^")
+                writeln!(f, "error: {message}")?;
+                match *place {
+                    Some(place) => {
+                        let at = byte(text, place);
+                        excerpt(f, path, text, at..at, "")
+                    }
+                    None => write!(f, "  --> {}", path.display()),
+                }
             }
+            RunError::Project(error) => error.fmt(f),
             RunError::Log(error) => write!(f, "error: {error}"),
         }
     }
 }
 
 impl std::error::Error for RunError {}
+
+impl From<ProjectError> for RunError {
+    fn from(error: ProjectError) -> Self {
+        RunError::Project(error)
+    }
+}
 
 impl From<LogError> for RunError {
     fn from(error: LogError) -> Self {

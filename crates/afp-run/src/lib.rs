@@ -15,7 +15,6 @@ mod pace;
 mod report;
 mod robot;
 mod run;
-pub mod settings;
 mod stop;
 mod svg;
 mod tracer;
@@ -30,6 +29,7 @@ use clap::{Args, Command, FromArgMatches};
 use crate::options::RunOptions;
 
 pub use error::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, EXIT_USAGE, RunError};
+pub use hash::hash;
 pub use output::write_whole;
 pub use report::timeline;
 pub use run::run;

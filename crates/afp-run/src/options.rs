@@ -31,7 +31,7 @@ pub struct RunOptions {
     pub seed: u64,
 
     /// Stops the plan at this time [default: 60s at speed max, else never]
-    #[arg(long, value_name = "TIME", value_parser = parse::duration)]
+    #[arg(long, value_name = "TIME", value_parser = afp_project::duration)]
     pub until: Option<Duration>,
 
     /// Speed of simulated time: 1x is real time, max as fast as it goes

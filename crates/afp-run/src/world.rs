@@ -3,10 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use afp_project::{ProjectFile, shown};
 use afp_sim::World;
 
 use crate::error::RunError;
-use crate::settings::Settings;
 
 /// The room for plans that come without a world.
 const ROOM: &str = include_str!("../../../worlds/wall_following.toml");
@@ -31,14 +31,14 @@ pub fn find(asked: Option<&Path>, plan: &Path) -> Result<LoadedWorld, RunError> 
     if let Some(path) = asked {
         return load(path);
     }
+    let file = ProjectFile::of_plan(plan)?;
+    if let Some(path) = &file.project.world {
+        return load(&shown(&file.folder.join(path)));
+    }
     let folder = match plan.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    let settings = Settings::find(folder)?;
-    if let Some(path) = &settings.run.world {
-        return load(&settings.folder.join(path));
-    }
     let file = Path::new("worlds").join(plan.file_name().unwrap_or_default());
     let beside = folder.join("..").join(file).with_extension("toml");
     match beside.is_file() {

@@ -21,8 +21,9 @@ pub use afp_macros as macros;
 /// `afp::plan!("plans/wall_following.afp")`, with a path relative to the crate's manifest, makes a
 /// module for each plan of the file that is used, and brings the plan's type (`WallFollowing`)
 /// into scope: a typed plan with `new`, a getter for each entry and a setter for each `in` entry,
-/// to be driven by a [`Scheduler`]. The crates of the toolboxes in use (`afp-carbot`, `afp-std`)
-/// must be dependencies. A mistake in the plan is a compile error at its place in the plan.
+/// to be driven by a [`Scheduler`]. Toolboxes that are not built in are found through `afp.toml`,
+/// beside the manifest or above. The crates of the toolboxes in use (`afp-carbot`, `afp-std`, one's
+/// own) must be dependencies. A mistake in the plan is a compile error at its place in the plan.
 #[macro_export]
 macro_rules! plan {
     ($($arguments:tt)*) => {

@@ -14,17 +14,18 @@ use std::process::ExitCode;
 
 use afp_run::{EXIT_FAILED, EXIT_OK, RunError};
 
+use crate::Linked;
 use crate::cli::Command;
 use crate::plan_file::NoPlan;
 
 /// Runs a command.
-pub fn dispatch(command: &Command) -> ExitCode {
+pub fn dispatch(command: &Command, linked: &[Linked]) -> ExitCode {
     let result = match command {
         Command::Check(arguments) => check::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),
         Command::Fmt(arguments) => fmt::run(arguments),
         Command::Graph(arguments) => graph::run(arguments),
-        Command::Run(arguments) => run::run(arguments),
+        Command::Run(arguments) => run::run(arguments, linked),
         Command::Build(arguments) => build::run(arguments),
         Command::Log(arguments) => log::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),

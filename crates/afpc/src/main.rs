@@ -1,11 +1,7 @@
-//! The command line of Action Flow Plans: arguments, files, exit codes.
-
-mod cli;
-mod commands;
-mod plan_file;
+//! The command line of Action Flow Plans, with the built-in toolboxes alone.
 
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    commands::dispatch(&cli::parse())
+    afpc::main(&[])
 }

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 
 use afp_dsl::graph::Graph;
 use afp_dsl::source::Source;
-use afp_dsl::toolbox::Toolboxes;
 use afp_dsl::{Compiled, compile_plan};
+use afp_project::{ProjectError, ProjectFile};
 use afp_run::RunError;
-use afp_run::settings::Settings;
+
+use crate::toolboxes::OwnToolboxes;
 
 /// A plan that was read and compiled.
 pub struct PlanFile {
@@ -17,6 +18,8 @@ pub struct PlanFile {
     pub path: PathBuf,
     /// What became of it.
     pub compiled: Compiled,
+    /// The project that it belongs to, and its toolboxes.
+    pub own: OwnToolboxes,
 }
 
 /// Why there is no graph.
@@ -33,6 +36,12 @@ impl From<RunError> for NoPlan {
     }
 }
 
+impl From<ProjectError> for NoPlan {
+    fn from(error: ProjectError) -> Self {
+        NoPlan::File(error.into())
+    }
+}
+
 impl PlanFile {
     /// Reads and compiles `FILE` or `FILE:Plan`.
     ///
@@ -42,10 +51,11 @@ impl PlanFile {
         let (path, plan) = split(argument);
         let text =
             fs::read_to_string(&path).map_err(RunError::file("cannot read the plan", &path))?;
-        let toolboxes = toolboxes(&path)?;
+        let own = OwnToolboxes::read(ProjectFile::of_plan(&path)?)?;
+        let toolboxes = own.with_built_in()?;
         let source = Source::new(path.display().to_string(), text);
         let compiled = compile_plan(&source, &toolboxes, &read_used, plan);
-        Ok(PlanFile { path, compiled })
+        Ok(PlanFile { path, compiled, own })
     }
 
     /// Reads and compiles, tells standard error what is wrong, and gives the graph.
@@ -53,12 +63,19 @@ impl PlanFile {
     /// # Errors
     /// A file cannot be read, or the plan has errors.
     pub fn graph(argument: &str) -> Result<(PlanFile, Graph), NoPlan> {
-        let mut file = PlanFile::read(argument)?;
-        if !file.compiled.diags.is_empty() {
-            anstream::eprintln!("{}", file.compiled.render(true));
+        PlanFile::read(argument)?.checked()
+    }
+
+    /// Tells standard error what is wrong, and gives the graph.
+    ///
+    /// # Errors
+    /// The plan has errors.
+    pub fn checked(mut self) -> Result<(PlanFile, Graph), NoPlan> {
+        if !self.compiled.diags.is_empty() {
+            anstream::eprintln!("{}", self.compiled.render(true));
         }
-        let graph = file.compiled.graph.take().ok_or(NoPlan::Wrong)?;
-        Ok((file, graph))
+        let graph = self.compiled.graph.take().ok_or(NoPlan::Wrong)?;
+        Ok((self, graph))
     }
 }
 
@@ -78,25 +95,4 @@ fn split(argument: &str) -> (PathBuf, Option<&str>) {
         }
         _ => (argument.into(), None),
     }
-}
-
-/// The built-in toolboxes and those that the project's `afp.toml` names.
-fn toolboxes(plan: &Path) -> Result<Toolboxes, RunError> {
-    let mut toolboxes = Toolboxes::default();
-    for toolbox in afp_toolboxes::ALL {
-        toolboxes.add(Source::new(toolbox.file_name, toolbox.text), toolbox.rust_path);
-    }
-    let folder = match plan.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let settings = Settings::find(folder)?;
-    for (name, toolbox) in &settings.toolboxes {
-        let path = settings.folder.join(&toolbox.path);
-        let text = fs::read_to_string(&path)
-            .map_err(RunError::file("cannot read the toolbox of afp.toml,", &path))?;
-        let krate = toolbox.krate.as_deref().unwrap_or(name).replace('-', "_");
-        toolboxes.add(Source::new(path.display().to_string(), text), &krate);
-    }
-    Ok(toolboxes)
 }

@@ -161,7 +161,7 @@ fn a_wrong_world_is_shown_at_its_line() {
     );
     place.afpc(run).fails(1, &["the robot starts inside of 'w'", "--> w.toml:3:"]);
     place.write("afp.toml", "[run]\nworlds = \"w.toml\"\n");
-    place.afpc("run wall_following.afp").fails(1, &["unknown field `worlds`", "afp.toml:2:1"]);
+    place.afpc("run wall_following.afp").fails(1, &["'[run]' has no 'worlds'", "afp.toml:2:1"]);
     assert_eq!(place.files(), ["afp.toml", "w.toml", "wall_following.afp"]);
 }
 

@@ -13,7 +13,7 @@ use afp_sim::{Simulation, World};
 pub use shop::{Announce, Loudspeaker, Shop, templates};
 
 afp::plan!("../../plans/wall_following.afp");
-afp::plan!("plans/errands.afp", toolboxes = { "shop.afp" => crate });
+afp::plan!("plans/errands.afp");
 
 use errands::errand::Errand;
 

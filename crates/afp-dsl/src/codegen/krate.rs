@@ -3,10 +3,13 @@
 use quote::quote;
 
 use crate::codegen::Options;
-use crate::codegen::layout::{doc, file};
+use crate::codegen::layout::{doc, file, file_with_places};
+use crate::codegen::manifest::{Dependency, Origin, manifest};
 use crate::codegen::names::{ident, snake};
+use crate::codegen::places::Places;
 use crate::codegen::plan::{Generated, plan};
 use crate::graph::Graph;
+use crate::source::Span;
 
 /// What a generated crate needs to know about its surroundings.
 #[derive(Clone, Debug)]
@@ -18,97 +21,80 @@ pub struct CrateOptions {
     pub texts: Vec<(String, String)>,
     /// Where the `afp` crates come from.
     pub origin: Origin,
-    /// Crates of toolboxes that are not built in: package name and value in the manifest.
-    pub dependencies: Vec<(String, String)>,
+    /// Crates of toolboxes that are not built in.
+    pub dependencies: Vec<Dependency>,
     /// Whether only a library is wanted, without the program that runs it in simulation.
     pub lib: bool,
 }
 
-/// Where a manifest takes the `afp` crates from.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Origin {
-    /// A checkout.
-    Path(String),
-    /// A repository.
-    Git(String),
-    /// A registry.
-    Version(String),
+/// A file of a generated crate.
+#[derive(Clone, Debug)]
+pub struct CrateFile {
+    /// Its path below the crate's folder.
+    pub path: String,
+    /// Its text.
+    pub text: String,
+    places: Places,
+    whole: Span,
 }
 
-impl Origin {
-    /// One `afp` crate, as a manifest names it.
-    fn dependency(&self, package: &str, defaults: bool) -> String {
-        let features = if defaults { "" } else { ", default-features = false" };
-        match self {
-            Origin::Path(root) => {
-                let path = quoted(&format!("{}/crates/{package}", root.trim_end_matches('/')));
-                format!("{{ path = {path}{features} }}")
-            }
-            Origin::Git(url) => format!("{{ git = {}{features} }}", quoted(url)),
-            Origin::Version(version) => format!("{{ version = {}{features} }}", quoted(version)),
-        }
+impl CrateFile {
+    /// What a line (counted from 1) is made from, and whether that is more than the whole plan.
+    pub fn place(&self, line: usize) -> (Span, bool) {
+        let place = self.places.at(line);
+        (place.unwrap_or(self.whole), place.is_some())
     }
 }
 
-/// The files of a crate: path below its folder, and text.
-pub fn crate_files(graph: &Graph, options: &CrateOptions) -> Vec<(String, String)> {
+/// The files of a crate.
+pub fn crate_files(graph: &Graph, options: &CrateOptions) -> Vec<CrateFile> {
     let generated = plan(graph, &Options { core: quote!(afp::core), ..Options::default() });
-    let mut files = vec![("Cargo.toml".to_owned(), manifest(graph, options))];
-    files.extend(options.texts.iter().cloned());
-    files.push(("src/lib.rs".to_owned(), library(graph, &generated, options)));
+    let main = graph.main().span;
+    let plain = |path: &str, text| CrateFile {
+        path: path.to_owned(),
+        text,
+        places: Places::default(),
+        whole: main,
+    };
+    let mut files = vec![plain("Cargo.toml", cargo_toml(graph, options))];
+    files.extend(options.texts.iter().map(|(path, text)| plain(path, text.clone())));
+    files.push(plain("src/lib.rs", library(graph, &generated, options)));
     if !options.lib {
-        files.push(("src/main.rs".to_owned(), program(graph, &generated, options)));
+        files.push(plain("src/main.rs", program(graph, &generated, options)));
     }
     for module in &generated.modules {
         let name = module.name.to_string();
         let path = format!("src/{}.rs", name.trim_start_matches("r#"));
-        files.push((path, file(module.tokens())));
+        let (text, places) = file_with_places(module.tokens());
+        files.push(CrateFile { path, text, places, whole: module.span });
     }
     files
 }
 
-fn package(graph: &Graph) -> String {
-    snake(&graph.main().name).replace('_', "-")
+fn cargo_toml(graph: &Graph, options: &CrateOptions) -> String {
+    let made_by = format!("build' from {}", base_name(&options.file));
+    let package = snake(&graph.main().name).replace('_', "-");
+    let profile = "# One unit, optimised as a whole: the scheduler melts into the plan.\n\
+                   [profile.release]\n\
+                   lto = \"fat\"\n\
+                   codegen-units = 1\n";
+    manifest(&made_by, &package, dependencies(graph, options), profile)
 }
 
-fn manifest(graph: &Graph, options: &CrateOptions) -> String {
+/// The crates that a plan needs: those of its toolboxes beside `afp` and what runs it.
+fn dependencies(graph: &Graph, options: &CrateOptions) -> Vec<Dependency> {
     let origin = &options.origin;
-    let mut dependencies = vec![("afp".to_owned(), origin.dependency("afp", false))];
+    let mut all = vec![Dependency::ours("afp", origin).without_defaults()];
     if !options.lib {
-        dependencies.push(("afp-run".to_owned(), origin.dependency("afp-run", false)));
+        all.push(Dependency::ours("afp-run", origin).without_defaults());
     }
     for toolbox in &graph.toolboxes {
-        let name = toolbox.rust_path.split("::").next().unwrap_or("").replace('_', "-");
-        let given = options.dependencies.iter().find(|(known, _)| known.replace('_', "-") == name);
-        dependencies.push(match given {
-            Some(given) => given.clone(),
-            None => (name.clone(), origin.dependency(&name, true)),
-        });
+        let name = toolbox.rust_path.split("::").next().unwrap_or("");
+        let given = options.dependencies.iter().find(|given| given.key.replace('-', "_") == name);
+        let built_in = || Dependency::ours(&name.replace('_', "-"), origin);
+        all.push(given.cloned().unwrap_or_else(built_in));
     }
-    dependencies.sort();
-    dependencies.dedup();
-    let lines = dependencies.iter().map(|(name, value)| format!("{name} = {value}\n"));
-    let lines: String = lines.collect();
-    format!(
-        "# Made by 'afpc build' from {file}.\n\
-         [package]\n\
-         name = {name}\n\
-         version = \"0.1.0\"\n\
-         edition = \"2024\"\n\
-         publish = false\n\
-         \n\
-         [dependencies]\n\
-         {lines}\
-         \n\
-         # One unit, optimised as a whole: the scheduler melts into the plan.\n\
-         [profile.release]\n\
-         lto = \"fat\"\n\
-         codegen-units = 1\n\
-         \n\
-         [workspace]\n",
-        file = base_name(&options.file),
-        name = quoted(&package(graph)),
-    )
+    all
 }
 
 fn library(graph: &Graph, generated: &Generated, options: &CrateOptions) -> String {
@@ -155,18 +141,4 @@ fn program(graph: &Graph, generated: &Generated, options: &CrateOptions) -> Stri
 /// The last part of a path of either kind.
 fn base_name(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
-}
-
-/// A text as a basic string of TOML.
-fn quoted(text: &str) -> String {
-    let mut quoted = String::from("\"");
-    for letter in text.chars() {
-        match letter {
-            '"' | '\\' => quoted.extend(['\\', letter]),
-            letter if letter.is_control() => quoted += &format!("\\u{:04X}", u32::from(letter)),
-            letter => quoted.push(letter),
-        }
-    }
-    quoted.push('"');
-    quoted
 }

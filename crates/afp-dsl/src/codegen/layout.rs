@@ -1,15 +1,37 @@
 //! Tokens as text that people read.
 //!
 //! Comments travel through the tokens as `#[comment = " text"]`, which the printer knows and the
-//! compiler does not; code that goes to the compiler as tokens has them taken out.
+//! compiler does not; code that goes to the compiler as tokens has them taken out. Places of the plan
+//! travel the same way, and leave the text as a table beside it.
 
 use proc_macro2::{Group, TokenStream, TokenTree};
 use quote::quote;
+
+use crate::codegen::places::Places;
+use crate::source::Span;
+
+/// How a comment begins that is a place.
+const PLACE: &str = "\u{1}";
 
 /// A comment above the next item, arm, element or statement.
 pub fn comment(text: &str) -> TokenStream {
     let text = format!(" {text}");
     quote!(#[comment = #text])
+}
+
+/// The place in the plan that the next item, arm, field or element is made from; it stands behind all
+/// other attributes.
+pub fn at(span: Span) -> TokenStream {
+    let text = format!("{PLACE}{} {} {}", span.file, span.start, span.end);
+    quote!(#[comment = #text])
+}
+
+/// The place that a printed line is about.
+fn place(line: &str) -> Option<Span> {
+    let mut numbers = line.trim_start().strip_prefix("//")?.strip_prefix(PLACE)?.split(' ');
+    let file = numbers.next()?.parse().ok()?;
+    let [start, end] = [numbers.next()?.parse().ok()?, numbers.next()?.parse().ok()?];
+    Some(Span { file, start, end })
 }
 
 /// Help lines as a doc comment; `fallback` where there are none.
@@ -49,21 +71,33 @@ fn is_comment(group: &Group) -> bool {
 ///
 /// Tokens that are no Rust file come back as they are, so that the compiler shows what is wrong.
 pub fn file(tokens: TokenStream) -> String {
+    file_with_places(tokens).0
+}
+
+/// The text of a file, and which place each line is made from.
+pub fn file_with_places(tokens: TokenStream) -> (String, Places) {
     match syn::parse2(tokens.clone()) {
         Ok(file) => airy(&prettyplease::unparse(&file)),
-        Err(_) => tokens.to_string(),
+        Err(_) => (tokens.to_string(), Places::default()),
     }
 }
 
-/// Blank lines between items, where the printer leaves none.
-fn airy(text: &str) -> String {
+/// Blank lines between items, where the printer leaves none, and no places among the lines.
+fn airy(text: &str) -> (String, Places) {
     let mut airy = String::with_capacity(text.len() + text.len() / 16);
+    let (mut places, mut here) = (Places::default(), None);
     let mut before = "";
     let mut lines = text.lines().peekable();
     while let Some(line) = lines.next() {
+        if let Some(place) = place(line) {
+            here = Some(place);
+            continue;
+        }
         if separated(before, line) {
             airy.push('\n');
+            places.line("", None);
         }
+        places.line(line, here.take());
         airy += line;
         before = line;
         // The printer breaks what is empty, too.
@@ -75,7 +109,7 @@ fn airy(text: &str) -> String {
         }
         airy.push('\n');
     }
-    airy
+    (airy, places)
 }
 
 fn separated(before: &str, line: &str) -> bool {
@@ -103,7 +137,8 @@ fn separated(before: &str, line: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{code, comment, file};
+    use super::{at, code, comment, file, file_with_places};
+    use crate::source::Span;
     use quote::quote;
 
     #[test]
@@ -120,5 +155,34 @@ mod tests {
             )
             .to_string()
         );
+    }
+
+    #[test]
+    fn lines_know_the_place_of_the_innermost_item_around_them() {
+        let span = |start| Span { file: 3, start, end: 90 };
+        let [a, b, c, d] = [1, 2, 3, 4].map(|start| at(span(start)));
+        let tokens = quote! {
+            /// Help.
+            #a
+            fn f(x: u8) -> P { P { #b one: x, #c two: x } }
+            fn g() { match 1 { #d 1 => {} _ => {} } }
+            struct Last {}
+        };
+        let (text, places) = file_with_places(tokens.clone());
+        assert!(!text.contains('\u{1}') && !code(tokens).to_string().contains("comment"));
+        let place = |part: &str| {
+            let line = text.lines().position(|line| line.contains(part)).unwrap();
+            places.at(line + 1).map(|span| span.start)
+        };
+        assert_eq!(place("fn f"), Some(1));
+        assert_eq!(place("P {"), Some(1));
+        assert_eq!(place("one"), Some(2));
+        assert_eq!(place("two"), Some(3));
+        assert_eq!(place("fn g"), None);
+        assert_eq!(place("1 =>"), Some(4));
+        assert_eq!(place("_ =>"), None);
+        assert_eq!(place("Last"), None);
+        assert_eq!(places.at(0), None);
+        assert_eq!(places.at(99), None);
     }
 }

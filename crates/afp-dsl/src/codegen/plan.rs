@@ -23,6 +23,7 @@ use crate::codegen::Options;
 use crate::codegen::layout::{comment, doc};
 use crate::codegen::names::camel;
 use crate::graph::{Graph, PlanId};
+use crate::source::Span;
 use crate::unfold;
 use context::Context;
 pub(crate) use shared::units_name;
@@ -51,6 +52,8 @@ pub struct Module {
     pub imports: TokenStream,
     /// Its sections, each with its title.
     pub sections: Vec<(&'static str, TokenStream)>,
+    /// The plan that it is made from.
+    pub span: Span,
 }
 
 /// The Rust code of all plans of a graph.
@@ -84,7 +87,7 @@ fn module(context: &Context<'_>, options: &Options, id: PlanId) -> Module {
         ("Names", names::names(context, id)),
     ];
     let imports = imports::imports(&options.core, context, &sections);
-    Module { name: context.module.clone(), doc: about, imports, sections }
+    Module { name: context.module.clone(), doc: about, imports, sections, span: plan.span }
 }
 
 fn plan_section(context: &Context<'_>) -> TokenStream {

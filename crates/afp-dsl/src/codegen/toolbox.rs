@@ -3,6 +3,7 @@
 //! A crate that implements a toolbox puts this into a module `templates`; the types that implement
 //! the templates carry the templates' names in the module around it.
 
+mod declared;
 mod outcomes;
 mod ports;
 mod register;
@@ -17,6 +18,8 @@ use crate::codegen::names::{camel, ident, snake};
 use crate::codegen::rust_type::Home;
 use crate::toolbox::{InPort, Template, TemplateKind, Toolbox};
 use crate::types::{Enum, Object, Type};
+
+pub use declared::declaration;
 
 /// Everything that `toolbox!` makes.
 pub fn toolbox(toolbox: &Toolbox, options: &Options) -> TokenStream {

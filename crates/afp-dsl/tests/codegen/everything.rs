@@ -503,7 +503,9 @@ struct Supervisors {
 
 /// Inputs of `seek.watch`.
 fn seek_watch<'a>() -> Result<kit::watch::Inputs<'a>, Fault> {
-    Ok(kit::watch::Inputs { label: "i" })
+    Ok(kit::watch::Inputs {
+        label: "i",
+    })
 }
 
 /// Live inputs of `seek.watch`.

@@ -1,19 +1,16 @@
 //! `afpc build`: a readable Rust crate from a plan, and the binary that it makes.
 
-mod cargo;
-mod folder;
-
 use std::path::{Path, PathBuf};
 
-use afp_dsl::codegen::{CrateOptions, Origin, crate_files};
-use afp_dsl::graph::Graph;
+use afp_dsl::codegen::{CrateOptions, crate_files};
 use afp_run::RunError;
-use afp_run::settings::{Afp, Settings};
 use clap::{Args, ValueEnum};
 
 use super::print;
+use crate::cargo::{self, Blame, Generated, Job};
 use crate::cli::PlanArgument;
 use crate::plan_file::{NoPlan, PlanFile};
+use crate::{crate_folder, origin};
 
 /// Arguments of `afpc build`.
 #[derive(Args, Debug)]
@@ -71,68 +68,38 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
         return Err(RunError::usage(message, help).into());
     }
     let (file, graph) = PlanFile::graph(&arguments.plan.plan)?;
-    refuse_own_toolboxes(&graph)?;
-    let here = file.path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let origin = origin(&Settings::find(here.unwrap_or(Path::new(".")))?)?;
+    let toolboxes = file.own.used_by(&graph)?;
+    let origin = origin::of_afp(&file.own.project)?;
     let stem = file.path.file_stem().unwrap_or("plan".as_ref());
     let folder = arguments.output.clone().unwrap_or_else(|| Path::new(BUILDS).join(stem));
     let options = CrateOptions {
         file: file.path.display().to_string(),
         texts: file.compiled.plan_texts(),
         origin: origin.clone(),
-        dependencies: Vec::new(),
+        dependencies: toolboxes.iter().map(|own| origin::dependency(&own.krate)).collect(),
         lib: arguments.lib,
     };
-    folder::write(&folder, &crate_files(&graph, &options), &origin)?;
+    let files = crate_files(&graph, &options);
+    let texts: Vec<_> = files.iter().map(|file| (&*file.path, &*file.text)).collect();
+    crate_folder::write(&folder, &texts, &origin)?;
     anstream::eprintln!("generated {}", folder.display());
     // Plans beside one another share what they are built from.
     let shared = arguments.output.is_none().then(|| Path::new(BUILDS).join("build"));
-    let binary = cargo::build(&folder, shared.as_deref())?;
+    let no_cargo = RunError::Missing {
+        message: "there is no cargo to build the crate with".to_owned(),
+        help:
+            "install Rust from https://rustup.rs; with built-in toolboxes alone, 'afpc run' works \
+               without it"
+                .to_owned(),
+    };
+    let generated = Generated { folder: &folder, files: &files, sources: &file.compiled.sources };
+    let binary = cargo::build(Job {
+        folder: &folder,
+        target: shared.as_deref(),
+        blame: Blame { generated: Some(generated), toolboxes: &toolboxes },
+        no_cargo,
+    })?;
     let made = binary.unwrap_or(folder);
     let made = std::path::absolute(&made).unwrap_or(made);
     print(&format!("{}\n", made.display()))
-}
-
-fn refuse_own_toolboxes(graph: &Graph) -> Result<(), RunError> {
-    let built_in = |name: &str| afp_toolboxes::ALL.iter().any(|toolbox| toolbox.name == name);
-    match graph.toolboxes.iter().find(|toolbox| !built_in(&toolbox.name)) {
-        None => Ok(()),
-        Some(toolbox) => Err(RunError::usage(
-            format!("'afpc build' cannot link the toolbox '{}'", toolbox.name),
-            "crates for toolboxes of one's own come with a later release",
-        )),
-    }
-}
-
-/// Where the manifest takes the `afp` crates from.
-fn origin(settings: &Settings) -> Result<Origin, RunError> {
-    let Some(Afp { path, git, version }) = &settings.afp else { return checkout() };
-    match (path, git, version) {
-        (Some(path), None, None) => {
-            Ok(Origin::Path(settings.folder.join(path).display().to_string()))
-        }
-        (None, Some(git), None) => Ok(Origin::Git(git.clone())),
-        (None, None, Some(version)) => Ok(Origin::Version(version.clone())),
-        _ => Err(RunError::usage(
-            "'[afp]' in afp.toml wants exactly one of 'path', 'git' and 'version'",
-            "path = \"../afp\" takes the crates from a checkout",
-        )),
-    }
-}
-
-/// The checkout that built this program.
-fn checkout() -> Result<Origin, RunError> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2);
-    match root.filter(|root| root.join("crates/afp/Cargo.toml").is_file()) {
-        Some(root) => Ok(Origin::Path(root.display().to_string())),
-        None => Err(RunError::Missing {
-            message: concat!(
-                "the checkout that afpc was built from is no longer at '",
-                env!("CARGO_MANIFEST_DIR"),
-                "/../..'"
-            )
-            .to_owned(),
-            help: "say where the afp crates are: '[afp] path = \"...\"' in afp.toml".to_owned(),
-        }),
-    }
 }

@@ -47,7 +47,7 @@ Examples:
 /// Checks all files; the worst exit code wins.
 ///
 /// # Errors
-/// A target that there is not, a broken `afp.toml`, a closed standard output.
+/// A target that there is not, a closed standard output.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let mut code = EXIT_OK;
     let mut told = HashSet::new();
@@ -70,7 +70,7 @@ fn check(name: &str, arguments: &Arguments, told: &mut Told) -> Result<u8, NoPla
             return Ok(EXIT_FAILED);
         }
     };
-    let targets = targets::choose(&file.path, arguments.target.as_deref())?;
+    let targets = targets::choose(&file.own.project.project, arguments.target.as_deref())?;
     let compiled = &mut file.compiled;
     if let Some(graph) = &compiled.graph {
         targets.iter().for_each(|target| compiled.diags.extend(check_target(graph, target)));

@@ -8,6 +8,7 @@ use clap::Args;
 
 use crate::cli::PlanArgument;
 use crate::plan_file::{NoPlan, PlanFile};
+use crate::{Linked, runner};
 
 /// Arguments of `afpc run`.
 #[derive(Args, Debug)]
@@ -22,15 +23,22 @@ pub struct Arguments {
 ///
 /// # Errors
 /// The plan is wrong, a file does not work.
-pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
+pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
     arguments.options.check()?;
-    let (file, graph) = PlanFile::graph(&arguments.plan.plan)?;
+    let file = PlanFile::read(&arguments.plan.plan)?;
+    if let Some(graph) = &file.compiled.graph {
+        let toolboxes = file.own.used_by(graph)?;
+        runner::become_one_with(&toolboxes, linked, &file.own.project)?;
+    }
+    let (file, graph) = file.checked()?;
     let mut registry = Registry::<Simulation>::new();
     afp_std::templates::register(&mut registry);
     afp_carbot::templates::register(&mut registry);
+    for toolbox in linked {
+        (toolbox.register)(&mut registry);
+    }
     let plan = LoadedPlan::new(&graph, &registry).map_err(|error| {
-        let help = "'afpc run' knows the built-in toolboxes; \
-                    runner crates for toolboxes of one's own come with a later release";
+        let help = "the toolbox file and the Rust crate behind it do not belong together";
         RunError::usage(error.to_string(), help)
     })?;
     let path = file.path.display().to_string();

@@ -1,8 +1,6 @@
 //! Worlds, project files and manifests in the book.
 
 use afp_book::Block;
-use afp_dsl::timing;
-use afp_run::settings::Settings;
 use afp_sim::World;
 use toml_edit::DocumentMut;
 
@@ -24,11 +22,8 @@ fn files_in_toml_are_read() {
 }
 
 fn project(block: &Block) -> Result<(), String> {
-    let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
-    std::fs::write(folder.path().join("afp.toml"), &block.text)
-        .map_err(|error| error.to_string())?;
-    timing::targets(&block.text).map_err(|error| error.to_string())?;
-    Settings::find(folder.path()).map(drop).map_err(|error| error.to_string())
+    let (_, mistakes) = afp_project::read(&block.text);
+    mistakes.first().map_or(Ok(()), |mistake| Err(mistake.to_string()))
 }
 
 /// A manifest names only crates of this workspace among those called `afp`, with features they have.

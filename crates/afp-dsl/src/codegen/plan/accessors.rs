@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::context::Context;
 use super::state::entry_doc;
-use crate::codegen::layout::doc;
+use crate::codegen::layout::{at, doc};
 use crate::codegen::names::{Names, ident, snake};
 use crate::graph::{Entry, EntryKind};
 use crate::types::Type;
@@ -39,6 +39,7 @@ pub fn accessors(context: &Context<'_>) -> TokenStream {
 
 fn getter(context: &Context<'_>, entry: &Entry, field: &Ident, name: &Ident) -> TokenStream {
     let (help, value) = (entry_doc(entry), context.value_type(&entry.ty));
+    let at = at(entry.span);
     let (ty, body) = match entry.ty {
         Type::Text => (quote!(&str), quote!(value().map(|text| text.as_str()))),
         Type::Object(_) => (quote!(&#value), quote!(value().and_then(|object| object.get().ok()))),
@@ -48,6 +49,7 @@ fn getter(context: &Context<'_>, entry: &Entry, field: &Ident, name: &Ident) -> 
         #help
         #[doc = ""]
         #[doc = " `None` while nobody has written it."]
+        #at
         pub fn #name(&self) -> Option<#ty> {
             self.config.#field.#body
         }
@@ -57,12 +59,14 @@ fn getter(context: &Context<'_>, entry: &Entry, field: &Ident, name: &Ident) -> 
 fn setter(context: &Context<'_>, entry: &Entry, field: &Ident, name: &Ident) -> TokenStream {
     let value = context.value_type(&entry.ty);
     let help = doc("", &format!("Sets `{}` before the start.", entry.name));
+    let at = at(entry.span);
     match entry.ty {
         Type::Quantity(_) => quote! {
             #help
             #[doc = ""]
             #[doc = " # Errors"]
             #[doc = " [`WriteError::NotFinite`]."]
+            #at
             pub fn #name(&mut self, value: #value) -> Result<(), WriteError> {
                 let value = finite(value).map_err(|_| WriteError::NotFinite)?;
                 self.config.#field.set(value);
@@ -71,12 +75,14 @@ fn setter(context: &Context<'_>, entry: &Entry, field: &Ident, name: &Ident) -> 
         },
         Type::Object(_) => quote! {
             #help
+            #at
             pub fn #name(&mut self, value: #value) {
                 self.config.#field.set(Object::new(value));
             }
         },
         _ => quote! {
             #help
+            #at
             pub fn #name(&mut self, value: #value) {
                 self.config.#field.set(value);
             }

@@ -5,10 +5,11 @@ use quote::quote;
 
 use super::context::{ComponentNames, Context, Paths};
 use crate::codegen::formula::{Formulas, convert, is_literal};
-use crate::codegen::layout::doc;
+use crate::codegen::layout::{at, doc};
 use crate::codegen::names::{camel, ident, snake};
 use crate::codegen::rust_type::Home;
 use crate::graph::{Formula, Output};
+use crate::source::Span;
 use crate::toolbox::{InPort, Template, TemplateKind};
 use crate::types::{Conversion, Type};
 
@@ -21,6 +22,8 @@ pub struct Bound<'a> {
     pub generic: Option<&'a Type>,
     pub inputs: &'a [Formula],
     pub outputs: &'a [Output],
+    /// Its name in the text.
+    pub span: Span,
 }
 
 /// A function of inputs or outputs.
@@ -78,8 +81,8 @@ impl Bound<'_> {
                         Type::Any | Type::Number => formulas.value(formula),
                         _ => formulas.input(formula),
                     };
-                    let port = ident(&snake(&port.name));
-                    quote!(#port: #value)
+                    let (port, at) = (ident(&snake(&port.name)), at(formula.span));
+                    quote!(#at #port: #value)
                 })
                 .collect();
             (fields, formulas.rooms)
@@ -107,7 +110,7 @@ impl Bound<'_> {
             (false, None) => TokenStream::new(),
         };
         let generics = lifetime.map(|lifetime| quote!(<#lifetime>));
-        let help = doc("", about);
+        let (help, at) = (doc("", about), at(self.span));
         let config_call = reads
             .then(|| if rooms.is_empty() { quote!(&self.config) } else { quote!(&self.config,) });
         Function {
@@ -115,6 +118,7 @@ impl Bound<'_> {
             call: quote!(#name(#config_call #(&mut #rooms),*)),
             item: quote! {
                 #help
+                #at
                 fn #name #generics (#config #(#rooms: &'a mut Text),*)
                     -> Result<#module::#ty #arguments, Fault>
                 {
@@ -162,11 +166,13 @@ impl Bound<'_> {
             }
         };
         let help = doc("", &format!("Outputs of `{}`.", self.names.text));
+        let at = at(self.span);
         Function {
             rooms: TokenStream::new(),
             call: quote!(|outcome| #name(&mut self.staged, outcome)),
             item: quote! {
                 #help
+                #at
                 fn #name(staged: &mut Staged, outcome: #module::#outcome #arguments)
                     -> Result<(), Fault>
                 {

@@ -7,6 +7,7 @@ use super::bindings::Function;
 use super::context::Context;
 use super::elements::{self, passes, results};
 use super::supervisors;
+use crate::codegen::layout::at;
 use crate::graph::{Component, Supervisor, Target};
 
 /// `impl Plan<E>`, for every platform on which all components run.
@@ -84,8 +85,9 @@ fn start_supervisor(context: &Context<'_>) -> TokenStream {
             let bound = supervisors::bound(context, supervisor, names);
             let (number, field) = (&names.number, &names.inputs);
             let Function { rooms, call, .. } = bound.inputs();
-            let wanted = wanted(supervisor);
+            let (wanted, at) = (wanted(supervisor), at(supervisor.span));
             quote! {
+                #at
                 #number => {
                     #rooms
                     let inputs = #call;
@@ -128,7 +130,9 @@ fn poll_supervisor(context: &Context<'_>) -> TokenStream {
             let bound = supervisors::bound(context, supervisor, names);
             let (number, field) = (&names.number, &names.inputs);
             let (Function { rooms, call, .. }, outputs) = (bound.live(), bound.outputs().call);
+            let at = at(supervisor.span);
             quote! {
+                #at
                 #number => {
                     #rooms
                     let live = #call;
@@ -156,11 +160,13 @@ fn start_element(context: &Context<'_>) -> TokenStream {
     let all = context.plan.elements.iter().zip(&context.elements);
     let arms = all.map(|(element, names)| {
         let (number, variant) = (&names.number, &names.variant);
+        let at = at(element.span);
         match element.component {
             Component::Actor(id) => {
                 let bound = elements::bound(context, element, names, id);
                 let Function { rooms, call, .. } = bound.inputs();
                 quote! {
+                    #at
                     #number => {
                         #rooms
                         cx.start_actor(#call).map(Active::#variant)
@@ -173,6 +179,7 @@ fn start_element(context: &Context<'_>) -> TokenStream {
                 let (Function { rooms, call, .. }, outputs) =
                     (bound.inputs(), bound.outputs().call);
                 quote! {
+                    #at
                     #number => {
                         #rooms
                         let computed = cx.compute::<#marker, #implementation>(#call);
@@ -194,6 +201,7 @@ fn start_element(context: &Context<'_>) -> TokenStream {
                 });
                 let (place, stage) = (&names.place, stage_results(names, element));
                 quote! {
+                    #at
                     #number => {
                         let #mutable plan = super::#module::#ty::new();
                         #given
@@ -244,12 +252,13 @@ fn stage_results(
 fn poll_element(context: &Context<'_>) -> TokenStream {
     let all = context.plan.elements.iter().zip(&context.elements);
     let arms = all.filter_map(|(element, names)| {
-        let variant = &names.variant;
+        let (variant, at) = (&names.variant, at(element.span));
         match element.component {
             Component::Actor(id) => {
                 let bound = elements::bound(context, element, names, id);
                 let (Function { rooms, call, .. }, outputs) = (bound.live(), bound.outputs().call);
                 Some(quote! {
+                    #at
                     Active::#variant(actor) => {
                         #rooms
                         let live = #call;
@@ -260,6 +269,7 @@ fn poll_element(context: &Context<'_>) -> TokenStream {
             Component::SubPlan(_) => {
                 let (place, stage) = (&names.place, stage_results(names, element));
                 Some(quote! {
+                    #at
                     Active::#variant(machine) => {
                         let flow = cx.inside(#place, |cx| machine.step(cx));
                         Polled::sub_plan(flow, || #stage)
@@ -289,14 +299,15 @@ fn poll_element(context: &Context<'_>) -> TokenStream {
 fn interrupt_element(context: &Context<'_>) -> TokenStream {
     let all = context.plan.elements.iter().zip(&context.elements);
     let arms = all.filter_map(|(element, names)| {
-        let variant = &names.variant;
+        let (variant, at) = (&names.variant, at(element.span));
         match element.component {
             Component::Actor(_) => {
-                Some(quote!(Active::#variant(actor) => cx.interrupt_actor(actor),))
+                Some(quote!(#at Active::#variant(actor) => cx.interrupt_actor(actor),))
             }
             Component::SubPlan(_) => {
                 let place = &names.place;
                 Some(quote! {
+                    #at
                     Active::#variant(machine) => cx.inside(#place, |cx| machine.interrupt(cx)),
                 })
             }

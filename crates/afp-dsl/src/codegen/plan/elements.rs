@@ -6,7 +6,7 @@ use quote::quote;
 use super::bindings::{Bound, converted, reads_entries};
 use super::context::{ComponentNames, Context, is_bare};
 use crate::codegen::formula::{Formulas, is_literal};
-use crate::codegen::layout::{comment, doc};
+use crate::codegen::layout::{at, comment, doc};
 use crate::graph::{Component, Element, Entry, EntryKind, PlanId, TemplateId};
 use crate::types::{Conversion, Dimension, Type};
 
@@ -51,6 +51,7 @@ pub fn bound<'a>(
         generic: element.generic.as_ref(),
         inputs: &element.inputs,
         outputs: &element.outputs,
+        span: element.span,
     }
 }
 
@@ -67,7 +68,8 @@ fn active(context: &Context<'_>) -> TokenStream {
             Component::Computation(_) => return None,
         };
         let note = comment(&description(context, element));
-        Some(quote!(#note #variant(#holds),))
+        let at = at(element.span);
+        Some(quote!(#note #at #variant(#holds),))
     });
     let about = doc("", "The element that is active.");
     quote! {
@@ -124,11 +126,13 @@ fn sub_plan(
         .zip(outs)
         .filter_map(|(port, (entry, field))| result(context, element, port, entry, field))
         .collect();
+    let at = at(element.span);
     let inputs = (!sets.is_empty()).then(|| {
         let (name, help) = (&names.inputs, doc("", &format!("Inputs of `{}`.", names.text)));
         let config = element.inputs.iter().any(reads_entries).then(|| quote!(config: &Config,));
         quote! {
             #help
+            #at
             fn #name(#config to: &mut super::#module::Config) -> Result<(), Fault> {
                 #(#sets)*
                 Ok(())
@@ -139,6 +143,7 @@ fn sub_plan(
         let (name, help) = (&names.outputs, doc("", &format!("Results of `{}`.", names.text)));
         quote! {
             #help
+            #at
             fn #name(staged: &mut Staged, from: &super::#module::Config) -> Result<(), Fault> {
                 #(#gets)*
                 Ok(())
@@ -148,6 +153,7 @@ fn sub_plan(
     let about = doc("", &format!("Where the ids of `{}` begin.", names.text));
     quote! {
         #about
+        #at
         const #place: Child = Child { components: #components, entries: #entries };
         #inputs
         #outputs

@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::context::Context;
 use super::elements::description;
-use crate::codegen::layout::{comment, doc};
+use crate::codegen::layout::{at, comment, doc};
 use crate::graph::{Component, Element, Supervisor, Target};
 
 /// Rows under construction: edges and sweeps are shared by all elements.
@@ -116,8 +116,10 @@ impl Rows {
             _ => quote!(Child { components: 0, entries: 0 }),
         };
         let (note, period) = (comment(&description(context, element)), duration(every));
+        let at = at(element.span);
         quote! {
             #note
+            #at
             ElementRow {
                 kind: ElementKind::#kind,
                 period: #period,
@@ -152,10 +154,12 @@ impl Rows {
         let wanted = super::components::wanted(supervisor);
         let on_miss = target(context, supervisor.on_miss);
         let note = comment(&format!("{}: {}", names.text, template.name));
+        let at = at(supervisor.span);
         let [period, deadline, budget] =
             [supervisor.every, supervisor.deadline, template.budget.unwrap_or(0)].map(duration);
         quote! {
             #note
+            #at
             SupervisorRow {
                 period: #period,
                 deadline: #deadline,

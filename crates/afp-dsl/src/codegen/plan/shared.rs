@@ -26,6 +26,7 @@ pub fn modules(graph: &Graph, enums: &[FileEnum], options: &Options) -> Vec<Modu
             doc: "The enums of the plan files.".to_owned(),
             imports: TokenStream::new(),
             sections: vec![("Enums", quote!(#(#items)*))],
+            span: graph.main().span,
         });
     }
     let dimensions = dimensions_of(graph);
@@ -36,6 +37,7 @@ pub fn modules(graph: &Graph, enums: &[FileEnum], options: &Options) -> Vec<Modu
             doc: "The units that a quantity may be written in.".to_owned(),
             imports: quote!(use #core::rt::{Scale, Unit};),
             sections: vec![("Units", quote!(#(#items)*))],
+            span: graph.main().span,
         });
     }
     modules

@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::context::Context;
 use crate::codegen::formula::{Formulas, is_literal};
-use crate::codegen::layout::doc;
+use crate::codegen::layout::{at, doc};
 use crate::graph::{Component, Entry, EntryKind};
 use crate::types::Type;
 
@@ -16,12 +16,13 @@ pub fn structure(context: &Context<'_>) -> TokenStream {
     let entries = || plan.entries.iter().zip(&context.entries);
     let fields = entries().map(|(entry, name)| {
         let (help, ty) = (entry_doc(entry), context.entry_type(&entry.ty));
-        quote!(#help pub #name: Entry<#ty>,)
+        let at = at(entry.span);
+        quote!(#help #at pub #name: Entry<#ty>,)
     });
     let staged = entries().zip(&context.written).filter(|(_, written)| **written);
     let staged = staged.map(|((entry, name), _)| {
-        let ty = context.entry_type(&entry.ty);
-        quote!(#name: Option<#ty>,)
+        let (ty, at) = (context.entry_type(&entry.ty), at(entry.span));
+        quote!(#at #name: Option<#ty>,)
     });
     let read = entries().zip(&context.read).filter(|(_, read)| **read);
     let getters: Vec<_> = read.map(|((entry, name), _)| getter(context, entry, name)).collect();
@@ -74,6 +75,7 @@ pub fn entry_doc(entry: &Entry) -> TokenStream {
 fn getter(context: &Context<'_>, entry: &Entry, name: &Ident) -> TokenStream {
     let value = context.value_type(&entry.ty);
     let help = doc("", &format!("The value of `{}`.", entry.name));
+    let at = at(entry.span);
     let (ty, body) = match entry.ty {
         Type::Text => (quote!(&str), quote!(self.#name.get().as_str())),
         Type::Object(_) => (quote!(Result<&#value, Fault>), quote!(self.#name.get().get())),
@@ -82,6 +84,7 @@ fn getter(context: &Context<'_>, entry: &Entry, name: &Ident) -> TokenStream {
     quote! {
         #help
         #[inline]
+        #at
         pub fn #name(&self) -> #ty { #body }
     }
 }

@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::bindings::Bound;
 use super::context::{ComponentNames, Context};
-use crate::codegen::layout::{comment, doc};
+use crate::codegen::layout::{at, comment, doc};
 use crate::graph::Supervisor;
 
 /// Numbers, the struct of the supervisors, and the bindings of each.
@@ -20,7 +20,8 @@ pub fn supervisors(context: &Context<'_>) -> TokenStream {
         let (field, ty) = (&names.inputs, &bound.paths.implementation);
         let whose = if supervisor.owner.is_none() { "global" } else { "local" };
         let note = comment(&format!("{whose} supervisor {}: {}", names.text, bound.template.name));
-        quote!(#note #field: Option<#ty>,)
+        let at = at(supervisor.span);
+        quote!(#note #at #field: Option<#ty>,)
     });
     let bindings = all().map(|(supervisor, names)| {
         let bound = bound(context, supervisor, names);
@@ -54,5 +55,6 @@ pub fn bound<'a>(
         generic: supervisor.generic.as_ref(),
         inputs: &supervisor.inputs,
         outputs: &supervisor.outputs,
+        span: supervisor.span,
     }
 }

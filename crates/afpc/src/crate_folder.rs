@@ -4,27 +4,20 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-use afp_dsl::codegen::Origin;
+use afp_dsl::codegen::{MADE_BY, Origin};
 use afp_run::{RunError, write_whole};
-
-/// How the manifest of a generated crate begins.
-const MADE_BY: &str = "# Made by 'afpc build'";
 
 /// Writes the files that differ from what is there, so that cargo builds only what changed, and
 /// removes sources of an earlier plan.
 ///
 /// # Errors
 /// The folder holds a crate that somebody else made, or cannot be written.
-pub(super) fn write(
-    folder: &Path,
-    files: &[(String, String)],
-    origin: &Origin,
-) -> Result<(), RunError> {
+pub fn write(folder: &Path, files: &[(&str, &str)], origin: &Origin) -> Result<(), RunError> {
     let manifest = folder.join("Cargo.toml");
     match fs::read_to_string(&manifest) {
         Ok(text) if !text.starts_with(MADE_BY) => {
             return Err(RunError::usage(
-                format!("'{}' holds a crate that 'afpc build' did not make", folder.display()),
+                format!("'{}' holds a crate that 'afpc' did not make", folder.display()),
                 "give an empty folder with '-o DIR'",
             ));
         }
@@ -55,7 +48,7 @@ fn pin(folder: &Path, origin: &Origin) -> Result<(), RunError> {
     }
 }
 
-fn remove_old(folder: &Path, files: &[(String, String)]) -> Result<(), RunError> {
+fn remove_old(folder: &Path, files: &[(&str, &str)]) -> Result<(), RunError> {
     let sources = folder.join("src");
     let Ok(entries) = fs::read_dir(&sources) else { return Ok(()) };
     for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {

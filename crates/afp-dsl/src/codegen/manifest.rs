@@ -1,0 +1,102 @@
+//! The manifests of generated crates.
+
+/// How every such manifest begins.
+pub const MADE_BY: &str = "# Made by 'afpc";
+
+/// Where a crate comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// A folder; for the `afp` crates that of their checkout.
+    Path(String),
+    /// A repository.
+    Git(String),
+    /// A registry, by version.
+    Version(String),
+}
+
+/// A crate that a manifest names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Dependency {
+    /// The name in the manifest; with `_` for `-` the name in Rust.
+    pub key: String,
+    /// The name of the package.
+    pub package: String,
+    /// Where it comes from; a path is that of the package.
+    pub origin: Origin,
+    /// Whether it comes with its default features.
+    pub defaults: bool,
+}
+
+impl Dependency {
+    /// One of the `afp` crates.
+    pub(super) fn ours(package: &str, origin: &Origin) -> Dependency {
+        let origin = match origin {
+            Origin::Path(root) => {
+                Origin::Path(format!("{}/crates/{package}", root.trim_end_matches('/')))
+            }
+            other => other.clone(),
+        };
+        let [key, package] = [package; 2].map(str::to_owned);
+        Dependency { key, package, origin, defaults: true }
+    }
+
+    /// The same with no feature but those that others ask for.
+    pub(super) fn without_defaults(self) -> Dependency {
+        Dependency { defaults: false, ..self }
+    }
+
+    fn line(&self) -> String {
+        let Dependency { key, package, origin, defaults } = self;
+        let (kind, value) = match origin {
+            Origin::Path(path) => ("path", path),
+            Origin::Git(url) => ("git", url),
+            Origin::Version(version) => ("version", version),
+        };
+        let package =
+            if key == package { String::new() } else { format!(", package = {}", quoted(package)) };
+        let features = if *defaults { "" } else { ", default-features = false" };
+        format!("{key} = {{ {kind} = {}{package}{features} }}\n", quoted(value))
+    }
+}
+
+/// A manifest: what made it (`build' from x.afp`), the package's name, what it needs, its profiles.
+pub(super) fn manifest(
+    made_by: &str,
+    package: &str,
+    mut dependencies: Vec<Dependency>,
+    profile: &str,
+) -> String {
+    dependencies.sort_by(|one, other| one.key.cmp(&other.key));
+    dependencies.dedup();
+    let lines: String = dependencies.iter().map(Dependency::line).collect();
+    format!(
+        "{MADE_BY} {made_by}.\n\
+         [package]\n\
+         name = {name}\n\
+         version = \"0.1.0\"\n\
+         edition = \"2024\"\n\
+         publish = false\n\
+         \n\
+         [dependencies]\n\
+         {lines}\
+         \n\
+         {profile}\
+         \n\
+         [workspace]\n",
+        name = quoted(package),
+    )
+}
+
+/// A text as a basic string of TOML.
+fn quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for letter in text.chars() {
+        match letter {
+            '"' | '\\' => quoted.extend(['\\', letter]),
+            letter if letter.is_control() => quoted += &format!("\\u{:04X}", u32::from(letter)),
+            letter => quoted.push(letter),
+        }
+    }
+    quoted.push('"');
+    quoted
+}

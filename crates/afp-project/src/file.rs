@@ -1,0 +1,154 @@
+//! The project file of a folder, and the toolbox files that it names.
+
+use std::path::{Path, PathBuf};
+use std::{fmt, fs, io};
+
+use crate::excerpt::{excerpt, shown};
+use crate::krate::{self, CrateLink};
+use crate::project::{Mistake, Project, Toolbox};
+use crate::read::read;
+
+/// The file's name.
+const NAME: &str = "afp.toml";
+
+/// A project file that says nothing wrong; where there is none, nothing is said.
+#[derive(Clone, Debug)]
+pub struct ProjectFile {
+    /// The folder that it stands in; its paths are relative to it.
+    pub folder: PathBuf,
+    /// Whether there is such a file.
+    pub exists: bool,
+    /// Its text.
+    pub text: String,
+    /// What it says.
+    pub project: Project,
+}
+
+/// A toolbox of the project and its text.
+#[derive(Clone, Debug)]
+pub struct ToolboxFile {
+    /// What the project file says of it.
+    pub toolbox: Toolbox,
+    /// Its file.
+    pub path: PathBuf,
+    /// The text of its file.
+    pub text: String,
+    /// The Rust crate that implements it, or why there is none.
+    pub krate: Result<CrateLink, Mistake>,
+}
+
+/// Why a project cannot be used.
+#[derive(Debug)]
+pub enum ProjectError {
+    /// The project file cannot be read.
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        error: io::Error,
+    },
+    /// The project file says something wrong.
+    Wrong {
+        /// The file.
+        path: PathBuf,
+        /// Its text.
+        text: String,
+        /// What is wrong, at least one thing, in the order of the text.
+        mistakes: Vec<Mistake>,
+    },
+}
+
+impl ProjectFile {
+    /// The nearest `afp.toml` in `folder` or above it.
+    ///
+    /// # Errors
+    /// The file cannot be read, or says something wrong.
+    pub fn find(folder: &Path) -> Result<ProjectFile, ProjectError> {
+        let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+        let Some(home) = folder.ancestors().find(|above| above.join(NAME).is_file()) else {
+            let (text, project) = (String::new(), Project::default());
+            return Ok(ProjectFile { folder, exists: false, text, project });
+        };
+        let path = home.join(NAME);
+        let text = match fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) => return Err(ProjectError::Unreadable { path, error }),
+        };
+        let (project, mistakes) = read(&text);
+        match mistakes.is_empty() {
+            true => Ok(ProjectFile { folder: home.to_owned(), exists: true, text, project }),
+            false => Err(ProjectError::Wrong { path, text, mistakes }),
+        }
+    }
+
+    /// The project file of a plan's folder.
+    ///
+    /// # Errors
+    /// See [`ProjectFile::find`].
+    pub fn of_plan(plan: &Path) -> Result<ProjectFile, ProjectError> {
+        match plan.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => ProjectFile::find(folder),
+            _ => ProjectFile::find(Path::new(".")),
+        }
+    }
+
+    /// The file itself.
+    pub fn path(&self) -> PathBuf {
+        self.folder.join(NAME)
+    }
+
+    /// The project's toolboxes with their texts.
+    ///
+    /// # Errors
+    /// Toolbox files that cannot be read, each at its name in the project file.
+    pub fn toolboxes(&self) -> Result<Vec<ToolboxFile>, ProjectError> {
+        let (mut files, mut mistakes) = (Vec::new(), Vec::new());
+        for toolbox in &self.project.toolboxes {
+            let path = self.folder.join(&toolbox.path);
+            match fs::read_to_string(&path) {
+                Ok(text) => {
+                    let krate = krate::link(&self.folder, toolbox, &path);
+                    files.push(ToolboxFile { toolbox: toolbox.clone(), path, text, krate });
+                }
+                Err(error) => mistakes.push(Mistake {
+                    span: toolbox.span.clone(),
+                    message: format!("cannot read '{}': {error}", shown(&path).display()),
+                    help: format!("'path' is relative to the folder of {NAME}"),
+                }),
+            }
+        }
+        if mistakes.is_empty() { Ok(files) } else { Err(self.wrong(mistakes)) }
+    }
+
+    /// The error for what is wrong in this file beyond its own text.
+    pub fn wrong(&self, mistakes: Vec<Mistake>) -> ProjectError {
+        ProjectError::Wrong { path: self.path(), text: self.text.clone(), mistakes }
+    }
+}
+
+impl fmt::Display for ProjectError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ProjectError::Unreadable { path, error } => {
+                write!(
+                    f,
+                    "error: cannot read the project file '{}': {error}",
+                    shown(path).display()
+                )
+            }
+            ProjectError::Wrong { path, text, mistakes } => {
+                for (index, mistake) in mistakes.iter().enumerate() {
+                    let gap = if index == 0 { "" } else { "\n\n" };
+                    writeln!(f, "{gap}error: {mistake}")?;
+                    excerpt(f, path, text, mistake.span.clone(), &mistake.help)?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl std::error::Error for ProjectError {}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,106 @@
+//! Project files in folders.
+
+use std::fs;
+use std::path::Path;
+
+use super::ProjectFile;
+use crate::project::Origin;
+
+fn project(files: &[(&str, &str)]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in files {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    }
+    folder
+}
+
+fn find(folder: &Path) -> ProjectFile {
+    ProjectFile::find(folder).unwrap()
+}
+
+#[test]
+fn the_nearest_file_above_counts() {
+    let folder = project(&[("afp.toml", "[run]\nworld = 'a'"), ("b/c/plan.afp", "")]);
+    let found = ProjectFile::of_plan(&folder.path().join("b/c/plan.afp")).unwrap();
+    assert_eq!(found.project.world.as_deref(), Some("a"));
+    assert_eq!(found.folder, folder.path());
+}
+
+#[test]
+fn mistakes_are_shown_at_their_lines() {
+    let folder = project(&[("afp.toml", "[run]\nwordl = 'a'\n[afp]\npath = 3\n")]);
+    let text = ProjectFile::find(folder.path()).unwrap_err().to_string();
+    assert!(text.contains("error: '[run]' has no 'wordl'\n"), "{text}");
+    assert!(text.contains("afp.toml:2:1\n  |\n2 | wordl = 'a'\n  | ^^^^^ help: it has 'world'"));
+    assert!(text.contains("\n\nerror: 'path' cannot have this value\n"), "{text}");
+    assert!(text.contains("afp.toml:4:8\n"), "{text}");
+}
+
+#[test]
+fn a_toolbox_file_that_is_not_there_is_said_at_its_name() {
+    let folder = project(&[("afp.toml", "[toolboxes]\na = { path = 'x.afp' }\n")]);
+    let text = find(folder.path()).toolboxes().unwrap_err().to_string();
+    assert!(text.contains("cannot read") && text.contains("x.afp"), "{text}");
+    assert!(text.contains("afp.toml:2:1"), "{text}");
+}
+
+#[test]
+fn the_crate_is_the_one_around_the_toolbox_file() {
+    let folder = project(&[
+        (
+            "afp.toml",
+            "[toolboxes]\na.path = 'kit/boxes/a.afp'\nb = { path = 'kit/b.afp', crate = 'kit-b' }",
+        ),
+        ("kit/Cargo.toml", "[package]\nname = \"kit-b\"\n"),
+        ("kit/boxes/a.afp", ""),
+        ("kit/b.afp", ""),
+    ]);
+    let project = find(folder.path());
+    for file in project.toolboxes().unwrap() {
+        let link = file.krate.unwrap();
+        assert_eq!((&*link.key, &*link.rust_path()), ("kit-b", "kit_b"));
+        assert_eq!(
+            link.folder.as_deref(),
+            Some(&*folder.path().join("kit").canonicalize().unwrap())
+        );
+    }
+}
+
+#[test]
+fn crates_elsewhere_are_named_by_what_is_said() {
+    let text = "[toolboxes]
+a = { path = 'a.afp', crate = { git = 'https://x', package = 'far-away', module = 'm' } }
+b = { path = 'a.afp', crate = { path = 'b' } }";
+    let manifest = "[package]\nname = \"bb\"\n[lib]\nname = \"short\"\n";
+    let folder = project(&[("afp.toml", text), ("a.afp", ""), ("b/Cargo.toml", manifest)]);
+    let project = find(folder.path());
+    let files = project.toolboxes().unwrap();
+    let a = files[0].krate.clone().unwrap();
+    assert_eq!((&*a.key, &*a.rust_path()), ("far-away", "far_away::m"));
+    assert_eq!((a.origin, a.folder), (Origin::Git("https://x".to_owned()), None));
+    let b = files[1].krate.clone().unwrap();
+    // The name of the library is what Rust code says.
+    assert_eq!((&*b.key, &*b.package, &*b.rust_path()), ("short", "bb", "short"));
+}
+
+#[test]
+fn a_crate_that_is_not_there_is_said_at_the_toolbox() {
+    let said = |text: &str, files: &[(&str, &str)]| {
+        let all = [&[("afp.toml", text), ("a/a.afp", "")], files].concat();
+        let folder = project(&all);
+        let project = find(folder.path());
+        let mistake = project.toolboxes().unwrap().remove(0).krate.unwrap_err();
+        assert_eq!(&text[mistake.span.clone()], "a");
+        mistake.message
+    };
+    let plain = "[toolboxes]\na = { path = 'a/a.afp' }";
+    let workspace = ("a/Cargo.toml", "[workspace]\n");
+    assert!(said(plain, &[workspace]).contains("holds no package"));
+    let named = "[toolboxes]\na = { path = 'a/a.afp', crate = 'b' }";
+    let other = ("a/Cargo.toml", "[package]\nname = \"c\"");
+    assert!(said(named, &[other]).contains("is that of 'c', not of 'b'"));
+    let elsewhere = "[toolboxes]\na = { path = 'a/a.afp', crate = { path = 'z' } }";
+    assert!(said(elsewhere, &[]).contains("cannot read the manifest"));
+}

@@ -1,0 +1,140 @@
+//! The Rust crate of a toolbox: where it is and what it is called.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use toml_edit::Document;
+
+use crate::excerpt::shown;
+use crate::project::{Crate, Mistake, Origin, Toolbox};
+
+/// The crate of a toolbox, as a manifest can depend on it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CrateLink {
+    /// The key of the dependency: with `_` for `-` it is the crate's name in Rust.
+    pub key: String,
+    /// The name of the package.
+    pub package: String,
+    /// Where the package comes from; a folder as an absolute path.
+    pub origin: Origin,
+    /// Its folder, where it is on this machine.
+    pub folder: Option<PathBuf>,
+    /// The module in it, if not its root.
+    pub module: Option<String>,
+}
+
+impl CrateLink {
+    /// The path of the module that has `templates`, as other crates name it.
+    pub fn rust_path(&self) -> String {
+        self.in_crate(&self.rust_name())
+    }
+
+    /// The crate's name in Rust.
+    pub fn rust_name(&self) -> String {
+        self.key.replace('-', "_")
+    }
+
+    /// The path of the module that has `templates`, behind another name for the crate.
+    pub fn in_crate(&self, name: &str) -> String {
+        match &self.module {
+            Some(module) => format!("{name}::{module}"),
+            None => name.to_owned(),
+        }
+    }
+}
+
+/// What is wrong, and what to do.
+type Wrong = (String, String);
+
+/// Finds the crate of a toolbox of the project in `folder`; `file` is the toolbox file.
+///
+/// # Errors
+/// There is no such crate on this machine, or it is another one than was said.
+pub(crate) fn link(folder: &Path, toolbox: &Toolbox, file: &Path) -> Result<CrateLink, Mistake> {
+    let wrong = |(message, help)| Mistake { span: toolbox.span.clone(), message, help };
+    find(folder, toolbox, file).map_err(wrong)
+}
+
+fn find(folder: &Path, toolbox: &Toolbox, file: &Path) -> Result<CrateLink, Wrong> {
+    let Crate { package, origin, module } = &toolbox.krate;
+    let home = match origin {
+        Some(Origin::Path(path)) => folder.join(path),
+        Some(elsewhere) => {
+            // Nothing is known of a crate that cargo has yet to fetch.
+            let name = package.clone().unwrap_or_else(|| toolbox.name.clone());
+            let (origin, module) = (elsewhere.clone(), module.clone());
+            return Ok(CrateLink {
+                key: name.clone(),
+                package: name,
+                origin,
+                folder: None,
+                module,
+            });
+        }
+        None => around(&toolbox.name, file)?,
+    };
+    let manifest = home.join("Cargo.toml");
+    let names = Names::read(&manifest)?;
+    if let Some(package) = package.as_ref().filter(|package| **package != names.package) {
+        return Err((
+            format!(
+                "'{}' is that of '{}', not of '{package}'",
+                shown(&manifest).display(),
+                names.package
+            ),
+            "'crate = { path = \"...\" }' names the folder of its Cargo.toml".to_owned(),
+        ));
+    }
+    let folder = home.canonicalize().unwrap_or(home);
+    let origin = Origin::Path(folder.display().to_string());
+    let (key, module) = (names.key(), module.clone());
+    Ok(CrateLink { key, package: names.package, origin, folder: Some(folder), module })
+}
+
+/// The nearest folder around a toolbox file that has a manifest.
+fn around(name: &str, file: &Path) -> Result<PathBuf, Wrong> {
+    let file = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
+    let mut folders = file.ancestors().skip(1);
+    let home = folders.find(|folder| folder.join("Cargo.toml").is_file());
+    home.map(Path::to_owned).ok_or_else(|| {
+        (
+            format!("no folder around the file of the toolbox '{name}' has a Cargo.toml"),
+            "'crate = { path = \"...\" }' names the folder of its Cargo.toml".to_owned(),
+        )
+    })
+}
+
+/// What a manifest calls its package and its library.
+struct Names {
+    package: String,
+    library: Option<String>,
+}
+
+impl Names {
+    fn read(manifest: &Path) -> Result<Names, Wrong> {
+        let shown = shown(manifest);
+        let shown = shown.display();
+        let help = "'crate = { path = \"...\" }' names the folder of its Cargo.toml".to_owned();
+        let text = match fs::read_to_string(manifest) {
+            Ok(text) => text,
+            Err(error) => {
+                return Err((format!("cannot read the manifest '{shown}': {error}"), help));
+            }
+        };
+        let document = Document::parse(text)
+            .map_err(|error| (format!("'{shown}': {}", error.message()), "mend it".to_owned()))?;
+        let name = |table: &str| Some(document.get(table)?.get("name")?.as_str()?.to_owned());
+        match name("package") {
+            Some(package) => Ok(Names { package, library: name("lib") }),
+            None => Err((format!("'{shown}' holds no package"), help)),
+        }
+    }
+
+    /// The package's name, unless its library is called something else.
+    fn key(&self) -> String {
+        match &self.library {
+            Some(library) if *library != self.package.replace('-', "_") => library.clone(),
+            _ => self.package.clone(),
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! The project file `afp.toml`: toolboxes of one's own, targets, the world, where the afp crates are.
+//!
+//! Compiler macros, the command line and generated programs all read it here. [`read`] goes from a
+//! text to a [`Project`] and does no I/O; [`ProjectFile`] finds the file and what it names.
+//!
+//! ```toml
+//! [run]
+//! world = "worlds/hall.toml"
+//!
+//! [toolboxes]
+//! gripper = { path = "gripper/gripper.afp" }                  # the crate around the file
+//! lamps = { path = "lamps.afp", crate = { git = "https://example.org/lamps" } }
+//!
+//! [target.arm]
+//! tick = "1 ms"
+//! capacity = 0.5
+//!
+//! [afp]
+//! path = "../afp"
+//! ```
+
+mod excerpt;
+mod file;
+mod krate;
+mod project;
+mod read;
+mod time;
+
+pub use excerpt::{excerpt, shown};
+pub use file::{ProjectError, ProjectFile, ToolboxFile};
+pub use krate::CrateLink;
+pub use project::{Crate, Mistake, Origin, Project, Target, Toolbox};
+pub use read::read;
+pub use time::duration;

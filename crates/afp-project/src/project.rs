@@ -1,0 +1,81 @@
+//! What a project file says, as values.
+
+use std::fmt;
+use std::ops::Range;
+
+/// What `afp.toml` says. Paths are as written: relative to the folder of the file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Project {
+    /// The world that plans are run in.
+    pub world: Option<String>,
+    /// Where generated crates take the `afp` crates from.
+    pub afp: Option<Origin>,
+    /// Toolboxes of the project, in the order of the file.
+    pub toolboxes: Vec<Toolbox>,
+    /// What plans shall run on, in the order of the file.
+    pub targets: Vec<Target>,
+}
+
+/// Where a crate comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// A folder.
+    Path(String),
+    /// A repository.
+    Git(String),
+    /// A registry, by version.
+    Version(String),
+}
+
+/// A toolbox of the project.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Toolbox {
+    /// The name behind `use`.
+    pub name: String,
+    /// Its `.afp` file.
+    pub path: String,
+    /// The Rust crate that implements it.
+    pub krate: Crate,
+    /// The name in the text, in bytes.
+    pub span: Range<usize>,
+}
+
+/// The Rust crate of a toolbox, as far as it is said.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Crate {
+    /// The name of its package; else that of the manifest.
+    pub package: Option<String>,
+    /// Where it comes from; else from the nearest folder around the toolbox file that has a
+    /// manifest.
+    pub origin: Option<Origin>,
+    /// The module in it that has `templates` beside the types that implement them; else its root.
+    pub module: Option<String>,
+}
+
+/// A machine that runs plans, where it differs from the built-in one of its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// Its name.
+    pub name: String,
+    /// The grain of its time in nanoseconds, more than 0.
+    pub tick: Option<u64>,
+    /// The share of the processor that a plan may ask for, more than 0 and at most 1.
+    pub capacity: Option<f64>,
+}
+
+/// Something wrong in a project file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mistake {
+    /// The place, in bytes.
+    pub span: Range<usize>,
+    /// What is wrong.
+    pub message: String,
+    /// What to write instead.
+    pub help: String,
+}
+
+impl fmt::Display for Mistake {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}

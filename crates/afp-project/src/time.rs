@@ -1,0 +1,42 @@
+//! Times as people write them outside of plans: in `afp.toml` and on the command line.
+
+use afp_core::Duration;
+use afp_core::rt::{Scale, Unit, parse_quantity};
+
+/// Units of time.
+const TIMES: [Unit<'static>; 6] = [
+    Unit { name: "s", scale: Scale::Decimal(0) },
+    Unit { name: "ms", scale: Scale::Decimal(-3) },
+    Unit { name: "us", scale: Scale::Decimal(-6) },
+    Unit { name: "ns", scale: Scale::Decimal(-9) },
+    Unit { name: "min", scale: Scale::Factor(60.0) },
+    Unit { name: "h", scale: Scale::Factor(3600.0) },
+];
+
+/// A span of time, such as `20s` or `1.5 ms`, to the nearest nanosecond.
+///
+/// # Errors
+/// Says what was expected.
+pub fn duration(text: &str) -> Result<Duration, String> {
+    match parse_quantity(text, TIMES) {
+        Ok(secs) if secs >= 0.0 => Ok(Duration::from_nanos(libm::round(secs * 1e9) as u64)),
+        Ok(_) => Err("a time cannot be negative".to_owned()),
+        Err(_) => Err("expected a number with its unit, such as 20s or 500ms".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_exact() {
+        assert_eq!(duration("20s"), Ok(Duration::from_secs(20)));
+        assert_eq!(duration("0.29 s"), Ok(Duration::from_millis(290)));
+        assert_eq!(duration("1.5 min"), Ok(Duration::from_secs(90)));
+        assert_eq!(duration("3us"), Ok(Duration::from_micros(3)));
+        assert!(duration("20").is_err());
+        assert!(duration("-1s").is_err());
+        assert!(duration("20 m").is_err());
+    }
+}

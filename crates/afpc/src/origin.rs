@@ -1,0 +1,58 @@
+//! Where generated manifests take crates from.
+
+use std::path::Path;
+
+use afp_dsl::codegen::{Dependency, Origin};
+use afp_project::{CrateLink, ProjectFile};
+use afp_run::RunError;
+
+/// Where a manifest takes the `afp` crates from: as the project says, else from the checkout that
+/// built this program.
+///
+/// # Errors
+/// The checkout is gone.
+pub fn of_afp(project: &ProjectFile) -> Result<Origin, RunError> {
+    match &project.project.afp {
+        Some(origin) => Ok(origin_in(&project.folder, origin)),
+        None => checkout(),
+    }
+}
+
+/// The crate of a toolbox as a manifest names it.
+pub fn dependency(krate: &CrateLink) -> Dependency {
+    Dependency {
+        key: krate.key.clone(),
+        package: krate.package.clone(),
+        origin: origin_in(Path::new(""), &krate.origin),
+        defaults: true,
+    }
+}
+
+/// An origin with its path relative to a folder.
+fn origin_in(folder: &Path, origin: &afp_project::Origin) -> Origin {
+    match origin {
+        afp_project::Origin::Path(path) => {
+            let path = folder.join(path);
+            Origin::Path(path.canonicalize().unwrap_or(path).display().to_string())
+        }
+        afp_project::Origin::Git(git) => Origin::Git(git.clone()),
+        afp_project::Origin::Version(version) => Origin::Version(version.clone()),
+    }
+}
+
+/// The checkout that built this program.
+fn checkout() -> Result<Origin, RunError> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2);
+    match root.filter(|root| root.join("crates/afp/Cargo.toml").is_file()) {
+        Some(root) => Ok(Origin::Path(root.display().to_string())),
+        None => Err(RunError::Missing {
+            message: concat!(
+                "the checkout that afpc was built from is no longer at '",
+                env!("CARGO_MANIFEST_DIR"),
+                "/../..'"
+            )
+            .to_owned(),
+            help: "say where the afp crates are: '[afp] path = \"...\"' in afp.toml".to_owned(),
+        }),
+    }
+}

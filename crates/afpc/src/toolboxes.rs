@@ -1,0 +1,99 @@
+//! The toolboxes of the project, with the crates that implement them.
+
+use std::sync::Arc;
+
+use afp_dsl::graph::Graph;
+use afp_dsl::source::Source;
+use afp_dsl::toolbox::{Toolbox, Toolboxes};
+use afp_project::{CrateLink, Mistake, ProjectError, ProjectFile, ToolboxFile, shown};
+
+/// A project and the toolboxes that it has beyond the built-in ones.
+#[derive(Debug)]
+pub struct OwnToolboxes {
+    /// The project.
+    pub project: ProjectFile,
+    files: Vec<ToolboxFile>,
+}
+
+/// A toolbox of the project and the crate behind it.
+#[derive(Clone, Debug)]
+pub struct OwnToolbox {
+    /// Its name.
+    pub name: String,
+    /// Its file, as diagnostics show it, and the file's text.
+    pub source: Source,
+    /// What its file declares.
+    pub declared: Arc<Toolbox>,
+    /// Its crate.
+    pub krate: CrateLink,
+}
+
+impl OwnToolboxes {
+    /// Reads the toolbox files of a project.
+    ///
+    /// # Errors
+    /// One of them cannot be read.
+    pub fn read(project: ProjectFile) -> Result<Self, ProjectError> {
+        let files = project.toolboxes()?;
+        Ok(OwnToolboxes { project, files })
+    }
+
+    /// The built-in toolboxes and those of the project, which take the place of built-in ones of the
+    /// same name.
+    ///
+    /// # Errors
+    /// A toolbox file is that of another toolbox than the project says.
+    pub fn with_built_in(&self) -> Result<Toolboxes, ProjectError> {
+        let mut toolboxes = Toolboxes::default();
+        for toolbox in afp_toolboxes::ALL {
+            toolboxes.add(Source::new(toolbox.file_name, toolbox.text), toolbox.rust_path);
+        }
+        for file in &self.files {
+            // Plans can be checked before there is a crate; whoever needs it asks for it.
+            let name = &file.toolbox.name;
+            let path = file.krate.as_ref().map_or_else(|_| name.clone(), CrateLink::rust_path);
+            toolboxes.add(source(file), &path);
+        }
+        let missing = |file: &&ToolboxFile| toolboxes.get(&file.toolbox.name).is_none();
+        let misnamed: Vec<_> = self.files.iter().filter(missing).map(misnamed).collect();
+        match misnamed.is_empty() || toolboxes.diagnostics().has_errors() {
+            true => Ok(toolboxes),
+            false => Err(self.project.wrong(misnamed)),
+        }
+    }
+
+    /// Those that a plan uses, with their crates.
+    ///
+    /// # Errors
+    /// There is no such crate.
+    pub fn used_by(&self, graph: &Graph) -> Result<Vec<OwnToolbox>, ProjectError> {
+        let (mut used, mut mistakes) = (Vec::new(), Vec::new());
+        for file in &self.files {
+            let name = &file.toolbox.name;
+            let declared = graph.toolboxes.iter().find(|toolbox| toolbox.name == *name);
+            let Some(declared) = declared.map(Arc::clone) else { continue };
+            match file.krate.clone() {
+                Ok(krate) => {
+                    let (name, source) = (name.clone(), source(file));
+                    used.push(OwnToolbox { name, source, declared, krate });
+                }
+                Err(mistake) => mistakes.push(mistake),
+            }
+        }
+        if mistakes.is_empty() { Ok(used) } else { Err(self.project.wrong(mistakes)) }
+    }
+}
+
+fn source(file: &ToolboxFile) -> Source {
+    Source::new(shown(&file.path).display().to_string(), &file.text)
+}
+
+/// A file that does not say what the project calls it.
+fn misnamed(file: &ToolboxFile) -> Mistake {
+    let (path, name) = (shown(&file.path), &file.toolbox.name);
+    Mistake {
+        span: file.toolbox.span.clone(),
+        message: format!("'{}' does not begin with 'toolbox {name}'", path.display()),
+        help: "write the name that stands behind 'toolbox' in the file".to_owned(),
+    }
+}

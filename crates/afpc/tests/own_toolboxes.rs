@@ -1,0 +1,228 @@
+//! Toolboxes of one's own, with crates outside of this workspace: checked, built, compiled in, run
+//! through a runner; and errors of their Rust at the lines of the toolbox and the plan.
+
+mod common;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use common::{Place, Said, said};
+
+const TOOLBOX: &str = include_str!("gestures/gestures.afp");
+const RUST: &str = include_str!("gestures/src/lib.rs");
+const PLAN: &str = include_str!("gestures/dance.afp");
+const HOST: &str = include_str!("gestures/host.rs");
+const QUIET: &str = "--log none --svg none";
+
+/// The checkout.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
+}
+
+/// A manifest of a crate that is in no workspace.
+fn manifest(name: &str, ours: &[&str], others: &str) -> String {
+    let line = |name: &&str| {
+        let path = root().join("crates").join(name);
+        format!(
+            "{name} = {{ path = {:?}, default-features = false }}\n",
+            path.display().to_string()
+        )
+    };
+    let ours: String = ours.iter().map(line).collect();
+    format!(
+        "[package]\nname = \"{name}\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n\
+         [dependencies]\n{ours}{others}\n[workspace]\n"
+    )
+}
+
+/// A project with a toolbox and its crate, and a plan that uses it.
+fn project() -> Place {
+    let place = Place::new();
+    place.write("afp.toml", "[toolboxes]\ngestures = { path = \"gestures/gestures.afp\" }\n");
+    place.write("plans/dance.afp", PLAN);
+    place.write("gestures/gestures.afp", TOOLBOX);
+    place.write("gestures/src/lib.rs", RUST);
+    place.write("gestures/Cargo.toml", &manifest("robot-gestures", &["afp", "afp-carbot"], ""));
+    place
+}
+
+#[test]
+fn a_plan_is_checked_against_the_toolbox_of_the_project() {
+    let place = project();
+    place.afpc("check plans/dance.afp").succeeds();
+    place.write("plans/dance.afp", &PLAN.replace("400 ms", "2 min"));
+    place.afpc("check plans/dance.afp").fails(1, &["error[E0224]", "plans/dance.afp:10:30"]);
+}
+
+#[test]
+fn a_wrong_toolbox_is_shown_where_it_stands() {
+    let place = project();
+    place.write("gestures/gestures.afp", &TOOLBOX.replace("duration      =", "distance ="));
+    place.afpc("check plans/dance.afp").fails(1, &["error[E0232]", "gestures/gestures.afp:8:16"]);
+    place.write("gestures/gestures.afp", &TOOLBOX.replace("toolbox gestures", "toolbox poses"));
+    let wanted = "'gestures/gestures.afp' does not begin with 'toolbox gestures'";
+    place.afpc("check plans/dance.afp").fails(1, &[wanted, " afp.toml:2:1"]);
+    place.write("afp.toml", "[toolboxes]\ngestures = { path = \"x.afp\", crat = 1 }\nb = 2\n");
+    let said = place.afpc("run plans/dance.afp");
+    said.fails(
+        1,
+        &["a toolbox has no 'crat'", " afp.toml:2:30", " afp.toml:3:5", "'b' is a table"],
+    );
+}
+
+#[test]
+fn a_toolbox_without_a_crate_can_be_checked_but_not_run() {
+    let place = project();
+    std::fs::remove_file(place.path("gestures/Cargo.toml")).unwrap();
+    place.afpc("check plans/dance.afp").succeeds();
+    for command in ["run", "build"] {
+        let said = place.afpc(&format!("{command} plans/dance.afp"));
+        said.fails(1, &["has a Cargo.toml", " afp.toml:2:1", "help: 'crate = { path"]);
+    }
+}
+
+#[test]
+fn without_cargo_a_run_says_how_to_get_it() {
+    let place = project();
+    let mut command = place.command();
+    command.args(["run", "plans/dance.afp"]).env("PATH", "").env("CARGO", "no-such-cargo");
+    let said = said(command.output().unwrap());
+    let texts = ["the toolbox 'gestures'", "there is no cargo", "https://rustup.rs"];
+    said.fails(1, &texts);
+    assert!(said.out.is_empty());
+}
+
+/// A call in the project, built in the folder that all slow tests share, without long optimisation.
+fn build_with(mut command: Command, arguments: &str) -> Said {
+    let target = concat!(env!("CARGO_TARGET_TMPDIR"), "/built-plans");
+    command
+        .args(arguments.split_whitespace())
+        .env("CARGO_TARGET_DIR", target)
+        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1")
+        .env("CARGO_PROFILE_RELEASE_LTO", "off")
+        .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "16")
+        .env("CARGO_PROFILE_RELEASE_DEBUG", "0")
+        .env("CARGO_TERM_COLOR", "never");
+    said(command.output().unwrap())
+}
+
+fn afpc(place: &Place, arguments: &str) -> Said {
+    build_with(place.command(), arguments)
+}
+
+#[test]
+#[ignore = "builds the simulator and the command line; `cargo xtask nightly` runs it"]
+fn own_toolboxes_run_everywhere_and_their_errors_are_shown_at_home() {
+    let place = project();
+    let interpreted = through_a_runner(&place);
+    let binary = built(&place, &interpreted);
+    assert!(binary.is_file());
+    compiled_in(&place, &interpreted);
+    errors_of_the_toolbox_crate(&place);
+    errors_of_the_generated_crate(&place);
+}
+
+/// The runner is built once, reused, without cargo too, and renewed when its source changes.
+fn through_a_runner(place: &Place) -> String {
+    let run = format!("run plans/dance.afp --json {QUIET}");
+    let first = afpc(place, &run);
+    first.succeeds();
+    let says = "building a runner for the toolbox 'gestures' (once)";
+    assert!(first.err.contains(says), "{}", first.err);
+    assert_eq!(first.last_json()["summary"]["ending"], "ok", "{}", first.out);
+
+    let mut without_cargo = place.command();
+    without_cargo.env("PATH", "").env("CARGO", "no-such-cargo");
+    let again = build_with(without_cargo, &run);
+    again.succeeds();
+    assert_eq!((&*again.out, &*again.err), (&*first.out, ""));
+
+    // Exit codes and messages are those of the runner.
+    afpc(place, &format!("{run} --set spent=1s")).fails(2, &["cannot be set from outside"]);
+    let quick = RUST.replace("Speed::from_si(0.0), self.speed", "Speed::from_si(0.1), self.speed");
+    place.write("gestures/src/lib.rs", &quick);
+    let other = afpc(place, &run);
+    other.succeeds();
+    assert!(other.err.contains(says) && other.out != first.out);
+    place.write("gestures/src/lib.rs", RUST);
+    first.out
+}
+
+fn built(place: &Place, interpreted: &str) -> PathBuf {
+    let built = afpc(place, "build plans/dance.afp");
+    built.succeeds();
+    let binary = PathBuf::from(built.out.lines().last().unwrap());
+    assert_eq!(program(place, &binary), interpreted);
+    let manifest = place.read("target/afp/dance/Cargo.toml");
+    assert!(manifest.contains("robot-gestures = { path = "), "{manifest}");
+    binary
+}
+
+/// What a program says that takes the options of a run.
+fn program(place: &Place, binary: &Path) -> String {
+    let mut command = Command::new(binary);
+    command.arg("--json").args(QUIET.split(' ')).current_dir(place.path(""));
+    let said = said(command.stderr(Stdio::inherit()).output().unwrap());
+    said.succeeds();
+    said.out
+}
+
+/// `plan!` finds the toolbox through `afp.toml`.
+fn compiled_in(place: &Place, interpreted: &str) {
+    place.write("host/src/main.rs", HOST);
+    let ours = ["afp", "afp-carbot", "afp-run"];
+    let toolbox = "robot-gestures = { path = \"../gestures\" }\n";
+    place.write("host/Cargo.toml", &manifest("host", &ours, toolbox));
+    place.write("host/Cargo.lock", &std::fs::read_to_string(root().join("Cargo.lock")).unwrap());
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.current_dir(place.path("host"));
+    build_with(cargo, "build --release").succeeds();
+    let binary = concat!(env!("CARGO_TARGET_TMPDIR"), "/built-plans/release/host");
+    assert_eq!(program(place, Path::new(binary)), interpreted);
+}
+
+/// Each way in which the Rust of a toolbox can cease to fit it leads to the line of the toolbox.
+fn errors_of_the_toolbox_crate(place: &Place) {
+    let ways = [
+        // No implementation at all.
+        ("pub struct CheckTurned", "pub struct CheckTurnedAround", "supervisor CheckTurned"),
+        // An output of another type.
+        ("Time::from_si(spent.as_secs_f64())", "spent.as_secs_f64()", "    out spent: duration"),
+        // A state that is not declared.
+        ("State::Spun {", "State::Dizzy {", "actor Spin {"),
+    ];
+    for (from, to, line) in ways {
+        assert!(RUST.contains(from));
+        place.write("gestures/src/lib.rs", &RUST.replace(from, to));
+        let number = TOOLBOX.lines().position(|text| text.starts_with(line)).unwrap() + 1;
+        let place_text = format!("--> gestures/gestures.afp:{number}:");
+        for command in ["run", "build"] {
+            let said = afpc(place, &format!("{command} plans/dance.afp"));
+            said.fails(1, &["the Rust of the toolbox 'gestures' does not fit it", &place_text]);
+            said.fails(1, &["gestures/src/lib.rs:", "error[E0"]);
+        }
+    }
+    place.write("gestures/src/lib.rs", RUST);
+}
+
+/// A crate that is compiled with another toolbox file than the plan was checked against.
+fn errors_of_the_generated_crate(place: &Place) {
+    place.write(
+        "newer.afp",
+        &TOOLBOX.replace("in  time:  duration      = 500 ms from 0 s to 1 min", "in time: float"),
+    );
+    place.write(
+        "afp.toml",
+        "[toolboxes]\ngestures = { path = \"newer.afp\", crate = { path = \"gestures\" } }\n",
+    );
+    place.write("plans/dance.afp", &PLAN.replace("400 ms", "0.5").replace("10 s", "10"));
+    let said = afpc(place, "build plans/dance.afp");
+    let texts = [
+        "the Rust made from this does not compile: mismatched types",
+        "--> plans/dance.afp:10:30",
+        "--> plans/dance.afp:14:31",
+        "= in target/afp/dance/src/dance.rs:",
+        "error[E0308]",
+    ];
+    said.fails(1, &texts);
+}
