@@ -3,7 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use afp_core::rt::{NamedPlan, Plan};
-use afp_core::trace::{Line, Names, Record, Sink, TraceEntryId};
+use afp_core::trace::{Line, Names, NoTrace, Record, Sink, TraceEntryId};
 use afp_core::{Fault, Instant, Scheduler, StartError, Wake};
 
 use crate::platform::{CostClock, Log, Platform};
@@ -22,10 +22,10 @@ impl<N: Names> Sink for Lines<N> {
 }
 
 /// A plan with everything it runs on.
-struct Run<'s, P: NamedPlan> {
+struct Run<'s, P: NamedPlan, S> {
     scheduler: Scheduler<P>,
     platform: Platform,
-    sink: Lines<P::Names>,
+    sink: (Lines<P::Names>, S),
     clock: CostClock,
     log: Log,
     script: &'s Script,
@@ -39,6 +39,15 @@ pub fn drive<P>(plan: P, script: &Script) -> Vec<String>
 where
     P: NamedPlan + Plan<Platform>,
 {
+    drive_with(plan, script, NoTrace)
+}
+
+/// As [`drive`]; `sink` gets the trace as records too.
+pub fn drive_with<P, S>(plan: P, script: &Script, sink: S) -> Vec<String>
+where
+    P: NamedPlan + Plan<Platform>,
+    S: Sink,
+{
     let (log, clock) = (Log::default(), CostClock::default());
     let names = plan.names();
     if script.show_names {
@@ -47,7 +56,7 @@ where
     let mut run = Run {
         scheduler: Scheduler::new(plan),
         platform: Platform::new(script.clone(), log.clone(), clock.clone()),
-        sink: Lines { names, log: log.clone() },
+        sink: (Lines { names, log: log.clone() }, sink),
         clock,
         log: log.clone(),
         script,
@@ -73,7 +82,7 @@ fn shorten(mut lines: Vec<String>, keep: Option<usize>) -> Vec<String> {
     lines
 }
 
-impl<P: NamedPlan + Plan<Platform>> Run<'_, P> {
+impl<P: NamedPlan + Plan<Platform>, S: Sink> Run<'_, P, S> {
     fn set_inputs(&mut self) {
         for (name, value) in &self.script.inputs {
             let plan = self.scheduler.plan_mut();
@@ -92,7 +101,7 @@ impl<P: NamedPlan + Plan<Platform>> Run<'_, P> {
         match catch_unwind(AssertUnwindSafe(start)) {
             Ok(Ok(wake)) => Some(self.noted(wake)),
             Ok(Err(StartError::InputMissing(entry))) => {
-                let entry = self.sink.names.entry(TraceEntryId(u32::from(entry))).path;
+                let entry = self.sink.0.names.entry(TraceEntryId(u32::from(entry))).path;
                 self.log.note(format!("[cannot start without {entry}]"));
                 None
             }

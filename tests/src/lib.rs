@@ -15,6 +15,7 @@ pub mod platform;
 pub mod random;
 pub mod random_script;
 pub mod script;
+pub mod state_chart;
 
 pub use components::{Glance, MakeMap, Map, Pick, ReadMap, Task, Watch, Work};
 

@@ -8,6 +8,7 @@ mod gate;
 mod image;
 mod install;
 mod python;
+mod scxml;
 mod shell;
 mod suites;
 

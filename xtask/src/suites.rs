@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::install::Profile;
 use crate::shell::{Failure, cargo, run as run_command};
-use crate::{bench, fuzz, gate, install, python};
+use crate::{bench, fuzz, gate, install, python, scxml};
 
 /// A suite by its name.
 type Suite = (&'static str, fn() -> Result<(), Failure>);
@@ -14,6 +14,7 @@ pub const TEST: &[Suite] = &[
     ("workspace", workspace),
     ("xtask", || run_command(cargo().args(["test", "--package", "xtask"]))),
     ("python", python::run),
+    ("scxml", || scxml::run(50)),
     ("gate", gate::run),
     ("install", || install::run(Profile::Debug)),
 ];
@@ -23,6 +24,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("workspace", workspace),
     ("random plans", random_plans),
     ("python", python::run),
+    ("scxml", || scxml::run(2000)),
     ("gate", gate::run),
     ("install", || install::run(Profile::Release)),
     ("long run", long_run),

@@ -1,0 +1,45 @@
+//! Runs of the interpreter as cases for a state chart engine.
+//!
+//! A run's trace says which events were taken, in which order, and where control was in between.
+//! The events are fed to the plan's chart; wherever the trace names the place of control, the
+//! chart's active states must agree. Nothing here follows edges: what is expected comes from the
+//! trace alone.
+
+mod places;
+mod steps;
+
+use std::cell::RefCell;
+
+use afp_core::Instant;
+use afp_core::trace::{Observe, Record};
+use afp_dsl::draw::{self, Options};
+use afp_dsl::graph::Graph;
+use serde_json::{Value, json};
+
+use crate::drive::drive_with;
+use crate::interpret::load;
+use crate::script::Script;
+use steps::{Seen, Steps};
+
+/// The case of a plan under some scripts, for the program that feeds it to the engine: `name`,
+/// `chart`, and `runs`, each a list of steps. A step has the `event` to be fed (`null` for the
+/// start) and what must hold then: `active`, ids of active states; `only`, the id of the one
+/// active state without states inside; `same`, that nothing changed. `cut` counts the runs that
+/// end early because a sub-plan's result did not convert, which charts cannot see.
+pub fn case(name: &str, graph: &Graph, scripts: &[Script]) -> Value {
+    let places = places::places(graph);
+    let runs = scripts.iter().map(|script| steps::steps(&places, &seen(graph, script)));
+    let runs: Vec<Steps> = runs.collect();
+    let cut = runs.iter().filter(|run| run.cut).count();
+    let runs: Vec<Value> = runs.iter().map(Steps::json).collect();
+    let chart = draw::scxml(graph, &Options::default());
+    json!({ "name": name, "chart": chart, "runs": runs, "cut": cut })
+}
+
+/// What the interpreter tells of the flow of action.
+fn seen(graph: &Graph, script: &Script) -> Vec<Seen> {
+    let seen = RefCell::new(Vec::new());
+    let note = |_: Instant, record: &Record<'_>| seen.borrow_mut().extend(Seen::of(record));
+    drive_with(load(graph), script, Observe(note));
+    seen.into_inner()
+}

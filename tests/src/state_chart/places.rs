@@ -1,0 +1,103 @@
+//! Where the components of a running plan are in its chart.
+
+use afp_core::trace::{ComponentId, DEADLINE_MISSED};
+use afp_dsl::graph::{Component, Graph, PlanId, TemplateId};
+
+/// A component of a running plan.
+pub struct Place {
+    /// The id of its state; of a supervisor that of the state it belongs to.
+    pub state: String,
+    /// What its events begin with.
+    pub path: String,
+    pub kind: Kind,
+    /// Its states or events.
+    outcomes: Vec<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    Plan,
+    Actor,
+    Computation,
+    SubPlan,
+    Supervisor,
+}
+
+impl Place {
+    /// The event by which a chart knows an outcome.
+    pub fn event(&self, outcome: u16) -> String {
+        let name = match outcome {
+            DEADLINE_MISSED => "DeadlineMissed",
+            outcome => self.outcomes.get(usize::from(outcome)).map_or("", String::as_str),
+        };
+        format!("{}.{name}", self.path)
+    }
+
+    /// The event of a fault.
+    pub fn fault(&self) -> String {
+        match self.kind {
+            Kind::Plan => ":failed".to_owned(),
+            _ => format!("{}.Error", self.path),
+        }
+    }
+}
+
+/// All components, by the numbers of the trace.
+pub struct Places(Vec<Place>);
+
+impl Places {
+    /// A component.
+    ///
+    /// # Panics
+    /// When the trace names one that the plan does not have.
+    pub fn get(&self, id: ComponentId) -> &Place {
+        &self.0[id.0 as usize]
+    }
+}
+
+/// The components of a graph: the outermost plan, its elements, its supervisors, then the same for
+/// each of its sub-plans.
+pub fn places(graph: &Graph) -> Places {
+    let name = graph.main().name.clone();
+    let (path, outcomes) = (String::new(), Vec::new());
+    let plan = Place { state: name.clone(), path, kind: Kind::Plan, outcomes };
+    let mut all = vec![plan];
+    add(graph, graph.main, &name, "", &mut all);
+    Places(all)
+}
+
+fn add(graph: &Graph, plan: PlanId, home: &str, prefix: &str, all: &mut Vec<Place>) {
+    let plan = graph.plan(plan);
+    let outcomes = |id: TemplateId| {
+        let outcomes = graph.template(id).outcomes.iter();
+        outcomes.map(|outcome| outcome.name.clone()).collect::<Vec<_>>()
+    };
+    for element in &plan.elements {
+        let (kind, outcomes) = match element.component {
+            Component::Actor(id) => (Kind::Actor, outcomes(id)),
+            Component::Computation(id) => (Kind::Computation, outcomes(id)),
+            Component::SubPlan(_) => (Kind::SubPlan, Vec::new()),
+        };
+        let (state, path) =
+            (format!("{home}.{}", element.name), format!("{prefix}{}", element.name));
+        all.push(Place { state, path, kind, outcomes });
+    }
+    for supervisor in &plan.supervisors {
+        let owner = supervisor.owner.map(|owner| &plan.elements[owner.index()].name);
+        let (state, path) = match owner {
+            Some(owner) => {
+                (format!("{home}.{owner}"), format!("{prefix}{owner}-{}", supervisor.name))
+            }
+            None => (home.to_owned(), format!("{prefix}{}", supervisor.name)),
+        };
+        let (kind, outcomes) = (Kind::Supervisor, outcomes(supervisor.template));
+        all.push(Place { state, path, kind, outcomes });
+    }
+    for element in &plan.elements {
+        if let Component::SubPlan(inner) = element.component {
+            let (home, prefix) =
+                (format!("{home}.{}", element.name), format!("{prefix}{}:", element.name));
+            add(graph, inner, &home, &prefix, all);
+        }
+    }
+}

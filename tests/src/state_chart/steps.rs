@@ -1,0 +1,193 @@
+//! From a trace to the events of a chart and to what must be active between them.
+
+use afp_core::trace::{ComponentId, Ending, Record};
+use serde_json::{Value, json};
+
+use super::places::{Kind, Place, Places};
+
+/// The records that tell of the flow of action.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Seen {
+    StopRequested,
+    Event(ComponentId, u16),
+    AlreadyThere(ComponentId, u16),
+    Diverted(ComponentId),
+    Interrupted(ComponentId),
+    Finished(ComponentId, u16),
+    Started(ComponentId),
+    Faulted(ComponentId),
+    Ended(ComponentId, Ending),
+}
+
+/// The outermost plan.
+const WHOLE: ComponentId = ComponentId(0);
+
+impl Seen {
+    pub fn of(record: &Record<'_>) -> Option<Seen> {
+        Some(match *record {
+            Record::StopRequested => Seen::StopRequested,
+            Record::Event { supervisor, event } => Seen::Event(supervisor, event),
+            Record::AlreadyThere { supervisor, event } => Seen::AlreadyThere(supervisor, event),
+            Record::Diverted { element, .. } => Seen::Diverted(element),
+            Record::Interrupted { element } => Seen::Interrupted(element),
+            Record::Finished { element, state } => Seen::Finished(element, state),
+            Record::Started { component } => Seen::Started(component),
+            Record::Faulted { component, .. } => Seen::Faulted(component),
+            Record::Ended { plan, ending } => Seen::Ended(plan, ending),
+            _ => return None,
+        })
+    }
+}
+
+/// An event and what must hold after it.
+#[derive(Default)]
+struct Step {
+    event: Option<String>,
+    active: Vec<String>,
+    only: Option<String>,
+    same: bool,
+}
+
+/// A run.
+pub struct Steps {
+    /// The start and all events; never empty.
+    steps: Vec<Step>,
+    /// Whether the run goes on in a way that the chart cannot know.
+    pub cut: bool,
+    /// Whether the plan was asked to stop.
+    stopping: bool,
+}
+
+impl Steps {
+    /// The steps as the engine's program reads them.
+    pub fn json(&self) -> Value {
+        let step = |step: &Step| {
+            let Step { event, active, only, same } = step;
+            json!({ "event": event, "active": active, "only": only, "same": same })
+        };
+        self.steps.iter().map(step).collect()
+    }
+
+    fn feed(&mut self, event: String) {
+        self.steps.push(Step { event: Some(event), ..Step::default() });
+    }
+
+    fn last(&mut self) -> &mut Step {
+        let last = self.steps.len() - 1;
+        &mut self.steps[last]
+    }
+
+    /// The step before the last one, whose end the last event found.
+    fn before(&mut self) -> &mut Step {
+        let before = self.steps.len().saturating_sub(2);
+        &mut self.steps[before]
+    }
+}
+
+impl Step {
+    /// Control is at an element: exactly there, if nothing can be inside of it.
+    fn is_at(&mut self, place: &Place) {
+        match place.kind {
+            Kind::Actor | Kind::Computation => self.only = Some(place.state.clone()),
+            _ => self.is_at_least(place),
+        }
+    }
+
+    /// Control is at an element or inside of it.
+    fn is_at_least(&mut self, place: &Place) {
+        self.active.push(place.state.clone());
+    }
+}
+
+/// The steps of a run.
+pub fn steps(places: &Places, seen: &[Seen]) -> Steps {
+    let start = Step::default();
+    let mut steps = Steps { steps: vec![start], cut: false, stopping: false };
+    for (at, record) in seen.iter().enumerate() {
+        let previous = at.checked_sub(1).map(|previous| seen[previous]);
+        step(places, &mut steps, previous, *record, &seen[at + 1..]);
+        if steps.cut {
+            break;
+        }
+    }
+    steps
+}
+
+fn step(places: &Places, steps: &mut Steps, previous: Option<Seen>, record: Seen, rest: &[Seen]) {
+    match record {
+        Seen::StopRequested => steps.stopping = true,
+        Seen::Event(supervisor, event) => {
+            let place = places.get(supervisor);
+            steps.last().is_at(place);
+            if !fails(rest) {
+                steps.feed(place.event(event));
+            }
+        }
+        Seen::AlreadyThere(supervisor, event) => {
+            steps.feed(places.get(supervisor).event(event));
+            steps.last().same = true;
+        }
+        // Both stand behind the event that they are due to.
+        Seen::Diverted(element) => steps.before().is_at_least(places.get(element)),
+        Seen::Interrupted(element) => {
+            let step = if steps.stopping { steps.last() } else { steps.before() };
+            step.is_at(places.get(element));
+        }
+        Seen::Started(component) => steps.last().is_at(places.get(component)),
+        // The end of a sub-plan's body is an event that the chart makes itself.
+        Seen::Finished(element, _) if places.get(element).kind == Kind::SubPlan => {}
+        Seen::Finished(element, state) => {
+            let place = places.get(element);
+            steps.last().is_at(place);
+            steps.feed(place.event(state));
+        }
+        Seen::Faulted(component) => faulted(places, steps, previous, component, rest),
+        Seen::Ended(WHOLE, ending) => ended(places, ending, steps),
+        Seen::Ended(plan, ending) => {
+            let finishes = matches!(rest, [Seen::Finished(element, _), ..] if *element == plan);
+            steps.cut = !matches!(ending, Ending::Error(_)) && !finishes;
+        }
+    }
+}
+
+/// Whether the whole run fails before anything else happens: an `interrupt` failed or something
+/// panicked, and control goes nowhere.
+fn fails(rest: &[Seen]) -> bool {
+    let mut faults = rest.iter().map_while(|record| match record {
+        Seen::Faulted(component) => Some(*component),
+        _ => None,
+    });
+    faults.any(|component| component == WHOLE)
+}
+
+fn faulted(
+    places: &Places,
+    steps: &mut Steps,
+    previous: Option<Seen>,
+    component: ComponentId,
+    rest: &[Seen],
+) {
+    // A sub-plan whose body has ended in `Error` is left already.
+    let left = matches!(
+        previous,
+        Some(Seen::Ended(plan, Ending::Error(_))) if plan == component && plan != WHOLE
+    );
+    if fails(rest) || left {
+        return;
+    }
+    let place = places.get(component);
+    steps.last().is_at_least(place);
+    steps.feed(place.fault());
+}
+
+fn ended(places: &Places, ending: Ending, steps: &mut Steps) {
+    if steps.stopping && ending == Ending::Interrupted {
+        steps.feed(":stopped".to_owned());
+    }
+    let end = match ending {
+        Ending::Ok => "OK",
+        Ending::Interrupted => "Interrupted",
+        Ending::Error(_) => "Error",
+    };
+    steps.last().only = Some(format!("{}-{end}", places.get(WHOLE).state));
+}
