@@ -1,6 +1,7 @@
-//! Drawings of plans: the paper's notation as SVG, GraphViz text, and the graph as JSON.
+//! Drawings of plans: the paper's notation as SVG, GraphViz text, the graph as JSON, and the flow of
+//! action as State Chart XML.
 //!
-//! All three read the static graph alone; a caller that has the plan's text at hand passes it along
+//! All of them read the static graph alone; a caller that has the plan's text at hand passes it along
 //! and gets formulas as they were written.
 
 mod card;
@@ -9,6 +10,7 @@ pub mod formula;
 mod json;
 mod layout;
 mod metrics;
+mod scxml;
 mod sketch;
 mod svg;
 mod view;
@@ -20,11 +22,13 @@ mod tests;
 
 use std::fmt;
 
+use crate::layout_file::Layout;
 use crate::source::Sources;
 use crate::toolbox::Toolbox;
 
 pub use dot::dot;
 pub use json::json;
+pub use scxml::scxml;
 pub use svg::svg;
 
 /// Finds the SVG text of an icon that a template of a toolbox names.
@@ -43,6 +47,14 @@ pub struct Options<'a> {
     pub theme: Theme,
     /// Whether an SVG or a GraphViz text shows the bodies of sub-plans too.
     pub sub_plans: bool,
+    /// Where elements have been placed, by the file of their plan ([`Span::file`]): an SVG keeps
+    /// those places and lays out the rest around them, JSON names them. May be shorter than the
+    /// list of files.
+    ///
+    /// [`Span::file`]: crate::source::Span::file
+    pub positions: &'a [Layout],
+    /// Whether entries, formulas and what they are bound to are shown; JSON always has them.
+    pub data: bool,
 }
 
 /// The colours of a drawing.
@@ -59,7 +71,14 @@ pub enum Theme {
 
 impl Default for Options<'_> {
     fn default() -> Self {
-        Options { sources: None, icons: None, theme: Theme::Auto, sub_plans: true }
+        Options {
+            sources: None,
+            icons: None,
+            positions: &[],
+            theme: Theme::Auto,
+            sub_plans: true,
+            data: true,
+        }
     }
 }
 
@@ -68,8 +87,10 @@ impl fmt::Debug for Options<'_> {
         f.debug_struct("Options")
             .field("sources", &self.sources.is_some())
             .field("icons", &self.icons.is_some())
+            .field("positions", &self.positions.len())
             .field("theme", &self.theme)
             .field("sub_plans", &self.sub_plans)
+            .field("data", &self.data)
             .finish()
     }
 }

@@ -1,7 +1,8 @@
 //! The side file with the positions of a drawing, `plan.afp.layout`.
 //!
 //! One line for each element, sorted, so that two people who move different elements do not get in
-//! each other's way: `Plan.element X Y`, in whole steps of the canvas. Local supervisors and entries
+//! each other's way: `Plan.element X Y`, the upper left corner in pixels of the
+//! drawing. Local supervisors and entries
 //! have positions too; `start`, `terminate` and `ignore` name the tags of a plan. Positions never
 //! change what a plan means, and a file with errors still gives all the others.
 

@@ -12,10 +12,14 @@ use crate::error::RunError;
 /// # Errors
 /// The folder is not there or not writable, the disk is full. No file of that name is left half
 /// written then, and an old one stays as it was.
-pub fn write_whole(what: &'static str, path: &Path, text: &str) -> Result<(), RunError> {
+pub fn write_whole(
+    what: &'static str,
+    path: &Path,
+    bytes: impl AsRef<[u8]>,
+) -> Result<(), RunError> {
     let write = || {
         let mut file = NamedTempFile::new_in(folder(path))?;
-        file.write_all(text.as_bytes())?;
+        file.write_all(bytes.as_ref())?;
         allow_reading(&file)?;
         file.persist(path)?;
         Ok(())

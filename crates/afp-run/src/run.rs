@@ -115,7 +115,7 @@ where
             marks: &drive.judge.marks,
             figures: figures.for_picture(),
         };
-        write_whole("cannot write the picture", path, &svg::draw(&picture, drive.names))?;
+        write_whole("cannot write the picture", path, svg::draw(&picture, drive.names))?;
     }
     let lost = written.as_ref().map_or(0, |written: &Written| written.lost);
     let log = written.map(|written| written.path);

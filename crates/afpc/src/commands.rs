@@ -10,6 +10,7 @@ pub mod later;
 pub mod log;
 pub mod run;
 
+use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
 use afp_run::{EXIT_FAILED, EXIT_OK, RunError};
@@ -39,9 +40,17 @@ pub fn dispatch(command: &Command, linked: &[Linked]) -> ExitCode {
 
 /// Prints a result on standard output; a reader that has seen enough is no error.
 fn print(text: &str) -> Result<u8, NoPlan> {
-    use std::io::{ErrorKind, Write};
-    let mut out = anstream::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    print_to(anstream::stdout().lock(), text.as_bytes())
+}
+
+/// Prints bytes that are no text on standard output, as [`print`] does.
+#[cfg(feature = "png")]
+fn print_bytes(bytes: &[u8]) -> Result<u8, NoPlan> {
+    print_to(std::io::stdout().lock(), bytes)
+}
+
+fn print_to(mut out: impl Write, bytes: &[u8]) -> Result<u8, NoPlan> {
+    match out.write_all(bytes).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(RunError::file("cannot write to", "standard output".as_ref())(error).into())
         }

@@ -70,11 +70,58 @@ fn plans_are_drawn_in_every_format_there_is() {
     let said = place.afpc("graph wall_following.afp -o plan.dot");
     said.succeeds();
     assert!(place.read("plan.dot").contains("digraph"));
-    place.afpc("graph wall_following.afp -o x.png").fails(2, &["'--format png'", "rsvg-convert"]);
-    place.afpc("graph wall_following.afp --format scxml").fails(2, &["'--format scxml'"]);
+    place.afpc("graph wall_following.afp -o plan.scxml").succeeds();
+    assert!(place.read("plan.scxml").contains("<final id=\"WallFollowing-OK\"/>"));
     let nowhere = place.afpc("graph wall_following.afp -o no/such/plan.svg");
     nowhere.fails(1, &["error: cannot write the drawing 'no/such/plan.svg'"]);
-    assert_eq!(place.files(), ["plan.dot", "plan.svg", "wall_following.afp"]);
+    assert_eq!(place.files(), ["plan.dot", "plan.scxml", "plan.svg", "wall_following.afp"]);
+}
+
+#[test]
+fn positions_come_from_the_side_file_and_broken_lines_are_warnings() {
+    let place = Place::with_plan();
+    let automatic = place.afpc("graph wall_following.afp").out;
+    place.write("wall_following.afp.layout", "WallFollowing.followWall 900 0\nP.x 1 far\n");
+    let said = place.afpc("graph wall_following.afp");
+    said.succeeds();
+    assert_ne!(said.out, automatic);
+    let warning = "warning: wall_following.afp.layout:2:7: expected a whole number, found 'far'";
+    assert!(said.err.contains(warning), "{}", said.err);
+    let said = place.afpc("graph wall_following.afp --format json");
+    assert!(said.out.contains("\"position\": ["), "{}", said.out);
+}
+
+#[test]
+fn options_of_other_formats_are_refused() {
+    let place = Place::with_plan();
+    for (options, said) in [
+        ("--scale 2", "'--scale' means nothing for '--format svg'"),
+        ("--format json --no-data", "'--no-data' means nothing for '--format json'"),
+        ("--format scxml --fold", "'--fold' means nothing for '--format scxml'"),
+        ("--format dot --theme dark", "'--theme' means nothing for '--format dot'"),
+        ("-o x.png --scale 11", "expected a number from 0.1 to 10"),
+    ] {
+        place.afpc(&format!("graph wall_following.afp {options}")).fails(2, &[said]);
+    }
+}
+
+#[cfg(feature = "png")]
+#[test]
+fn pictures_have_the_size_and_the_colours_asked_for() {
+    let place = Place::with_plan();
+    let drawn = |options: &str| {
+        place.afpc(&format!("graph wall_following.afp -o plan.png {options}")).succeeds();
+        let picture = place.bytes("plan.png");
+        let number = |at: usize| u32::from_be_bytes(picture[at..at + 4].try_into().unwrap());
+        assert_eq!(&picture[..8], b"\x89PNG\r\n\x1a\n");
+        ((number(16), number(20)), picture)
+    };
+    let (once, _) = drawn("--scale 1");
+    let (twice, light) = drawn("");
+    let (same, dark) = drawn("--theme dark");
+    assert_eq!((2 * once.0, 2 * once.1), twice);
+    assert_eq!(twice, same);
+    assert_ne!(light, dark);
 }
 
 #[test]

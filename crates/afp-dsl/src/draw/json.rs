@@ -5,6 +5,7 @@ use serde_json::{Map, Value, json};
 use super::view::{Exit, Input, View, entry_kind_name, kind_name};
 use super::{Options, formula};
 use crate::graph::{Element, Graph, Plan, Supervisor};
+use crate::layout_file::Position;
 
 /// The graph as one indented JSON object.
 ///
@@ -12,11 +13,12 @@ use crate::graph::{Element, Graph, Plan, Supervisor};
 /// written), `entries` and `timing`; of the main plan also `sub_plans`, an array of plans. An
 /// element has `name`, `kind`, `template`, `inputs` (the texts of the bound inputs in the order of
 /// the template's ports), `outputs` (entries, likewise), `states` (targets by state, `Error`
-/// included), `supervisors`, and `ports` (texts by input port, entries by output port); what is
+/// included), `supervisors`, `position` (where it has been placed, in pixels), and `ports` (texts by input port, entries by output port); what is
 /// empty is left out. Supervisors have `name`, `template`, `inputs`, `outputs`, `events`; their
 /// periods and deadlines stand in `timing`, in nanoseconds.
 pub fn json(graph: &Graph, options: &Options) -> String {
-    let view = |plan| View { graph, plan, options };
+    let options = Options { data: true, ..*options };
+    let view = |plan| View { graph, plan, options: &options };
     let mut object = plan_object(&view(graph.main()));
     let others = graph.plans.iter().enumerate();
     let others = others.filter(|(index, _)| *index != graph.main.index());
@@ -46,6 +48,8 @@ fn element_object(view: &View, element: &Element) -> Value {
     put(&mut object, "doc", json!(element.doc));
     put(&mut object, "kind", json!(kind_name(element)));
     put(&mut object, "template", json!(view.template_name(element)));
+    let position = view.position(&element.name);
+    put(&mut object, "position", json!(position.map(|Position { x, y }| [x, y])));
     let (inputs, outputs) = (view.inputs(element), view.outputs(element));
     put_data(&mut object, &inputs, &outputs);
     put(&mut object, "states", targets(view, &view.states(element)));

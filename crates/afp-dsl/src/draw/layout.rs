@@ -5,16 +5,20 @@
 //! with few crossings ([`order`]), items get abscissas ([`place`]), and the horizontal parts of
 //! edges get lines of their own between layers ([`channel`]). Edges leave boxes below (states) or on
 //! the right (events) and arrive from above; what leads back up climbs beside the boxes.
-//! Everything is deterministic.
+//! Everything is deterministic. Where some boxes stand already ([`placed`]), the others go around
+//! them and edges find ways of their own ([`maze`]).
 
 mod channel;
 mod grid;
 mod layers;
+mod maze;
 mod order;
 mod place;
+mod placed;
 mod route;
 
 use grid::Grid;
+pub(super) use placed::layout_around;
 
 /// A box with everything attached to it; edges keep away from it.
 #[derive(Clone, Debug)]

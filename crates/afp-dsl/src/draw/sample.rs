@@ -15,26 +15,32 @@ pub(super) const EVERY_PART: &str = include_str!("../../tests/draw/every_part.af
 
 /// Compiles a plan that has no errors.
 pub(super) fn compiled(text: &str) -> Compiled {
+    compiled_with(text, &[])
+}
+
+/// Compiles a plan that needs more toolboxes than the built-in ones.
+pub(super) fn compiled_with(text: &str, toolbox_texts: &[String]) -> Compiled {
     let mut toolboxes = Toolboxes::default();
     for builtin in afp_toolboxes::ALL {
         toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
+    }
+    for text in toolbox_texts {
+        toolboxes.add(Source::new("more.afp", text.as_str()), "more");
     }
     let compiled = compile(&Source::new("sample.afp", text), &toolboxes, &Texts::default());
     assert!(compiled.graph.is_some(), "{}", compiled.render(false));
     compiled
 }
 
-/// A plan of `count` elements, wired at random but the same each time; each leads to the next one.
+/// A plan of `count` elements of every kind, with entries, two global supervisors and two
+/// sub-plans, wired at random but the same each time; each element leads to the next one.
 pub(super) fn generated(count: u64, seed: u64) -> String {
     let mut state = seed;
     let mut next = |below: u64| {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
         (state >> 33) % below
     };
-    let mut text = "use std\nuse carbot\nplan Generated {\nin walldist: length = 30 cm\n\
-                    out result: angle\nstart element0\n\
-                    supervise escape: CheckEscapeButton { EscapeButtonPressed -> terminate }\n"
-        .to_owned();
+    let mut text = HEAD.to_owned();
     for index in 0..count {
         // Mostly onwards, as plans are.
         let mut any = || match next(10) {
@@ -43,38 +49,61 @@ pub(super) fn generated(count: u64, seed: u64) -> String {
             _ => format!("element{}", (index + 1 + next(3)) % count),
         };
         let onwards = format!("element{}", (index + 1) % count);
-        let (one, two, three) = (any(), any(), any());
-        let guards = match index % 3 {
-            0 => format!(
-                "supervise touch: CheckTouchSensor {{ TouchSensorPressed -> {one} \
-                 DeadlineMissed -> {two} }}\n"
-            ),
-            1 => format!(
-                "supervise near: CheckValue(value = walldist, limit = 2 * walldist + 5 cm) {{ \
-                 Below -> ignore, Above -> {three} }}\n"
-            ),
-            _ => String::new(),
-        };
-        let element = match index % 4 {
-            0 => format!(
-                "actor element{index}: Forward(distance = -walldist) {{ {guards} \
-                 ForwardSuccessful -> {onwards}, Error -> {two} }}"
-            ),
-            1 => format!(
-                "actor element{index}: SearchWall(angle => result) {{ {guards} \
-                 WallFound -> {onwards}, NoWallFound -> {one} }}"
-            ),
-            2 => format!(
-                "actor element{index}: WallForward(walldist = walldist, gain = 2) {{ {guards} \
-                 ForwardSuccessful -> {onwards}, LaneNotFree -> {one}, WallLost -> {two} }}"
-            ),
-            _ => format!(
-                "computation element{index}: Compare(left = walldist, right = 1 m) {{ \
-                 Less -> {onwards}, Equal -> {one}, Greater -> {three} }}"
-            ),
-        };
+        let element = element(index, &onwards, [any(), any(), any()]);
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{element}");
     }
-    text + "}\n"
+    format!("{text}}}\n{SUB_PLANS}")
+}
+
+const HEAD: &str = "use std\nuse carbot\nplan Generated {\nin walldist: length = 30 cm\n\
+    var round: int = 0\nconst limit: int = 4\nout result: angle\nstart element0\n\
+    supervise escape: CheckEscapeButton { EscapeButtonPressed -> terminate }\n\
+    supervise tired: CheckTimeout(duration = 90 s) { TimedOut -> element0 }\n";
+
+const SUB_PLANS: &str = "/// Back up and turn away.\nplan Avoid {\nin backwards: length\nout turned: angle\n\
+    start back\nsupervise touch: CheckTouchSensor { TouchSensorPressed -> terminate }\n\
+    actor back: Forward(distance = backwards) { ForwardSuccessful -> away }\n\
+    actor away: SearchWall(angle => turned) { WallFound -> terminate NoWallFound -> nap }\n\
+    subplan nap: Nap { OK -> back }\n}\n\
+    plan Nap { start wait actor wait: Wait(duration = 2 s) { Elapsed -> terminate } }\n";
+
+fn element(index: u64, onwards: &str, [one, two, three]: [String; 3]) -> String {
+    let guards = match index % 3 {
+        0 => format!(
+            "supervise touch: CheckTouchSensor {{ TouchSensorPressed -> {one} \
+             DeadlineMissed -> {two} }}\n"
+        ),
+        1 => format!(
+            "supervise near: CheckValue(value = walldist, limit = 2 * walldist + 5 cm) {{ \
+             Below -> ignore, Above -> {three} }}\n"
+        ),
+        _ => String::new(),
+    };
+    match index % 6 {
+        0 => format!(
+            "actor element{index}: Forward(distance = -walldist) {{ {guards} \
+             ForwardSuccessful -> {onwards}, Error -> {two} }}"
+        ),
+        1 => format!(
+            "actor element{index}: SearchWall(angle => result) {{ {guards} \
+             WallFound -> {onwards}, NoWallFound -> {one} }}"
+        ),
+        2 => format!(
+            "actor element{index}: WallForward(walldist = walldist, gain = 2) {{ {guards} \
+             ForwardSuccessful -> {onwards}, LaneNotFree -> {one}, WallLost -> {two} }}"
+        ),
+        3 => format!(
+            "computation element{index}: Compare(left = walldist, right = 1 m) {{ \
+             Less -> {onwards}, Equal -> {one}, Greater -> {three} }}"
+        ),
+        4 => format!(
+            "subplan element{index}: Avoid(backwards = -walldist / 4, turned => result) {{ \
+             {guards} OK -> {onwards}, Interrupted -> {two} }}"
+        ),
+        _ => format!(
+            "computation element{index}: Count(value = round, limit = limit, next => round) {{ \
+             Again -> {onwards}, Done -> {one} }}"
+        ),
+    }
 }

@@ -9,10 +9,11 @@ mod style;
 
 use super::Options;
 use super::card::{self, Card};
-use super::layout::{Link, Node, layout};
+use super::layout::{Link, Node, layout_around};
 use super::sketch::{Arrow, Sketch};
 use super::view::View;
 use crate::graph::Graph;
+use crate::layout_file::Position;
 
 /// Space around everything, in pixels.
 const MARGIN: f64 = 24.0;
@@ -42,6 +43,10 @@ pub(super) fn sketch<'a>(graph: &'a Graph, options: &'a Options<'a>) -> (Sketch<
     (all, (size.0 + 2.0 * MARGIN, size.1 + MARGIN))
 }
 
+fn pixels(position: Position) -> (f64, f64) {
+    (position.x.into(), position.y.into())
+}
+
 fn plan<'a>(view: &View<'a>) -> (Sketch<'a>, f64, f64) {
     let elements = view.plan.elements.iter().map(|element| card::element(view, element));
     let cards: Vec<Card> = std::iter::once(card::start(view)).chain(elements).collect();
@@ -59,7 +64,10 @@ fn plan<'a>(view: &View<'a>) -> (Sketch<'a>, f64, f64) {
         exit: exit.at,
     };
     let links: Vec<_> = exits.iter().map(link).collect();
-    let placed = layout(&nodes, &links);
+    let elements = view.plan.elements.iter().map(|element| view.position(&element.name));
+    let fixed: Vec<_> = std::iter::once(view.position("start")).chain(elements).collect();
+    let fixed: Vec<_> = fixed.iter().map(|place| place.map(pixels)).collect();
+    let placed = layout_around(&nodes, &links, &fixed);
     let mut sketch = Sketch::default();
     for ((_, exit), points) in exits.iter().zip(placed.routes) {
         sketch.arrows.push(Arrow { points, class: exit.class, thick: true });

@@ -1,43 +1,126 @@
 //! Tests of whole drawings: nothing lies on top of anything else.
 
-use super::sample::{EVERY_PART, WALL_FOLLOWING, compiled, generated};
+use super::sample::{EVERY_PART, WALL_FOLLOWING, compiled, compiled_with, generated};
 use super::sketch::{Arrow, Rect, Shape, Sketch};
 use super::svg::sketch;
 use super::{Options, Theme, svg};
+use crate::Compiled;
+use crate::layout_file::Layout;
 use crate::toolbox::Toolbox;
 
 /// Two lines nearer than this look like one.
 const APART: f64 = 5.0;
 
 #[test]
-fn nothing_overlaps_in_the_plan_of_the_paper() {
-    check(WALL_FOLLOWING);
+fn nothing_overlaps_in_the_plans_that_are_shipped() {
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+    let files =
+        [format!("{root}/plans"), format!("{root}/examples")].map(|folder| afp_files(&folder));
+    let texts = files.concat().into_iter().map(|file| std::fs::read_to_string(file).unwrap());
+    let (toolboxes, plans): (Vec<_>, Vec<_>) = texts.partition(|text| is_toolbox(text));
+    assert!(plans.len() >= 2, "plans have moved");
+    for text in plans {
+        check_all(&compiled_with(&text, &toolboxes));
+    }
+}
+
+fn is_toolbox(text: &str) -> bool {
+    text.lines().any(|line| line.starts_with("toolbox "))
+}
+
+/// All `.afp` files below a folder, generated ones aside.
+fn afp_files(folder: &str) -> Vec<std::path::PathBuf> {
+    let mut found = Vec::new();
+    let mut folders = vec![std::path::PathBuf::from(folder)];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            match path.extension() {
+                _ if path.is_dir() && !path.ends_with("target") => folders.push(path),
+                Some(extension) if extension == "afp" => found.push(path),
+                _ => {}
+            }
+        }
+    }
+    found
 }
 
 #[test]
 fn nothing_overlaps_with_sub_plans_and_every_kind_of_edge() {
-    check(EVERY_PART);
+    check_all(&compiled(EVERY_PART));
+}
+
+#[test]
+fn nothing_overlaps_in_a_plan_of_sixty_elements() {
+    check_all(&compiled(&generated(60, 1)));
 }
 
 #[test]
 fn nothing_overlaps_in_plans_of_thirty_elements() {
     for seed in 1..=3 {
-        check(&generated(30, seed));
+        check(&compiled(&generated(30, seed)), &Options::default());
     }
 }
 
 #[test]
 fn nothing_overlaps_in_many_small_plans() {
     for seed in 1..=30 {
-        check(&generated(1 + seed % 9, seed));
+        check(&compiled(&generated(1 + seed % 9, seed)), &Options::default());
     }
 }
 
-fn check(text: &str) {
-    let compiled = compiled(text);
-    let options = Options { sources: Some(&compiled.sources), ..Options::default() };
-    let graph = compiled.graph.unwrap();
-    let (sketch, size) = sketch(&graph, &options);
+/// Folded and unfolded, with and without data.
+fn check_all(compiled: &Compiled) {
+    for (sub_plans, data) in [(true, true), (true, false), (false, true), (false, false)] {
+        check(compiled, &Options { sub_plans, data, ..Options::default() });
+    }
+}
+
+#[test]
+fn what_has_been_placed_stays_and_the_rest_goes_around_it() {
+    let plan = compiled(WALL_FOLLOWING);
+    let from_collision_to_wall = |text: &str| {
+        let (positions, errors) = Layout::read(text);
+        assert_eq!(errors, []);
+        let positions = in_every_file(&plan, positions);
+        let options = Options { positions: &positions, ..Options::default() };
+        check(&plan, &options);
+        let (sketch, _) = sketch(plan.graph.as_ref().unwrap(), &options);
+        let place = |name| sketch.labels.iter().find(|label| label.text == name).unwrap();
+        let (one, two) = (place("backupCollision"), place("followWall"));
+        (two.x - one.x, two.y - one.y)
+    };
+    let one = "WallFollowing.backupCollision 1100 60\nWallFollowing.followWall 0 700\n";
+    let two = "WallFollowing.backupCollision 1100 60\nWallFollowing.followWall -30 720\n";
+    let (one, two) = (from_collision_to_wall(one), from_collision_to_wall(two));
+    assert!((two.0 - one.0 + 30.0).abs() < 1e-6, "{one:?} {two:?}");
+    assert!((two.1 - one.1 - 20.0).abs() < 1e-6, "{one:?} {two:?}");
+}
+
+#[test]
+fn edges_find_their_ways_between_boxes_that_stand_anywhere() {
+    for seed in 1..=6_u64 {
+        let (count, plan) = (7 + seed, compiled(&generated(7 + seed, seed)));
+        let line = |index: u64| {
+            let place = (index + 3 * seed) % count;
+            let (column, row) = (place % 4, place / 4);
+            format!("Generated.element{index} {} {}\n", column * 900, row * 500)
+        };
+        // Every second seed leaves one element in three to the layout.
+        let kept = (0..count).filter(|index| seed % 2 == 0 || index % 3 != 0);
+        let (positions, _) = Layout::read(&kept.map(line).collect::<String>());
+        let positions = in_every_file(&plan, positions);
+        check(&plan, &Options { positions: &positions, ..Options::default() });
+    }
+}
+
+fn in_every_file(compiled: &Compiled, positions: Layout) -> Vec<Layout> {
+    vec![positions; compiled.sources.len()]
+}
+
+fn check(compiled: &Compiled, options: &Options) {
+    let options = Options { sources: Some(&compiled.sources), ..*options };
+    let (sketch, size) = sketch(compiled.graph.as_ref().unwrap(), &options);
     boxes_are_apart(&sketch, size);
     labels_are_apart(&sketch);
     arrows_keep_away_from_boxes(&sketch);

@@ -3,10 +3,12 @@
 //! The three drawings agree on what an element shows, since all of them ask here.
 
 use super::{Options, formula};
+use crate::edit::Item;
 use crate::graph::{
     Component, Element, ElementId, Entry, EntryKind, Formula, FormulaKind, Graph, Output, Plan,
     PlanId, Supervisor, Target, TemplateId,
 };
+use crate::layout_file::Position;
 use crate::source::Span;
 use crate::toolbox::{InPort, Template, Toolbox};
 
@@ -67,6 +69,17 @@ impl<'a> View<'a> {
         }
     }
 
+    /// Where an element, or the start tag under the name `start`, has been placed.
+    pub(super) fn position(&self, name: &str) -> Option<Position> {
+        let file = self.options.positions.get(usize::from(self.plan.span.file))?;
+        file.get(&Item::inner(&self.plan.name, name))
+    }
+
+    /// The entries of the plan, if data is shown.
+    pub(super) fn entries(&self) -> &'a [Entry] {
+        self.shown(&self.plan.entries)
+    }
+
     pub(super) fn inputs(&self, element: &Element) -> Vec<Input<'a>> {
         match element.component {
             Component::Actor(id) | Component::Computation(id) => {
@@ -84,7 +97,7 @@ impl<'a> View<'a> {
         let ports = self.graph.template(id).inputs.iter();
         let with =
             |(port, formula): (&'a InPort, &Formula)| self.input(&port.name, port.span, formula);
-        ports.zip(formulas).map(with).collect()
+        ports.zip(self.shown(formulas)).map(with).collect()
     }
 
     fn plan_inputs(&self, id: PlanId, formulas: &[Formula]) -> Vec<Input<'a>> {
@@ -92,7 +105,12 @@ impl<'a> View<'a> {
         let ports = entries.filter(|entry| entry.kind == EntryKind::In);
         let with =
             |(entry, formula): (&'a Entry, &Formula)| self.input(&entry.name, entry.span, formula);
-        ports.zip(formulas).map(with).collect()
+        ports.zip(self.shown(formulas)).map(with).collect()
+    }
+
+    /// All or nothing, as the options say.
+    fn shown<'d, T>(&self, data: &'d [T]) -> &'d [T] {
+        if self.options.data { data } else { &[] }
     }
 
     /// A formula that stands where the port is declared is the port's default.
@@ -133,7 +151,7 @@ impl<'a> View<'a> {
     }
 
     fn named_outputs(&self, names: &[&'a str], outputs: &[Output]) -> Vec<(&'a str, &'a str)> {
-        let mut outputs: Vec<_> = outputs.iter().collect();
+        let mut outputs: Vec<_> = self.shown(outputs).iter().collect();
         outputs.sort_by_key(|output| output.port);
         let named = outputs.into_iter().filter_map(|output| {
             let port = names.get(usize::from(output.port))?;

@@ -1,8 +1,16 @@
 //! `afpc graph`: the drawing of a plan.
 
+#[cfg(feature = "png")]
+mod png;
+
+use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use afp_dsl::draw::{self, Options};
+use afp_dsl::graph::Graph;
+use afp_dsl::layout_file::Layout;
+use afp_dsl::source::{Source, Sources};
 use afp_dsl::toolbox::Toolbox;
 use afp_run::{EXIT_OK, RunError, write_whole};
 use clap::{Args, ValueEnum};
@@ -24,6 +32,22 @@ pub struct Arguments {
     /// Its format [default: as the file's name says, else svg]
     #[arg(long)]
     format: Option<Format>,
+
+    /// Colours of an SVG or PNG [default: auto, as the reader's system says; of a PNG light]
+    #[arg(long)]
+    theme: Option<Theme>,
+
+    /// Pixels of a PNG for each one of the SVG, 0.1 to 10 [default: 2]
+    #[arg(long, value_name = "FACTOR", value_parser = scale)]
+    scale: Option<f32>,
+
+    /// Leaves out the bodies of sub-plans
+    #[arg(long)]
+    fold: bool,
+
+    /// Leaves out entries, formulas and what they are bound to: the flow of action alone
+    #[arg(long)]
+    no_data: bool,
 }
 
 /// How a plan is drawn.
@@ -31,64 +55,185 @@ pub struct Arguments {
 enum Format {
     /// The paper's notation, for browsers and papers
     Svg,
-    /// The same as pixels (not in this release)
+    /// The same as pixels, with fonts of its own
     Png,
     /// For GraphViz
     Dot,
     /// The checked graph, for programs
     Json,
-    /// State Chart XML (not in this release)
+    /// The flow of action as State Chart XML, sub-plans unfolded
     Scxml,
+}
+
+/// The colours of a drawing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Theme {
+    /// Those of the reader's system
+    Auto,
+    /// Dark on light
+    Light,
+    /// Light on dark
+    Dark,
 }
 
 pub const EXAMPLES: &str = "\
 Examples:
   afpc graph plans/wall_following.afp -o plan.svg
+  afpc graph plans/wall_following.afp -o plan.png --theme dark --scale 3
+  afpc graph plans/wall_following.afp -o flow.svg --no-data
   afpc graph plans/wall_following.afp --format json
+  afpc graph plans/wall_following.afp --format scxml
   afpc graph plans/wall_following.afp --format dot | dot -Tpdf -o plan.pdf";
 
 /// Draws a plan.
 ///
 /// # Errors
-/// The plan is wrong, the format is not there, the file cannot be written.
+/// The options do not fit the format, the plan is wrong, the file cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
-    let format = format(arguments)?;
+    let format = arguments.format();
+    arguments.fit(format)?;
     let (file, graph) = PlanFile::graph(&arguments.plan.plan)?;
+    let positions = positions(&file.compiled.sources, &graph);
     let icons = |toolbox: &Toolbox, name: &str| icon(toolbox, name);
     let options = Options {
         sources: Some(&file.compiled.sources),
         icons: Some(&icons),
-        ..Options::default()
+        positions: &positions,
+        theme: arguments.theme(format),
+        sub_plans: !arguments.fold,
+        data: !arguments.no_data,
     };
     let text = match format {
+        Format::Png => return pixels(arguments, &graph, &options),
+        Format::Svg => draw::svg(&graph, &options),
         Format::Json => draw::json(&graph, &options),
         Format::Dot => draw::dot(&graph, &options),
-        _ => draw::svg(&graph, &options),
+        Format::Scxml => draw::scxml(&graph, &options),
     };
     match &arguments.output {
-        Some(path) => {
-            write_whole("cannot write the drawing", path, &text)?;
-            Ok(EXIT_OK)
-        }
+        Some(path) => write(path, text.as_bytes()),
         None => print(&text),
     }
 }
 
-fn format(arguments: &Arguments) -> Result<Format, RunError> {
-    let by_name = || {
-        let extension = arguments.output.as_deref().and_then(Path::extension)?;
-        Format::from_str(extension.to_str()?, true).ok()
+/// The positions of the plans' side files, by file.
+fn positions(sources: &Sources, graph: &Graph) -> Vec<Layout> {
+    let holds_plans =
+        |file: usize| graph.plans.iter().any(|plan| usize::from(plan.span.file) == file);
+    let read = |(file, source): (usize, &Source)| match holds_plans(file) {
+        true => layout(&format!("{}.layout", source.name)),
+        false => Layout::default(),
     };
-    match arguments.format.or_else(by_name).unwrap_or(Format::Svg) {
-        Format::Png => Err(RunError::usage(
-            "'--format png' is not in this release",
-            "draw SVG and convert it: rsvg-convert plan.svg -o plan.png",
-        )),
-        Format::Scxml => Err(RunError::usage(
-            "'--format scxml' is not in this release",
-            "'--format json' holds the whole graph",
-        )),
-        format => Ok(format),
+    sources.iter().enumerate().map(read).collect()
+}
+
+/// The positions of a side file, none without one. What cannot be used there is told on standard
+/// error: a drawing does not fail for it.
+fn layout(path: &str) -> Layout {
+    let (text, why) = match fs::read(path) {
+        Ok(bytes) => match String::from_utf8(bytes) {
+            Ok(text) => (text, None),
+            Err(_) => (String::new(), Some("it is not UTF-8 text".to_owned())),
+        },
+        Err(error) if error.kind() == ErrorKind::NotFound => (String::new(), None),
+        Err(error) => (String::new(), Some(error.to_string())),
+    };
+    let (layout, errors) = Layout::read(&text);
+    let wrong = errors.iter().map(|error| format!("{path}:{error}"));
+    let unread = why.iter().map(|why| format!("cannot read '{path}': {why}"));
+    for warning in unread.chain(wrong) {
+        anstream::eprintln!("warning: {warning}");
+    }
+    layout
+}
+
+fn write(path: &Path, drawing: &[u8]) -> Result<u8, NoPlan> {
+    write_whole("cannot write the drawing", path, drawing)?;
+    Ok(EXIT_OK)
+}
+
+#[cfg(feature = "png")]
+fn pixels(arguments: &Arguments, graph: &Graph, options: &Options) -> Result<u8, NoPlan> {
+    use std::io::IsTerminal;
+
+    if arguments.output.is_none() && std::io::stdout().is_terminal() {
+        let error = "a picture cannot be shown in a terminal";
+        return Err(RunError::usage(error, "name a file: -o plan.png").into());
+    }
+    let scale = arguments.scale.unwrap_or(DEFAULT_SCALE);
+    let picture = png::png(&draw::svg(graph, options), scale).map_err(|why| match why {
+        png::Failure::TooLarge(width, height) => RunError::usage(
+            format!("the picture would be {width} x {height} pixels"),
+            "choose a smaller '--scale', or draw SVG",
+        ),
+        png::Failure::Renderer(why) => RunError::usage(
+            format!("the drawing cannot be painted: {why}"),
+            "draw SVG; and please report this",
+        ),
+    })?;
+    match &arguments.output {
+        Some(path) => write(path, &picture),
+        None => super::print_bytes(&picture),
+    }
+}
+
+#[cfg(not(feature = "png"))]
+fn pixels(_: &Arguments, _: &Graph, _: &Options) -> Result<u8, NoPlan> {
+    let help = "draw SVG and convert it, or install afpc with its feature 'png'";
+    Err(RunError::usage("this afpc was built without '--format png'", help).into())
+}
+
+/// Pixels of a PNG for each one of the SVG, where nothing is said: sharp on today's screens.
+#[cfg(feature = "png")]
+const DEFAULT_SCALE: f32 = 2.0;
+
+fn scale(text: &str) -> Result<f32, String> {
+    let scale = text.parse::<f32>().ok().filter(|scale| (0.1..=10.0).contains(scale));
+    scale.ok_or_else(|| "expected a number from 0.1 to 10".to_owned())
+}
+
+impl Arguments {
+    fn format(&self) -> Format {
+        let by_name = || {
+            let extension = self.output.as_deref().and_then(Path::extension)?;
+            Format::from_str(extension.to_str()?, true).ok()
+        };
+        self.format.or_else(by_name).unwrap_or(Format::Svg)
+    }
+
+    fn theme(&self, format: Format) -> draw::Theme {
+        match (self.theme, format) {
+            (Some(Theme::Dark), _) => draw::Theme::Dark,
+            // A PNG cannot ask the system of its reader.
+            (Some(Theme::Light), _) | (_, Format::Png) => draw::Theme::Light,
+            (Some(Theme::Auto) | None, _) => draw::Theme::Auto,
+        }
+    }
+
+    /// Refuses options that would not change anything.
+    fn fit(&self, format: Format) -> Result<(), RunError> {
+        use Format::{Dot, Json, Png, Scxml, Svg};
+
+        let given: [(bool, &str, &[Format]); 4] = [
+            (self.theme.is_some(), "--theme", &[Svg, Png]),
+            (self.scale.is_some(), "--scale", &[Png]),
+            (self.fold, "--fold", &[Svg, Png, Dot]),
+            (self.no_data, "--no-data", &[Svg, Png, Dot, Scxml]),
+        ];
+        let wrong = given.iter().find(|(given, _, formats)| *given && !formats.contains(&format));
+        let Some((_, option, formats)) = wrong else { return Ok(()) };
+        let name = |format: Format| match format {
+            Svg => "svg",
+            Png => "png",
+            Dot => "dot",
+            Json => "json",
+            Scxml => "scxml",
+        };
+        let formats: Vec<_> = formats.iter().map(|format| name(*format)).collect();
+        Err(RunError::usage(
+            format!("'{option}' means nothing for '--format {}'", name(format)),
+            format!("it is for {}", formats.join(", ")),
+        ))
     }
 }
 

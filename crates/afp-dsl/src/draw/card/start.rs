@@ -60,7 +60,7 @@ pub(in super::super) fn start<'a>(view: &View<'a>) -> Card<'a> {
 
 /// Draws the entries of the plan at the origin; an empty rectangle when there are none.
 fn configuration(view: &View, sketch: &mut Sketch) -> Rect {
-    let entries = &view.plan.entries;
+    let entries = view.entries();
     if entries.is_empty() {
         return Rect { x: 0.0, y: 0.0, width: 0.0, height: 0.0 };
     }

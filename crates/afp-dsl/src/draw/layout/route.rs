@@ -205,7 +205,7 @@ fn spread(tips: &[(usize, f64)], place: usize, (left, right): (f64, f64)) -> f64
 }
 
 /// Drops points that lie on the straight line between their neighbours, and repeated ones.
-fn without_straight_corners(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+pub(super) fn without_straight_corners(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     let mut kept: Vec<(f64, f64)> = Vec::with_capacity(points.len());
     let near = |a: f64, b: f64| (a - b).abs() < 0.5;
     for point in points {

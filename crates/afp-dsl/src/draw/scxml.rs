@@ -1,0 +1,29 @@
+//! The control flow as State Chart XML, for tools that simulate or check state charts.
+//!
+//! Elements become states, sub-plans states with their bodies inside, and the three ways in which
+//! a plan ends become final states. Nothing but the `In` predicate is asked for, so the null data
+//! model is enough: what a chart cannot hold is said at its head.
+
+mod chart;
+mod names;
+
+use super::Options;
+use super::view::View;
+use crate::graph::Graph;
+use chart::Chart;
+use names::Home;
+
+/// The control flow of the main plan as a State Chart XML document, sub-plans unfolded.
+///
+/// States have dotted ids (`Plan.sub.element`), ends have `Plan-OK`, `Plan-Interrupted` and
+/// `Plan-Error`. Events are named `sub:element.State`, `sub:element-supervisor.Event` and, for
+/// global supervisors, `sub:supervisor.Event`; a fault's event is `Error`. The document's first
+/// comment says this too, and what is left out: the order in which supervisors are asked, periods,
+/// deadlines, values. Formulas of the text stand in comments.
+pub fn scxml(graph: &Graph, options: &Options) -> String {
+    let view = View { graph, plan: graph.main(), options };
+    let home = Home::outermost(&view.plan.name);
+    let mut chart = Chart::default();
+    chart.document(&view, &home);
+    chart.into_text()
+}

@@ -1,0 +1,245 @@
+//! Writes the states of a plan, its sub-plans' states inside them.
+
+use std::fmt::Write;
+
+use super::super::view::{Exit, ExitKind, Input, View};
+use super::names::{End, Home, target};
+use crate::graph::{Component, Element, Supervisor, Target};
+
+/// What a reader of the chart has to know.
+const HEAD: &str = "\
+  The flow of action of an Action Flow Plan. Left out, because state charts have no words for it:
+  - the order in which supervisors are asked: a chart is fed one event at a time, so whoever feeds it
+    decides which of several events comes first (the plan: outer plans first, then the shorter
+    deadline, then global before local, then as written);
+  - periods, deadlines and the look before a start;
+  - entries and values: formulas stand in comments only, and results of a sub-plan that do not
+    convert, which its caller takes for an 'Error', are not seen.
+  Events: 'element.State' when an actor or a computation reaches a state, 'element-supervisor.Event'
+  when a supervisor of that element interrupts it, 'supervisor.Event' when a global one does,
+  '.DeadlineMissed' and '.Error' likewise; inside of sub-plans 'subplan:element.State' and so on.
+  ':stopped' is a stop from outside, ':failed' a fault that no plan can handle.
+  A transition without target takes an event and does nothing: the event is ignored, or the
+  supervisor's target is active already.";
+
+/// A document in the making.
+#[derive(Default)]
+pub(super) struct Chart {
+    out: String,
+    depth: usize,
+}
+
+impl Chart {
+    pub(super) fn into_text(self) -> String {
+        self.out
+    }
+
+    pub(super) fn document(&mut self, view: &View, home: &Home) {
+        self.line("<?xml version=\"1.0\" encoding=\"UTF-8\"?>");
+        self.line(&format!("<!--\n{HEAD}\n-->"));
+        let id = &home.id;
+        let open = "<scxml xmlns=\"http://www.w3.org/2005/07/scxml\" version=\"1.0\"";
+        self.open(&format!("{open} datamodel=\"null\" name=\"{id}\" initial=\"{id}\">"));
+        let first = home.state(&view.element(view.plan.start).name);
+        self.open(&format!("<state id=\"{id}\" initial=\"{first}\">"));
+        self.transition(":stopped", Some(&home.end(End::Interrupted)));
+        self.transition(":failed", Some(&home.end(End::Error)));
+        self.body(view, home, false);
+        self.close("state");
+        self.ends(home);
+        self.close("scxml");
+    }
+
+    /// The global supervisors and the elements of a plan; `nested` where its ends are states inside
+    /// of its own state.
+    fn body(&mut self, view: &View, home: &Home, nested: bool) {
+        for supervisor in view.supervisors(None) {
+            self.comment(&supervisor_call(view, supervisor));
+            let path = home.path(&supervisor.name);
+            for exit in view.events(supervisor) {
+                let to = taken(view, home, &exit);
+                let within = nested || matches!(exit.target, Target::Element(_));
+                self.inner_transition(&event(&path, &exit), to.as_deref(), within);
+            }
+            let end = home.end(End::Error);
+            self.inner_transition(&format!("{path}.Error"), Some(&end), nested);
+        }
+        for element in &view.plan.elements {
+            self.element(view, home, element);
+        }
+    }
+
+    fn element(&mut self, view: &View, home: &Home, element: &Element) {
+        let id = home.state(&element.name);
+        self.comment(&element_call(view, element));
+        match element.component {
+            Component::Actor(_) | Component::Computation(_) => {
+                self.open(&format!("<state id=\"{id}\">"));
+                self.states(view, home, element);
+                self.faults(view, home, element);
+                self.supervisors(view, home, element);
+            }
+            Component::SubPlan(plan) => {
+                let inside = home.inner(&element.name);
+                let body = View { plan: view.graph.plan(plan), ..*view };
+                let first = inside.state(&body.element(body.plan.start).name);
+                self.open(&format!("<state id=\"{id}\" initial=\"{first}\">"));
+                self.done(view, home, element, &inside);
+                self.faults(view, home, element);
+                self.supervisors(view, home, element);
+                self.body(&body, &inside, true);
+                self.ends(&inside);
+            }
+        }
+        self.close("state");
+    }
+
+    /// The states of an actor or of a computation.
+    fn states(&mut self, view: &View, home: &Home, element: &Element) {
+        let path = home.path(&element.name);
+        for exit in view.states(element).iter().filter(|exit| exit.kind == ExitKind::State) {
+            self.transition(&event(&path, exit), taken(view, home, exit).as_deref());
+        }
+    }
+
+    /// The three ways in which a sub-plan's body ends.
+    fn done(&mut self, view: &View, home: &Home, element: &Element, inside: &Home) {
+        let states = view.states(element);
+        let named = |name: &str| {
+            let exit = states.iter().find(|exit| exit.kind == ExitKind::State && exit.name == name);
+            exit.and_then(|exit| taken(view, home, exit))
+        };
+        let ways = [
+            (End::Ok, named("OK")),
+            (End::Interrupted, named("Interrupted")),
+            (End::Error, Some(after_fault(view, home, element))),
+        ];
+        for (end, to) in ways {
+            // What is not connected cannot happen.
+            let Some(to) = to else { continue };
+            let (id, end) = (&inside.id, inside.end(end));
+            self.line(&format!(
+                "<transition event=\"done.state.{id}\" cond=\"In('{end}')\" target=\"{to}\"/>"
+            ));
+        }
+    }
+
+    /// Faults of an element and of its supervisors.
+    fn faults(&mut self, view: &View, home: &Home, element: &Element) {
+        let locals = view.supervisors(Some(element)).into_iter();
+        let locals = locals.map(|local| home.local(&element.name, &local.name));
+        let paths = std::iter::once(home.path(&element.name)).chain(locals);
+        let events: Vec<_> = paths.map(|path| format!("{path}.Error")).collect();
+        self.transition(&events.join(" "), Some(&after_fault(view, home, element)));
+    }
+
+    /// The events of an element's supervisors, and those of global ones that lead to it and are
+    /// not taken while it is active.
+    fn supervisors(&mut self, view: &View, home: &Home, element: &Element) {
+        for supervisor in view.supervisors(Some(element)) {
+            self.comment(&supervisor_call(view, supervisor));
+            let path = home.local(&element.name, &supervisor.name);
+            for exit in view.events(supervisor) {
+                self.transition(&event(&path, &exit), taken(view, home, &exit).as_deref());
+            }
+        }
+        if matches!(element.component, Component::Computation(_)) {
+            return;
+        }
+        for supervisor in view.supervisors(None) {
+            let path = home.path(&supervisor.name);
+            for exit in view.events(supervisor) {
+                let here = |id| view.element(id).name == element.name;
+                if matches!(exit.target, Target::Element(id) if here(id)) {
+                    self.transition(&event(&path, &exit), None);
+                }
+            }
+        }
+    }
+
+    fn ends(&mut self, home: &Home) {
+        for end in End::ALL {
+            self.line(&format!("<final id=\"{}\"/>", home.end(end)));
+        }
+    }
+
+    fn transition(&mut self, event: &str, target: Option<&str>) {
+        self.inner_transition(event, target, false);
+    }
+
+    /// A transition that, where it stays `within` its state, does not leave that state.
+    fn inner_transition(&mut self, event: &str, target: Option<&str>, within: bool) {
+        let target = target.map(|id| {
+            let kind = if within { " type=\"internal\"" } else { "" };
+            format!("{kind} target=\"{id}\"")
+        });
+        let target = target.unwrap_or_default();
+        self.line(&format!("<transition event=\"{event}\"{target}/>"));
+    }
+
+    /// A comment on one line; two dashes would end it.
+    fn comment(&mut self, text: &str) {
+        let words: Vec<_> = text.split_whitespace().collect();
+        let mut text = words.join(" ");
+        while text.contains("--") {
+            text = text.replace("--", "- -");
+        }
+        self.line(&format!("<!-- {text} -->"));
+    }
+
+    fn open(&mut self, tag: &str) {
+        self.line(tag);
+        self.depth += 1;
+    }
+
+    fn close(&mut self, name: &str) {
+        self.depth -= 1;
+        self.line(&format!("</{name}>"));
+    }
+
+    fn line(&mut self, text: &str) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(self.out, "{:width$}{text}", "", width = 2 * self.depth);
+    }
+}
+
+fn event(path: &str, exit: &Exit) -> String {
+    format!("{path}.{}", exit.name)
+}
+
+/// The state that an exit leads to.
+fn taken(view: &View, home: &Home, exit: &Exit) -> Option<String> {
+    let end = match exit.kind {
+        ExitKind::State | ExitKind::Error => End::Ok,
+        ExitKind::Event | ExitKind::Missed => End::Interrupted,
+    };
+    target(home, exit.target, end, |id| &view.element(id).name)
+}
+
+/// The state after a fault of an element.
+fn after_fault(view: &View, home: &Home, element: &Element) -> String {
+    let connected = element.on_error;
+    let to = connected.and_then(|to| target(home, to, End::Ok, |id| &view.element(id).name));
+    to.unwrap_or_else(|| home.end(End::Error))
+}
+
+fn element_call(view: &View, element: &Element) -> String {
+    call(view.template_name(element), &view.inputs(element), &view.outputs(element))
+}
+
+fn supervisor_call(view: &View, supervisor: &Supervisor) -> String {
+    let template = view.graph.template(supervisor.template);
+    let (inputs, outputs) =
+        (view.supervisor_inputs(supervisor), view.supervisor_outputs(supervisor));
+    call(&template.name, &inputs, &outputs)
+}
+
+/// `Template(port = formula, port => entry)`
+fn call(template: &str, inputs: &[Input], outputs: &[(&str, &str)]) -> String {
+    let inputs = inputs.iter().filter(|input| input.bound);
+    let inputs = inputs.map(|input| format!("{} = {}", input.port, input.text));
+    let outputs = outputs.iter().map(|(port, entry)| format!("{port} => {entry}"));
+    let ports: Vec<_> = inputs.chain(outputs).collect();
+    let ports = ports.join(", ");
+    if ports.is_empty() { template.to_owned() } else { format!("{template}({ports})") }
+}

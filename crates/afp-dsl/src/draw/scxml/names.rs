@@ -1,0 +1,76 @@
+//! Ids of states and names of events.
+//!
+//! A chart matches events by their leading words between dots, so every event is one path and one
+//! outcome with a single dot between them, and no two of them can be taken for each other.
+
+use crate::graph::Target;
+
+/// A plan where it is used: the outermost one, or the body of a sub-plan.
+pub(super) struct Home {
+    /// The id of its state.
+    pub(super) id: String,
+    /// What the events of its components begin with.
+    prefix: String,
+}
+
+/// How a plan ends, as its final states are named.
+#[derive(Clone, Copy)]
+pub(super) enum End {
+    Ok,
+    Interrupted,
+    Error,
+}
+
+impl End {
+    pub(super) const ALL: [End; 3] = [End::Ok, End::Interrupted, End::Error];
+}
+
+impl Home {
+    pub(super) fn outermost(plan: &str) -> Home {
+        Home { id: plan.to_owned(), prefix: String::new() }
+    }
+
+    /// The body of the sub-plan of that name.
+    pub(super) fn inner(&self, element: &str) -> Home {
+        Home { id: self.state(element), prefix: format!("{}:", self.path(element)) }
+    }
+
+    /// The id of an element's state.
+    pub(super) fn state(&self, element: &str) -> String {
+        format!("{}.{element}", self.id)
+    }
+
+    /// The id of a final state; names hold no dash, so no element has it.
+    pub(super) fn end(&self, end: End) -> String {
+        let name = match end {
+            End::Ok => "OK",
+            End::Interrupted => "Interrupted",
+            End::Error => "Error",
+        };
+        format!("{}-{name}", self.id)
+    }
+
+    /// What the events of an element or of a global supervisor begin with.
+    pub(super) fn path(&self, name: &str) -> String {
+        format!("{}{name}", self.prefix)
+    }
+
+    /// What the events of a local supervisor begin with.
+    pub(super) fn local(&self, element: &str, supervisor: &str) -> String {
+        format!("{}-{supervisor}", self.path(element))
+    }
+}
+
+/// Where an edge leads when the event is taken; `None` where it is ignored.
+pub(super) fn target<'a>(
+    home: &Home,
+    target: Target,
+    end: End,
+    element: impl Fn(crate::graph::ElementId) -> &'a str,
+) -> Option<String> {
+    match target {
+        Target::Element(id) => Some(home.state(element(id))),
+        Target::Terminate => Some(home.end(end)),
+        Target::Ignore => None,
+    }
+}

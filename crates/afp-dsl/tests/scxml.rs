@@ -1,0 +1,150 @@
+//! State Chart XML as callers get it: what the W3C's recommendation asks of a document, and every
+//! edge of a plan.
+
+use std::collections::BTreeSet;
+
+use afp_dsl::compile;
+use afp_dsl::draw::{Options, scxml};
+use afp_dsl::files::Texts;
+use afp_dsl::source::Source;
+use afp_dsl::toolbox::Toolboxes;
+use roxmltree::{Document, Node};
+
+const WALL_FOLLOWING: &str = include_str!("../../../plans/wall_following.afp");
+const EVERY_PART: &str = include_str!("draw/every_part.afp");
+
+fn chart(text: &str, options: &Options) -> String {
+    let mut toolboxes = Toolboxes::default();
+    for builtin in afp_toolboxes::ALL {
+        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
+    }
+    let compiled = compile(&Source::new("plan.afp", text), &toolboxes, &Texts::default());
+    assert!(compiled.graph.is_some(), "{}", compiled.render(false));
+    scxml(&compiled.graph.unwrap(), &Options { sources: Some(&compiled.sources), ..*options })
+}
+
+/// The parts of the recommendation that a plan needs: an element's attributes and children.
+const GRAMMAR: &[(&str, &[&str], &[&str])] = &[
+    ("scxml", &["version", "datamodel", "name", "initial"], &["state", "final"]),
+    ("state", &["id", "initial"], &["transition", "state", "final"]),
+    ("final", &["id"], &[]),
+    ("transition", &["event", "cond", "target", "type"], &[]),
+];
+
+fn is_valid(text: &str) {
+    let document = Document::parse(text).unwrap();
+    let root = document.root_element();
+    assert_eq!(root.tag_name().name(), "scxml");
+    assert_eq!(root.attribute("version"), Some("1.0"));
+    let elements: Vec<_> = root.descendants().filter(Node::is_element).collect();
+    let ids: Vec<_> = elements.iter().filter_map(|each| each.attribute("id")).collect();
+    let known: BTreeSet<_> = ids.iter().copied().collect();
+    assert_eq!(ids.len(), known.len(), "an id stands twice");
+    assert!(ids.iter().all(|id| is_nc_name(id)), "{ids:?}");
+    for element in elements {
+        fits_the_grammar(&element);
+        for reference in ["target", "initial"].iter().filter_map(|name| element.attribute(*name)) {
+            assert!(known.contains(reference), "nothing is called '{reference}'");
+        }
+        match element.tag_name().name() {
+            "transition" => is_valid_transition(&element, &known),
+            "state" => starts_inside(&element),
+            _ => {}
+        }
+    }
+}
+
+fn fits_the_grammar(element: &Node) {
+    let name = element.tag_name().name();
+    assert_eq!(element.tag_name().namespace(), Some("http://www.w3.org/2005/07/scxml"));
+    let (_, attributes, children) = GRAMMAR.iter().find(|rule| rule.0 == name).unwrap();
+    assert!(element.attributes().all(|each| attributes.contains(&each.name())), "{element:?}");
+    let mut inside = element.children().filter(Node::is_element);
+    assert!(inside.all(|each| children.contains(&each.tag_name().name())), "{element:?}");
+}
+
+fn is_nc_name(id: &str) -> bool {
+    id.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_')
+        && id.chars().all(|each| each.is_ascii_alphanumeric() || "_-.".contains(each))
+}
+
+/// `event` holds descriptors; the null data model knows no condition but `In`.
+fn is_valid_transition(transition: &Node, known: &BTreeSet<&str>) {
+    let events = transition.attribute("event").unwrap();
+    let word = |word: &str| {
+        !word.is_empty()
+            && word.chars().all(|each| each.is_ascii_alphanumeric() || "_:-".contains(each))
+    };
+    assert!(events.split(' ').all(|event| event.split('.').all(word)), "{events}");
+    if let Some(condition) = transition.attribute("cond") {
+        let id = condition.strip_prefix("In('").and_then(|rest| rest.strip_suffix("')"));
+        assert!(known.contains(id.unwrap()), "{condition}");
+    }
+}
+
+fn starts_inside(state: &Node) {
+    let inside = state.children().any(|each| each.has_tag_name((SCXML, "state")));
+    assert_eq!(inside, state.attribute("initial").is_some(), "{state:?}");
+    if let Some(initial) = state.attribute("initial") {
+        assert!(state.descendants().skip(1).any(|each| each.attribute("id") == Some(initial)));
+    }
+}
+
+const SCXML: &str = "http://www.w3.org/2005/07/scxml";
+
+#[test]
+fn charts_are_what_the_recommendation_asks_for() {
+    for text in [WALL_FOLLOWING, EVERY_PART] {
+        is_valid(&chart(text, &Options::default()));
+        is_valid(&chart(text, &Options { data: false, ..Options::default() }));
+    }
+}
+
+#[test]
+fn every_edge_of_wall_following_is_a_transition() {
+    let text = chart(WALL_FOLLOWING, &Options::default());
+    let edges = [
+        "event=\"escape.EscapeButtonPressed\" target=\"WallFollowing-Interrupted\"",
+        "event=\"searchFirstWall-touch.TouchSensorPressed\" target=\"WallFollowing.backupCollision\"",
+        "event=\"searchFirstWall.ForwardSuccessful\" target=\"WallFollowing.searchFirstWall\"",
+        "event=\"followWall.WallLost\" target=\"WallFollowing.turnAfterWallLost\"",
+        "event=\"findWallAngle.Error\" target=\"WallFollowing-Error\"",
+    ];
+    for edge in edges {
+        assert!(text.contains(edge), "no '{edge}' in\n{text}");
+    }
+    assert!(text.contains("<!-- Forward(distance = -walldist) -->"), "{text}");
+    let flow = chart(WALL_FOLLOWING, &Options { data: false, ..Options::default() });
+    assert!(!flow.contains("walldist"), "{flow}");
+}
+
+#[test]
+fn the_head_says_what_is_left_out() {
+    let text = chart(WALL_FOLLOWING, &Options::default());
+    for words in
+        ["order in which supervisors are asked", "periods, deadlines", "entries and values"]
+    {
+        assert!(text.split("-->").next().unwrap().contains(words), "no '{words}'");
+    }
+}
+
+#[test]
+fn formulas_cannot_break_a_comment() {
+    let text = "use std\nplan P {\nin a: int = 1\nvar b: string = \"x\"\nstart one\n\
+                computation one: Assign(value = 1 - --a, result => c) { Done -> two }\n\
+                computation two: Assign(value = \"--><state>--\" + b, result => b) { Done -> terminate }\n\
+                out c: int\n}\n";
+    is_valid(&chart(text, &Options::default()));
+}
+
+#[test]
+fn a_thousand_nested_sub_plans_fit_on_the_stack() {
+    let mut text = "use std\n".to_owned();
+    for depth in 0..1000 {
+        let inner = depth + 1;
+        text += &format!("plan P{depth} {{ start s subplan s: P{inner} {{ OK -> terminate }} }}\n");
+    }
+    text += "plan P1000 { start w actor w: Wait(duration = 1 s) { Elapsed -> terminate } }\n";
+    let text = chart(&text, &Options::default());
+    assert_eq!(text.matches("<state ").count(), 1002);
+}
