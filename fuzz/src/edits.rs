@@ -1,8 +1,9 @@
 //! Edits of any kind on any text: in order, inside the text, and no harm to what could be read.
 
 use afp_dsl::diagnostics::Diagnostics;
-use afp_dsl::edit::{Binding, Change, Item, apply, edit};
+use afp_dsl::edit::{Binding, Change, Item, TextEdit, apply, edit};
 use afp_dsl::layout_file::Layout;
+use afp_dsl::source::Source;
 use afp_dsl::syntax::parse;
 use arbitrary::{Result, Unstructured};
 
@@ -36,15 +37,28 @@ pub fn edits(data: &[u8]) {
     let names = Names::of(&text);
     let Ok(change) = change(&mut Unstructured::new(head), &names) else { return };
     Layout::read("A.b 1 2\nA.b.c 3 4").0.follow(&change);
-    let Ok(edits) = edit(&text, &change) else { return };
+    // The second file sees the first one and says much the same.
+    let user = format!("use \"fuzzed.afp\"\n{}", text.replace("plan ", "plan other_"));
+    let files = [Source::new("fuzzed.afp", text), Source::new("user.afp", user)];
+    let home = usize::from(head.first().is_some_and(|byte| byte % 2 == 1));
+    let Ok(edits) = edit(&files, home, &change) else { return };
+    for (place, file) in files.iter().enumerate() {
+        let own: Vec<_> =
+            edits.iter().filter(|edit| usize::from(edit.span.file) == place).cloned().collect();
+        check(&file.text, &own, &change);
+    }
+}
+
+/// Checks the edits of one file.
+fn check(text: &str, edits: &[TextEdit], change: &Change) {
     let mut end = 0;
-    for edit in &edits {
+    for edit in edits {
         assert!(end <= edit.span.start && edit.span.start <= edit.span.end, "{change:?}");
         assert!(text.get(edit.span.start as usize..edit.span.end as usize).is_some(), "{change:?}");
         end = edit.span.end;
     }
-    let after = apply(&text, &edits);
-    assert!(errors(&after) <= errors(&text), "{change:?} makes\n{after}");
+    let after = apply(text, edits);
+    assert!(errors(&after) <= errors(text), "{change:?} makes\n{after}");
 }
 
 fn errors(text: &str) -> usize {
@@ -96,9 +110,10 @@ fn change(bytes: &mut Unstructured<'_>, names: &Names) -> Result<Change> {
 
 fn item(bytes: &mut Unstructured<'_>, names: &Names) -> Result<Item> {
     let (plan, owner, name) = (names.choose(bytes)?, names.choose(bytes)?, names.choose(bytes)?);
-    Ok(match bytes.int_in_range(0..=3)? {
+    Ok(match bytes.int_in_range(0..=4)? {
         0 => Item::plan(plan),
         1 => Item::local(plan, owner, name),
+        2 => Item::enumeration(plan),
         _ => Item::inner(plan, name),
     })
 }

@@ -3,7 +3,8 @@
 //! Every change comes to the smallest edits of the text: what it does not mean stays byte for byte,
 //! with its comments, blank lines and order. Comments above an item up to a blank line and the
 //! comment behind it go where the item goes. The text may have errors elsewhere; only the items
-//! that a change touches must be whole.
+//! that a change touches must be whole. Plans may use plans of other files: a change then comes to
+//! edits of several files.
 
 mod add;
 mod connect;
@@ -16,6 +17,7 @@ mod inline;
 mod list;
 mod name;
 mod port;
+mod project;
 mod refer;
 mod relocate;
 mod remove;
@@ -25,6 +27,9 @@ mod tree;
 use std::fmt;
 
 use draft::Draft;
+use project::Desk;
+
+use crate::source::Source;
 
 pub use crate::diagnostics::Edit as TextEdit;
 
@@ -33,6 +38,11 @@ pub use crate::diagnostics::Edit as TextEdit;
 pub enum Item {
     /// A plan.
     Plan {
+        /// Its name.
+        name: String,
+    },
+    /// An enum.
+    Enum {
         /// Its name.
         name: String,
     },
@@ -95,7 +105,7 @@ pub enum Change {
         /// The item.
         item: Item,
     },
-    /// Gives an item another name wherever the file refers to it, scenarios included.
+    /// Gives an item another name wherever the files refer to it, scenarios included.
     Rename {
         /// The item.
         item: Item,
@@ -217,7 +227,8 @@ pub enum Change {
         /// The name of the sub-plan in the old plan.
         element: String,
     },
-    /// Puts the elements of a sub-plan in its place; the plan that it was made from stays.
+    /// Puts the elements of a sub-plan in its place; the plan that it was made from, which may stand
+    /// in another file, stays. What its elements name is brought into view with `use` lines.
     Inline {
         /// The plan.
         plan: String,
@@ -253,6 +264,11 @@ impl Item {
         Item::Plan { name: name.into() }
     }
 
+    /// An enum.
+    pub fn enumeration(name: impl Into<String>) -> Item {
+        Item::Enum { name: name.into() }
+    }
+
     /// An entry, an element or a global supervisor of a plan.
     pub fn inner(plan: impl Into<String>, name: impl Into<String>) -> Item {
         Item::Inner { plan: plan.into(), name: name.into() }
@@ -270,48 +286,61 @@ impl Item {
     /// Its own name.
     pub fn name(&self) -> &str {
         match self {
-            Item::Plan { name } | Item::Inner { name, .. } | Item::Local { name, .. } => name,
+            Item::Plan { name }
+            | Item::Enum { name }
+            | Item::Inner { name, .. }
+            | Item::Local { name, .. } => name,
         }
     }
 
-    /// The plan that it is in; its own name when it is one.
+    /// The plan that it is in; its own name when it is one; empty for an enum.
     pub fn plan_name(&self) -> &str {
         match self {
             Item::Plan { name } => name,
+            Item::Enum { .. } => "",
             Item::Inner { plan, .. } | Item::Local { plan, .. } => plan,
         }
     }
 }
 
-/// `Plan`, `Plan.element` or `Plan.element.supervisor`
+/// `Plan`, `Enum`, `Plan.element` or `Plan.element.supervisor`
 impl fmt::Display for Item {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Item::Plan { name } => write!(f, "{name}"),
+            Item::Plan { name } | Item::Enum { name } => write!(f, "{name}"),
             Item::Inner { plan, name } => write!(f, "{plan}.{name}"),
             Item::Local { plan, owner, name } => write!(f, "{plan}.{owner}.{name}"),
         }
     }
 }
 
-/// The edits of a file that make a change, in order and without overlaps; spans are in file 0.
+/// The edits that make a change of the file `home`, file by file, in order and without overlaps.
 ///
-/// A change that is already made needs no edits.
+/// `files` are the files of the project, with paths under which they find each other; spans carry a
+/// file's place among them. A rename edits every file that refers to the item, inlining takes plans
+/// of other files; other changes edit their own file alone, and are refused where another file names
+/// what they take away. A change that is already made needs no edits.
 ///
 /// # Errors
 /// The change names what is not there, a fragment of text cannot be read, a name cannot be used, or
-/// the change would alter more than it says; the reason tells which.
-pub fn edit(text: &str, change: &Change) -> Result<Vec<TextEdit>, Refused> {
-    let mut draft = Draft::new(text);
-    let errors = draft.syntax_errors();
-    make(&mut draft, change)?;
-    if draft.syntax_errors() > errors {
+/// the change would alter more than it says; the reason tells which. So does a `home` that is none of
+/// the files.
+pub fn edit(files: &[Source], home: usize, change: &Change) -> Result<Vec<TextEdit>, Refused> {
+    if home >= files.len() {
+        return Err(Refused::new("there is no such file"));
+    }
+    let mut desk = Desk::new(files, home);
+    let errors = desk.syntax_errors();
+    make(&mut desk, change)?;
+    if desk.syntax_errors() > errors {
         return Err(Refused::new("the text could not be read any more"));
     }
-    Ok(draft.edits(text.len()))
+    let drafts = (0..=u16::MAX).zip(files).zip(desk.drafts);
+    Ok(drafts.flat_map(|((file, source), draft)| draft.edits(source.text.len(), file)).collect())
 }
 
-/// The text after edits, which must be in order and without overlaps, as [`edit`] gives them.
+/// The text after the edits of its file, which must be in order and without overlaps, as [`edit`]
+/// gives them.
 ///
 /// Edits that do not fit the text are left out.
 pub fn apply(text: &str, edits: &[TextEdit]) -> String {
@@ -329,7 +358,23 @@ pub fn apply(text: &str, edits: &[TextEdit]) -> String {
     result + text.get(at..).unwrap_or_default()
 }
 
-fn make(draft: &mut Draft, change: &Change) -> Result<(), Refused> {
+fn make(desk: &mut Desk, change: &Change) -> Result<(), Refused> {
+    match change {
+        Change::Rename { item, to } => return rename::item(desk, item, to),
+        Change::Inline { plan, element } => return inline::run(desk, plan, element),
+        Change::Remove { item } | Change::Move { item, .. } => desk.check_inside(item)?,
+        Change::Extract { plan, elements, .. } => {
+            for element in elements {
+                desk.check_inside(&Item::inner(plan, element))?;
+            }
+        }
+        _ => {}
+    }
+    inside(desk.draft(), change)
+}
+
+/// Makes a change that edits one file.
+fn inside(draft: &mut Draft, change: &Change) -> Result<(), Refused> {
     match change {
         Change::AddUse { toolbox, alias } => add::line_of_use(draft, toolbox, alias.as_deref()),
         Change::AddPlan { text } => add::plans(draft, text),
@@ -337,7 +382,6 @@ fn make(draft: &mut Draft, change: &Change) -> Result<(), Refused> {
             add::items(draft, plan, owner.as_deref(), text, before.as_deref())
         }
         Change::Remove { item } => remove::item(draft, item),
-        Change::Rename { item, to } => rename::item(draft, item, to),
         Change::Connect { from, outcome, to } => connect::connect(draft, from, outcome, to),
         Change::Disconnect { from, outcome } => connect::disconnect(draft, from, outcome),
         Change::SetStart { plan, to } => connect::start(draft, plan, to),
@@ -358,7 +402,7 @@ fn make(draft: &mut Draft, change: &Change) -> Result<(), Refused> {
         Change::Extract { plan, elements, new_plan, element } => {
             extract::run(draft, plan, elements, new_plan, element)
         }
-        Change::Inline { plan, element } => inline::run(draft, plan, element),
+        Change::Rename { .. } | Change::Inline { .. } => Ok(()),
     }
 }
 

@@ -142,6 +142,7 @@ impl Layout {
     fn rename(&mut self, item: &Item, to: &str) {
         let renamed = match item {
             Item::Plan { .. } => Item::plan(to),
+            Item::Enum { .. } => return,
             Item::Inner { plan, .. } => Item::inner(plan, to),
             Item::Local { plan, owner, .. } => Item::local(plan, owner, to),
         };

@@ -16,13 +16,17 @@ pub(super) fn line_of_use(
 ) -> Result<(), Refused> {
     name::check(toolbox)?;
     alias.map_or(Ok(()), name::check)?;
-    let root = draft.root();
     let alias = alias.map(|alias| format!(" as {alias}")).unwrap_or_default();
-    let line = format!("use {toolbox}{alias}");
+    line(draft, &format!("use {toolbox}{alias}"))
+}
+
+/// Adds a `use` line below the others, unless it is there.
+pub(super) fn line(draft: &mut Draft, line: &str) -> Result<(), Refused> {
+    let root = draft.root();
     let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
     let same = |node: &Node| {
         let range = tree::solid_range(node).unwrap_or_default();
-        words(draft.text()[range].trim_end_matches(',')) == words(&line)
+        words(draft.text()[range].trim_end_matches(',')) == words(line)
     };
     if children(&root, Kind::Use).any(|node| same(&node)) {
         return Ok(());
@@ -35,7 +39,7 @@ pub(super) fn line_of_use(
         (None, None) => (Place::Top, true),
     };
     let page = Page { text: draft.text(), root: root.clone() };
-    let splice = page.insert_lines(&root, place, &line, apart)?;
+    let splice = page.insert_lines(&root, place, line, apart)?;
     draft.splice(vec![splice]);
     Ok(())
 }

@@ -103,8 +103,9 @@ impl Draft {
         self.pieces = before;
     }
 
-    /// The edits that make the first text, of `length` bytes, into the present one, in order.
-    pub fn edits(self, length: usize) -> Vec<Edit> {
+    /// The edits that make the first text, of `length` bytes, into the present one, in order; their
+    /// spans are in `file`.
+    pub fn edits(self, length: usize, file: u16) -> Vec<Edit> {
         let mut edits = Vec::new();
         let mut new = String::new();
         let mut at = 0;
@@ -113,7 +114,7 @@ impl Draft {
                 Piece::New(text) => new += &text,
                 Piece::Kept(range) => {
                     if range.start > at || !new.is_empty() {
-                        edits.push(Edit { span: span(at..range.start), text: new });
+                        edits.push(Edit { span: span(file, at..range.start), text: new });
                         new = String::new();
                     }
                     at = range.end;
@@ -124,9 +125,9 @@ impl Draft {
     }
 }
 
-fn span(range: Range<usize>) -> Span {
+fn span(file: u16, range: Range<usize>) -> Span {
     let offset = |at| u32::try_from(at).unwrap_or(u32::MAX);
-    Span { file: 0, start: offset(range.start), end: offset(range.end) }
+    Span { file, start: offset(range.start), end: offset(range.end) }
 }
 
 fn tree(text: &str) -> (Node, usize) {
@@ -147,7 +148,7 @@ mod tests {
         draft.splice(vec![(5..6, "Q".into()), (15..16, "long".into())]);
         draft.splice(vec![(15..17, "lo".into()), (0..0, "use x ".into())]);
         let after = draft.text().to_owned();
-        let edits = draft.edits(text.len());
+        let edits = draft.edits(text.len(), 0);
         assert_eq!(edits.len(), 3);
         assert_eq!(apply(text, &edits), after);
     }
@@ -157,7 +158,7 @@ mod tests {
         let mut draft = Draft::new("abc");
         draft.splice(vec![(1..3, String::new())]);
         draft.splice(vec![(0..1, String::new())]);
-        let edits = draft.edits(3);
+        let edits = draft.edits(3, 0);
         assert_eq!(edits.len(), 1);
         assert_eq!(apply("abc", &edits), "");
     }

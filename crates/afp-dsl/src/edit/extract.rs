@@ -8,6 +8,7 @@ mod flow;
 
 use super::draft::Draft;
 use super::list::{Page, indented};
+use super::project::Project;
 use super::tree::{self, Scope, children, is_named, name_of, range};
 use super::{Item, Refused, add, fragment, name, refer, remove};
 use crate::syntax::Node;
@@ -112,7 +113,8 @@ fn lead_through(draft: &mut Draft, plan: &str, selection: &Selection, flow: &Flo
         Item::Inner { plan: home, name } => home == plan && selection.holds(name),
         _ => false,
     };
-    for token in refer::in_scenarios(&root, is_inside) {
+    let project = Project::alone(&root);
+    for (_, token) in refer::in_scenarios(&project, |_, item| is_inside(item)) {
         let start = range(&token).start;
         splices.push((start..start, format!("{element}.")));
     }

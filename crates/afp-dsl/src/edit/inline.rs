@@ -4,9 +4,11 @@
 //! and its plan must begin without values of its own and have no supervisors of the whole.
 
 mod data;
+mod sight;
 mod text;
 
 use super::draft::Draft;
+use super::project::{Desk, Project};
 use super::tree::{self, Scope, children, name_of, name_token, range, target};
 use super::{Item, Refused, add, connect, name, refer, remove};
 use crate::syntax::Node;
@@ -35,12 +37,16 @@ struct Call {
 }
 
 /// Puts the elements of a sub-plan in its place.
-pub(super) fn run(draft: &mut Draft, plan: &str, element: &str) -> Result<(), Refused> {
-    let root = draft.root();
-    let call = Call::of(&root, plan, element)?;
+pub(super) fn run(desk: &mut Desk, plan: &str, element: &str) -> Result<(), Refused> {
+    desk.check_inside(&Item::inner(plan, element))?;
+    let (call, from) = Call::of(&desk.project(), desk.home, plan, element)?;
     let data = Data::of(&call)?;
-    let lines = text::elements(&call, &data, draft.text())?;
-    redirect(draft, &call, &data, plan, element)?;
+    let lines = text::elements(&call, &data, desk.drafts[from].text())?;
+    redirect(desk.draft(), &call, &data, plan, element)?;
+    if from != desk.home {
+        sight::bring(desk, &call.inner, from)?;
+    }
+    let draft = desk.draft();
     let list = tree::plan(&draft.root(), plan)?;
     add::place(draft, &list, &lines, Kind::Element, Some(element))?;
     let inner = name_of(&call.inner).unwrap_or_default();
@@ -66,14 +72,22 @@ pub(super) fn run(draft: &mut Draft, plan: &str, element: &str) -> Result<(), Re
 }
 
 impl Call {
-    fn of(root: &Node, plan: &str, element: &str) -> Result<Call, Refused> {
+    /// Finds the sub-plan, and the file that its plan stands in.
+    fn of(
+        project: &Project,
+        home: usize,
+        plan: &str,
+        element: &str,
+    ) -> Result<(Call, usize), Refused> {
+        let root = &project.roots[home];
         let outer = tree::plan(root, plan)?;
         let node = tree::element(root, plan, element)?;
         let inner = tree::template(&node).filter(|_| tree::is_subplan(&node));
-        let inner = inner.ok_or_else(|| {
-            Refused::new(format!("'{element}' is no sub-plan of a plan in this file"))
-        })?;
-        let inner = tree::plan(root, &inner)?;
+        let inner =
+            inner.ok_or_else(|| Refused::new(format!("'{element}' is no sub-plan of a plan")))?;
+        let found = project.plan(home, &inner);
+        let missing = || Refused::new(format!("there is no plan '{inner}'"));
+        let (from, inner) = found.ok_or_else(missing)?;
         if inner == outer {
             return Err(Refused::new(format!("'{plan}' contains itself")));
         }
@@ -98,7 +112,7 @@ impl Call {
         let ok = leads("OK")
             .ok_or_else(|| Refused::new(format!("'OK' of '{element}' leads nowhere")))?;
         let (interrupted, error) = (leads("Interrupted"), leads("Error"));
-        Ok(Call { outer, inner, ok, interrupted, error, names, first, element: node })
+        Ok((Call { outer, inner, ok, interrupted, error, names, first, element: node }, from))
     }
 }
 
@@ -129,7 +143,8 @@ fn redirect(
         .collect();
     let wanted = Item::inner(plan, element);
     let mut seen = Vec::new();
-    for token in refer::in_scenarios(&draft.root(), |item| *item == wanted) {
+    let project = Project::alone(&draft.root());
+    for (_, token) in refer::in_scenarios(&project, |_, item| *item == wanted) {
         let names: Vec<_> = token
             .parent()
             .iter()

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::draft::Draft;
 use super::list::{Page, Place};
+use super::project::Project;
 use super::tree::{self, Scope, below, binds, children, is_named, name_of, target};
 use super::{Item, Refused, add, name, port, refer, remove};
 use crate::syntax::Node;
@@ -15,6 +16,7 @@ pub(super) fn reorder(draft: &mut Draft, item: &Item, before: Option<&str>) -> R
     let node = tree::find(&root, item)?;
     let list_of = |root: &Node| match item {
         Item::Plan { .. } => Ok(root.clone()),
+        Item::Enum { .. } => Err(Refused::new("the order of enums means nothing")),
         Item::Inner { plan, .. } => tree::plan(root, plan),
         Item::Local { plan, owner, .. } => tree::element(root, plan, owner),
     };
@@ -112,8 +114,8 @@ fn check_kind(
         Item::Local { owner: home, .. } => owner == Some(home.as_str()),
         _ => owner.is_none(),
     };
-    if node.kind() == Kind::Plan {
-        return Err(Refused::new("a plan stands in no other plan"));
+    if matches!(node.kind(), Kind::Plan | Kind::Enum) {
+        return Err(Refused::new("only what stands in a plan can move to another one"));
     }
     if owner.is_some() && !is_guard {
         return Err(Refused::new(format!("'{}' is no supervisor", item.name())));
@@ -125,7 +127,7 @@ fn check_kind(
 }
 
 fn check_unused(root: &Node, item: &Item) -> Result<(), Refused> {
-    match refer::to(root, item).len() {
+    match refer::to(&Project::alone(root), 0, item).len() {
         0 | 1 => Ok(()),
         _ => Err(Refused::new(format!("'{}' is used where it is", item.name()))),
     }

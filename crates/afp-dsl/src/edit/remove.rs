@@ -2,6 +2,7 @@
 
 use super::draft::Draft;
 use super::list::Page;
+use super::project::Project;
 use super::refer;
 use super::tree::{self, below, binds, children, name_of, name_token, target};
 use super::{Item, Refused, port};
@@ -14,6 +15,9 @@ pub(super) fn item(draft: &mut Draft, item: &Item) -> Result<(), Refused> {
     let node = tree::find(&root, item)?;
     match node.kind() {
         Kind::Plan => check_unused_plan(&root, item.name())?,
+        Kind::Enum if refer::to(&Project::alone(&root), 0, item).len() > 1 => {
+            return Err(Refused::new(format!("'{}' is used in the file", item.name())));
+        }
         Kind::Entry => {
             check_unread(&root, item)?;
             unbind_all(draft, item);
@@ -64,7 +68,7 @@ fn check_unread(root: &Node, item: &Item) -> Result<(), Refused> {
         let reader = name_of(&reader).unwrap_or_default();
         return Err(Refused::new(format!("'{}' is read by '{reader}'", item.name())));
     }
-    if !refer::in_scenarios(root, |meant| meant == item).is_empty() {
+    if !refer::in_scenarios(&Project::alone(root), |_, meant| meant == item).is_empty() {
         return Err(Refused::new(format!("'{}' is named by a scenario", item.name())));
     }
     Ok(())

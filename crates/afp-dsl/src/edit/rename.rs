@@ -1,30 +1,58 @@
-//! Another name for an item, wherever the file refers to it.
+//! Another name for an item, wherever the files refer to it.
 
-use super::draft::Draft;
+use super::project::Desk;
 use super::tree::{self, range, scope_of};
 use super::{Item, Refused, name, refer};
+use crate::check::types::Types;
 use crate::syntax::Node;
 use crate::syntax::kind::Kind;
 
 /// Renames an item.
-pub(super) fn item(draft: &mut Draft, item: &Item, to: &str) -> Result<(), Refused> {
-    let root = draft.root();
+pub(super) fn item(desk: &mut Desk, item: &Item, to: &str) -> Result<(), Refused> {
+    let root = desk.draft().root();
     let node = tree::find(&root, item)?;
     match node.kind() {
         Kind::Element => name::check_element(to)?,
+        Kind::Enum if Types::is_built_in(to) => {
+            return Err(Refused::new(format!("'{to}' is a type of the language")));
+        }
         _ => name::check(to)?,
     }
     name::check_free(&scope_of(&root, item)?, to, Some(item.name()))?;
     if to == item.name() {
         return Ok(());
     }
-    let before = shape(&root);
-    let tokens = refer::to(&root, item);
-    draft.splice(tokens.iter().map(|token| (range(token), to.to_owned())).collect());
-    if shape(&draft.root()) != before {
-        return Err(Refused::new(format!("'{to}' would be read as a word of the grammar")));
+    if matches!(node.kind(), Kind::Plan | Kind::Enum) {
+        check_free_elsewhere(desk, node.kind(), to)?;
+    }
+    let project = desk.project();
+    let tokens = refer::to(&project, desk.home, item);
+    for (file, draft) in desk.drafts.iter_mut().enumerate() {
+        let own = tokens.iter().filter(|(home, _)| *home == file);
+        let splices: Vec<_> = own.map(|(_, token)| (range(token), to.to_owned())).collect();
+        if splices.is_empty() {
+            continue;
+        }
+        let before = shape(&draft.root());
+        draft.splice(splices);
+        if shape(&draft.root()) != before {
+            return Err(Refused::new(format!("'{to}' would be read as a word of the grammar")));
+        }
     }
     Ok(())
+}
+
+/// Checks that no file that sees the item's file sees something else of the new name.
+fn check_free_elsewhere(desk: &Desk, kind: Kind, to: &str) -> Result<(), Refused> {
+    let project = desk.project();
+    let seeing = project.sees.iter().enumerate().filter(|(_, seen)| seen.contains(&desk.home));
+    let found = seeing.into_iter().find_map(|(file, _)| project.find(file, kind, to));
+    match found {
+        None => Ok(()),
+        Some((file, _)) => {
+            Err(Refused::new(format!("'{to}' is already there in '{}'", desk.paths[file])))
+        }
+    }
 }
 
 /// The kinds of everything in a tree, which a name must not change.

@@ -1,12 +1,19 @@
 //! Each change on a small plan: what becomes of the text, to the byte.
 
 mod data;
+mod files;
 mod flow;
 mod items;
 mod structure;
 
-use super::{Binding, Change, Item, apply, edit};
+use super::{Binding, Change, Item, Refused, TextEdit, apply};
 use crate::format;
+use crate::source::Source;
+
+/// The edits of a file by itself.
+fn edit(text: &str, change: &Change) -> Result<Vec<TextEdit>, Refused> {
+    super::edit(&[Source::new("case.afp", text)], 0, change)
+}
 
 /// A plan with comments in many places.
 const PLAN: &str = "\

@@ -10,6 +10,8 @@ use crate::syntax::{Node, Token};
 pub(super) enum Scope {
     /// The plans of a file.
     File(Node),
+    /// The enums of a file.
+    Enums(Node),
     /// Entries, elements and global supervisors of a plan.
     Plan(Node),
     /// The local supervisors of an element.
@@ -21,6 +23,7 @@ impl Scope {
     pub fn names(&self) -> Vec<String> {
         let (node, kinds): (_, &[Kind]) = match self {
             Scope::File(node) => (node, &[Kind::Plan]),
+            Scope::Enums(node) => (node, &[Kind::Enum]),
             Scope::Plan(node) => (node, &[Kind::Entry, Kind::Element, Kind::Guard]),
             Scope::Element(node) => (node, &[Kind::Guard]),
         };
@@ -33,6 +36,7 @@ impl Scope {
 pub(super) fn scope_of(root: &Node, item: &Item) -> Result<Scope, Refused> {
     Ok(match item {
         Item::Plan { .. } => Scope::File(root.clone()),
+        Item::Enum { .. } => Scope::Enums(root.clone()),
         Item::Inner { plan, .. } => Scope::Plan(self::plan(root, plan)?),
         Item::Local { plan, owner, .. } => Scope::Element(element(root, plan, owner)?),
     })
@@ -55,6 +59,10 @@ pub(super) fn element(root: &Node, plan: &str, name: &str) -> Result<Node, Refus
 pub(super) fn find(root: &Node, item: &Item) -> Result<Node, Refused> {
     match item {
         Item::Plan { name } => plan(root, name),
+        Item::Enum { name } => {
+            let found = children(root, Kind::Enum).find(|node| is_named(node, name));
+            found.ok_or_else(|| Refused::new(format!("there is no enum '{name}'")))
+        }
         Item::Inner { plan, name } => inner(&self::plan(root, plan)?, name)
             .ok_or_else(|| Refused::new(format!("'{plan}' has no '{name}'"))),
         Item::Local { plan, owner, name } => {

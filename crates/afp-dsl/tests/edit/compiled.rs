@@ -1,10 +1,12 @@
 //! Extracting and inlining on plans that compile: the result compiles too.
 
 use afp_dsl::compile;
-use afp_dsl::edit::{Change, Item, apply, edit};
+use afp_dsl::edit::{Change, Item, apply};
 use afp_dsl::files::Texts;
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
+
+use crate::edit;
 
 const WALL_FOLLOWING: &str = include_str!("../../../../plans/wall_following.afp");
 const SUB_PLANS: &str = include_str!("../graph/sub_plans.afp");

@@ -8,11 +8,17 @@ mod mutate;
 
 use std::collections::BTreeMap;
 
-use afp_dsl::edit::{Binding, Change, Item, apply, edit};
+use afp_dsl::edit::{Binding, Change, Item, Refused, TextEdit, apply};
+use afp_dsl::source::Source;
 use proptest::prelude::*;
 
 use changes::{Pick, change};
 use model::{Model, comments};
+
+/// The edits of a file by itself.
+fn edit(text: &str, change: &Change) -> Result<Vec<TextEdit>, Refused> {
+    afp_dsl::edit::edit(&[Source::new("case.afp", text)], 0, change)
+}
 
 const PLANS: &[&str] = &[
     include_str!("../../../../plans/wall_following.afp"),

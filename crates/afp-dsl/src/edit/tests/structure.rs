@@ -236,9 +236,5 @@ fn what_would_mean_something_else_is_refused() {
         "Interrupted -> terminate",
         "an event of the sub-plan would end the plan as Interrupted, which it now ends as OK",
     );
-    change(
-        "subplan align: Align",
-        "actor align: Align",
-        "'align' is no sub-plan of a plan in this file",
-    );
+    change("subplan align: Align", "actor align: Align", "'align' is no sub-plan of a plan");
 }

@@ -1,0 +1,98 @@
+//! Brings what the elements of another file name into view of the file that they are put into.
+
+use crate::edit::project::{Desk, Project};
+use crate::edit::tree::{self, below, children, single};
+use crate::edit::{Refused, add, refer};
+use crate::files::relative;
+use crate::syntax::Node;
+use crate::syntax::kind::Kind;
+
+/// Adds the `use` lines that the elements of `plan`, a plan of the file `from`, need at home.
+pub(super) fn bring(desk: &mut Desk, plan: &Node, from: usize) -> Result<(), Refused> {
+    let project = desk.project();
+    for (toolbox, alias) in toolboxes(&project.roots[from]) {
+        toolbox_line(desk, plan, &toolbox, alias.as_deref())?;
+    }
+    for (kind, name) in named(plan) {
+        let Some((meant, _)) = project.find(from, kind, &name) else { continue };
+        match project.find(desk.home, kind, &name) {
+            Some((seen, _)) if seen == meant => {}
+            Some(_) => return Err(Refused::new(format!("'{name}' means something else there"))),
+            None => {
+                let path = relative(&desk.paths[desk.home], &desk.paths[meant]);
+                let path =
+                    path.ok_or_else(|| Refused::new(format!("no path leads to '{name}'")))?;
+                add::line(desk.draft(), &format!("use \"{path}\""))?;
+            }
+        }
+    }
+    check(&desk.project(), desk.home, plan, &project, from)
+}
+
+/// Checks that everything means the same in both places now.
+fn check(
+    now: &Project,
+    home: usize,
+    plan: &Node,
+    before: &Project,
+    from: usize,
+) -> Result<(), Refused> {
+    for (kind, name) in named(plan) {
+        let place = |found: Option<(usize, Node)>| found.map(|(file, _)| file);
+        let holders = now.sees[home].iter().filter(|seen| {
+            children(&now.roots[**seen], kind).any(|node| tree::is_named(&node, &name))
+        });
+        let meant = place(before.find(from, kind, &name));
+        if holders.count() > 1 || meant.is_some() && meant != place(now.find(home, kind, &name)) {
+            return Err(Refused::new(format!("'{name}' means something else there")));
+        }
+    }
+    Ok(())
+}
+
+/// The toolboxes that a file uses, with their short names.
+fn toolboxes(root: &Node) -> Vec<(String, Option<String>)> {
+    let name = |line: &Node| tree::tokens(line, Kind::Name).next().map(|t| t.text().to_owned());
+    let alias = |line: &Node| children(line, Kind::Alias).next().as_ref().and_then(name);
+    children(root, Kind::Use).filter_map(|line| Some((name(&line)?, alias(&line)))).collect()
+}
+
+fn toolbox_line(
+    desk: &mut Desk,
+    plan: &Node,
+    toolbox: &str,
+    alias: Option<&str>,
+) -> Result<(), Refused> {
+    let qualifier = alias.unwrap_or(toolbox);
+    let qualified = || {
+        let references = below(plan, Kind::Ref);
+        let mut firsts = references.filter_map(|reference| {
+            let mut names = tree::tokens(&reference, Kind::Name);
+            names.next().filter(|_| single(&reference).is_none())
+        });
+        firsts.any(|first| first.text() == qualifier)
+    };
+    for (known, short) in toolboxes(&desk.draft().root()) {
+        let other = short.unwrap_or_else(|| known.clone());
+        match (known == toolbox, other == qualifier) {
+            (true, true) => return Ok(()),
+            (false, true) => {
+                return Err(Refused::new(format!("'{qualifier}' is another toolbox there")));
+            }
+            (true, false) if qualified() => {
+                return Err(Refused::new(format!("'{qualifier}' is called '{other}' there")));
+            }
+            (true, false) => return Ok(()),
+            (false, false) => {}
+        }
+    }
+    add::line_of_use(desk.draft(), toolbox, alias)
+}
+
+/// The plans and enums that a plan names.
+fn named(plan: &Node) -> Vec<(Kind, String)> {
+    let users = below(plan, Kind::Element).filter(tree::is_subplan);
+    let plans = users.filter_map(|user| tree::template(&user)).map(|name| (Kind::Plan, name));
+    let enums = below(plan, Kind::Ref).filter_map(|reference| refer::enum_of(&reference));
+    plans.chain(enums.map(|token| (Kind::Enum, token.text().to_owned()))).collect()
+}

@@ -1,0 +1,97 @@
+//! The files of a project: which of them sees what of the others, and a draft of each.
+
+use super::draft::Draft;
+use super::{Item, Refused, refer, tree};
+use crate::files::{joined, normalised};
+use crate::source::Source;
+use crate::syntax::kind::Kind;
+use crate::syntax::{Node, Token};
+
+/// The files that a change may edit.
+pub(super) struct Desk {
+    /// Their normalised paths.
+    pub paths: Vec<String>,
+    /// Their texts in the making.
+    pub drafts: Vec<Draft>,
+    /// The file that the change names its items in.
+    pub home: usize,
+}
+
+impl Desk {
+    /// Begins with files, of which `home` must be one.
+    pub fn new(files: &[Source], home: usize) -> Desk {
+        let paths = files.iter().map(|file| normalised(&file.name)).collect();
+        let drafts = files.iter().map(|file| Draft::new(&file.text)).collect();
+        Desk { paths, drafts, home }
+    }
+
+    /// The draft of the file that the change is about.
+    pub fn draft(&mut self) -> &mut Draft {
+        &mut self.drafts[self.home]
+    }
+
+    /// How many syntax errors the files have.
+    pub fn syntax_errors(&self) -> usize {
+        self.drafts.iter().map(Draft::syntax_errors).sum()
+    }
+
+    /// What the files say now.
+    pub fn project(&self) -> Project {
+        let roots: Vec<_> = self.drafts.iter().map(Draft::root).collect();
+        let sees = roots.iter().enumerate().map(|(place, root)| {
+            let used = paths_of_uses(root).filter_map(|written| {
+                let path = joined(&self.paths[place], &written);
+                self.paths.iter().position(|known| *known == path)
+            });
+            std::iter::once(place).chain(used.filter(|used| *used != place)).collect()
+        });
+        Project { sees: sees.collect(), roots }
+    }
+
+    /// Checks that no other file names an item.
+    pub fn check_inside(&self, item: &Item) -> Result<(), Refused> {
+        let found = refer::to(&self.project(), self.home, item);
+        match found.iter().find(|(file, _)| *file != self.home) {
+            None => Ok(()),
+            Some((file, _)) => {
+                let path = &self.paths[*file];
+                Err(Refused::new(format!("'{}' is named in '{path}'", item.name())))
+            }
+        }
+    }
+}
+
+/// The paths behind `use`, as written.
+pub(super) fn paths_of_uses(root: &Node) -> impl Iterator<Item = String> {
+    let lines = tree::children(root, Kind::Use);
+    let texts = lines.filter_map(|line| tree::tokens(&line, Kind::Text).next());
+    texts.map(|text: Token| text.text().trim_matches('"').to_owned())
+}
+
+/// The trees of the files, and which files each of them sees.
+pub(super) struct Project {
+    /// The trees.
+    pub roots: Vec<Node>,
+    /// The places of the files whose plans and enums a file sees, its own first.
+    pub sees: Vec<Vec<usize>>,
+}
+
+impl Project {
+    /// A file by itself.
+    pub fn alone(root: &Node) -> Project {
+        Project { roots: vec![root.clone()], sees: vec![vec![0]] }
+    }
+
+    /// What a name of a kind means in a file: the file that declares it, and the declaration.
+    pub fn find(&self, file: usize, kind: Kind, name: &str) -> Option<(usize, Node)> {
+        self.sees[file].iter().find_map(|seen| {
+            let mut nodes = tree::children(&self.roots[*seen], kind);
+            Some((*seen, nodes.find(|node| tree::is_named(node, name))?))
+        })
+    }
+
+    /// The plan of a name, as a file sees it.
+    pub fn plan(&self, file: usize, name: &str) -> Option<(usize, Node)> {
+        self.find(file, Kind::Plan, name)
+    }
+}
