@@ -36,7 +36,7 @@ impl Chart {
 
     pub(super) fn document(&mut self, view: &View, home: &Home) {
         self.line("<?xml version=\"1.0\" encoding=\"UTF-8\"?>");
-        self.line(&format!("<!--\n{HEAD}\n-->"));
+        self.line(&format!("<!--\n  {HEAD}\n-->"));
         let id = &home.id;
         let open = "<scxml xmlns=\"http://www.w3.org/2005/07/scxml\" version=\"1.0\"";
         self.open(&format!("{open} datamodel=\"null\" name=\"{id}\" initial=\"{id}\">"));
