@@ -25,7 +25,8 @@ pub fn text(actors: usize) -> String {
 
 fn actor_text(text: &mut String, actor: usize, actors: usize) {
     let next = (actor + 1) % actors;
-    let back = actor.saturating_sub(1);
+    let turn = actor / 3 * 3 + 2;
+    let turn = if turn < actors { turn } else { 2 };
     let entry = actor % ENTRIES;
     let _ = match actor % 3 {
         0 => writeln!(
@@ -34,10 +35,10 @@ fn actor_text(text: &mut String, actor: usize, actors: usize) {
     // Ahead, unless something stands there.
     actor drive{actor}: Forward(distance = 2 * walldist + {actor} mm, speed = 20 cm/s) {{
         supervise touch{actor}: CheckTouchSensor every 5 ms {{
-            TouchSensorPressed -> drive{next}
+            TouchSensorPressed -> drive{turn}
         }}
         supervise lane{actor}: CheckDrivingLane(distance = walldist, clearance = 10 cm, margin = 10 cm, halfwidth = 25 cm) {{
-            LaneNotFree -> drive{back}
+            LaneNotFree -> drive{turn}
         }}
         ForwardSuccessful -> drive{next}
     }}"
@@ -46,11 +47,12 @@ fn actor_text(text: &mut String, actor: usize, actors: usize) {
             text,
             "
     actor drive{actor}: SearchWall(sweep = 60 deg, range = walldist * 5, angle => angle{entry}) {{
-        supervise touch{actor}: CheckTouchSensor {{
-            TouchSensorPressed -> drive{back}
+        supervise touch{actor}: CheckTouchSensor every 10 ms deadline 5 ms {{
+            TouchSensorPressed -> drive{turn}
+            DeadlineMissed     -> terminate
         }}
         WallFound   -> drive{next} // there it is
-        NoWallFound -> drive{back}
+        NoWallFound -> drive{turn}
         Error       -> terminate
     }}"
         ),
@@ -58,10 +60,6 @@ fn actor_text(text: &mut String, actor: usize, actors: usize) {
             text,
             "
     actor drive{actor}: Turn(angle = angle{entry} / 2 - 5 deg) {{
-        supervise touch{actor}: CheckTouchSensor every 10 ms deadline 5 ms {{
-            TouchSensorPressed -> drive{back}
-            DeadlineMissed     -> terminate
-        }}
         TurnSuccessful -> drive{next}
     }}"
         ),

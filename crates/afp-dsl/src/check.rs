@@ -39,6 +39,7 @@ use crate::words;
 use entries::EntryDraft;
 use names::Places;
 use scope::FileScope;
+use signature::Signatures;
 
 /// Everything that a compilation has read.
 pub(crate) struct Program<'a> {
@@ -50,6 +51,8 @@ pub(crate) struct Program<'a> {
     pub files: Vec<FileScope<'a>>,
     /// The plans of all files, file by file.
     pub plans: Vec<PlanHead>,
+    /// The ports and outcomes of all that plans can use.
+    pub signatures: Signatures,
 }
 
 /// A compilation as one of its files sees it.

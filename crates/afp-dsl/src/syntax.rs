@@ -8,7 +8,7 @@ pub mod kind;
 mod lexer;
 mod parser;
 
-use rowan::GreenNode;
+use rowan::{GreenNode, GreenNodeData, GreenTokenData, Language, NodeOrToken};
 
 use crate::diagnostics::Diagnostics;
 use crate::source::Span;
@@ -70,17 +70,45 @@ pub(crate) fn token_span(token: &Token, file: u16) -> Span {
 /// The place of a node without the trivia at its ends.
 pub(crate) fn node_span(node: &Node, file: u16) -> Span {
     let range = node.text_range();
-    let inside = |token: &Token| range.contains_range(token.text_range());
-    let solid = |token: &Token| !token.kind().is_trivia();
-    let forth = std::iter::successors(node.first_token(), Token::next_token);
-    let back = std::iter::successors(node.last_token(), Token::prev_token);
-    match (forth.take_while(inside).find(solid), back.take_while(inside).find(solid)) {
-        (Some(first), Some(last)) => token_span(&first, file).to(token_span(&last, file)),
-        _ => {
-            let start = range.start().into();
-            Span { file, start, end: start }
+    let (start, end) = (u32::from(range.start()), u32::from(range.end()));
+    let green = node.green();
+    match (leading(&green), trailing(&green)) {
+        (Ok(before), Ok(behind)) => Span { file, start: start + before, end: end - behind },
+        _ => Span { file, start, end: start },
+    }
+}
+
+/// The length of the trivia in front of everything else; of the whole node when it has nothing else.
+fn leading(node: &GreenNodeData) -> Result<u32, u32> {
+    trivia(node.children(), leading)
+}
+
+/// The length of the trivia behind everything else, as in [`leading`].
+fn trailing(node: &GreenNodeData) -> Result<u32, u32> {
+    trivia(node.children().rev(), trailing)
+}
+
+/// Adds up trivia until something else comes. It goes over the tree's own nodes, because spans are
+/// asked for everywhere and each step of a cursor costs an allocation.
+fn trivia<'a>(
+    elements: impl Iterator<Item = NodeOrToken<&'a GreenNodeData, &'a GreenTokenData>>,
+    within: fn(&GreenNodeData) -> Result<u32, u32>,
+) -> Result<u32, u32> {
+    let mut length = 0;
+    for element in elements {
+        let found = match element {
+            NodeOrToken::Node(node) => within(node),
+            NodeOrToken::Token(token) => match Afp::kind_from_raw(token.kind()).is_trivia() {
+                true => Err(u32::from(token.text_len())),
+                false => Ok(0),
+            },
+        };
+        match found {
+            Ok(more) => return Ok(length + more),
+            Err(all) => length += all,
         }
     }
+    Err(length)
 }
 
 #[cfg(test)]

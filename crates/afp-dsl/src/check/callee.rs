@@ -1,11 +1,12 @@
 //! Finds the template or plan that an element or supervisor names.
 
+use std::rc::Rc;
+
 use crate::check::names::{ambiguous, unknown};
 use crate::check::signature::{Signature, SignatureKind};
 use crate::check::{Context, PlanHead};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::files::relative;
-use crate::graph::TemplateId;
 use crate::source::Span;
 use crate::syntax::ast::{Name, Ref};
 use crate::toolbox::TemplateKind;
@@ -13,7 +14,7 @@ use crate::toolbox::TemplateKind;
 /// Something of a name.
 struct Candidate<'a> {
     /// What it is.
-    signature: Signature,
+    signature: Rc<Signature>,
     /// The name that qualifies it.
     home: Option<&'a str>,
     /// Where it is declared.
@@ -35,7 +36,7 @@ impl Context<'_> {
         reference: &Ref,
         wanted: &Wanted,
         diags: &mut Diagnostics,
-    ) -> Option<Signature> {
+    ) -> Option<Rc<Signature>> {
         let name = reference.name()?;
         let home = reference.home();
         let mut found = self.candidates(&name, home.as_ref());
@@ -74,7 +75,7 @@ impl Context<'_> {
         for place in plans.into_iter().flatten() {
             let head = &self.program.plans[*place];
             let span = head.name.as_ref().map_or_else(|| head.node.span(), |name| name.span);
-            let signature = Signature::of_plan(*place, head);
+            let signature = self.program.signatures.plan(*place).clone();
             found.push(Candidate { signature, home: None, span });
         }
         for import in &self.file.imports {
@@ -85,11 +86,9 @@ impl Context<'_> {
             let Some(place) = templates.iter().position(|each| each.name == name.text) else {
                 continue;
             };
-            if let Ok(index) = u16::try_from(place) {
-                let id = TemplateId { toolbox: import.id, index };
-                let signature = Signature::of_template(import.toolbox.clone(), id);
+            if let Some(signature) = self.program.signatures.template(import.id, place) {
                 let (home, span) = (Some(import.qualifier.as_str()), templates[place].span);
-                found.push(Candidate { signature, home, span });
+                found.push(Candidate { signature: signature.clone(), home, span });
             }
         }
         found

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use crate::check::imports::{self, Import};
 use crate::check::names::Names;
+use crate::check::signature::Signatures;
 use crate::check::types::Types;
 use crate::check::{PlanHead, Program, endings, entries, enums, shadows};
 use crate::diagnostics::Diagnostics;
@@ -65,7 +66,8 @@ pub(super) fn program<'a>(
             }
         }
     }
-    Program { toolboxes, linked, files: scopes, plans }
+    let signatures = Signatures::of(&linked, &plans);
+    Program { toolboxes, linked, files: scopes, plans, signatures }
 }
 
 /// A scope without plans. `enums` has those of all files.

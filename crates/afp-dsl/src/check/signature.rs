@@ -1,10 +1,11 @@
 //! What a component is made from, in the one shape that bindings and edges need: a template, or a
 //! plan used as an actor.
 
+use std::rc::Rc;
 use std::sync::Arc;
 
 use crate::check::PlanHead;
-use crate::graph::{Component, EntryKind, PlanId, TemplateId};
+use crate::graph::{Component, EntryKind, PlanId, TemplateId, ToolboxId};
 use crate::source::Span;
 use crate::toolbox::{Constant, Template, TemplateKind, Toolbox};
 use crate::types::Type;
@@ -60,9 +61,46 @@ pub(crate) struct OutputPort {
     pub ty: Option<Type>,
 }
 
+/// The signatures of all that plans can use, made once.
+pub(crate) struct Signatures {
+    /// By toolbox and template.
+    templates: Vec<Vec<Rc<Signature>>>,
+    /// By place in [`crate::check::Program::plans`].
+    plans: Vec<Rc<Signature>>,
+}
+
+impl Signatures {
+    /// Those of the templates of toolboxes and of plans.
+    pub fn of(toolboxes: &[Arc<Toolbox>], plans: &[PlanHead]) -> Signatures {
+        let templates = |(place, toolbox): (usize, &Arc<Toolbox>)| {
+            let Ok(id) = u16::try_from(place).map(ToolboxId) else { return Vec::new() };
+            let template = |index| {
+                let id = TemplateId { toolbox: id, index };
+                Rc::new(Signature::of_template(toolbox.clone(), id))
+            };
+            (0..=u16::MAX).take(toolbox.templates.len()).map(template).collect()
+        };
+        let plan = |(place, head)| Rc::new(Signature::of_plan(place, head));
+        Signatures {
+            templates: toolboxes.iter().enumerate().map(templates).collect(),
+            plans: plans.iter().enumerate().map(plan).collect(),
+        }
+    }
+
+    /// That of a template, by toolbox and place in it.
+    pub fn template(&self, toolbox: ToolboxId, place: usize) -> Option<&Rc<Signature>> {
+        self.templates.get(toolbox.index())?.get(place)
+    }
+
+    /// That of a plan.
+    pub fn plan(&self, place: usize) -> &Rc<Signature> {
+        &self.plans[place]
+    }
+}
+
 impl Signature {
     /// The signature of a template.
-    pub fn of_template(toolbox: Arc<Toolbox>, id: TemplateId) -> Signature {
+    fn of_template(toolbox: Arc<Toolbox>, id: TemplateId) -> Signature {
         let template = &toolbox.templates[usize::from(id.index)];
         Signature {
             name: template.name.clone(),
@@ -80,7 +118,7 @@ impl Signature {
     }
 
     /// The signature of a plan that is used as an actor.
-    pub fn of_plan(place: usize, head: &PlanHead) -> Signature {
+    fn of_plan(place: usize, head: &PlanHead) -> Signature {
         let of_kind = |kind| head.entries.iter().filter(move |entry| entry.kind == kind);
         Signature {
             name: head.name.as_ref().map(|name| name.text.clone()).unwrap_or_default(),

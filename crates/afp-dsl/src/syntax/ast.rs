@@ -237,7 +237,7 @@ fn child(node: &Node, kind: Kind) -> Option<Node> {
 }
 
 fn children(node: &Node, kind: Kind) -> impl Iterator<Item = Node> {
-    node.children().filter(move |child| child.kind() == kind)
+    node.children().by_kind(move |each| each == kind)
 }
 
 fn token(node: &Node, kind: Kind) -> Option<Token> {
@@ -245,9 +245,8 @@ fn token(node: &Node, kind: Kind) -> Option<Token> {
 }
 
 fn tokens(node: &Node, kind: Kind) -> impl Iterator<Item = Token> {
-    node.children_with_tokens()
-        .filter_map(|element| element.into_token())
-        .filter(move |token| token.kind() == kind)
+    let found = node.children_with_tokens().by_kind(move |each| each == kind);
+    found.filter_map(|element| element.into_token())
 }
 
 fn named(token: &Token, file: u16) -> Name {

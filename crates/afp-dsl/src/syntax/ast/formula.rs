@@ -53,12 +53,12 @@ pub struct Sign {
 impl Formula {
     /// The first formula among the children of a node.
     pub(super) fn child_of(node: &Node, file: u16) -> Option<Formula> {
-        node.children().find(is_formula).map(|node| Formula::new(node, file))
+        node.children().by_kind(is_formula).next().map(|node| Formula::new(node, file))
     }
 
     /// All formulas among the children of a node.
     pub(super) fn children_of(node: &Node, file: u16) -> Vec<Formula> {
-        node.children().filter(is_formula).map(|node| Formula::new(node, file)).collect()
+        node.children().by_kind(is_formula).map(|node| Formula::new(node, file)).collect()
     }
 
     /// What it is.
@@ -81,7 +81,7 @@ impl Formula {
             if let Some(token) = element.as_token() {
                 let span = token_span(token, self.file);
                 rest.extend(operator(token.kind()).map(|operator| (Sign { operator, span }, None)));
-            } else if let Some(node) = element.into_node().filter(is_formula) {
+            } else if let Some(node) = element.into_node().filter(|node| is_formula(node.kind())) {
                 let operand = Formula::new(node, self.file);
                 match rest.last_mut() {
                     Some((_, place)) => *place = Some(operand),
@@ -114,9 +114,9 @@ impl Formula {
     }
 }
 
-fn is_formula(node: &Node) -> bool {
+fn is_formula(kind: Kind) -> bool {
     matches!(
-        node.kind(),
+        kind,
         Kind::Sum | Kind::Product | Kind::Negation | Kind::Brackets | Kind::Ref | Kind::Literal
     )
 }
