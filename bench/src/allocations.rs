@@ -1,10 +1,11 @@
 //! Counts what a step allocates.
 
-use std::alloc::{GlobalAlloc, Layout, System};
+use std::alloc::{GlobalAlloc, Layout};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use afp_core::StillClock;
 use afp_core::trace::NoTrace;
+use mimalloc::MiMalloc;
 
 use crate::clocks::Ring;
 use crate::plans::{loaded_step, loaded_transition, step::Step, transition::Transition};
@@ -16,27 +17,27 @@ const STEPS: u64 = 1_000_000;
 
 static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
 
-/// The system's allocator, counting.
+/// The allocator of the command line, counting.
 struct Counting;
 
 #[allow(unsafe_code, reason = "an allocator cannot be written otherwise")]
-// Safety: every call goes to the system's allocator as it came.
+// Safety: every call goes to the other allocator as it came.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
         // Safety: the caller keeps the contract, which is the same.
-        unsafe { System.alloc(layout) }
+        unsafe { MiMalloc.alloc(layout) }
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
         // Safety: the caller keeps the contract, which is the same.
-        unsafe { System.dealloc(pointer, layout) }
+        unsafe { MiMalloc.dealloc(pointer, layout) }
     }
 
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
         // Safety: the caller keeps the contract, which is the same.
-        unsafe { System.realloc(pointer, layout, size) }
+        unsafe { MiMalloc.realloc(pointer, layout, size) }
     }
 }
 
