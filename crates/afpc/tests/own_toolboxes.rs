@@ -198,7 +198,7 @@ fn errors_of_the_toolbox_crate(place: &Place) {
         let place_text = format!("--> gestures/gestures.afp:{number}:");
         for command in ["run", "build"] {
             let said = afpc(place, &format!("{command} plans/dance.afp"));
-            said.fails(1, &["the Rust of the toolbox 'gestures' does not fit it", &place_text]);
+            said.fails(1, &["the Rust of the toolbox 'gestures' does not compile", &place_text]);
             said.fails(1, &["gestures/src/lib.rs:", "error[E0"]);
         }
     }

@@ -95,7 +95,7 @@ fn declared<'a>(own: &'a OwnToolbox, message: &Message) -> Option<Found<'a>> {
     }
     let span = declaration(&own.declared, &said, &line, &words(&head))?;
     let name = &own.name;
-    let message = format!("the Rust of the toolbox '{name}' does not fit it: {}", message.title);
+    let message = format!("the Rust of the toolbox '{name}' does not compile: {}", message.title);
     Some(Found { source: &own.source, span, message })
 }
 

@@ -25,6 +25,9 @@ pub fn declaration(
     let inputs = template.inputs.iter().map(|port| (&port.name, port.span));
     // A value of the wrong type stands in a line that names its state, too: the port says more.
     let parts: Vec<_> = outputs.chain(inputs).chain(outcomes).collect();
+    // About a state that is not declared, the ports beside it say nothing.
+    let of_outcomes = said.contains(&"State") || said.contains(&"Event");
+    let line = if of_outcomes { &[] } else { line };
     let part = [said, line].into_iter().find_map(|names| {
         let part = parts.iter().find(|(name, _)| is_in(names, name));
         part.map(|(_, span)| *span)
@@ -63,7 +66,7 @@ supervisor CheckLost { event Lost }";
     fn the_smallest_declaration_that_is_named_counts() {
         let head = "impl Actor templates Grip E for Grip";
         assert_eq!(found("Quantity integer", "State Held reached 3", head), Some("reached"));
-        assert_eq!(found("Found State", "State Found", head), Some("Grip"));
+        assert_eq!(found("Found State", "State Found reached 3", head), Some("Grip"));
         assert_eq!(found("u8", "let x inputs max_force", head), Some("maxForce"));
         assert_eq!(found("pattern Missed not covered", "match state", head), Some("Missed"));
         assert_eq!(found("cannot find type CheckLost", "toolbox gripper", ""), Some("CheckLost"));
