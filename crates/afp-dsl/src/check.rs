@@ -20,6 +20,7 @@ mod recursion;
 mod resources;
 mod scope;
 mod signature;
+mod size;
 pub(crate) mod text;
 pub(crate) mod timing;
 pub(crate) mod types;
@@ -117,6 +118,7 @@ pub(crate) fn check(
     let (plans, users): (Vec<_>, Vec<_>) =
         (0..program.plans.len()).map(|place| plan::check(&program, place, diags)).unzip();
     resources::check(&program.plans, &users, &order, diags);
+    size::check(&program, &plans, &order, diags);
     if flow == Flow::Checked {
         check_flow(&program, &plans, &order, diags);
     }

@@ -51,6 +51,26 @@ fn a_thousand_nested_sub_plans_fit_on_the_stack() {
 }
 
 #[test]
+fn plans_that_no_machine_could_unfold_are_refused() {
+    let mut text = String::from("use carbot\nplan P0 { start a subplan a: P1 { OK -> b } ");
+    text += "subplan b: P1 { OK -> terminate } }\n";
+    for level in 1..40 {
+        let inner = level + 1;
+        let _ = writeln!(
+            text,
+            "plan P{level} {{ start a subplan a: P{inner} {{ OK -> b }} subplan b: P{inner} {{ OK -> terminate }} }}"
+        );
+    }
+    text += "plan P40 { start a actor a: Forward { ForwardSuccessful -> terminate } }\n";
+    let compiled = support::compile(&text, &support::toolboxes());
+    let codes: Vec<_> = compiled.diags.iter().map(|each| each.code.as_str()).collect();
+    assert_eq!(codes, ["E0231"], "{}", compiled.render(false));
+    assert!(compiled.graph.is_none());
+    let deep = support::compile(&nested(1001), &support::toolboxes()).render(false);
+    assert!(deep.contains("1001 deep; at most 1000"), "{deep}");
+}
+
+#[test]
 fn ten_times_the_plan_takes_about_ten_times_as_long() {
     let toolboxes = support::toolboxes();
     let best = |length: usize| {
