@@ -63,9 +63,17 @@ fn the_template_in_the_readme_does_what_it_says() {
 #[test]
 fn what_the_readme_points_to_exists() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    for link in README.split("](").skip(1).filter_map(|rest| rest.split_once(')')) {
-        if !link.0.starts_with("http") {
-            assert!(root.join(link.0).exists(), "{}", link.0);
+    let links = README.split("](").skip(1).filter_map(|rest| rest.split_once(')'));
+    for (link, _) in links.filter(|(link, _)| !link.starts_with("http")) {
+        let (path, heading) = link.split_once('#').unwrap_or((link, ""));
+        assert!(root.join(path).exists(), "{link}");
+        if !heading.is_empty() {
+            let page = std::fs::read_to_string(root.join(path)).unwrap();
+            let titles = page
+                .lines()
+                .filter_map(|line| Some(line.strip_prefix('#')?.trim_start_matches('#')));
+            let slugs = titles.map(|title| title.trim().to_lowercase().replace(' ', "-"));
+            assert!(slugs.into_iter().any(|slug| slug == heading), "{link}");
         }
     }
 }

@@ -2,11 +2,6 @@
 
 use std::process::ExitCode;
 
-/// Trees are many small pieces; checking a large plan takes a third less time than with the
-/// allocator of the system.
-#[global_allocator]
-static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
-
 fn main() -> ExitCode {
     afpc::main(&[])
 }
