@@ -1,6 +1,10 @@
 //! What the robot's devices offer, one trait each.
 
+mod battery;
 mod buttons;
+mod camera;
+mod color_sensor;
+mod infrared_sensor;
 mod navigator;
 mod odometry;
 mod reading;
@@ -8,7 +12,11 @@ mod rotator;
 mod touch_sensor;
 mod ultrasonic;
 
+pub use battery::{Battery, Charge};
 pub use buttons::{Button, Buttons};
+pub use camera::{Camera, Frame, Lens};
+pub use color_sensor::{Color, ColorSensor};
+pub use infrared_sensor::{Glow, InfraredSensor};
 pub use navigator::{Body, Navigator};
 pub use odometry::{Motion, Odometry};
 pub use reading::{Invalid, Reading};

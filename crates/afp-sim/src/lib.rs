@@ -10,13 +10,18 @@
 //! trigonometry goes through `libm`, and every noise has a stream of its own.
 #![forbid(unsafe_code)]
 
+mod clock;
+mod devices;
+mod fault;
 mod noise;
-mod robot;
 mod simulation;
 mod truth;
+mod vehicle;
 pub mod world;
 
-pub use robot::{HALF_LENGTH, HALF_WIDTH};
+pub use clock::VirtualClock;
+pub use fault::{Amount, Defect, Fault, Sensor, Side};
 pub use simulation::{Bare, STEP, Simulation, Snapshot, Sonar};
 pub use truth::{Collision, Pose, Truth};
+pub use vehicle::{HALF_LENGTH, HALF_WIDTH};
 pub use world::{World, WorldError};

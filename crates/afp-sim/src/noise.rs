@@ -14,6 +14,8 @@ pub(crate) enum Source {
     Odometry = 2,
     /// Range and dropouts of the ultrasonic sensor.
     Ultrasonic = 3,
+    /// The bumper's bouncing contact.
+    Bumper = 4,
 }
 
 /// A stream of random numbers.

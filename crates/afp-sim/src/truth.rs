@@ -2,7 +2,8 @@
 //!
 //! Nothing here is reachable through a device trait, so no template can use it.
 
-use crate::robot::{HALF_LENGTH, HALF_WIDTH, SONAR_HEIGHT};
+use crate::devices::sonar;
+use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
 use crate::world::Obstacle;
 use afp_core::Instant;
 use rapier2d::math::{Pose as Isometry, Vector};
@@ -80,7 +81,7 @@ impl<'a> Truth<'a> {
         let side =
             Segment::new(Vector::new(-HALF_LENGTH as f32, y), Vector::new(HALF_LENGTH as f32, y));
         let gaps = self.obstacles.iter().zip(self.shapes).filter_map(|(obstacle, (at, shape))| {
-            let high = obstacle.height >= SONAR_HEIGHT;
+            let high = obstacle.height >= sonar::HEIGHT;
             high.then(|| query::distance(self.position, &side, at, &**shape).ok()).flatten()
         });
         gaps.map(|gap| f64::from(gap.distance)).reduce(f64::min)

@@ -8,8 +8,8 @@ mod file;
 
 pub use error::WorldError;
 
-use crate::robot::{HALF_LENGTH, HALF_WIDTH};
 use crate::truth::Pose;
+use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
 use rapier2d::math::{Pose as Isometry, Rotation, Vector};
 use rapier2d::parry::query;
 use rapier2d::parry::shape::{Cuboid, SharedShape};

@@ -1,7 +1,7 @@
 //! The engine alone: what a benchmark measures the simulation against.
 
-use super::{Built, HIGH, ROBOT, build};
-use crate::robot::{SONAR_FORWARD, sonar};
+use super::build::{Built, HIGH, ROBOT, build};
+use crate::devices::sonar;
 use crate::truth::Pose;
 use crate::world::{World, WorldError};
 use rapier2d::geometry::{InteractionGroups, InteractionTestMode};
@@ -35,7 +35,7 @@ impl Bare {
         let heard = InteractionGroups::new(ROBOT, HIGH, InteractionTestMode::And);
         let queries = self.physics.query_pipeline_with_filter(QueryFilter::new().groups(heard));
         let (sin, cos) = libm::sincos(from.heading);
-        let ahead = SONAR_FORWARD;
+        let ahead = sonar::FORWARD;
         let origin = Vector::new((from.x + ahead * cos) as f32, (from.y + ahead * sin) as f32);
         let rays = (0..sonar::RAYS).map(|i| {
             let (sin, cos) = libm::sincos(from.heading + bearing + i as f64 * 0.06 - 0.24);

@@ -1,7 +1,7 @@
 //! Contacts: what the bumper feels, and what the judge counts.
 
 use super::Simulation;
-use crate::robot::HALF_LENGTH;
+use crate::vehicle::HALF_LENGTH;
 use afp_core::Instant;
 use rapier2d::parry::query;
 
@@ -16,7 +16,7 @@ impl Simulation {
     /// The engine keeps a pair's contact points over several steps, so the distance is computed
     /// afresh for the few pairs that are near.
     pub(super) fn feel(&mut self, now: Instant) {
-        self.touched = false;
+        let mut touched = false;
         for pair in self.physics.narrow_phase.contact_pairs_with(self.collider) {
             if !pair.has_any_active_contact() {
                 continue;
@@ -30,7 +30,8 @@ impl Simulation {
             let Ok(Some(contact)) = contact else { continue };
             self.collisions.touch(other.user_data as usize, now);
             let ahead = at.inverse_transform_point(contact.point1).x;
-            self.touched |= f64::from(ahead) > HALF_LENGTH - WRAP;
+            touched |= f64::from(ahead) > HALF_LENGTH - WRAP;
         }
+        self.switch.step(touched);
     }
 }

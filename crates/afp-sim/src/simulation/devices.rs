@@ -1,10 +1,12 @@
 //! The simulation as the Carbot's devices.
 
 use super::Simulation;
-use crate::robot::{HALF_LENGTH, HALF_WIDTH, sonar};
+use crate::devices::line::Line;
+use crate::devices::sonar;
+use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
 use afp_carbot::devices::{
-    Beam, Body, Button, Buttons, Echo, Motion, Navigator, Odometry, Reading, RotatingTelemetry,
-    Rotator, TouchSensor, Ultrasonic,
+    Battery, Beam, Body, Button, Buttons, Charge, Echo, Motion, Navigator, Odometry, Reading,
+    RotatingTelemetry, Rotator, TouchSensor, Ultrasonic,
 };
 use afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
 use afp_core::{Environment, Instant};
@@ -15,15 +17,64 @@ impl Environment for Simulation {
         self.rotator.hold();
     }
 
+    /// Blocks the wheels at once. They and the rotator obey nobody until
+    /// [`Simulation::reset_emergency_stop`].
     fn emergency_stop(&mut self) {
+        self.stopped = true;
         self.drive.block();
         self.rotator.hold();
     }
 }
 
+impl Simulation {
+    /// Lets the robot obey again after an emergency stop.
+    pub fn reset_emergency_stop(&mut self) {
+        self.stopped = false;
+    }
+
+    /// Whether the robot has been stopped and obeys nobody.
+    pub fn emergency_stopped(&self) -> bool {
+        self.stopped
+    }
+
+    /// A reading as it arrives at the plan.
+    fn deliver<T: Clone>(&self, line: &Line<T>, raw: Reading<T>) -> Reading<T> {
+        if let Some(cost) = line.cost() {
+            self.clock.spend(self.now, cost);
+        }
+        line.read(raw)
+    }
+
+    fn measured<T>(&self, value: T) -> Reading<T> {
+        Reading { time: self.grid(self.steps), value: Ok(value) }
+    }
+
+    pub(super) fn raw_bearing(&self) -> Reading<Angle> {
+        self.measured(self.rotator.telemetry())
+    }
+
+    pub(super) fn raw_motion(&self) -> Reading<Motion> {
+        self.measured(self.odometer.motion())
+    }
+
+    pub(super) fn raw_touched(&self) -> Reading<bool> {
+        self.measured(self.switch.says())
+    }
+
+    pub(super) fn raw_escape(&self) -> Reading<bool> {
+        Reading::valid(self.escape, self.now)
+    }
+
+    pub(super) fn raw_charge(&self) -> Reading<Charge> {
+        self.measured(self.battery.charge())
+    }
+}
+
 impl Navigator for Simulation {
     fn drive(&mut self, speed: Speed, turn: AngularSpeed, now: Instant) {
-        self.drive.command(speed.si(), turn.si(), now);
+        if !self.stopped {
+            self.drive.command(speed.si(), turn.si(), now);
+        }
     }
 
     fn body(&self) -> Body {
@@ -37,13 +88,13 @@ impl Navigator for Simulation {
 
 impl Odometry for Simulation {
     fn motion(&self) -> Reading<Motion> {
-        Reading::valid(self.odometer.motion(), self.grid(self.steps))
+        self.deliver(&self.lines.odometry, self.raw_motion())
     }
 }
 
 impl Ultrasonic for Simulation {
     fn echo(&self) -> Reading<Echo> {
-        self.echo
+        self.deliver(&self.lines.ultrasonic, self.echo)
     }
 
     fn beam(&self) -> Beam {
@@ -53,26 +104,34 @@ impl Ultrasonic for Simulation {
 
 impl Rotator for Simulation {
     fn point(&mut self, bearing: Angle, _: Instant) {
-        self.rotator.aim(bearing.si());
+        if !self.stopped {
+            self.rotator.aim(bearing.si());
+        }
     }
 }
 
 impl RotatingTelemetry for Simulation {
     fn bearing(&self) -> Reading<Angle> {
-        Reading::valid(self.telemetry(), self.grid(self.steps))
+        self.deliver(&self.lines.rotator, self.raw_bearing())
     }
 }
 
 impl TouchSensor for Simulation {
     fn touched(&self) -> Reading<bool> {
-        Reading::valid(self.touched, self.grid(self.steps))
+        self.deliver(&self.lines.touch, self.raw_touched())
     }
 }
 
 impl Buttons for Simulation {
     fn pressed(&self, button: Button) -> Reading<bool> {
         match button {
-            Button::Escape => Reading::valid(self.escape, self.now),
+            Button::Escape => self.deliver(&self.lines.buttons, self.raw_escape()),
         }
+    }
+}
+
+impl Battery for Simulation {
+    fn charge(&self) -> Reading<Charge> {
+        self.deliver(&self.lines.battery, self.raw_charge())
     }
 }

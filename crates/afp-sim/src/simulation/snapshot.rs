@@ -47,7 +47,7 @@ impl Simulation {
             odometry: self.odometer.motion(),
             rotator: self.rotator.position(),
             sonar,
-            touched: self.touched,
+            touched: self.switch.says(),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The simulated world and robot: what they promise to templates and judges.
 
 mod determinism;
+mod faults;
 mod sensors;
 mod vehicle;
 mod world;

@@ -9,6 +9,10 @@ use afp_carbot::devices::Beam;
 use afp_core::Duration;
 use afp_core::quantity::{Angle, Length};
 
+/// The rotator's axis is this far before the turning centre, metres.
+pub(crate) const FORWARD: f64 = 0.10;
+/// The sensor looks over anything that is lower than this, metres.
+pub(crate) const HEIGHT: f64 = 0.15;
 /// A ping is sent every so often.
 pub(crate) const PERIOD: Duration = Duration::from_millis(50);
 /// How many rays stand for the cone.
@@ -45,7 +49,7 @@ pub(crate) struct Hit {
 /// How the sensor is mounted.
 pub(crate) fn beam() -> Beam {
     Beam {
-        forward: Length::from_si(super::SONAR_FORWARD),
+        forward: Length::from_si(FORWARD),
         opening: Angle::from_si(OPENING),
         min: Length::from_si(MIN),
         max: Length::from_si(MAX),

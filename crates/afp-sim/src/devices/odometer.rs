@@ -3,8 +3,8 @@
 //! It errs as a real one does: the wheels are not exactly as large and as far apart as the
 //! controller believes, they slip, and the counts are noisy.
 
-use super::drive::{WHEEL_X, WHEEL_Y, Wheel};
 use crate::noise::{Noise, Source};
+use crate::vehicle::wheel::{WHEEL_X, WHEEL_Y, Wheel};
 use afp_carbot::devices::Motion;
 use afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
 

@@ -1,0 +1,66 @@
+//! The camera that looks ahead.
+
+use super::Reading;
+use afp_core::quantity::{Angle, Length};
+
+/// A picture, owned by the driver until the next one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Frame<'a> {
+    /// Pixels a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Red, green and blue of each pixel, row by row from the top left: `3 * width * height` bytes.
+    pub rgb: &'a [u8],
+    /// The number of the picture, from 1; one that was not delivered leaves a gap.
+    pub number: u64,
+}
+
+impl Frame<'_> {
+    /// Red, green and blue of the pixel in column `x` of row `y`; none beyond the picture.
+    pub fn pixel(&self, x: usize, y: usize) -> Option<[u8; 3]> {
+        if x >= self.width {
+            return None;
+        }
+        let first = y.checked_mul(self.width)?.checked_add(x)?.checked_mul(3)?;
+        self.rgb.get(first..)?.first_chunk().copied()
+    }
+}
+
+/// How the camera is mounted and what it covers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// The camera sits this far in front of the turning centre.
+    pub forward: Length,
+    /// And this far above the floor. It looks ahead, level.
+    pub height: Length,
+    /// The whole angle that a row covers; pixels are square.
+    pub opening: Angle,
+    /// Pixels a row.
+    pub columns: usize,
+    /// Rows.
+    pub rows: usize,
+}
+
+/// A camera that takes pictures by itself, some times a second.
+pub trait Camera {
+    /// The latest picture; its time is when it was taken.
+    fn frame(&self) -> Reading<Frame<'_>>;
+
+    /// How the camera is mounted and what it covers.
+    fn lens(&self) -> Lens;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pixel_beyond_the_picture_is_none() {
+        let frame = Frame { width: 2, height: 1, rgb: &[1, 2, 3, 4, 5, 6], number: 1 };
+        assert_eq!(frame.pixel(1, 0), Some([4, 5, 6]));
+        assert_eq!(frame.pixel(2, 0), None);
+        assert_eq!(frame.pixel(0, 1), None);
+        assert_eq!(frame.pixel(0, usize::MAX), None);
+    }
+}

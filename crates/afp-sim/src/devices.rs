@@ -1,0 +1,11 @@
+//! The robot's devices: what each measures, and how it errs.
+//!
+//! Each is stepped with the physics and knows nothing of rapier but what it needs. Between a
+//! sensor and the plan lies a [`line::Line`], which faults cut, delay or freeze.
+
+pub(crate) mod battery;
+pub(crate) mod bumper;
+pub(crate) mod line;
+pub(crate) mod odometer;
+pub(crate) mod rotator;
+pub(crate) mod sonar;

@@ -1,0 +1,120 @@
+//! The battery: two lithium cells in a row, drained by the computer and the motors.
+
+use afp_carbot::devices::Charge;
+use afp_core::quantity::Voltage;
+
+/// What a full battery holds, joules: 5.2 Ah at 7.4 V.
+const CAPACITY: f64 = 5.2 * 7.4 * 3600.0;
+/// Inner resistance, ohms.
+const RESISTANCE: f64 = 0.06;
+/// What the computer and the sensors draw, watts.
+const IDLE: f64 = 5.0;
+/// What a wheel draws per metre a second, watts.
+const WHEEL: f64 = 15.0;
+/// Voltage without a load by the share of the charge that is left.
+const CURVE: [(f64, f64); 7] =
+    [(0.0, 5.6), (0.05, 6.4), (0.1, 6.9), (0.2, 7.2), (0.5, 7.5), (0.9, 8.0), (1.0, 8.4)];
+/// The motors reach their top speed down to this voltage and stand at the lower one.
+const FULL_SPEED: f64 = 6.6;
+const NO_SPEED: f64 = 5.4;
+
+/// The battery.
+#[derive(Debug)]
+pub(crate) struct Battery {
+    /// Joules that have been drawn.
+    drawn: f64,
+    /// The share of a full charge at the start.
+    first: f64,
+    /// The share that may be left at most.
+    most: f64,
+    voltage: f64,
+}
+
+impl Battery {
+    pub(crate) fn new(first: f64) -> Self {
+        let mut battery = Battery { drawn: 0.0, first, most: 1.0, voltage: 0.0 };
+        battery.step([0.0, 0.0], 0.0);
+        battery
+    }
+
+    /// Lets no more than this share be left; 1 lets all.
+    pub(crate) fn limit(&mut self, most: f64) {
+        self.most = most;
+    }
+
+    /// Draws for `dt` seconds with the wheels at these speeds, metres a second.
+    pub(crate) fn step(&mut self, wheels: [f64; 2], dt: f64) {
+        let power = IDLE + WHEEL * (wheels[0].abs() + wheels[1].abs());
+        self.drawn += power * dt;
+        let open = open_voltage(self.left());
+        self.voltage = open - RESISTANCE * power / open;
+    }
+
+    /// The share of the motors' top speed that the voltage is good for.
+    pub(crate) fn speed(&self) -> f64 {
+        ((self.voltage - NO_SPEED) / (FULL_SPEED - NO_SPEED)).clamp(0.0, 1.0)
+    }
+
+    /// What the gauge tells: the voltage to 10 mV, the share to 1 %.
+    pub(crate) fn charge(&self) -> Charge {
+        Charge {
+            voltage: Voltage::from_si(libm::round(self.voltage * 100.0) / 100.0),
+            left: libm::round(self.left() * 100.0) / 100.0,
+        }
+    }
+
+    fn left(&self) -> f64 {
+        (self.first - self.drawn / CAPACITY).clamp(0.0, self.most)
+    }
+}
+
+/// The voltage between two points of the curve.
+fn open_voltage(left: f64) -> f64 {
+    let mut last = CURVE[0];
+    for next in CURVE {
+        if left <= next.0 {
+            let width: f64 = next.0 - last.0;
+            let share = if width > 0.0 { (left - last.0) / width } else { 0.0 };
+            return last.1 + (next.1 - last.1) * share;
+        }
+        last = next;
+    }
+    last.1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn voltage_falls_with_the_charge_and_under_load() {
+        let at = |left, wheels| {
+            let mut battery = Battery::new(left);
+            battery.step(wheels, 0.0);
+            battery.charge().voltage.si()
+        };
+        assert!((at(1.0, [0.0; 2]) - 8.36).abs() < 0.011);
+        assert!(at(1.0, [0.31; 2]) < at(1.0, [0.0; 2]));
+        let falling: Vec<f64> = [1.0, 0.7, 0.3, 0.1, 0.02, 0.0].map(|c| at(c, [0.0; 2])).to_vec();
+        assert!(falling.windows(2).all(|pair| pair[0] > pair[1]), "{falling:?}");
+    }
+
+    #[test]
+    fn an_hour_of_driving_takes_about_a_third() {
+        let mut battery = Battery::new(1.0);
+        for _ in 0..3600 {
+            battery.step([0.31, 0.31], 1.0);
+        }
+        // 5 W and twice 4.65 W of 38.5 Wh.
+        assert!((battery.left() - (1.0 - 14.3 / 38.48)).abs() < 0.001, "{}", battery.left());
+        assert_eq!(battery.speed(), 1.0);
+    }
+
+    #[test]
+    fn an_empty_battery_drives_slowly() {
+        let battery = Battery::new(0.0);
+        assert!(battery.speed() < 0.2, "{}", battery.speed());
+        assert!(Battery::new(0.05).speed() < 1.0);
+        assert_eq!(Battery::new(0.2).speed(), 1.0);
+    }
+}

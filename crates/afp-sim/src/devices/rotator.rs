@@ -1,0 +1,53 @@
+//! The rotator that turns the range sensor, and its telemetry.
+
+use crate::vehicle::servo::Servo;
+use afp_core::quantity::Angle;
+
+/// It turns so far to either side, radians, and so fast, radians a second.
+const REACH: f64 = 130.0 / 180.0 * core::f64::consts::PI;
+const RATE: f64 = 300.0 / 180.0 * core::f64::consts::PI;
+/// Its telemetry rounds to this, radians.
+const RESOLUTION: f64 = 0.25 / 180.0 * core::f64::consts::PI;
+
+/// The rotator.
+#[derive(Debug)]
+pub(crate) struct Rotator {
+    servo: Servo,
+    stuck: bool,
+}
+
+impl Rotator {
+    pub(crate) fn new() -> Self {
+        Rotator { servo: Servo::new(REACH, RATE), stuck: false }
+    }
+
+    pub(crate) fn aim(&mut self, bearing: f64) {
+        self.servo.aim(bearing);
+    }
+
+    pub(crate) fn hold(&mut self) {
+        self.servo.hold();
+    }
+
+    /// Blocks or frees it.
+    pub(crate) fn set_stuck(&mut self, stuck: bool) {
+        self.stuck = stuck;
+    }
+
+    pub(crate) fn step(&mut self, dt: f64) {
+        if !self.stuck {
+            self.servo.step(dt);
+        }
+    }
+
+    /// Where it points against the heading, radians.
+    pub(crate) fn position(&self) -> f64 {
+        self.servo.position()
+    }
+
+    /// Where its telemetry says that it points.
+    pub(crate) fn telemetry(&self) -> Angle {
+        let steps = libm::round(self.position() / RESOLUTION);
+        Angle::from_si(steps * RESOLUTION)
+    }
+}

@@ -1,0 +1,80 @@
+//! What can break: the faults that scenarios and people inject.
+
+mod names;
+mod schedule;
+
+pub use names::Amount;
+pub(crate) use schedule::Schedule;
+
+use afp_core::Duration;
+
+/// Something that is broken for a while; [`crate::Simulation::inject`] breaks it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fault {
+    /// A sensor tells something else than it measures.
+    Sensor(Sensor, Defect),
+    /// The rotator does not move; its telemetry says so.
+    StuckRotator,
+    /// A wheel's motor is blocked: the wheel steers but does not roll.
+    StalledMotor(Side),
+    /// The floor is slippery: this share of the grip is left, 0 to 1.
+    Slip(f64),
+    /// The drive controller hears no command and counts no wheel. It stops the robot once its
+    /// dead-man time is over.
+    DeadController,
+    /// The battery has no more than this share of its charge left, 0 to 1.
+    LowBattery(f64),
+}
+
+/// What is between a sensor and the plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Defect {
+    /// It repeats its last value as if it had just measured it.
+    Frozen,
+    /// It does not answer.
+    Lost,
+    /// It delivers what is no number.
+    NotANumber,
+    /// What it measures arrives so much later. The readings keep their times, so their age shows.
+    Delayed(Duration),
+    /// Each use takes so long, by the clock of [`crate::Simulation::clock`].
+    Slow(Duration),
+}
+
+/// What measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sensor {
+    /// The range sensor.
+    Ultrasonic,
+    /// The rotator's telemetry.
+    Rotator,
+    /// The wheels' counters.
+    Odometry,
+    /// The bumper.
+    Touch,
+    /// The buttons.
+    Buttons,
+    /// The battery's gauge.
+    Battery,
+}
+
+/// A side of the robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Left.
+    Left,
+    /// Right.
+    Right,
+}
+
+impl Sensor {
+    /// Every sensor.
+    pub const ALL: [Sensor; 6] = [
+        Sensor::Ultrasonic,
+        Sensor::Rotator,
+        Sensor::Odometry,
+        Sensor::Touch,
+        Sensor::Buttons,
+        Sensor::Battery,
+    ];
+}

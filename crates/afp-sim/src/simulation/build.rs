@@ -1,0 +1,68 @@
+//! Builds a world and the robot in it for the engine.
+
+use super::DT;
+use crate::devices::sonar;
+use crate::vehicle::{HALF_LENGTH, HALF_WIDTH, MASS};
+use crate::world::{Obstacle, World, WorldError, isometry};
+use rapier2d::geometry::{Group, InteractionGroups, InteractionTestMode};
+use rapier2d::math::{Pose as Isometry, Vector};
+use rapier2d::parry::shape::SharedShape;
+use rapier2d::prelude::{
+    ColliderBuilder, ColliderHandle, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle,
+};
+
+/// What the range sensor hears.
+pub(super) const HIGH: Group = Group::GROUP_1;
+/// What it looks over.
+const LOW: Group = Group::GROUP_2;
+/// The robot.
+pub(super) const ROBOT: Group = Group::GROUP_3;
+
+/// What the engine knows of a world.
+pub(super) struct Built {
+    pub(super) physics: PhysicsWorld,
+    pub(super) body: RigidBodyHandle,
+    pub(super) collider: ColliderHandle,
+    pub(super) shapes: Vec<(Isometry, SharedShape)>,
+}
+
+/// Builds a world and the robot in it for the engine.
+pub(super) fn build(world: &World) -> Result<Built, WorldError> {
+    let mut physics = PhysicsWorld::new();
+    physics.gravity = Vector::ZERO;
+    physics.integration_parameters.dt = DT as f32;
+    let mut shapes = Vec::with_capacity(world.obstacles.len());
+    for (i, obstacle) in world.obstacles.iter().enumerate() {
+        let (at, shape) = obstacle.outline.shape().ok_or_else(|| WorldError {
+            place: None,
+            message: format!("'{}' has no area", obstacle.name),
+        })?;
+        physics.insert_collider(fixed(obstacle, at, shape.clone(), i), None);
+        shapes.push((at, shape));
+    }
+    let body = RigidBodyBuilder::dynamic().pose(isometry(world.start)).can_sleep(false);
+    let (body, collider) = physics.insert(body, robot());
+    // Rays meet nothing before the first update of the search tree.
+    physics.detect_collisions(&(), &());
+    Ok(Built { physics, body, collider, shapes })
+}
+
+/// An obstacle's collider; its index in the world is its user data.
+fn fixed(obstacle: &Obstacle, at: Isometry, shape: SharedShape, i: usize) -> ColliderBuilder {
+    let group = if obstacle.height >= sonar::HEIGHT { HIGH } else { LOW };
+    ColliderBuilder::new(shape)
+        .position(at)
+        .friction(0.3)
+        .restitution(0.0)
+        .collision_groups(InteractionGroups::new(group, ROBOT | HIGH, InteractionTestMode::And))
+        .user_data(i as u128)
+}
+
+/// The robot's collider.
+fn robot() -> ColliderBuilder {
+    ColliderBuilder::cuboid(HALF_LENGTH as f32, HALF_WIDTH as f32)
+        .mass(MASS as f32)
+        .friction(0.3)
+        .restitution(0.0)
+        .collision_groups(InteractionGroups::new(ROBOT, HIGH | LOW, InteractionTestMode::And))
+}

@@ -1,0 +1,231 @@
+//! What breaks when a fault is injected, and that it is whole again afterwards.
+
+use crate::{among, at, drive, the_box, wait};
+use afp_carbot::devices::{
+    Battery, Button, Buttons, Invalid, Odometry, RotatingTelemetry, Rotator, TouchSensor,
+    Ultrasonic,
+};
+use afp_core::quantity::{Angle, Speed};
+use afp_core::{Clock, Duration, Environment, Instant};
+use afp_sim::{Amount, Defect, Fault, Sensor, Side, Simulation};
+
+const SECOND: Duration = Duration::from_secs(1);
+
+fn break_now(sim: &mut Simulation, fault: Fault) {
+    sim.inject(fault, sim.now(), SECOND);
+}
+
+fn wall_ahead() -> Simulation {
+    among(&the_box([1.2, 0.0], [0.2, 6.0], 2.0))
+}
+
+#[test]
+fn a_lost_sensor_does_not_answer_from_the_instant_to_before_the_end() {
+    let mut sim = wall_ahead();
+    let lost = Fault::Sensor(Sensor::Ultrasonic, Defect::Lost);
+    sim.inject(lost, at(503), Duration::from_millis(100));
+    sim.advance_to(Instant::from_nanos(502_999_999));
+    assert!(sim.echo().value.is_ok());
+    sim.advance_to(at(503));
+    assert_eq!(sim.echo().value, Err(Invalid::NoAnswer));
+    sim.advance_to(Instant::from_nanos(602_999_999));
+    assert_eq!(sim.echo().value, Err(Invalid::NoAnswer));
+    sim.advance_to(at(603));
+    assert!(sim.echo().value.is_ok());
+}
+
+#[test]
+fn every_sensor_can_be_lost_or_deliver_no_number() {
+    for (defect, expected) in
+        [(Defect::Lost, Invalid::NoAnswer), (Defect::NotANumber, Invalid::NotFinite)]
+    {
+        let mut sim = wall_ahead();
+        wait(&mut sim, 200);
+        for sensor in Sensor::ALL {
+            break_now(&mut sim, Fault::Sensor(sensor, defect));
+        }
+        let said = [
+            sim.echo().value.err(),
+            sim.bearing().value.err(),
+            sim.motion().value.err(),
+            sim.touched().value.err(),
+            sim.pressed(Button::Escape).value.err(),
+            sim.charge().value.err(),
+        ];
+        assert_eq!(said, [Some(expected); 6]);
+        wait(&mut sim, 1000);
+        assert!(sim.echo().value.is_ok() && sim.motion().value.is_ok());
+    }
+}
+
+#[test]
+fn a_frozen_sensor_repeats_its_value_as_if_it_were_new() {
+    let mut sim = among("");
+    drive(&mut sim, 0.2, 0.0, 500);
+    let before = sim.motion();
+    break_now(&mut sim, Fault::Sensor(Sensor::Odometry, Defect::Frozen));
+    drive(&mut sim, 0.2, 0.0, 500);
+    let frozen = sim.motion();
+    assert_eq!(frozen.value, before.value);
+    assert!(frozen.time > before.time);
+    drive(&mut sim, 0.2, 0.0, 600);
+    assert!(sim.motion().value.unwrap().x.si() > before.value.unwrap().x.si() + 0.15);
+}
+
+#[test]
+fn a_delayed_sensor_tells_what_was_with_the_time_when_it_was() {
+    let mut sim = among("");
+    drive(&mut sim, 0.2, 0.0, 1000);
+    let begin = sim.motion();
+    let delay = Duration::from_millis(100);
+    sim.inject(Fault::Sensor(Sensor::Odometry, Defect::Delayed(delay)), sim.now(), Duration::MAX);
+    drive(&mut sim, 0.2, 0.0, 90);
+    assert_eq!(sim.motion(), begin, "nothing newer arrives");
+    drive(&mut sim, 0.2, 0.0, 500);
+    assert_eq!(sim.now().since(sim.motion().time), delay);
+    let behind = sim.snapshot().odometry.x.si() - sim.motion().value.unwrap().x.si();
+    assert!((behind - 0.02).abs() < 0.002, "{behind}");
+}
+
+#[test]
+fn of_two_defects_the_later_counts_and_then_the_earlier_again() {
+    let mut sim = among("");
+    let touch = |defect| Fault::Sensor(Sensor::Touch, defect);
+    sim.inject(touch(Defect::NotANumber), at(200), Duration::from_millis(100));
+    sim.inject(touch(Defect::Lost), at(100), Duration::MAX);
+    let mut said = Vec::new();
+    for millis in [150, 250, 350] {
+        sim.advance_to(at(millis));
+        said.push(sim.touched().value.err());
+    }
+    let expected = [Invalid::NoAnswer, Invalid::NotFinite, Invalid::NoAnswer];
+    assert_eq!(said, expected.map(Some));
+}
+
+#[test]
+fn each_use_of_a_slow_sensor_takes_time_by_the_clock() {
+    let mut sim = among("");
+    let clock = sim.clock();
+    let cost = Duration::from_millis(20);
+    break_now(&mut sim, Fault::Sensor(Sensor::Touch, Defect::Slow(cost)));
+    sim.advance_to(at(100));
+    assert_eq!(clock.now(at(100)), at(100));
+    assert_eq!(sim.motion().value.map(|_| clock.now(at(100))), Ok(at(100)));
+    assert_eq!(sim.touched().value, Ok(false));
+    assert_eq!(clock.now(at(100)), at(120));
+    assert_eq!(sim.touched().value, Ok(false));
+    assert_eq!((clock.now(at(100)), clock.free()), (at(140), at(140)));
+    assert_eq!(clock.now(at(150)), at(150));
+}
+
+#[test]
+fn a_stuck_rotator_stays_and_tells_so() {
+    let mut sim = among("");
+    break_now(&mut sim, Fault::StuckRotator);
+    sim.point(Angle::from_deg(40.0), at(0));
+    wait(&mut sim, 900);
+    assert_eq!(sim.bearing().value.unwrap().si(), 0.0);
+    wait(&mut sim, 500);
+    assert!((sim.bearing().value.unwrap().si().to_degrees() - 40.0).abs() < 0.3);
+}
+
+#[test]
+fn a_stalled_motor_makes_the_robot_turn_around_its_wheel() {
+    for (side, sign) in [(Side::Left, 1.0), (Side::Right, -1.0)] {
+        let mut sim = among("");
+        sim.inject(Fault::StalledMotor(side), at(0), Duration::MAX);
+        drive(&mut sim, 0.2, 0.0, 2000);
+        let pose = sim.truth().pose();
+        assert!(pose.heading * sign > 0.3, "{side:?}: {pose:?}");
+    }
+}
+
+#[test]
+fn on_a_slippery_floor_wheels_spin_and_the_odometer_believes_them() {
+    let way = |grip: Option<f64>| {
+        let mut sim = among("");
+        if let Some(grip) = grip {
+            sim.inject(Fault::Slip(grip), at(0), Duration::MAX);
+        }
+        drive(&mut sim, 0.3, 0.0, 1000);
+        let believed = sim.motion().value.unwrap().x.si();
+        (sim.truth().pose().x, believed)
+    };
+    let (true_way, believed) = way(None);
+    assert!((true_way - believed).abs() < 0.02);
+    let (slipped, believed) = way(Some(0.05));
+    assert!(slipped < 0.6 * true_way, "{slipped} of {true_way}");
+    assert!(believed > slipped + 0.08, "{believed} of {slipped}");
+    assert_eq!(way(Some(f64::NAN)).0, way(Some(0.0)).0);
+}
+
+#[test]
+fn a_dead_controller_stops_the_robot_within_its_dead_man_time() {
+    let mut sim = among("");
+    drive(&mut sim, 0.2, 0.0, 1000);
+    break_now(&mut sim, Fault::DeadController);
+    assert_eq!(sim.motion().value, Err(Invalid::NoAnswer));
+    drive(&mut sim, 0.2, 0.0, 600);
+    let before = sim.truth().pose().x;
+    drive(&mut sim, 0.2, 0.0, 300);
+    assert!((sim.truth().pose().x - before).abs() < 0.002, "it still drives");
+    drive(&mut sim, 0.2, 0.0, 1000);
+    assert!(sim.truth().pose().x > before + 0.1, "it does not drive again");
+}
+
+#[test]
+fn a_low_battery_says_so_and_makes_slow() {
+    let mut sim = among("");
+    sim.inject(Fault::LowBattery(0.02), at(0), Duration::MAX);
+    drive(&mut sim, 0.3, 0.0, 3000);
+    let charge = sim.charge().value.unwrap();
+    assert_eq!(charge.left, 0.02);
+    assert!(charge.voltage.si() < 6.0, "{charge:?}");
+    let speed = sim.motion().value.unwrap().speed;
+    assert!(speed < Speed::from_si(0.2) && speed > Speed::from_si(0.05), "{speed:?}");
+}
+
+#[test]
+fn an_emergency_stop_holds_until_it_is_reset() {
+    let mut sim = among("");
+    drive(&mut sim, 0.2, 0.0, 500);
+    sim.emergency_stop();
+    assert!(sim.emergency_stopped());
+    wait(&mut sim, 300);
+    let before = sim.truth().pose();
+    sim.point(Angle::from_deg(40.0), sim.now());
+    drive(&mut sim, 0.2, 0.3, 1000);
+    assert_eq!(sim.truth().pose(), before);
+    assert_eq!(sim.bearing().value.unwrap().si(), 0.0);
+    sim.reset_emergency_stop();
+    drive(&mut sim, 0.2, 0.0, 1000);
+    assert!(sim.truth().pose().x > before.x + 0.15);
+}
+
+#[test]
+fn faults_that_are_over_leave_the_run_of_the_sound_robot() {
+    let mut whole = among("");
+    let mut mended = among("");
+    for sensor in Sensor::ALL {
+        mended.inject(Fault::Sensor(sensor, Defect::Lost), at(103), Duration::from_millis(333));
+    }
+    for sim in [&mut whole, &mut mended] {
+        drive(sim, 0.2, 0.2, 2000);
+    }
+    assert_eq!(whole.snapshot(), mended.snapshot());
+}
+
+#[test]
+fn every_name_is_a_fault_of_its_own() {
+    let named: Vec<_> = Fault::names()
+        .map(|(device, kind)| Fault::named(device, kind, Amount::default()).expect("is known"))
+        .collect();
+    for (i, fault) in named.iter().enumerate() {
+        assert!(!named[..i].contains(fault), "{fault:?} twice");
+    }
+    assert_eq!(Fault::named("ultrasonic", "stuck", Amount::default()), None);
+    assert_eq!(Fault::named("sonar", "frozen", Amount::default()), None);
+    let late = Amount { time: Some(SECOND), share: None };
+    let expected = Fault::Sensor(Sensor::Odometry, Defect::Delayed(SECOND));
+    assert_eq!(Fault::named("odometry", "delayed", late), Some(expected));
+}
