@@ -52,6 +52,8 @@ pub(crate) struct Program<'a> {
     pub files: Vec<FileScope<'a>>,
     /// The plans of all files, file by file.
     pub plans: Vec<PlanHead>,
+    /// For each plan the plans that it uses, each with the place where it does.
+    pub sub_plans: Vec<Vec<(usize, Span)>>,
     /// The ports and outcomes of all that plans can use.
     pub signatures: Signatures,
 }

@@ -1,7 +1,7 @@
 //! Puts the plans that one plan needs into one graph, sub-plans first.
 
+use crate::check::Program;
 use crate::check::names::key;
-use crate::check::{Program, recursion};
 use crate::graph::{self, Component, Graph, PlanId};
 
 /// The graph of the plan `main`; `order` has sub-plans before their users.
@@ -38,8 +38,7 @@ fn needed(program: &Program<'_>, main: usize) -> Vec<bool> {
     let mut open = vec![main];
     while let Some(place) = open.pop() {
         if !std::mem::replace(&mut needed[place], true) {
-            let used = recursion::sub_plans(&program.plans[place], program);
-            open.extend(used.into_iter().map(|(used, _)| used));
+            open.extend(program.sub_plans[place].iter().map(|(used, _)| *used));
         }
     }
     needed

@@ -1,6 +1,7 @@
 //! Plans that contain themselves, directly or through others: the graph is static, so there can be
 //! none.
 
+use crate::check::scope::FileScope;
 use crate::check::{PlanHead, Program};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::source::Span;
@@ -10,10 +11,9 @@ use crate::syntax::ast::ElementKind;
 /// that use them.
 pub(crate) fn order(program: &Program<'_>, diags: &mut Diagnostics) -> Vec<usize> {
     let plans = &program.plans;
-    let uses: Vec<_> = plans.iter().map(|head| sub_plans(head, program)).collect();
     let mut search = Search {
         plans,
-        uses: &uses,
+        uses: &program.sub_plans,
         state: vec![State::New; plans.len()],
         order: Vec::with_capacity(plans.len()),
         diags,
@@ -25,9 +25,9 @@ pub(crate) fn order(program: &Program<'_>, diags: &mut Diagnostics) -> Vec<usize
 }
 
 /// The plans that a plan uses, each with the place where it does.
-pub(crate) fn sub_plans(head: &PlanHead, program: &Program<'_>) -> Vec<(usize, Span)> {
+pub(crate) fn sub_plans(head: &PlanHead, files: &[FileScope<'_>]) -> Vec<(usize, Span)> {
     let sub_plans = head.node.elements().into_iter().filter(|e| e.kind() == ElementKind::SubPlan);
-    let known = &program.files[head.file].plans;
+    let known = &files[head.file].plans;
     sub_plans
         .filter_map(|element| {
             let reference = element.template()?;

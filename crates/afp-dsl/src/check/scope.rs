@@ -8,7 +8,7 @@ use crate::check::imports::{self, Import};
 use crate::check::names::Names;
 use crate::check::signature::Signatures;
 use crate::check::types::Types;
-use crate::check::{PlanHead, Program, endings, entries, enums, shadows};
+use crate::check::{PlanHead, Program, endings, entries, enums, recursion, shadows};
 use crate::diagnostics::Diagnostics;
 use crate::gather::PlanFile;
 use crate::source::Span;
@@ -67,7 +67,8 @@ pub(super) fn program<'a>(
         }
     }
     let signatures = Signatures::of(&linked, &plans);
-    Program { toolboxes, linked, files: scopes, plans, signatures }
+    let sub_plans = plans.iter().map(|head| recursion::sub_plans(head, &scopes)).collect();
+    Program { toolboxes, linked, files: scopes, plans, sub_plans, signatures }
 }
 
 /// A scope without plans. `enums` has those of all files.

@@ -7,9 +7,11 @@ mod formula;
 mod plan;
 mod toolbox;
 
+use rowan::{Language, NodeOrToken};
+
 use crate::source::Span;
-use crate::syntax::kind::Kind;
-use crate::syntax::{Node, Token, node_span, token_span};
+use crate::syntax::kind::{Afp, Kind};
+use crate::syntax::{Node, node_span};
 
 pub use formula::{Formula, FormulaKind, Sign};
 pub use plan::{Bind, Edge, Element, ElementKind, Entry, Guard, Plan, Start};
@@ -105,32 +107,32 @@ impl File {
     /// The number of `afp 1`.
     pub fn version(&self) -> Option<Name> {
         let node = child(&self.node, Kind::Version)?;
-        token(&node, Kind::Int).map(|token| named(&token, self.file))
+        token(&node, Kind::Int, self.file)
     }
 }
 
 impl Use {
     /// The toolbox's name.
     pub fn toolbox(&self) -> Option<Name> {
-        token(&self.node, Kind::Name).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Name, self.file)
     }
 
     /// The short name behind `as`.
     pub fn alias(&self) -> Option<Name> {
         let alias = child(&self.node, Kind::Alias)?;
-        token(&alias, Kind::Name).map(|token| named(&token, self.file))
+        token(&alias, Kind::Name, self.file)
     }
 
     /// The file's name, quotes included.
     pub fn path(&self) -> Option<Name> {
-        token(&self.node, Kind::Text).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Text, self.file)
     }
 }
 
 impl Enum {
     /// Its name.
     pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Name, self.file)
     }
 
     /// Its `///` lines.
@@ -141,7 +143,7 @@ impl Enum {
     /// The names of its values.
     pub fn variants(&self) -> Vec<Name> {
         children(&self.node, Kind::Variant)
-            .filter_map(|node| token(&node, Kind::Name).map(|token| named(&token, self.file)))
+            .filter_map(|node| token(&node, Kind::Name, self.file))
             .collect()
     }
 }
@@ -149,7 +151,7 @@ impl Enum {
 impl Object {
     /// Its name.
     pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Name, self.file)
     }
 
     /// Its `///` lines.
@@ -161,7 +163,7 @@ impl Object {
 impl Scenario {
     /// Its name, quotes included.
     pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Text).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Text, self.file)
     }
 }
 
@@ -178,7 +180,7 @@ impl Ref {
     }
 
     fn names(&self) -> Vec<Name> {
-        tokens(&self.node, Kind::Name).map(|token| named(&token, self.file)).collect()
+        tokens(&self.node, Kind::Name, self.file)
     }
 }
 
@@ -216,16 +218,16 @@ impl Type {
     }
 
     fn factor(&self, node: &Node, divides: bool) -> Factor {
-        let raised = token(node, Kind::Caret);
-        let numbers: Vec<_> = tokens(node, Kind::Int).collect();
-        let sign = if token(node, Kind::Minus).is_some() { "-" } else { "" };
+        let raised = token(node, Kind::Caret, self.file);
+        let numbers = tokens(node, Kind::Int, self.file);
+        let sign = if token(node, Kind::Minus, self.file).is_some() { "-" } else { "" };
         let exponent = match (&raised, numbers.last()) {
-            (Some(_), Some(number)) => format!("{sign}{}", number.text()).parse().ok(),
+            (Some(_), Some(number)) => format!("{sign}{}", number.text).parse().ok(),
             _ => Some(1),
         };
         let reference = child(node, Kind::Ref).map(|node| Ref::new(node, self.file));
         let number = match reference {
-            None => numbers.first().map(|token| named(token, self.file)),
+            None => numbers.into_iter().next(),
             Some(_) => None,
         };
         Factor { reference, number, divides, exponent, span: node_span(node, self.file) }
@@ -240,29 +242,59 @@ fn children(node: &Node, kind: Kind) -> impl Iterator<Item = Node> {
     node.children().by_kind(move |each| each == kind)
 }
 
-fn token(node: &Node, kind: Kind) -> Option<Token> {
-    tokens(node, kind).next()
+/// Shows the tokens among the children of a node, until one gives something. Reads the tree's own
+/// node, because each step of a cursor costs an allocation.
+fn find_token<R>(
+    node: &Node,
+    file: u16,
+    mut look: impl FnMut(Kind, &str, Span) -> Option<R>,
+) -> Option<R> {
+    let mut end = u32::from(node.text_range().start());
+    node.green().children().find_map(|element| {
+        let start = end;
+        match element {
+            NodeOrToken::Node(node) => {
+                end += u32::from(node.text_len());
+                None
+            }
+            NodeOrToken::Token(token) => {
+                end += u32::from(token.text_len());
+                look(Afp::kind_from_raw(token.kind()), token.text(), Span { file, start, end })
+            }
+        }
+    })
 }
 
-fn tokens(node: &Node, kind: Kind) -> impl Iterator<Item = Token> {
-    let found = node.children_with_tokens().by_kind(move |each| each == kind);
-    found.filter_map(|element| element.into_token())
+/// The first token of a kind.
+fn token(node: &Node, kind: Kind, file: u16) -> Option<Name> {
+    find_token(node, file, |each, text, span| {
+        (each == kind).then(|| Name { text: text.to_owned(), span })
+    })
 }
 
-fn named(token: &Token, file: u16) -> Name {
-    Name { text: token.text().to_owned(), span: token_span(token, file) }
+/// All tokens of a kind.
+fn tokens(node: &Node, kind: Kind, file: u16) -> Vec<Name> {
+    let mut found = Vec::new();
+    find_token(node, file, |each, text, span| {
+        if each == kind {
+            found.push(Name { text: text.to_owned(), span });
+        }
+        None::<()>
+    });
+    found
 }
 
 /// The first word of the grammar in a node.
 fn keyword(node: &Node) -> String {
-    token(node, Kind::Keyword).map(|token| token.text().to_owned()).unwrap_or_default()
+    token(node, Kind::Keyword, 0).map(|token| token.text).unwrap_or_default()
 }
 
 /// The `///` lines in front of an item, without the slashes and one blank behind them.
 fn doc(node: &Node) -> String {
-    let lines: Vec<_> = tokens(node, Kind::Doc)
+    let lines: Vec<_> = tokens(node, Kind::Doc, 0)
+        .into_iter()
         .map(|token| {
-            let text = token.text().trim_start_matches('/');
+            let text = token.text.trim_start_matches('/');
             text.strip_prefix(' ').unwrap_or(text).trim_end().to_owned()
         })
         .collect();

@@ -1,6 +1,6 @@
 //! Formulas in the typed view.
 
-use super::{Name, Ref, named, views};
+use super::{Name, Ref, find_token, token, views};
 use crate::graph::Operator;
 use crate::source::Span;
 use crate::syntax::kind::Kind;
@@ -93,18 +93,15 @@ impl Formula {
     }
 
     fn literal(&self) -> FormulaKind {
-        let tokens = || {
-            let elements = self.node.children_with_tokens();
-            elements.filter_map(|element| element.into_token()).filter(|t| !t.kind().is_trivia())
-        };
-        let Some(first) = tokens().next() else { return FormulaKind::Hole };
-        let unit = tokens().find(|token| token.kind() == Kind::Unit);
-        let name = named(&first, self.file);
-        match first.kind() {
+        let first = find_token(&self.node, self.file, |kind, text, span| {
+            (!kind.is_trivia()).then(|| (kind, Name { text: text.to_owned(), span }))
+        });
+        let Some((kind, name)) = first else { return FormulaKind::Hole };
+        match kind {
             Kind::Int | Kind::Float => FormulaKind::Number {
                 number: name,
-                unit: unit.map(|token| named(&token, self.file)),
-                whole: first.kind() == Kind::Int,
+                unit: token(&self.node, Kind::Unit, self.file),
+                whole: kind == Kind::Int,
                 broken: self.node.children().next().is_some(),
             },
             Kind::Text => FormulaKind::Text(name),

@@ -1,9 +1,9 @@
 //! Plans in the typed view.
 
-use super::{Formula, Name, Ref, Timing, Type, child, children, doc, keyword, named, token, views};
+use super::{Formula, Name, Ref, Timing, Type, child, children, doc, keyword, token, views};
 use crate::source::Span;
 use crate::syntax::kind::Kind;
-use crate::syntax::{Node, node_span, token_span};
+use crate::syntax::{Node, node_span};
 
 views! {
     /// A plan.
@@ -59,7 +59,7 @@ pub enum Bind {
 impl Plan {
     /// Its name.
     pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Name, self.file)
     }
 
     /// Its `///` lines.
@@ -96,7 +96,7 @@ impl Entry {
 
     /// Its name.
     pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Name, self.file)
     }
 
     /// Its `///` lines.
@@ -118,7 +118,7 @@ impl Entry {
 impl Start {
     /// The first element.
     pub fn target(&self) -> Option<Name> {
-        token(&self.node, Kind::Name).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Name, self.file)
     }
 }
 
@@ -134,13 +134,12 @@ impl Element {
 
     /// The place of its keyword.
     pub fn keyword_span(&self) -> Span {
-        token(&self.node, Kind::Keyword)
-            .map_or_else(|| self.span(), |token| token_span(&token, self.file))
+        token(&self.node, Kind::Keyword, self.file).map_or_else(|| self.span(), |token| token.span)
     }
 
     /// Its name.
     pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Name, self.file)
     }
 
     /// Its `///` lines.
@@ -175,14 +174,14 @@ impl Element {
 
     /// The place of its closing brace.
     pub fn end_span(&self) -> Option<Span> {
-        token(&self.node, Kind::CloseBrace).map(|token| token_span(&token, self.file))
+        token(&self.node, Kind::CloseBrace, self.file).map(|token| token.span)
     }
 }
 
 impl Guard {
     /// Its name.
     pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Name, self.file)
     }
 
     /// Its `///` lines.
@@ -217,20 +216,20 @@ impl Guard {
 
     /// The place of its closing brace.
     pub fn end_span(&self) -> Option<Span> {
-        token(&self.node, Kind::CloseBrace).map(|token| token_span(&token, self.file))
+        token(&self.node, Kind::CloseBrace, self.file).map(|token| token.span)
     }
 }
 
 impl Edge {
     /// The state or event.
     pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Name, self.file)
     }
 
     /// Where it leads.
     pub fn target(&self) -> Option<Name> {
         let target = child(&self.node, Kind::Target)?;
-        token(&target, Kind::Name).map(|token| named(&token, self.file))
+        token(&target, Kind::Name, self.file)
     }
 }
 
@@ -248,10 +247,10 @@ fn binds(node: &Node, file: u16) -> Vec<Bind> {
 }
 
 fn bind(node: &Node, file: u16) -> Option<Bind> {
-    let port = named(&token(node, Kind::Name)?, file);
+    let port = token(node, Kind::Name, file)?;
     let sign = |kinds: &[Kind]| {
-        let sign = kinds.iter().find_map(|kind| token(node, *kind));
-        sign.map_or(port.span.after(), |token| token_span(&token, file))
+        let sign = kinds.iter().find_map(|kind| token(node, *kind, file));
+        sign.map_or(port.span.after(), |token| token.span)
     };
     match node.kind() {
         Kind::BindIn => Some(Bind::In {
@@ -261,10 +260,10 @@ fn bind(node: &Node, file: u16) -> Option<Bind> {
         }),
         Kind::BindOut => {
             let target = child(node, Kind::Target);
-            let entry = target.as_ref().and_then(|target| token(target, Kind::Name));
+            let entry = target.as_ref().and_then(|target| token(target, Kind::Name, file));
             Some(Bind::Out {
                 sign: sign(&[Kind::FatArrow, Kind::Arrow]),
-                entry: entry.map(|token| named(&token, file)),
+                entry,
                 formula: target.and_then(|target| Formula::child_of(&target, file)),
                 port,
             })

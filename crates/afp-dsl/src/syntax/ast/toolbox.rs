@@ -1,9 +1,8 @@
 //! Toolboxes in the typed view.
 
-use super::{Formula, Name, Type, child, doc, keyword, named, token, tokens, views};
+use super::{Formula, Name, Type, child, doc, keyword, token, tokens, views};
 use crate::source::Span;
 use crate::syntax::kind::Kind;
-use crate::syntax::token_span;
 
 pub use crate::toolbox::TemplateKind;
 
@@ -42,12 +41,12 @@ pub enum Part {
 impl Toolbox {
     /// Its name.
     pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Name, self.file)
     }
 
     /// Its version, quotes included.
     pub fn version(&self) -> Option<Name> {
-        token(&self.node, Kind::Text).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Text, self.file)
     }
 
     /// Its `///` lines.
@@ -68,7 +67,7 @@ impl Template {
 
     /// Its name.
     pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Name, self.file)
     }
 
     /// Its `///` lines.
@@ -80,9 +79,9 @@ impl Template {
     pub fn parts(&self) -> Vec<Part> {
         let file = self.file;
         let part = |node: crate::syntax::Node| {
-            let span = token(&node, Kind::Keyword).map(|token| token_span(&token, file));
+            let span = token(&node, Kind::Keyword, file).map(|token| token.span);
             let span = span.unwrap_or_else(|| self.span());
-            let name = |kind| token(&node, kind).map(|token| named(&token, file));
+            let name = |kind| token(&node, kind, file);
             Some(match node.kind() {
                 Kind::Icon => Part::Icon(name(Kind::Text), span),
                 Kind::Uses => Part::Uses(name(Kind::Name), span),
@@ -100,7 +99,7 @@ impl Template {
 impl InPort {
     /// Its name.
     pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Name, self.file)
     }
 
     /// Its `///` lines.
@@ -110,8 +109,8 @@ impl InPort {
 
     /// The place of `live`, where written.
     pub fn live(&self) -> Option<Span> {
-        let mut words = tokens(&self.node, Kind::Keyword).skip(1);
-        words.find(|word| word.text() == "live").map(|token| token_span(&token, self.file))
+        let mut words = tokens(&self.node, Kind::Keyword, self.file).into_iter().skip(1);
+        words.find(|word| word.text == "live").map(|word| word.span)
     }
 
     /// Its type.
@@ -137,7 +136,7 @@ impl InPort {
 impl OutPort {
     /// Its name.
     pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Name, self.file)
     }
 
     /// Its `///` lines.
@@ -153,19 +152,19 @@ impl OutPort {
     /// The states or events behind `on`; `None` without one.
     pub fn on(&self) -> Option<Vec<Name>> {
         let on = child(&self.node, Kind::On)?;
-        Some(tokens(&on, Kind::Name).map(|token| named(&token, self.file)).collect())
+        Some(tokens(&on, Kind::Name, self.file))
     }
 }
 
 impl Outcome {
     /// `state` or `event`, and its place.
     pub fn keyword(&self) -> Option<Name> {
-        token(&self.node, Kind::Keyword).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Keyword, self.file)
     }
 
     /// Its name.
     pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Name, self.file)
     }
 
     /// Its `///` lines.
@@ -177,7 +176,7 @@ impl Outcome {
 impl Timing {
     /// `every`, `deadline`, `budget` or `stop`, and its place.
     pub fn keyword(&self) -> Option<Name> {
-        token(&self.node, Kind::Keyword).map(|token| named(&token, self.file))
+        token(&self.node, Kind::Keyword, self.file)
     }
 
     /// The time.
