@@ -5,6 +5,9 @@
 
 pub(crate) mod battery;
 pub(crate) mod bumper;
+pub(crate) mod camera;
+pub(crate) mod color;
+pub(crate) mod infrared;
 pub(crate) mod line;
 pub(crate) mod odometer;
 pub(crate) mod rotator;

@@ -54,6 +54,12 @@ pub enum Sensor {
     Touch,
     /// The buttons.
     Buttons,
+    /// The infrared direction sensor.
+    Infrared,
+    /// The colour sensor.
+    Color,
+    /// The camera.
+    Camera,
     /// The battery's gauge.
     Battery,
 }
@@ -69,12 +75,15 @@ pub enum Side {
 
 impl Sensor {
     /// Every sensor.
-    pub const ALL: [Sensor; 6] = [
+    pub const ALL: [Sensor; 9] = [
         Sensor::Ultrasonic,
         Sensor::Rotator,
         Sensor::Odometry,
         Sensor::Touch,
         Sensor::Buttons,
+        Sensor::Infrared,
+        Sensor::Color,
+        Sensor::Camera,
         Sensor::Battery,
     ];
 }

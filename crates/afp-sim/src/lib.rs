@@ -13,7 +13,9 @@
 mod clock;
 mod devices;
 mod fault;
+mod film;
 mod noise;
+mod scene;
 mod simulation;
 mod truth;
 mod vehicle;
@@ -21,6 +23,7 @@ pub mod world;
 
 pub use clock::VirtualClock;
 pub use fault::{Amount, Defect, Fault, Sensor, Side};
+pub use film::Film;
 pub use simulation::{Bare, STEP, Simulation, Snapshot, Sonar};
 pub use truth::{Collision, Pose, Truth};
 pub use vehicle::{HALF_LENGTH, HALF_WIDTH};

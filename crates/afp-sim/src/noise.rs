@@ -16,6 +16,12 @@ pub(crate) enum Source {
     Ultrasonic = 3,
     /// The bumper's bouncing contact.
     Bumper = 4,
+    /// Bearing and strength of infrared light.
+    Infrared = 5,
+    /// The colour sensor.
+    Color = 6,
+    /// The grain of pictures.
+    Camera = 7,
 }
 
 /// A stream of random numbers.
@@ -31,6 +37,11 @@ impl Noise {
     /// Uniform in 0 to 1, 1 excluded.
     pub(crate) fn uniform(&mut self) -> f64 {
         f64::from(self.0.next_u32()) / 4_294_967_296.0
+    }
+
+    /// Uniform among the whole numbers from 0 to before `bound`; 0 for a bound of 0.
+    pub(crate) fn below(&mut self, bound: u32) -> u32 {
+        ((u64::from(self.0.next_u32()) * u64::from(bound)) >> 32) as u32
     }
 
     /// Mean 0, standard deviation 1, nothing beyond 3.5: four uniform numbers added up.

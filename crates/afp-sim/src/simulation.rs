@@ -5,7 +5,9 @@ mod build;
 mod bumper;
 mod devices;
 mod faults;
+mod movers;
 mod ping;
+mod see;
 mod snapshot;
 
 pub use bare::Bare;
@@ -14,22 +16,28 @@ pub use snapshot::{Snapshot, Sonar};
 use crate::clock::VirtualClock;
 use crate::devices::battery::Battery;
 use crate::devices::bumper::Switch;
+use crate::devices::camera::Exposure;
+use crate::devices::color::ColorSensor;
+use crate::devices::infrared::Infrared;
 use crate::devices::odometer::Odometer;
 use crate::devices::rotator::Rotator;
 use crate::devices::sonar;
 use crate::fault::Schedule;
 use crate::noise::{Noise, Source};
+use crate::scene::Scene;
 use crate::truth::{Collisions, Truth};
 use crate::vehicle::drive::Drive;
 use crate::vehicle::wheel::Twist;
-use crate::world::{Obstacle, World, WorldError};
-use afp_carbot::devices::{Echo, Invalid, Reading};
+use crate::world::{Light, Obstacle, World, WorldError};
+use afp_carbot::devices::{Color, Echo, Glow, Invalid, Reading};
 use afp_core::{Duration, Instant};
 use build::{Built, build};
 use faults::Lines;
+use movers::Mover;
 use rapier2d::math::{Pose as Isometry, Vector};
 use rapier2d::parry::shape::SharedShape;
 use rapier2d::prelude::{ColliderHandle, PhysicsWorld, RigidBodyHandle};
+use std::sync::Arc;
 
 /// The physics' own grid.
 pub const STEP: Duration = Duration::from_millis(5);
@@ -57,6 +65,15 @@ pub struct Simulation {
     echo: Reading<Echo>,
     switch: Switch,
     battery: Battery,
+    scene: Scene,
+    lights: Vec<Light>,
+    movers: Vec<Mover>,
+    infrared: Infrared,
+    glow: Reading<Option<Glow>>,
+    color_sensor: ColorSensor,
+    color: Reading<Color>,
+    exposure: Reading<Arc<Exposure>>,
+    seed: u64,
     escape: bool,
     /// After an emergency stop.
     stopped: bool,
@@ -75,7 +92,7 @@ impl Simulation {
     /// # Errors
     /// An obstacle without an area; [`World::parse`] lets none through.
     pub fn new(world: &World, seed: u64) -> Result<Self, WorldError> {
-        let Built { physics, body, collider, shapes } = build(world)?;
+        let Built { physics, body, collider, shapes, movers } = build(world)?;
         let mut differences = Noise::new(seed, Source::Build);
         Ok(Simulation {
             physics,
@@ -92,7 +109,16 @@ impl Simulation {
             ping: None,
             echo: Reading::invalid(Invalid::NotYet, Instant::ZERO),
             switch: Switch::new(seed),
-            battery: Battery::new(1.0),
+            battery: Battery::new(world.charge),
+            scene: Scene::new(world),
+            lights: world.lights.clone(),
+            movers,
+            infrared: Infrared::new(seed),
+            glow: Reading::invalid(Invalid::NotYet, Instant::ZERO),
+            color_sensor: ColorSensor::new(seed),
+            color: Reading::invalid(Invalid::NotYet, Instant::ZERO),
+            exposure: Reading { time: Instant::ZERO, value: Err(Invalid::NotYet) },
+            seed,
             escape: false,
             stopped: false,
             faults: Schedule::new(),
@@ -171,7 +197,9 @@ impl Simulation {
     fn step(&mut self) {
         let now = self.grid(self.steps);
         self.push(now);
+        self.move_obstacles(now);
         self.physics.step();
+        self.note_obstacles();
         self.odometer.step(self.drive.wheels(), DT);
         self.rotator.step(DT);
         let [left, right] = self.drive.wheels();
@@ -182,6 +210,7 @@ impl Simulation {
             self.receive();
             self.ping(now);
         }
+        self.see(now);
         self.note();
     }
 

@@ -1,18 +1,27 @@
-//! Worlds: where the robot starts and what stands around it.
+//! Worlds: where the robot starts and what stands, lies, shines and moves around it.
 //!
 //! Written in TOML with the units in the keys; a key that does not exist is an error that names it
 //! and its line, so a misspelt one cannot be overlooked.
 
 mod error;
 mod file;
+mod look;
+mod outline;
+mod path;
 
 pub use error::WorldError;
+pub use look::{Look, Rgb, Texture};
+pub use outline::Outline;
+pub use path::Path;
+
+pub(crate) use outline::isometry;
 
 use crate::truth::Pose;
 use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
-use rapier2d::math::{Pose as Isometry, Rotation, Vector};
+use outline::rectangle;
+use rapier2d::math::Vector;
 use rapier2d::parry::query;
-use rapier2d::parry::shape::{Cuboid, SharedShape};
+use rapier2d::parry::shape::Cuboid;
 
 /// A world as read from its file.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,73 +30,71 @@ pub struct World {
     pub name: String,
     /// Where the robot starts.
     pub start: Pose,
+    /// The share of its charge that the battery has at the start, above 0 up to 1.
+    pub charge: f64,
+    /// What the floor looks like where no patch lies.
+    pub floor: Look,
     /// Everything that stands in it, in the order of the file: walls, boxes, polygons.
     pub obstacles: Vec<Obstacle>,
+    /// Coloured patches on the floor; the last one lies on top.
+    pub patches: Vec<Patch>,
+    /// Sources of infrared light.
+    pub lights: Vec<Light>,
 }
 
-/// Something that stands still.
+/// Something that stands or moves on the floor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Obstacle {
     /// Its name, or `wall 3` and the like where the file gives none.
     pub name: String,
-    /// Its outline.
+    /// Its outline at the start.
     pub outline: Outline,
     /// How high it is, metres. The range sensor looks over what is lower than 15 cm.
     pub height: f64,
+    /// Whether it moves.
+    pub mobility: Mobility,
+    /// What it looks like.
+    pub look: Look,
+    /// How much of the sound that hits it is sent back, above 0 up to 1.
+    pub echo: f64,
 }
 
-/// The outline of an obstacle, seen from above.
+/// Whether and how an obstacle moves.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Outline {
-    /// A rectangle around its middle, turned by the pose's heading.
-    Box {
-        /// Where its middle is.
-        pose: Pose,
-        /// Half its length and width, metres.
-        half: [f64; 2],
+pub enum Mobility {
+    /// It stands still for good.
+    Fixed,
+    /// It can be pushed.
+    Movable {
+        /// Kilograms.
+        mass: f64,
     },
-    /// A convex polygon, metres in the world's frame, counter-clockwise.
-    Polygon(Vec<[f64; 2]>),
+    /// It goes its way whatever is in it.
+    Scripted(Path),
 }
 
-impl Outline {
-    /// The corners in the world's frame, metres, counter-clockwise.
-    pub fn corners(&self) -> Vec<[f64; 2]> {
-        match self {
-            Outline::Box { pose, half } => rectangle(*pose, *half).to_vec(),
-            Outline::Polygon(corners) => corners.clone(),
-        }
-    }
-
-    /// The outline as parry's shape and where it is; none for a polygon without an area.
-    pub(crate) fn shape(&self) -> Option<(Isometry, SharedShape)> {
-        match self {
-            Outline::Box { pose, half } => {
-                Some((isometry(*pose), SharedShape::cuboid(half[0] as f32, half[1] as f32)))
-            }
-            Outline::Polygon(corners) => {
-                let corners = corners.iter().map(|c| Vector::new(c[0] as f32, c[1] as f32));
-                let shape = SharedShape::convex_polyline(corners.collect())?;
-                Some((Isometry::identity(), shape))
-            }
-        }
-    }
+/// A patch of colour on the floor: a convex polygon.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Patch {
+    /// Its name, or `patch 1` and the like.
+    pub name: String,
+    /// Its corners, metres, counter-clockwise.
+    pub corners: Vec<[f64; 2]>,
+    /// Its colour.
+    pub color: Rgb,
 }
 
-/// The corners of a rectangle, counter-clockwise.
-fn rectangle(pose: Pose, [x, y]: [f64; 2]) -> [[f64; 2]; 4] {
-    let (sin, cos) = libm::sincos(pose.heading);
-    [[x, y], [-x, y], [-x, -y], [x, -y]]
-        .map(|[x, y]| [pose.x + x * cos - y * sin, pose.y + x * sin + y * cos])
-}
-
-/// A pose for rapier; through `libm`, like all trigonometry here.
-pub(crate) fn isometry(pose: Pose) -> Isometry {
-    let (sin, cos) = libm::sincos(pose.heading);
-    Isometry::from_parts(
-        Vector::new(pose.x as f32, pose.y as f32),
-        Rotation::from_cos_sin_unchecked(cos as f32, sin as f32),
-    )
+/// A source of infrared light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Light {
+    /// Its name, or `infrared 1` and the like.
+    pub name: String,
+    /// Where it is, metres.
+    pub position: [f64; 2],
+    /// How high above the floor, metres.
+    pub height: f64,
+    /// How bright it is; 1 gives a reading of 1 at one metre.
+    pub strength: f64,
 }
 
 impl World {
@@ -98,7 +105,7 @@ impl World {
     /// value that makes no sense, a robot that starts inside of something.
     pub fn parse(text: &str) -> Result<World, WorldError> {
         let world = file::read(text)?;
-        match world.obstacle_at_start() {
+        match world.obstacle_at(world.start) {
             Some(obstacle) => Err(WorldError::at_key(
                 text,
                 &["robot", "pose_m_deg"],
@@ -113,9 +120,11 @@ impl World {
         rectangle(pose, [HALF_LENGTH, HALF_WIDTH])
     }
 
-    fn obstacle_at_start(&self) -> Option<&Obstacle> {
+    /// The first obstacle that a robot at this pose would be inside of, as things stand at the
+    /// start.
+    pub fn obstacle_at(&self, pose: Pose) -> Option<&Obstacle> {
         let robot = Cuboid::new(Vector::new(HALF_LENGTH as f32, HALF_WIDTH as f32));
-        let start = isometry(self.start);
+        let start = isometry(pose);
         self.obstacles.iter().find(|obstacle| {
             let Some((at, shape)) = obstacle.outline.shape() else { return false };
             query::intersection_test(&start, &robot, &at, &*shape)

@@ -43,14 +43,21 @@ impl<T: Clone> Line<T> {
 
     /// What arrives of what the sensor says.
     pub(crate) fn read(&self, raw: Reading<T>) -> Reading<T> {
-        let Some(held) = &self.held else { return raw };
-        match self.defect {
-            None | Some(Defect::Slow(_)) => raw,
-            Some(Defect::Frozen) => Reading { time: raw.time, value: held.value.clone() },
-            Some(Defect::Lost) => Reading { time: raw.time, value: Err(Invalid::NoAnswer) },
-            Some(Defect::NotANumber) => Reading { time: raw.time, value: Err(Invalid::NotFinite) },
-            Some(Defect::Delayed(_)) => held.clone(),
-        }
+        let Reading { time, value } = self.look(&raw);
+        Reading { time, value: value.cloned() }
+    }
+
+    /// The same without a copy.
+    pub(crate) fn look<'a>(&'a self, raw: &'a Reading<T>) -> Reading<&'a T> {
+        let of = |reading: &'a Reading<T>| reading.value.as_ref().map_err(|reason| *reason);
+        let (time, value) = match (self.defect, &self.held) {
+            (Some(Defect::Frozen), Some(held)) => (raw.time, of(held)),
+            (Some(Defect::Lost), _) => (raw.time, Err(Invalid::NoAnswer)),
+            (Some(Defect::NotANumber), _) => (raw.time, Err(Invalid::NotFinite)),
+            (Some(Defect::Delayed(_)), Some(held)) => (held.time, of(held)),
+            _ => (raw.time, of(raw)),
+        };
+        Reading { time, value }
     }
 
     /// What one use costs.

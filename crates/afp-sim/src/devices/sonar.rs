@@ -39,11 +39,13 @@ const RESOLUTION: f64 = 0.001;
 const LOST: f64 = 0.01;
 const LOST_FAINT: f64 = 0.4;
 
-/// What a ray met: how far away, and the cosine of the angle to the surface's normal.
+/// What a ray met: how far away, the cosine of the angle to the surface's normal, and how much of
+/// the sound the surface sends back.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hit {
     pub(crate) range: f64,
     pub(crate) cos: f64,
+    pub(crate) echo: f64,
 }
 
 /// How the sensor is mounted.
@@ -91,7 +93,7 @@ impl Sonar {
         for &(ray_cos, ray_sin, share) in &self.rays {
             let direction = (cos * ray_cos - sin * ray_sin, sin * ray_cos + cos * ray_sin);
             let Some(hit) = cast(direction) else { continue };
-            let loudness = share * mirrored(hit.cos) / (hit.range * hit.range).max(0.01);
+            let loudness = share * hit.echo * mirrored(hit.cos) / (hit.range * hit.range).max(0.01);
             let loud = loudness > THRESHOLD;
             if loud && nearest.is_none_or(|(range, _)| hit.range < range) {
                 nearest = Some((hit.range, loudness));

@@ -82,6 +82,9 @@ impl Sensor {
             Sensor::Odometry => "odometry",
             Sensor::Touch => "touch",
             Sensor::Buttons => "buttons",
+            Sensor::Infrared => "infrared",
+            Sensor::Color => "color",
+            Sensor::Camera => "camera",
             Sensor::Battery => "battery",
         }
     }

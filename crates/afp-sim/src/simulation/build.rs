@@ -1,9 +1,10 @@
 //! Builds a world and the robot in it for the engine.
 
 use super::DT;
+use super::movers::Mover;
 use crate::devices::sonar;
 use crate::vehicle::{HALF_LENGTH, HALF_WIDTH, MASS};
-use crate::world::{Obstacle, World, WorldError, isometry};
+use crate::world::{Mobility, Obstacle, World, WorldError, isometry};
 use rapier2d::geometry::{Group, InteractionGroups, InteractionTestMode};
 use rapier2d::math::{Pose as Isometry, Vector};
 use rapier2d::parry::shape::SharedShape;
@@ -24,6 +25,7 @@ pub(super) struct Built {
     pub(super) body: RigidBodyHandle,
     pub(super) collider: ColliderHandle,
     pub(super) shapes: Vec<(Isometry, SharedShape)>,
+    pub(super) movers: Vec<Mover>,
 }
 
 /// Builds a world and the robot in it for the engine.
@@ -31,30 +33,45 @@ pub(super) fn build(world: &World) -> Result<Built, WorldError> {
     let mut physics = PhysicsWorld::new();
     physics.gravity = Vector::ZERO;
     physics.integration_parameters.dt = DT as f32;
+    let mut movers = Vec::new();
     let mut shapes = Vec::with_capacity(world.obstacles.len());
     for (i, obstacle) in world.obstacles.iter().enumerate() {
         let (at, shape) = obstacle.outline.shape().ok_or_else(|| WorldError {
             place: None,
             message: format!("'{}' has no area", obstacle.name),
         })?;
-        physics.insert_collider(fixed(obstacle, at, shape.clone(), i), None);
+        let collider = collider(obstacle, shape.clone(), i);
+        match Mover::body(obstacle, at) {
+            None => drop(physics.insert_collider(collider.position(at), None)),
+            Some(body) => {
+                let (body, _) = physics.insert(body, collider);
+                movers.push(Mover::new(i, body, at, obstacle));
+            }
+        }
         shapes.push((at, shape));
     }
     let body = RigidBodyBuilder::dynamic().pose(isometry(world.start)).can_sleep(false);
     let (body, collider) = physics.insert(body, robot());
     // Rays meet nothing before the first update of the search tree.
     physics.detect_collisions(&(), &());
-    Ok(Built { physics, body, collider, shapes })
+    Ok(Built { physics, body, collider, shapes, movers })
 }
 
 /// An obstacle's collider; its index in the world is its user data.
-fn fixed(obstacle: &Obstacle, at: Isometry, shape: SharedShape, i: usize) -> ColliderBuilder {
+fn collider(obstacle: &Obstacle, shape: SharedShape, i: usize) -> ColliderBuilder {
     let group = if obstacle.height >= sonar::HEIGHT { HIGH } else { LOW };
-    ColliderBuilder::new(shape)
-        .position(at)
+    let builder = match obstacle.mobility {
+        Mobility::Movable { mass } => ColliderBuilder::new(shape).mass(mass as f32),
+        Mobility::Fixed | Mobility::Scripted(_) => ColliderBuilder::new(shape),
+    };
+    builder
         .friction(0.3)
         .restitution(0.0)
-        .collision_groups(InteractionGroups::new(group, ROBOT | HIGH, InteractionTestMode::And))
+        .collision_groups(InteractionGroups::new(
+            group,
+            ROBOT | HIGH | LOW,
+            InteractionTestMode::And,
+        ))
         .user_data(i as u128)
 }
 

@@ -2,11 +2,12 @@
 
 use super::Simulation;
 use crate::devices::line::Line;
-use crate::devices::sonar;
+use crate::devices::{camera, infrared, sonar};
 use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
 use afp_carbot::devices::{
-    Battery, Beam, Body, Button, Buttons, Charge, Echo, Motion, Navigator, Odometry, Reading,
-    RotatingTelemetry, Rotator, TouchSensor, Ultrasonic,
+    Battery, Beam, Body, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo, Frame, Glow,
+    InfraredSensor, Lens, Motion, Navigator, Odometry, Reading, RotatingTelemetry, Rotator,
+    TouchSensor, Ultrasonic,
 };
 use afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
 use afp_core::{Environment, Instant};
@@ -39,10 +40,15 @@ impl Simulation {
 
     /// A reading as it arrives at the plan.
     fn deliver<T: Clone>(&self, line: &Line<T>, raw: Reading<T>) -> Reading<T> {
+        self.charge_for(line);
+        line.read(raw)
+    }
+
+    /// Takes the time that one use of a sensor costs.
+    fn charge_for<T: Clone>(&self, line: &Line<T>) {
         if let Some(cost) = line.cost() {
             self.clock.spend(self.now, cost);
         }
-        line.read(raw)
     }
 
     fn measured<T>(&self, value: T) -> Reading<T> {
@@ -127,6 +133,34 @@ impl Buttons for Simulation {
         match button {
             Button::Escape => self.deliver(&self.lines.buttons, self.raw_escape()),
         }
+    }
+}
+
+impl InfraredSensor for Simulation {
+    fn glow(&self) -> Reading<Option<Glow>> {
+        self.deliver(&self.lines.infrared, self.glow)
+    }
+
+    fn field_of_view(&self) -> Angle {
+        Angle::from_si(infrared::FIELD)
+    }
+}
+
+impl ColorSensor for Simulation {
+    fn color(&self) -> Reading<Color> {
+        self.deliver(&self.lines.color, self.color)
+    }
+}
+
+impl Camera for Simulation {
+    fn frame(&self) -> Reading<Frame<'_>> {
+        self.charge_for(&self.lines.camera);
+        let Reading { time, value } = self.lines.camera.look(&self.exposure);
+        Reading { time, value: value.map(|exposure| exposure.frame()) }
+    }
+
+    fn lens(&self) -> Lens {
+        camera::lens()
     }
 }
 

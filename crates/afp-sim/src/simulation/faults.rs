@@ -1,12 +1,14 @@
 //! Faults begin and end.
 
 use super::Simulation;
+use crate::devices::camera::Exposure;
 use crate::devices::line::Line;
 use crate::fault::{Defect, Fault, Sensor, Side};
 use crate::vehicle::drive::Health;
-use afp_carbot::devices::{Charge, Echo, Motion, Reading};
+use afp_carbot::devices::{Charge, Color, Echo, Glow, Motion, Reading};
 use afp_core::quantity::Angle;
 use afp_core::{Duration, Instant};
+use std::sync::Arc;
 
 /// From each sensor to the plan.
 #[derive(Debug, Default)]
@@ -16,6 +18,9 @@ pub(super) struct Lines {
     pub(super) odometry: Line<Motion>,
     pub(super) touch: Line<bool>,
     pub(super) buttons: Line<bool>,
+    pub(super) infrared: Line<Option<Glow>>,
+    pub(super) color: Line<Color>,
+    pub(super) camera: Line<Arc<Exposure>>,
     pub(super) battery: Line<Charge>,
 }
 
@@ -53,14 +58,17 @@ impl Simulation {
 
     fn set_defect(&mut self, sensor: Sensor, defect: Option<Defect>) {
         let raw = self.raw();
-        let Lines { ultrasonic, rotator, odometry, touch, buttons, battery } = &mut self.lines;
+        let lines = &mut self.lines;
         match sensor {
-            Sensor::Ultrasonic => ultrasonic.set(defect, raw.echo),
-            Sensor::Rotator => rotator.set(defect, raw.bearing),
-            Sensor::Odometry => odometry.set(defect, raw.motion),
-            Sensor::Touch => touch.set(defect, raw.touched),
-            Sensor::Buttons => buttons.set(defect, raw.escape),
-            Sensor::Battery => battery.set(defect, raw.charge),
+            Sensor::Ultrasonic => lines.ultrasonic.set(defect, raw.echo),
+            Sensor::Rotator => lines.rotator.set(defect, raw.bearing),
+            Sensor::Odometry => lines.odometry.set(defect, raw.motion),
+            Sensor::Touch => lines.touch.set(defect, raw.touched),
+            Sensor::Buttons => lines.buttons.set(defect, raw.escape),
+            Sensor::Infrared => lines.infrared.set(defect, raw.glow),
+            Sensor::Color => lines.color.set(defect, raw.color),
+            Sensor::Camera => lines.camera.set(defect, raw.exposure),
+            Sensor::Battery => lines.battery.set(defect, raw.charge),
         }
     }
 
@@ -70,13 +78,16 @@ impl Simulation {
             return;
         }
         let (raw, now) = (self.raw(), self.now);
-        let Lines { ultrasonic, rotator, odometry, touch, buttons, battery } = &mut self.lines;
-        ultrasonic.note(raw.echo, now);
-        rotator.note(raw.bearing, now);
-        odometry.note(raw.motion, now);
-        touch.note(raw.touched, now);
-        buttons.note(raw.escape, now);
-        battery.note(raw.charge, now);
+        let lines = &mut self.lines;
+        lines.ultrasonic.note(raw.echo, now);
+        lines.rotator.note(raw.bearing, now);
+        lines.odometry.note(raw.motion, now);
+        lines.touch.note(raw.touched, now);
+        lines.buttons.note(raw.escape, now);
+        lines.infrared.note(raw.glow, now);
+        lines.color.note(raw.color, now);
+        lines.camera.note(raw.exposure, now);
+        lines.battery.note(raw.charge, now);
     }
 
     fn raw(&self) -> Raw {
@@ -86,6 +97,9 @@ impl Simulation {
             motion: self.raw_motion(),
             touched: self.raw_touched(),
             escape: self.raw_escape(),
+            glow: self.glow,
+            color: self.color,
+            exposure: self.exposure.clone(),
             charge: self.raw_charge(),
         }
     }
@@ -98,5 +112,8 @@ struct Raw {
     motion: Reading<Motion>,
     touched: Reading<bool>,
     escape: Reading<bool>,
+    glow: Reading<Option<Glow>>,
+    color: Reading<Color>,
+    exposure: Reading<Arc<Exposure>>,
     charge: Reading<Charge>,
 }

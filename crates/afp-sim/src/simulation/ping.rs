@@ -22,9 +22,11 @@ impl Simulation {
         let range = self.sonar.ping(axis, |(x, y)| {
             let direction = Vector::new(x as f32, y as f32);
             let ray = Ray::new(origin, direction);
-            let (_, hit) = queries.cast_ray_and_get_normal(&ray, sonar::MAX as f32, true)?;
+            let (of, hit) = queries.cast_ray_and_get_normal(&ray, sonar::MAX as f32, true)?;
             let cos = f64::from(-hit.normal.dot(direction));
-            Some(Hit { range: f64::from(hit.time_of_impact), cos })
+            let of = self.physics.colliders[of].user_data as usize;
+            let echo = self.obstacles.get(of).map_or(1.0, |obstacle| obstacle.echo);
+            Some(Hit { range: f64::from(hit.time_of_impact), cos, echo })
         });
         let bearing = self.rotator.telemetry();
         let value = match range {

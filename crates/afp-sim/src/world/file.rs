@@ -1,211 +1,221 @@
-//! The world file as serde sees it, and what its values must satisfy.
+//! A world file read: its tables, and what its values must satisfy.
 
-use super::{Obstacle, Outline, World, WorldError};
+mod check;
+mod tables;
+
+use super::look::parse_color;
+use super::{
+    Light, Look, Mobility, Obstacle, Outline, Patch, Path, Rgb, Texture, World, WorldError,
+};
 use crate::truth::Pose;
-use serde::Deserialize;
+use check::{Check, Key};
+use tables::File;
 
 /// A wall is this thick where the file does not say, metres.
 const THICKNESS: f64 = 0.1;
 /// A wall is this high where the file does not say, metres.
 const WALL_HEIGHT: f64 = 2.5;
-/// Nothing lies farther from the origin than this, metres: beyond it single precision is coarse.
-const FARTHEST: f64 = 1000.0;
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct File {
-    version: u32,
-    #[serde(default)]
-    name: String,
-    robot: Robot,
-    #[serde(default)]
-    wall: Vec<Wall>,
-    #[serde(default, rename = "box")]
-    boxes: Vec<Box>,
-    #[serde(default)]
-    polygon: Vec<Polygon>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Robot {
-    pose_m_deg: [f64; 3],
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Wall {
-    name: Option<String>,
-    points_m: Vec<[f64; 2]>,
-    #[serde(default)]
-    closed: bool,
-    thickness_m: Option<f64>,
-    height_m: Option<f64>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Box {
-    name: Option<String>,
-    pose_m_deg: [f64; 3],
-    size_m: [f64; 2],
-    height_m: f64,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Polygon {
-    name: Option<String>,
-    points_m: Vec<[f64; 2]>,
-    height_m: f64,
-}
+/// A source of infrared light is this high where the file does not say, metres.
+const LIGHT_HEIGHT: f64 = 0.15;
+/// The fastest that something moves by itself, metres a second: no quicker than the physics'
+/// steps can follow.
+const FASTEST: f64 = 5.0;
+/// Colours where the file gives none.
+const FLOOR_COLOR: Rgb = [200, 194, 184];
+const WALL_COLOR: Rgb = [226, 221, 208];
+const BOX_COLOR: Rgb = [176, 141, 87];
+const POLYGON_COLOR: Rgb = [127, 143, 166];
 
 /// Reads a file and checks each value by itself.
 pub(super) fn read(text: &str) -> Result<World, WorldError> {
     let file: File = toml_edit::de::from_str(text)
         .map_err(|error| WorldError::at_span(text, error.span(), error.message().to_owned()))?;
-    let check = Check { text };
+    let check = Check::new(text);
+    let root = Key::root();
     if file.version != 1 {
         let message = format!("version {} is unknown; this is version 1", file.version);
         return Err(WorldError::at_key(text, &["version"], message));
     }
-    let start = check.pose(&["robot", "pose_m_deg"], file.robot.pose_m_deg)?;
+    let robot = root.at("robot");
+    let start = check.pose(&robot.at("pose_m_deg"), file.robot.pose_m_deg)?;
+    let charge = check.share(&robot.at("charge"), file.robot.charge)?;
+    let floor = root.at("floor");
+    let floor = check.look(&floor, FLOOR_COLOR, file.floor.color, file.floor.texture)?;
     let mut obstacles = Vec::new();
     for (i, wall) in file.wall.into_iter().enumerate() {
-        check.wall(i, wall, &mut obstacles)?;
+        check.wall(&root.nth("wall", i), i, wall, &mut obstacles)?;
     }
     for (i, the_box) in file.boxes.into_iter().enumerate() {
-        obstacles.push(check.the_box(i, the_box)?);
+        obstacles.push(check.the_box(&root.nth("box", i), i, the_box)?);
     }
     for (i, polygon) in file.polygon.into_iter().enumerate() {
-        obstacles.push(check.polygon(i, polygon)?);
+        obstacles.push(check.polygon(&root.nth("polygon", i), i, polygon)?);
     }
-    Ok(World { name: file.name, start, obstacles })
-}
-
-/// Checks values and reports them at their keys.
-struct Check<'a> {
-    text: &'a str,
+    let patches = file.patch.into_iter().enumerate();
+    let patches = patches.map(|(i, patch)| check.patch(&root.nth("patch", i), i, patch));
+    let lights = file.infrared.into_iter().enumerate();
+    let lights = lights.map(|(i, light)| check.light(&root.nth("infrared", i), i, light));
+    Ok(World {
+        name: file.name,
+        start,
+        charge,
+        floor,
+        obstacles,
+        patches: patches.collect::<Result<_, _>>()?,
+        lights: lights.collect::<Result<_, _>>()?,
+    })
 }
 
 impl Check<'_> {
-    fn wall(&self, i: usize, wall: Wall, into: &mut Vec<Obstacle>) -> Result<(), WorldError> {
-        let index = i.to_string();
-        let key = |name| ["wall", &index, name].map(str::to_owned);
+    fn wall(
+        &self,
+        key: &Key,
+        i: usize,
+        wall: tables::Wall,
+        into: &mut Vec<Obstacle>,
+    ) -> Result<(), WorldError> {
         let thickness = wall.thickness_m.unwrap_or(THICKNESS);
         let height = wall.height_m.unwrap_or(WALL_HEIGHT);
-        self.positive(&key("thickness_m"), &[thickness])?;
-        self.positive(&key("height_m"), &[height])?;
+        self.positive(&key.at("thickness_m"), &[thickness])?;
+        self.positive(&key.at("height_m"), &[height])?;
+        let look = self.look(key, WALL_COLOR, wall.color, wall.texture)?;
+        let echo = self.share(&key.at("echo"), wall.echo)?;
+        let at_points = key.at("points_m");
         let mut points = wall.points_m;
-        self.near(&key("points_m"), points.as_flattened())?;
+        self.near(&at_points, points.as_flattened())?;
         if points.len() < 2 {
-            return Err(self.error(&key("points_m"), "a wall needs at least two points"));
+            return Err(self.error(&at_points, "a wall needs at least two points"));
         }
         if wall.closed {
             points.push(points[0]);
         }
         let name = wall.name.unwrap_or_else(|| format!("wall {}", i + 1));
         for ends in points.windows(2) {
-            let (dx, dy) = (ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
-            let length = libm::hypot(dx, dy);
-            if length < 0.001 {
+            let Some(outline) = side(ends[0], ends[1], thickness) else {
                 let message = "two points of the wall that follow each other are the same";
-                return Err(self.error(&key("points_m"), message));
-            }
-            let pose = Pose {
-                x: (ends[0][0] + ends[1][0]) / 2.0,
-                y: (ends[0][1] + ends[1][1]) / 2.0,
-                heading: libm::atan2(dy, dx),
+                return Err(self.error(&at_points, message));
             };
-            // Half a thickness longer at either end, so that corners are closed.
-            let half = [(length + thickness) / 2.0, thickness / 2.0];
-            let outline = Outline::Box { pose, half };
-            into.push(Obstacle { name: name.clone(), outline, height });
+            let (name, mobility) = (name.clone(), Mobility::Fixed);
+            into.push(Obstacle { name, outline, height, mobility, look, echo });
         }
         Ok(())
     }
 
-    fn the_box(&self, i: usize, the_box: Box) -> Result<Obstacle, WorldError> {
-        let index = i.to_string();
-        let key = |name| ["box", &index, name].map(str::to_owned);
-        self.positive(&key("size_m"), &the_box.size_m)?;
-        self.positive(&key("height_m"), &[the_box.height_m])?;
+    fn the_box(&self, key: &Key, i: usize, it: tables::Box) -> Result<Obstacle, WorldError> {
+        self.positive(&key.at("size_m"), &it.size_m)?;
+        self.positive(&key.at("height_m"), &[it.height_m])?;
         Ok(Obstacle {
-            name: the_box.name.unwrap_or_else(|| format!("box {}", i + 1)),
+            name: it.name.unwrap_or_else(|| format!("box {}", i + 1)),
             outline: Outline::Box {
-                pose: self.pose(&["box", &index, "pose_m_deg"], the_box.pose_m_deg)?,
-                half: the_box.size_m.map(|size| size / 2.0),
+                pose: self.pose(&key.at("pose_m_deg"), it.pose_m_deg)?,
+                half: it.size_m.map(|size| size / 2.0),
             },
-            height: the_box.height_m,
+            height: it.height_m,
+            mobility: self.mobility(key, it.mass_kg, it.path)?,
+            look: self.look(key, BOX_COLOR, it.color, it.texture)?,
+            echo: self.share(&key.at("echo"), it.echo)?,
         })
     }
 
-    fn polygon(&self, i: usize, polygon: Polygon) -> Result<Obstacle, WorldError> {
-        let index = i.to_string();
-        let key = |name| ["polygon", &index, name].map(str::to_owned);
-        self.positive(&key("height_m"), &[polygon.height_m])?;
-        let mut points = polygon.points_m;
-        self.near(&key("points_m"), points.as_flattened())?;
-        match turning(&points) {
-            Some(true) => {}
-            Some(false) => points.reverse(),
-            None => {
-                let message = "the polygon is not convex; draw it as several";
-                return Err(self.error(&key("points_m"), message));
-            }
-        }
+    fn polygon(&self, key: &Key, i: usize, it: tables::Polygon) -> Result<Obstacle, WorldError> {
+        self.positive(&key.at("height_m"), &[it.height_m])?;
         Ok(Obstacle {
-            name: polygon.name.unwrap_or_else(|| format!("polygon {}", i + 1)),
-            outline: Outline::Polygon(points),
-            height: polygon.height_m,
+            name: it.name.unwrap_or_else(|| format!("polygon {}", i + 1)),
+            outline: Outline::Polygon(self.convex(&key.at("points_m"), it.points_m)?),
+            height: it.height_m,
+            mobility: self.mobility(key, it.mass_kg, it.path)?,
+            look: self.look(key, POLYGON_COLOR, it.color, it.texture)?,
+            echo: self.share(&key.at("echo"), it.echo)?,
         })
     }
 
-    fn pose(&self, path: &[&str], [x, y, degrees]: [f64; 3]) -> Result<Pose, WorldError> {
-        let path: Vec<String> = path.iter().map(|&part| part.to_owned()).collect();
-        self.near(&path, &[x, y])?;
-        self.near(&path, &[degrees])?;
-        Ok(Pose { x, y, heading: degrees * (std::f64::consts::PI / 180.0) })
-    }
-
-    fn positive(&self, path: &[String], values: &[f64]) -> Result<(), WorldError> {
-        self.near(path, values)?;
-        match values.iter().find(|value| **value <= 0.0) {
-            Some(value) => Err(self.error(path, &format!("{value} must be greater than 0"))),
-            None => Ok(()),
-        }
-    }
-
-    fn near(&self, path: &[String], values: &[f64]) -> Result<(), WorldError> {
-        match values.iter().find(|value| !value.is_finite() || value.abs() > FARTHEST) {
-            Some(value) => {
-                Err(self.error(path, &format!("{value} is not within {FARTHEST} of zero")))
+    fn mobility(
+        &self,
+        key: &Key,
+        mass: Option<f64>,
+        path: Option<tables::Path>,
+    ) -> Result<Mobility, WorldError> {
+        match (mass, path) {
+            (None, None) => Ok(Mobility::Fixed),
+            (Some(mass), None) => {
+                self.positive(&key.at("mass_kg"), &[mass])?;
+                Ok(Mobility::Movable { mass })
             }
-            None => Ok(()),
+            (None, Some(path)) => self.path(&key.at("path"), path).map(Mobility::Scripted),
+            (Some(_), Some(_)) => {
+                let message = "what goes its own way cannot be pushed; leave one of them out";
+                Err(self.error(&key.at("mass_kg"), message))
+            }
         }
     }
 
-    fn error(&self, path: &[String], message: &str) -> WorldError {
-        let keys: Vec<&str> = path.iter().map(String::as_str).collect();
-        let key = keys.last().copied().unwrap_or_default();
-        WorldError::at_key(self.text, &keys, format!("{key}: {message}"))
+    fn path(&self, key: &Key, path: tables::Path) -> Result<Path, WorldError> {
+        self.near(&key.at("by_m"), path.by_m.as_flattened())?;
+        self.positive(&key.at("speed_m_s"), &[path.speed_m_s])?;
+        if path.speed_m_s > FASTEST {
+            let message = format!("{} is more than {FASTEST}", path.speed_m_s);
+            return Err(self.error(&key.at("speed_m_s"), &message));
+        }
+        self.not_negative(&key.at("wait_s"), path.wait_s)?;
+        self.not_negative(&key.at("start_s"), path.start_s)?;
+        let way = Path::new(&path.by_m, path.closed, path.speed_m_s, path.wait_s, path.start_s);
+        way.ok_or_else(|| self.error(&key.at("by_m"), "the way leads nowhere"))
+    }
+
+    fn patch(&self, key: &Key, i: usize, patch: tables::Patch) -> Result<Patch, WorldError> {
+        Ok(Patch {
+            name: patch.name.unwrap_or_else(|| format!("patch {}", i + 1)),
+            corners: self.convex(&key.at("points_m"), patch.points_m)?,
+            color: self.color(&key.at("color"), &patch.color)?,
+        })
+    }
+
+    fn light(&self, key: &Key, i: usize, light: tables::Infrared) -> Result<Light, WorldError> {
+        let height = light.height_m.unwrap_or(LIGHT_HEIGHT);
+        let strength = light.strength.unwrap_or(1.0);
+        self.near(&key.at("position_m"), &light.position_m)?;
+        self.not_negative(&key.at("height_m"), height)?;
+        self.positive(&key.at("strength"), &[strength])?;
+        let name = light.name.unwrap_or_else(|| format!("infrared {}", i + 1));
+        Ok(Light { name, position: light.position_m, height, strength })
+    }
+
+    fn look(
+        &self,
+        key: &Key,
+        default: Rgb,
+        color: Option<String>,
+        texture: Option<String>,
+    ) -> Result<Look, WorldError> {
+        let color = color.map(|text| self.color(&key.at("color"), &text)).transpose()?;
+        let texture = texture.map(|name| self.texture(&key.at("texture"), &name)).transpose()?;
+        Ok(Look { color: color.unwrap_or(default), texture: texture.unwrap_or_default() })
+    }
+
+    fn color(&self, key: &Key, text: &str) -> Result<Rgb, WorldError> {
+        let wrong = || self.error(key, &format!("'{text}' is no colour; write '#rrggbb'"));
+        parse_color(text).ok_or_else(wrong)
+    }
+
+    fn texture(&self, key: &Key, name: &str) -> Result<Texture, WorldError> {
+        let known = Texture::NAMES.into_iter().find(|(known, _)| *known == name);
+        known.map(|(_, texture)| texture).ok_or_else(|| {
+            let names = Texture::NAMES.map(|(name, _)| format!("'{name}'")).join(", ");
+            self.error(key, &format!("'{name}' is no texture; there are {names}"))
+        })
     }
 }
 
-/// Whether a convex polygon's corners go counter-clockwise; none if it is not convex.
-fn turning(points: &[[f64; 2]]) -> Option<bool> {
-    let n = points.len();
-    let mut left = None;
-    // The edges of a convex polygon turn by one full turn in all; a star by more.
-    let mut turned = 0.0;
-    for i in 0..n {
-        let [a, b, c] = [points[i], points[(i + 1) % n], points[(i + 2) % n]];
-        let (ux, uy, vx, vy) = (b[0] - a[0], b[1] - a[1], c[0] - b[0], c[1] - b[1]);
-        let cross = ux * vy - uy * vx;
-        if cross.abs() < 1e-9 || *left.get_or_insert(cross > 0.0) != (cross > 0.0) {
-            return None;
-        }
-        turned += libm::atan2(cross, ux * vx + uy * vy);
-    }
-    left.filter(|_| n >= 3 && turned.abs() < 7.0)
+/// A side of a wall, half a thickness longer at either end, so that corners are closed; none for
+/// two points that are the same.
+fn side(from: [f64; 2], to: [f64; 2], thickness: f64) -> Option<Outline> {
+    let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+    let length = libm::hypot(dx, dy);
+    let pose = Pose {
+        x: (from[0] + to[0]) / 2.0,
+        y: (from[1] + to[1]) / 2.0,
+        heading: libm::atan2(dy, dx),
+    };
+    let half = [(length + thickness) / 2.0, thickness / 2.0];
+    (length >= 0.001).then_some(Outline::Box { pose, half })
 }

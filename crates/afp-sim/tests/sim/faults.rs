@@ -2,8 +2,8 @@
 
 use crate::{among, at, drive, the_box, wait};
 use afp_carbot::devices::{
-    Battery, Button, Buttons, Invalid, Odometry, RotatingTelemetry, Rotator, TouchSensor,
-    Ultrasonic,
+    Battery, Button, Buttons, Camera, ColorSensor, InfraredSensor, Invalid, Odometry,
+    RotatingTelemetry, Rotator, TouchSensor, Ultrasonic,
 };
 use afp_core::quantity::{Angle, Speed};
 use afp_core::{Clock, Duration, Environment, Instant};
@@ -50,9 +50,12 @@ fn every_sensor_can_be_lost_or_deliver_no_number() {
             sim.motion().value.err(),
             sim.touched().value.err(),
             sim.pressed(Button::Escape).value.err(),
+            sim.glow().value.err(),
+            sim.color().value.err(),
+            sim.frame().value.err(),
             sim.charge().value.err(),
         ];
-        assert_eq!(said, [Some(expected); 6]);
+        assert_eq!(said, [Some(expected); 9]);
         wait(&mut sim, 1000);
         assert!(sim.echo().value.is_ok() && sim.motion().value.is_ok());
     }

@@ -2,6 +2,8 @@
 
 mod determinism;
 mod faults;
+mod moving;
+mod seeing;
 mod sensors;
 mod vehicle;
 mod world;

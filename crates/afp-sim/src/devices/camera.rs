@@ -1,0 +1,57 @@
+//! The camera: pictures of the scene, taken at its own rate and drawn only for whoever looks.
+
+mod render;
+
+use crate::scene::Scene;
+use crate::vehicle::Place;
+use afp_carbot::devices::{Frame, Lens};
+use afp_core::Duration;
+use afp_core::quantity::{Angle, Length};
+use std::sync::OnceLock;
+
+/// It takes a picture every so often.
+pub(crate) const PERIOD: Duration = Duration::from_millis(50);
+/// Where it sits: ahead of the turning centre and above the floor, metres.
+const FORWARD: f64 = 0.18;
+const HEIGHT: f64 = 0.20;
+/// The whole angle that a row covers, radians.
+const OPENING: f64 = 70.0 / 180.0 * core::f64::consts::PI;
+/// Pixels.
+const COLUMNS: usize = 160;
+const ROWS: usize = 120;
+
+/// How it is mounted and what it covers.
+pub(crate) fn lens() -> Lens {
+    Lens {
+        forward: Length::from_si(FORWARD),
+        height: Length::from_si(HEIGHT),
+        opening: Angle::from_si(OPENING),
+        columns: COLUMNS,
+        rows: ROWS,
+    }
+}
+
+/// A picture that was taken; it is drawn when it is first looked at.
+#[derive(Debug)]
+pub(crate) struct Exposure {
+    scene: Scene,
+    robot: Place,
+    /// Decides on the noise of this picture alone.
+    seed: u64,
+    number: u64,
+    rgb: OnceLock<Vec<u8>>,
+}
+
+impl Exposure {
+    /// The `number`-th picture, from a robot at this place.
+    pub(crate) fn new(scene: Scene, robot: Place, seed: u64, number: u64) -> Self {
+        Exposure { scene, robot, seed, number, rgb: OnceLock::new() }
+    }
+
+    /// The picture.
+    pub(crate) fn frame(&self) -> Frame<'_> {
+        let draw = || render::render(&self.scene, self.robot, self.seed ^ (self.number << 32));
+        let rgb = self.rgb.get_or_init(draw);
+        Frame { width: COLUMNS, height: ROWS, rgb, number: self.number }
+    }
+}

@@ -1,0 +1,61 @@
+//! The infrared direction sensor: the brightest source that it sees.
+
+use crate::noise::{Noise, Source};
+use crate::scene::Scene;
+use crate::vehicle::Place;
+use crate::world::Light;
+use afp_carbot::devices::Glow;
+use afp_core::Duration;
+use afp_core::quantity::Angle;
+
+/// It measures every so often.
+pub(crate) const PERIOD: Duration = Duration::from_millis(50);
+/// The whole field of view, radians.
+pub(crate) const FIELD: f64 = 120.0 / 180.0 * core::f64::consts::PI;
+/// Where it sits: ahead of the turning centre and above the floor, metres.
+const FORWARD: f64 = 0.18;
+const HEIGHT: f64 = 0.12;
+/// What is darker than this is not seen.
+const THRESHOLD: f64 = 0.01;
+/// Nearer than this a source gets no brighter, metres.
+const NEAR: f64 = 0.1;
+/// Standard deviations of the bearing, radians, and of the strength, as a share.
+const BEARING_NOISE: f64 = 3.0 / 180.0 * core::f64::consts::PI;
+const STRENGTH_NOISE: f64 = 0.05;
+
+/// The sensor.
+#[derive(Debug)]
+pub(crate) struct Infrared {
+    noise: Noise,
+}
+
+impl Infrared {
+    pub(crate) fn new(seed: u64) -> Self {
+        Infrared { noise: Noise::new(seed, Source::Infrared) }
+    }
+
+    /// What it sees from a robot at this place.
+    pub(crate) fn look(&mut self, lights: &[Light], scene: &Scene, robot: Place) -> Option<Glow> {
+        // Drawn every time, so that what is seen does not shift the stream.
+        let (turn, gain) = (self.noise.normal(), self.noise.normal());
+        let eye = robot.beyond(FORWARD, 0.0);
+        let mut brightest: Option<(f64, f64)> = None;
+        for light in lights {
+            let to = [light.position[0] - eye[0], light.position[1] - eye[1]];
+            let [ahead, left] = robot.towards(to);
+            let bearing = libm::atan2(left, ahead);
+            let far = libm::hypot(ahead, left).max(NEAR);
+            let strength = light.strength / (far * far);
+            let seen = bearing.abs() <= FIELD / 2.0
+                && strength >= THRESHOLD
+                && brightest.is_none_or(|(_, most)| strength > most);
+            if seen && !scene.between((eye, HEIGHT), (light.position, light.height)) {
+                brightest = Some((bearing, strength));
+            }
+        }
+        brightest.map(|(bearing, strength)| Glow {
+            bearing: Angle::from_si(bearing + turn * BEARING_NOISE),
+            strength: (strength * (1.0 + gain * STRENGTH_NOISE)).max(0.0),
+        })
+    }
+}

@@ -1,0 +1,32 @@
+//! The sensors that see: infrared, colour and camera, each at its own rate.
+
+use super::{STEP, Simulation};
+use crate::devices::camera::{self, Exposure};
+use crate::devices::{color, infrared};
+use crate::vehicle::Place;
+use afp_carbot::devices::Reading;
+use afp_core::{Duration, Instant};
+use std::sync::Arc;
+
+impl Simulation {
+    /// Lets those look whose time it is.
+    pub(super) fn see(&mut self, now: Instant) {
+        let robot = Place::new(self.position());
+        let nth = |period: Duration| {
+            let (step, every) = (self.steps, period.as_nanos() / STEP.as_nanos());
+            step.is_multiple_of(every).then_some(step / every)
+        };
+        if nth(color::PERIOD).is_some() {
+            let color = self.color_sensor.look(&self.scene, robot);
+            self.color = Reading::valid(color, now);
+        }
+        if nth(infrared::PERIOD).is_some() {
+            let glow = self.infrared.look(&self.lights, &self.scene, robot);
+            self.glow = Reading::valid(glow, now);
+        }
+        if let Some(number) = nth(camera::PERIOD) {
+            let exposure = Exposure::new(self.scene.clone(), robot, self.seed, number);
+            self.exposure = Reading { time: now, value: Ok(Arc::new(exposure)) };
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! Checks of single values, reported at their keys.
+
+use crate::truth::Pose;
+use crate::world::WorldError;
+
+/// Nothing lies farther from the origin than this, metres: beyond it single precision is coarse.
+const FARTHEST: f64 = 1000.0;
+
+/// The way to a key of the file.
+#[derive(Clone)]
+pub(super) struct Key(Vec<String>);
+
+impl Key {
+    pub(super) fn root() -> Self {
+        Key(Vec::new())
+    }
+
+    /// A key of this table.
+    pub(super) fn at(&self, name: &str) -> Self {
+        let mut path = self.0.clone();
+        path.push(name.to_owned());
+        Key(path)
+    }
+
+    /// The `i`-th of an array of tables in this table.
+    pub(super) fn nth(&self, name: &str, i: usize) -> Self {
+        self.at(name).at(&i.to_string())
+    }
+}
+
+/// Checks values and reports them at their keys.
+pub(super) struct Check<'a> {
+    text: &'a str,
+}
+
+impl<'a> Check<'a> {
+    pub(super) fn new(text: &'a str) -> Self {
+        Check { text }
+    }
+
+    pub(super) fn pose(&self, key: &Key, [x, y, degrees]: [f64; 3]) -> Result<Pose, WorldError> {
+        self.near(key, &[x, y])?;
+        self.near(key, &[degrees])?;
+        Ok(Pose { x, y, heading: degrees * (std::f64::consts::PI / 180.0) })
+    }
+
+    /// A share above 0 up to 1; 1 where none is given.
+    pub(super) fn share(&self, key: &Key, share: Option<f64>) -> Result<f64, WorldError> {
+        let share = share.unwrap_or(1.0);
+        if share > 0.0 && share <= 1.0 {
+            return Ok(share);
+        }
+        Err(self.error(key, &format!("{share} is not above 0 and at most 1")))
+    }
+
+    /// The corners of a convex polygon, counter-clockwise.
+    pub(super) fn convex(
+        &self,
+        key: &Key,
+        mut points: Vec<[f64; 2]>,
+    ) -> Result<Vec<[f64; 2]>, WorldError> {
+        self.near(key, points.as_flattened())?;
+        match turning(&points) {
+            Some(true) => {}
+            Some(false) => points.reverse(),
+            None => {
+                let message = "the polygon is not convex; draw it as several";
+                return Err(self.error(key, message));
+            }
+        }
+        Ok(points)
+    }
+
+    pub(super) fn positive(&self, key: &Key, values: &[f64]) -> Result<(), WorldError> {
+        self.near(key, values)?;
+        match values.iter().find(|value| **value <= 0.0) {
+            Some(value) => Err(self.error(key, &format!("{value} must be greater than 0"))),
+            None => Ok(()),
+        }
+    }
+
+    pub(super) fn not_negative(&self, key: &Key, value: f64) -> Result<(), WorldError> {
+        self.near(key, &[value])?;
+        match value < 0.0 {
+            true => Err(self.error(key, &format!("{value} must not be negative"))),
+            false => Ok(()),
+        }
+    }
+
+    pub(super) fn near(&self, key: &Key, values: &[f64]) -> Result<(), WorldError> {
+        match values.iter().find(|value| !value.is_finite() || value.abs() > FARTHEST) {
+            Some(value) => {
+                Err(self.error(key, &format!("{value} is not within {FARTHEST} of zero")))
+            }
+            None => Ok(()),
+        }
+    }
+
+    pub(super) fn error(&self, key: &Key, message: &str) -> WorldError {
+        let keys: Vec<&str> = key.0.iter().map(String::as_str).collect();
+        let name = keys.last().copied().unwrap_or_default();
+        WorldError::at_key(self.text, &keys, format!("{name}: {message}"))
+    }
+}
+
+/// Whether a convex polygon's corners go counter-clockwise; none if it is not convex.
+fn turning(points: &[[f64; 2]]) -> Option<bool> {
+    let n = points.len();
+    let mut left = None;
+    // The edges of a convex polygon turn by one full turn in all; a star by more.
+    let mut turned = 0.0;
+    for i in 0..n {
+        let [a, b, c] = [points[i], points[(i + 1) % n], points[(i + 2) % n]];
+        let (ux, uy, vx, vy) = (b[0] - a[0], b[1] - a[1], c[0] - b[0], c[1] - b[1]);
+        let cross = ux * vy - uy * vx;
+        if cross.abs() < 1e-9 || *left.get_or_insert(cross > 0.0) != (cross > 0.0) {
+            return None;
+        }
+        turned += libm::atan2(cross, ux * vx + uy * vy);
+    }
+    left.filter(|_| n >= 3 && turned.abs() < 7.0)
+}

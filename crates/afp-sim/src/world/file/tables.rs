@@ -1,0 +1,110 @@
+//! The tables of a world file as serde reads them.
+
+use serde::Deserialize;
+
+/// A whole file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct File {
+    pub(super) version: u32,
+    #[serde(default)]
+    pub(super) name: String,
+    pub(super) robot: Robot,
+    #[serde(default)]
+    pub(super) floor: Floor,
+    #[serde(default)]
+    pub(super) wall: Vec<Wall>,
+    #[serde(default, rename = "box")]
+    pub(super) boxes: Vec<Box>,
+    #[serde(default)]
+    pub(super) polygon: Vec<Polygon>,
+    #[serde(default)]
+    pub(super) patch: Vec<Patch>,
+    #[serde(default)]
+    pub(super) infrared: Vec<Infrared>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Robot {
+    pub(super) pose_m_deg: [f64; 3],
+    pub(super) charge: Option<f64>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Floor {
+    pub(super) color: Option<String>,
+    pub(super) texture: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Wall {
+    pub(super) name: Option<String>,
+    pub(super) points_m: Vec<[f64; 2]>,
+    #[serde(default)]
+    pub(super) closed: bool,
+    pub(super) thickness_m: Option<f64>,
+    pub(super) height_m: Option<f64>,
+    pub(super) color: Option<String>,
+    pub(super) texture: Option<String>,
+    pub(super) echo: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Box {
+    pub(super) name: Option<String>,
+    pub(super) pose_m_deg: [f64; 3],
+    pub(super) size_m: [f64; 2],
+    pub(super) height_m: f64,
+    pub(super) mass_kg: Option<f64>,
+    pub(super) path: Option<Path>,
+    pub(super) color: Option<String>,
+    pub(super) texture: Option<String>,
+    pub(super) echo: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Polygon {
+    pub(super) name: Option<String>,
+    pub(super) points_m: Vec<[f64; 2]>,
+    pub(super) height_m: f64,
+    pub(super) mass_kg: Option<f64>,
+    pub(super) path: Option<Path>,
+    pub(super) color: Option<String>,
+    pub(super) texture: Option<String>,
+    pub(super) echo: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Path {
+    pub(super) by_m: Vec<[f64; 2]>,
+    pub(super) speed_m_s: f64,
+    #[serde(default)]
+    pub(super) closed: bool,
+    #[serde(default)]
+    pub(super) wait_s: f64,
+    #[serde(default)]
+    pub(super) start_s: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Patch {
+    pub(super) name: Option<String>,
+    pub(super) points_m: Vec<[f64; 2]>,
+    pub(super) color: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Infrared {
+    pub(super) name: Option<String>,
+    pub(super) position_m: [f64; 2],
+    pub(super) height_m: Option<f64>,
+    pub(super) strength: Option<f64>,
+}
