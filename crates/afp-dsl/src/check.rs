@@ -18,6 +18,7 @@ pub(crate) mod names;
 mod plan;
 mod recursion;
 mod resources;
+mod scenario;
 mod scope;
 mod signature;
 mod size;
@@ -32,6 +33,7 @@ use crate::files::relative;
 use crate::flow::{self, Model};
 use crate::gather::PlanFile;
 use crate::graph::{self, Graph};
+use crate::scenario::Scenario;
 use crate::source::Span;
 use crate::syntax::ast::{self, Item, Name};
 use crate::toolbox::{Toolbox, Toolboxes};
@@ -100,20 +102,28 @@ pub(crate) enum Flow {
     Unchecked,
 }
 
+/// What plan files without errors come to.
+#[derive(Default)]
+pub(crate) struct Checked {
+    /// The graph of the plan that runs.
+    pub graph: Option<Graph>,
+    /// The scenarios of the first file.
+    pub scenarios: Vec<Scenario>,
+}
+
 /// Checks plan files and builds the graph of the plan `main` of the first file, or of its first
-/// plan.
+/// plan; in a file of scenarios alone that is the plan of the first scenario.
 pub(crate) fn check(
     files: &[PlanFile],
     toolboxes: &Toolboxes,
     main: Option<&str>,
     flow: Flow,
     diags: &mut Diagnostics,
-) -> Option<Graph> {
+) -> Checked {
     for file in files {
         imports::check_version(&file.tree, diags);
         imports::check_order(&file.tree, diags);
         imports::check_no_templates(&file.tree, diags);
-        scenarios(&file.tree, diags);
     }
     let program = scope::program(files, toolboxes, diags);
     let order = recursion::order(&program, diags);
@@ -124,11 +134,11 @@ pub(crate) fn check(
     if flow == Flow::Checked {
         check_flow(&program, &plans, &order, diags);
     }
-    let main = select(&program, files.first()?, main, diags)?;
-    if diags.has_errors() {
-        return None;
-    }
-    assemble::graph(program, plans, &order, main)
+    let ready = scenario::Plans { plans: &plans, order: &order };
+    let scenarios = scenario::check(&program, files, &ready, diags);
+    let main = files.first().and_then(|file| select(&program, file, main, diags));
+    let Some(main) = main.filter(|_| !diags.has_errors()) else { return Checked::default() };
+    Checked { graph: assemble::graph(&program, plans, &order, main), scenarios }
 }
 
 /// Checks the flow of every plan that has no error so far.
@@ -150,22 +160,6 @@ fn check_flow(
 pub(crate) fn shadows(name: &Name, diags: &mut Diagnostics) {
     let message = format!("'{}' is a type of the language", name.text);
     diags.push(Diagnostic::new(Code::E0213, name.span, message).help("choose another name"));
-}
-
-fn scenarios(file: &ast::File, diags: &mut Diagnostics) {
-    for item in file.items() {
-        if let Item::Scenario(scenario) = item {
-            let Some(Name { span, .. }) = scenario.name() else { continue };
-            diags.push(
-                Diagnostic::new(
-                    Code::E0502,
-                    span,
-                    "scenarios cannot be run yet; this one is only read",
-                )
-                .help("run the plan itself, or wait for a version with 'afpc test'"),
-            );
-        }
-    }
 }
 
 /// The plan to run: one of the first file, by its place among all.
@@ -190,6 +184,11 @@ fn select(
             diags.push(Diagnostic::new(Code::E0504, top, message).help(help));
         }
         return place;
+    }
+    if own().next().is_none()
+        && let Some(place) = scenario::first_plan(program, file)
+    {
+        return Some(place);
     }
     let empty = own().next().is_none();
     if empty && !diags.has_errors() {

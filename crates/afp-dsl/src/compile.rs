@@ -2,11 +2,12 @@
 
 use std::ops::Range;
 
-use crate::check::{self, Flow};
+use crate::check::{self, Checked, Flow};
 use crate::diagnostics::Diagnostics;
 use crate::files::{Files, below_all, normalised};
 use crate::gather;
 use crate::graph::Graph;
+use crate::scenario::Scenario;
 use crate::source::{Source, Sources};
 use crate::timing;
 use crate::toolbox::Toolboxes;
@@ -16,6 +17,8 @@ use crate::toolbox::Toolboxes;
 pub struct Compiled {
     /// The static graph; `None` exactly when there are errors.
     pub graph: Option<Graph>,
+    /// The scenarios of the file; none while there are errors.
+    pub scenarios: Vec<Scenario>,
     /// Everything there is to say, ordered by place.
     pub diags: Diagnostics,
     /// The files that spans belong to: the toolboxes', then the plan files.
@@ -84,11 +87,13 @@ fn compile_with(
     let mut sources = toolboxes.sources().clone();
     let first = sources.len();
     let gathered = gather::gather(source, files, toolboxes, &mut sources, &mut diags);
-    let graph = check::check(&gathered, toolboxes, plan, flow, &mut diags);
+    let Checked { graph, scenarios } = check::check(&gathered, toolboxes, plan, flow, &mut diags);
     if let Some(graph) = graph.as_ref().filter(|_| flow == Flow::Checked) {
         timing::check_responses(graph, &mut diags);
     }
     diags.sort();
     let plan_files = first..sources.len();
-    Compiled { graph: graph.filter(|_| !diags.has_errors()), diags, sources, plan_files }
+    let graph = graph.filter(|_| !diags.has_errors());
+    let scenarios = if graph.is_some() { scenarios } else { Vec::new() };
+    Compiled { graph, scenarios, diags, sources, plan_files }
 }

@@ -98,6 +98,65 @@ pub fn blocks(graph: &Graph) -> Vec<Block> {
     blocks
 }
 
+/// How a component hangs together with the others, by their numbers.
+#[derive(Clone, Debug, Default)]
+pub struct Place {
+    /// The plan that it belongs to, which goes by the number of its element; 0 is the outermost. The
+    /// outermost plan belongs to itself.
+    pub plan: u32,
+    /// The element of a local supervisor.
+    pub owner: Option<u32>,
+    /// Where its states or events lead, by position.
+    pub outcomes: Vec<Option<Goal>>,
+    /// Where its `Error` or `DeadlineMissed` leads.
+    pub special: Option<Goal>,
+}
+
+/// Where an edge leads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Goal {
+    /// To an element.
+    Element(u32),
+    /// The plan ends.
+    Terminate,
+    /// The event is not taken.
+    Ignore,
+}
+
+/// The place of each component, by its number.
+pub fn places(graph: &Graph) -> Vec<Place> {
+    let mut all = vec![Place::default()];
+    add_places(graph, graph.main, 0, &mut all);
+    all
+}
+
+fn add_places(graph: &Graph, id: PlanId, number: u32, all: &mut Vec<Place>) {
+    let plan = graph.plan(id);
+    let first = all.len() as u32;
+    let goal = |target: Target| match target {
+        Target::Element(id) => Goal::Element(first + u32::from(id.0)),
+        Target::Terminate => Goal::Terminate,
+        Target::Ignore => Goal::Ignore,
+    };
+    all.extend(plan.elements.iter().map(|element| Place {
+        plan: number,
+        owner: None,
+        outcomes: element.states.iter().map(|state| state.map(goal)).collect(),
+        special: element.on_error.map(goal),
+    }));
+    all.extend(plan.supervisors.iter().map(|supervisor| Place {
+        plan: number,
+        owner: supervisor.owner.map(|id| first + u32::from(id.0)),
+        outcomes: supervisor.events.iter().map(|event| Some(goal(*event))).collect(),
+        special: supervisor.on_miss.map(goal),
+    }));
+    for (element, number) in plan.elements.iter().zip(first..) {
+        if let Component::SubPlan(child) = element.component {
+            add_places(graph, child, number, all);
+        }
+    }
+}
+
 /// Names for all numbers of the plan that runs.
 pub fn unfold(graph: &Graph) -> Unfolded {
     let main = graph.main();

@@ -6,12 +6,12 @@ use crate::graph::{self, Component, Graph, PlanId};
 
 /// The graph of the plan `main`; `order` has sub-plans before their users.
 pub(super) fn graph(
-    program: Program<'_>,
+    program: &Program<'_>,
     mut plans: Vec<Option<graph::Plan>>,
     order: &[usize],
     main: usize,
 ) -> Option<Graph> {
-    let needed = needed(&program, main);
+    let needed = needed(program, main);
     let chosen: Vec<_> = order.iter().copied().filter(|place| needed[*place]).collect();
     let mut ids = vec![None; plans.len()];
     for (id, place) in (0..=u16::MAX).zip(&chosen) {
@@ -29,7 +29,7 @@ pub(super) fn graph(
     }
     let main = ids[main]?;
     tell_apart(&mut drawn, main);
-    Some(Graph { plans: drawn, main, toolboxes: program.linked })
+    Some(Graph { plans: drawn, main, toolboxes: program.linked.clone() })
 }
 
 /// Which plans `main` is made of, itself included.

@@ -14,10 +14,17 @@ const LONGEST: u64 = 3_600_000_000_000;
 
 /// The written time in nanoseconds, 1 ns to 1 h; reports what is none.
 pub(crate) fn nanoseconds(timing: &Timing, diags: &mut Diagnostics) -> Option<u64> {
-    let value = timing.value()?;
+    match time(&timing.value()?, diags)? {
+        0 => refuse(&timing.value()?, "a time is longer than nothing", diags),
+        time => Some(time),
+    }
+}
+
+/// The written time in nanoseconds, 0 to 1 h; reports what is none.
+pub(crate) fn time(value: &Formula, diags: &mut Diagnostics) -> Option<u64> {
     let span = value.span();
     let FormulaKind::Number { number, unit, broken, .. } = value.kind() else {
-        return refuse(&value, "a time is a positive number with a unit", diags);
+        return refuse(value, "a time is a positive number with a unit", diags);
     };
     if broken {
         return None;
@@ -43,12 +50,9 @@ pub(crate) fn nanoseconds(timing: &Timing, diags: &mut Diagnostics) -> Option<u6
     // The lexer took the digits and the unit, so the text is a literal.
     let spelled = Literal::parse(&format!("{} {}", number.text, ours(&unit.text))).ok()?;
     match spelled.nanoseconds() {
-        Some(time @ 1..=LONGEST) => Some(time),
-        Some(0) => refuse(&value, "a time is longer than nothing", diags),
-        Some(_) => refuse(&value, "a time is at most one hour", diags),
-        None => {
-            refuse(&value, "a time is a whole number of nanoseconds of at most one hour", diags)
-        }
+        Some(time @ 0..=LONGEST) => Some(time),
+        Some(_) => refuse(value, "a time is at most one hour", diags),
+        None => refuse(value, "a time is a whole number of nanoseconds of at most one hour", diags),
     }
 }
 

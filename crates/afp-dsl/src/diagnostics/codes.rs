@@ -124,7 +124,6 @@ codes! {
     E0403 Error "period shorter than the tick"
     E0404 Error "more demand than the target has"
     E0405 Warning "response longer than the deadline"
-    E0502 Warning "scenarios are not run yet"
     E0503 Error "no plan in the file"
     E0504 Error "no plan of that name"
     E0505 Error "version of the language"
@@ -136,6 +135,15 @@ codes! {
     E0512 Error "template without states or events"
     E0513 Error "range that cannot be"
     E0514 Error "port that cannot be declared so"
+    E0601 Error "line of a scenario given twice"
+    E0602 Error "unknown component in a scenario"
+    E0603 Error "what a scenario names cannot happen"
+    E0604 Error "claim that cannot be made so"
+    E0605 Error "times of a scenario that do not fit"
+    E0606 Error "unknown action, device or fault"
+    E0607 Error "entry that a scenario cannot set"
+    E0608 Error "values that come with an outcome"
+    E0609 Error "scenario that expects nothing"
 }
 
 impl Code {

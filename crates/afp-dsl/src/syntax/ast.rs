@@ -5,6 +5,7 @@
 
 mod formula;
 mod plan;
+mod scenario;
 mod toolbox;
 
 use rowan::{Language, NodeOrToken};
@@ -15,6 +16,7 @@ use crate::syntax::{Node, node_span};
 
 pub use formula::{Formula, FormulaKind, Sign};
 pub use plan::{Bind, Edge, Element, ElementKind, Entry, Guard, Plan, Start};
+pub use scenario::{Action, Bound, Claim, ClaimKind, Line, LineKind, Path, Scenario};
 pub use toolbox::{InPort, OutPort, Outcome, Part, Template, TemplateKind, Timing, Toolbox};
 
 /// A name and its place.
@@ -58,8 +60,6 @@ views! {
     Enum
     /// `object Map`
     Object
-    /// A scenario.
-    Scenario
     /// A type.
     Type
     /// `name` or `home.name`
@@ -157,13 +157,6 @@ impl Object {
     /// Its `///` lines.
     pub fn doc(&self) -> String {
         doc(&self.node)
-    }
-}
-
-impl Scenario {
-    /// Its name, quotes included.
-    pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Text, self.file)
     }
 }
 

@@ -36,7 +36,13 @@ pub fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
         let mut own = Toolboxes::default();
         own.add(source, "mine");
         let (diags, sources): (_, &Sources) = (own.diagnostics().clone(), own.sources());
-        return Compiled { graph: None, diags, sources: sources.clone(), plan_files: 0..0 };
+        return Compiled {
+            graph: None,
+            scenarios: Vec::new(),
+            diags,
+            sources: sources.clone(),
+            plan_files: 0..0,
+        };
     }
     let plan = text.lines().next().and_then(|line| line.strip_prefix("// plan: "));
     let mut compiled = afp_dsl::compile_plan(&source, toolboxes, files, plan);

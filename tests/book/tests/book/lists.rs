@@ -16,6 +16,7 @@ const GROUPS: &[(&str, &str)] = &[
     ("E03", "Flow"),
     ("E04", "Time"),
     ("E05", "Files, targets and toolboxes"),
+    ("E06", "Scenarios"),
 ];
 
 /// Replaces what stands between the list's marks in a page.

@@ -25,7 +25,7 @@ plan Other {
 }
 
 scenario \"far\" for Main {
-    set lap.way = 2 m
+    expect lap.way == 2 m
     expect lap.forth active
     expect mood == Mood.wild
 }
@@ -201,7 +201,7 @@ fn a_plan_of_another_file_is_inlined_with_what_it_needs_in_view() {
     let inline = Change::Inline { plan: "Main".into(), element: "lap".into() };
     refused(0, &inline, "a scenario names 'lap.way'");
     let mut files = files();
-    files[0].text = files[0].text.replace("    set lap.way = 2 m\n", "");
+    files[0].text = files[0].text.replace("    expect lap.way == 2 m\n", "");
     let texts = after(&files, 0, &inline);
     let expected = "\
 use std

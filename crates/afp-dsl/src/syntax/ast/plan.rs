@@ -241,7 +241,7 @@ fn edges(node: &Node, file: u16) -> Vec<Edge> {
     children(node, Kind::Edge).map(|node| Edge::new(node, file)).collect()
 }
 
-fn binds(node: &Node, file: u16) -> Vec<Bind> {
+pub(super) fn binds(node: &Node, file: u16) -> Vec<Bind> {
     let Some(args) = child(node, Kind::Args) else { return Vec::new() };
     args.children().filter_map(|node| bind(&node, file)).collect()
 }

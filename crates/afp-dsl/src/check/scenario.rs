@@ -1,0 +1,339 @@
+//! Scenarios: names are resolved in their plan, values typed, times put in order.
+//!
+//! A scenario is checked against the finished graph of its plan, so only when that has no errors
+//! that keep it from being built. One kind of line, one submodule.
+
+mod actions;
+mod claims;
+mod paths;
+mod times;
+
+use std::sync::Arc;
+
+use crate::check::formula::Scope;
+use crate::check::names::{ambiguous, unknown};
+use crate::check::text::unquote;
+use crate::check::{Context, PlanHead, Program, assemble};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::gather::PlanFile;
+use crate::graph::{self, EntryKind, Formula};
+use crate::scenario::{Scenario, Start, Stimulus};
+use crate::source::Span;
+use crate::syntax::ast::{self, Item, Line, LineKind, Name};
+use crate::toolbox::Constant;
+use crate::types::{Dimension, Type};
+use crate::words;
+
+use paths::Paths;
+
+/// The plans of a program, as far as they could be checked.
+pub(super) struct Plans<'a> {
+    /// By place in [`Program::plans`].
+    pub plans: &'a [Option<graph::Plan>],
+    /// Sub-plans before their users.
+    pub order: &'a [usize],
+}
+
+/// Checks the scenarios of all files and gives those of the first one.
+pub(super) fn check(
+    program: &Program<'_>,
+    files: &[PlanFile],
+    plans: &Plans<'_>,
+    diags: &mut Diagnostics,
+) -> Vec<Scenario> {
+    let mut checked = Vec::new();
+    for (place, file) in files.iter().enumerate() {
+        let mut named: Vec<Name> = Vec::new();
+        for node in nodes(&file.tree) {
+            let context = Context { program, file: &program.files[place] };
+            if let Some(name) = node.name() {
+                twice(&name, &mut named, diags);
+            }
+            let scenario = scenario(context, files, plans, &node, diags);
+            checked.extend(scenario.filter(|_| place == 0));
+        }
+    }
+    checked
+}
+
+/// The plan that the first scenario of a file is for: what runs where the file has no plan.
+pub(super) fn first_plan(program: &Program<'_>, file: &PlanFile) -> Option<usize> {
+    let reference = nodes(&file.tree).first()?.plan()?.name()?;
+    program.files.first()?.plans.get(&reference.text)?.first().copied()
+}
+
+fn nodes(file: &ast::File) -> Vec<ast::Scenario> {
+    let scenarios = file.items().into_iter().filter_map(|item| match item {
+        Item::Scenario(scenario) => Some(scenario),
+        _ => None,
+    });
+    scenarios.collect()
+}
+
+fn twice(name: &Name, named: &mut Vec<Name>, diags: &mut Diagnostics) {
+    match named.iter().find(|known| known.text == name.text) {
+        Some(first) => diags.push(
+            Diagnostic::new(Code::E0212, name.span, "two scenarios have this name")
+                .note(first.span, "the first one")
+                .help("give one of them another name"),
+        ),
+        None => named.push(name.clone()),
+    }
+}
+
+/// A scenario in the making.
+struct Checker<'a> {
+    /// The scenario's file.
+    context: Context<'a>,
+    /// The plan.
+    paths: Paths<'a>,
+    head: &'a PlanHead,
+    /// When it ends.
+    until: u64,
+    until_span: Option<Span>,
+}
+
+fn scenario(
+    context: Context<'_>,
+    files: &[PlanFile],
+    plans: &Plans<'_>,
+    node: &ast::Scenario,
+    diags: &mut Diagnostics,
+) -> Option<Scenario> {
+    let name = node.name()?;
+    let place = plan(context, &node.plan()?, diags)?;
+    let program = context.program;
+    let graph = assemble::graph(program, plans.plans.to_vec(), plans.order, place)?;
+    let graph = Arc::new(graph);
+    let head = &program.plans[place];
+    let lines: Vec<Line> = node
+        .lines()
+        .into_iter()
+        .filter(|line| diags.syntax_errors_within(line.span()).next().is_none())
+        .collect();
+    let (until, until_span) = times::until(&lines, diags);
+    let checker = Checker { context, paths: Paths::new(&graph), head, until, until_span };
+    let mut scenario = Scenario {
+        name: unquote(&name, diags),
+        span: name.span,
+        plan_file: files.get(head.file)?.source.name.clone(),
+        world: None,
+        robot: None,
+        seed: 0,
+        set: Vec::new(),
+        stimuli: Vec::new(),
+        expectations: Vec::new(),
+        until,
+        graph: graph.clone(),
+    };
+    checker.lines(&lines, &mut scenario, diags);
+    let broken = diags.error_within(node.span());
+    if scenario.expectations.is_empty() && !broken {
+        diags.push(
+            Diagnostic::new(Code::E0609, name.span, "the scenario expects nothing")
+                .help("add a line such as 'expect end' or 'never collision'"),
+        );
+    }
+    checker.inputs(&scenario, node, &name, diags);
+    scenario.stimuli.sort_by_key(|stimulus| stimulus.at);
+    Some(scenario)
+}
+
+/// The plan that a scenario is for, by its place.
+fn plan(context: Context<'_>, reference: &ast::Ref, diags: &mut Diagnostics) -> Option<usize> {
+    let name = reference.name()?;
+    let known = &context.file.plans;
+    let found = known.get(&name.text).map_or(&[][..], Vec::as_slice);
+    match (found, reference.home()) {
+        ([place], None) => Some(*place),
+        ([_, _, ..], None) => {
+            let plans = found.iter().map(|place| &context.program.plans[*place]);
+            let span = |head: &PlanHead| head.name.as_ref().map_or(head.node.span(), |n| n.span);
+            let places: Vec<_> = plans.map(|head| (None, span(head))).collect();
+            diags.push(ambiguous("a plan", &name.text, reference.span(), &places));
+            None
+        }
+        _ if context.file.incomplete => None,
+        _ => {
+            let message = format!("there is no plan '{}'", name.text);
+            let mut names: Vec<_> = known.keys().map(String::as_str).collect();
+            names.sort_unstable();
+            let none = "declare it in this file, or use its file: 'use \"plans/patrol.afp\"'";
+            diags.push(unknown(Code::E0201, reference.span(), message, &name.text, names, none));
+            None
+        }
+    }
+}
+
+impl Checker<'_> {
+    fn lines(&self, lines: &[Line], scenario: &mut Scenario, diags: &mut Diagnostics) {
+        let mut once: Vec<(String, Span)> = Vec::new();
+        for line in lines {
+            let key = match line.kind() {
+                LineKind::Stimulus(..) | LineKind::Expect { .. } => None,
+                LineKind::Set(path, _) => path.map(|path| format!("set {}", path.text())),
+                _ => Some(line.keyword()),
+            };
+            if let Some(key) = key {
+                if let Some((_, first)) = once.iter().find(|(known, _)| *known == key) {
+                    diags.push(
+                        Diagnostic::new(Code::E0601, line.span(), format!("'{key}' stands twice"))
+                            .note(*first, "first written here")
+                            .help("remove one of the lines"),
+                    );
+                    continue;
+                }
+                once.push((key, line.span()));
+            }
+            self.line(line, scenario, diags);
+        }
+    }
+
+    fn line(&self, line: &Line, scenario: &mut Scenario, diags: &mut Diagnostics) {
+        match line.kind() {
+            LineKind::World(file) => scenario.world = file.map(|file| unquote(&file, diags)),
+            LineKind::Seed(number) => {
+                scenario.seed = number.and_then(|number| seed(&number, diags)).unwrap_or_default();
+            }
+            LineKind::Set(Some(path), Some(value)) => {
+                scenario.set.extend(self.set(&path, &value, &[EntryKind::In], diags));
+            }
+            LineKind::Robot(formulas) => scenario.robot = self.robot(&formulas, diags),
+            LineKind::Stimulus(Some(at), Some(action)) => {
+                let at = self.instant(&at, diags);
+                let action = self.action(&action, diags);
+                if let (Some(at), Some(action)) = (at, action) {
+                    let (text, span) = (line.text(), line.span());
+                    scenario.stimuli.push(Stimulus { at, action, text, span });
+                }
+            }
+            LineKind::Expect { never, claim: Some(claim), bounds } => {
+                scenario.expectations.extend(self.expectation(line, never, &claim, &bounds, diags));
+            }
+            LineKind::Until(_) | LineKind::Set(..) | LineKind::Stimulus(..) => {}
+            LineKind::Expect { claim: None, .. } => {}
+        }
+    }
+
+    fn robot(&self, formulas: &[ast::Formula], diags: &mut Diagnostics) -> Option<Start> {
+        let [x, y, heading @ ..] = formulas else { return None };
+        let number = |formula: &ast::Formula, ty: &str, diags: &mut Diagnostics| {
+            let ty = Type::Quantity(Dimension::named(ty)?);
+            match self.constant(formula, &ty, diags)?.1 {
+                Constant::Float(number) => Some(number),
+                _ => None,
+            }
+        };
+        let (x, y) = (number(x, "length", diags), number(y, "length", diags));
+        let heading = match heading.first() {
+            Some(heading) => number(heading, "angle", diags),
+            None => Some(0.0),
+        };
+        Some(Start { x: x?, y: y?, heading: heading? })
+    }
+
+    /// A value of type `ty`, which may be made of constants of the plan.
+    fn constant(
+        &self,
+        formula: &ast::Formula,
+        ty: &Type,
+        diags: &mut Diagnostics,
+    ) -> Option<(Formula, Constant)> {
+        let entries = &self.head.entries;
+        let known = |place: usize| {
+            let entry = &entries[place];
+            entry.kind == EntryKind::Const && entry.value.is_some()
+        };
+        let scope = Scope {
+            types: &self.context.file.types,
+            entries,
+            places: &self.head.places,
+            readable: &known,
+            unreadable: "write a value; a scenario knows those of 'const' entries alone",
+            text: self.context.file.text,
+        };
+        let (formula, value) = scope.check(formula, Some(ty), diags)?;
+        Some((formula, value?))
+    }
+
+    /// An entry of the outermost plan and a value for it.
+    fn set(
+        &self,
+        path: &ast::Path,
+        value: &ast::Formula,
+        kinds: &[EntryKind],
+        diags: &mut Diagnostics,
+    ) -> Option<(u16, Constant)> {
+        let (_, plan, id) =
+            self.paths.entry(&path.names()).map_err(|error| diags.push(*error)).ok()?;
+        let entry = &self.paths.graph.plan(plan).entries[id.index()];
+        let outermost = plan == self.paths.graph.main && path.names().len() == 1;
+        if !outermost || !kinds.contains(&entry.kind) {
+            let message = format!("'{}' cannot be set here", path.text());
+            let help = match (outermost, kinds.len()) {
+                (false, _) => "set an entry of the scenario's own plan, not one of a sub-plan",
+                (true, 1) => {
+                    "set an 'in' entry; the plan gives all others their first value itself"
+                }
+                (true, _) => "set an 'in' or 'var' entry",
+            };
+            diags.push(
+                Diagnostic::new(Code::E0607, path.span(), message)
+                    .note(entry.span, "declared here")
+                    .help(help),
+            );
+            return None;
+        }
+        if let Type::Object(_) = entry.ty {
+            let message = format!("'{}' is an object, which only components can make", entry.name);
+            diags.push(
+                Diagnostic::new(Code::E0607, path.span(), message)
+                    .note(entry.span, "declared here")
+                    .help("remove the line"),
+            );
+            return None;
+        }
+        let (_, value) = self.constant(value, &entry.ty, diags)?;
+        Some((id.0, value))
+    }
+
+    /// Reports `in` entries that nobody gives a value.
+    fn inputs(
+        &self,
+        scenario: &Scenario,
+        node: &ast::Scenario,
+        name: &Name,
+        diags: &mut Diagnostics,
+    ) {
+        let plan = self.paths.graph.main();
+        let missing = (0..).zip(&plan.entries).filter(|(place, entry)| {
+            entry.kind == EntryKind::In
+                && entry.init.is_none()
+                && !scenario.set.iter().any(|(set, _)| set == place)
+        });
+        let missing: Vec<_> = missing.map(|(_, entry)| entry).collect();
+        if missing.is_empty() || diags.error_within(node.span()) {
+            return;
+        }
+        let names = words::list(missing.iter().map(|entry| entry.name.as_str()), "and");
+        let verb = if missing.len() == 1 { "has" } else { "have" };
+        let message = format!("{names} of '{}' {verb} no value", plan.name);
+        let first = &missing[0];
+        diags.push(
+            Diagnostic::new(Code::E0225, name.span, message)
+                .note(first.span, "declared here without a default")
+                .help(format!("add 'set {} = ...'", first.name)),
+        );
+    }
+}
+
+fn seed(number: &Name, diags: &mut Diagnostics) -> Option<u64> {
+    let seed = number.text.parse().ok();
+    if seed.is_none() {
+        diags.push(
+            Diagnostic::new(Code::E0224, number.span, "the seed does not fit 64 bits")
+                .help("write a smaller number"),
+        );
+    }
+    seed
+}

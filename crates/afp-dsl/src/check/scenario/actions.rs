@@ -1,0 +1,307 @@
+//! What happens in a scenario.
+
+use super::Checker;
+use super::paths::{Found, Part};
+use crate::check::names::unknown;
+use crate::check::text::unquote;
+use crate::check::timing;
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::graph::{Component, EntryKind, Target};
+use crate::scenario::devices::{self, Control, DEVICES, Failure};
+use crate::scenario::{Action, Injection, Outcome};
+use crate::source::Span;
+use crate::syntax::ast::{self, Bind, Formula, FormulaKind, Name};
+use crate::toolbox::Constant;
+use crate::types::{Dimension, Type};
+use crate::words;
+
+/// Everything that can happen.
+const VERBS: &[&str] = &["press", "release", "fail", "fire", "finish", "set"];
+
+impl Checker<'_> {
+    pub(super) fn action(&self, node: &ast::Action, diags: &mut Diagnostics) -> Option<Action> {
+        let (verb, path) = (node.verb()?, node.path()?);
+        let duration = match node.duration() {
+            Some(time) => Some(timing::time(&time, diags)?),
+            None => None,
+        };
+        self.only(node, &verb, diags)?;
+        match verb.text.as_str() {
+            "set" => {
+                let kinds = [EntryKind::In, EntryKind::Var];
+                let (entry, value) = self.set(&path, &node.value()?, &kinds, diags)?;
+                Some(Action::Set(entry, value))
+            }
+            "press" => Some(Action::Press(control(&path, diags)?, duration)),
+            "release" => Some(Action::Release(control(&path, diags)?)),
+            "fail" => Some(Action::Fail(self.failure(&path, &node.binds(), diags)?, duration)),
+            "fire" => self.fire(&path, &node.binds(), diags),
+            "finish" => self.finish(&path, &node.binds(), diags),
+            _ => {
+                let message = format!("there is no action '{}'", verb.text);
+                let known = VERBS.iter().copied();
+                diags.push(unknown(Code::E0606, verb.span, message, &verb.text, known, ""));
+                None
+            }
+        }
+    }
+
+    /// Reports brackets and durations that an action does not have.
+    fn only(&self, node: &ast::Action, verb: &Name, diags: &mut Diagnostics) -> Option<()> {
+        let timed = ["press", "fail"].contains(&verb.text.as_str());
+        if let (Some(time), false) = (node.duration(), timed)
+            && VERBS.contains(&verb.text.as_str())
+            && verb.text != "set"
+        {
+            let message = format!("'{}' takes no time", verb.text);
+            diags.push(
+                Diagnostic::new(Code::E0606, time.span(), message)
+                    .help("remove 'for' and the time"),
+            );
+            return None;
+        }
+        if ["press", "release"].contains(&verb.text.as_str())
+            && let Some(Bind::In { port, .. } | Bind::Out { port, .. }) = node.binds().first()
+        {
+            let message = format!("'{}' has nothing that is called '{}'", verb.text, port.text);
+            diags
+                .push(Diagnostic::new(Code::E0606, port.span, message).help("remove the brackets"));
+            return None;
+        }
+        Some(())
+    }
+
+    fn fire(&self, path: &ast::Path, binds: &[Bind], diags: &mut Diagnostics) -> Option<Action> {
+        let (found, name) = self.outcome_of(path, diags)?;
+        if !matches!(found.part, Part::Supervisor(_)) {
+            diags.push(
+                Diagnostic::new(Code::E0602, path.span(), "'fire' is for events of supervisors")
+                    .help(format!("write 'finish {}' for a state", path.text())),
+            );
+            return None;
+        }
+        self.injection(path, found, &name, binds, diags)
+    }
+
+    fn finish(&self, path: &ast::Path, binds: &[Bind], diags: &mut Diagnostics) -> Option<Action> {
+        let (found, name) = self.outcome_of(path, diags)?;
+        let help = match self.paths.component(found) {
+            Some(Component::Actor(_)) => return self.injection(path, found, &name, binds, diags),
+            None => format!("write 'fire {}' for an event", path.text()),
+            Some(Component::Computation(_)) => {
+                "a computation takes no time; set the entries that it reads".to_owned()
+            }
+            Some(Component::SubPlan(_)) => "finish the actor that is active inside".to_owned(),
+        };
+        diags.push(
+            Diagnostic::new(Code::E0602, path.span(), "'finish' is for states of actors")
+                .help(help),
+        );
+        None
+    }
+
+    fn failure(
+        &self,
+        path: &ast::Path,
+        binds: &[Bind],
+        diags: &mut Diagnostics,
+    ) -> Option<Failure> {
+        let named = path.text();
+        let Some((device, kinds)) = DEVICES.iter().find(|(device, _)| *device == named) else {
+            let known = DEVICES.iter().map(|(device, _)| *device);
+            let message = format!("the robot has no device '{named}' that can fail");
+            diags.push(unknown(Code::E0606, path.span(), message, &named, known, ""));
+            return None;
+        };
+        let kind = binds.iter().find_map(|bind| match bind {
+            Bind::In { port, formula: Some(formula), .. } if port.text == "kind" => Some(formula),
+            _ => None,
+        });
+        let Some((formula, text)) = kind.and_then(|kind| Some((kind, text_of(kind, diags)?)))
+        else {
+            diags.push(unsaid(path.span(), device, kinds));
+            return None;
+        };
+        let Some(kind) = kinds.iter().find(|kind| **kind == text) else {
+            let message = format!("'{device}' cannot fail as '{text}'");
+            let known = kinds.iter().copied();
+            diags.push(unknown(Code::E0606, formula.span(), message, &text, known, ""));
+            return None;
+        };
+        let amount = self.amount(kind, binds, diags)?;
+        Some(Failure { device, kind, amount })
+    }
+
+    /// How much of a fault, where it is said.
+    fn amount(
+        &self,
+        kind: &str,
+        binds: &[Bind],
+        diags: &mut Diagnostics,
+    ) -> Option<Option<Constant>> {
+        let known = devices::amount(kind);
+        let mut amount = None;
+        for bind in binds {
+            let (Bind::In { port, .. } | Bind::Out { port, .. }) = bind;
+            match (bind, known) {
+                _ if port.text == "kind" => {}
+                (Bind::In { formula: Some(formula), .. }, Some((name, ty)))
+                    if port.text == name =>
+                {
+                    let ty = Type::Quantity(Dimension::named(ty).unwrap_or(Dimension::NONE));
+                    amount = Some(self.constant(formula, &ty, diags)?.1);
+                }
+                _ => {
+                    let message = format!("'{}' says nothing of a fault \"{kind}\"", port.text);
+                    let known = known.iter().map(|(name, _)| *name).chain(["kind"]);
+                    let error = unknown(Code::E0606, port.span, message, &port.text, known, "");
+                    diags.push(error);
+                    return None;
+                }
+            }
+        }
+        Some(amount)
+    }
+
+    /// A component and the name of one of its outcomes.
+    fn outcome_of(&self, path: &ast::Path, diags: &mut Diagnostics) -> Option<(Found, Name)> {
+        let names = path.names();
+        let (found, rest) =
+            self.paths.find(self.paths.main(), &names).map_err(|error| diags.push(*error)).ok()?;
+        match rest {
+            [name] => Some((found, name.clone())),
+            _ => {
+                let known =
+                    self.paths.outcomes(found).into_iter().map(|o| format!("{}.{o}", path.text()));
+                let known: Vec<_> = known.collect();
+                let example = words::list(known.iter().map(String::as_str), "or");
+                diags.push(
+                    Diagnostic::new(Code::E0210, path.span(), "a state or event is missing")
+                        .help(format!("write {example}")),
+                );
+                None
+            }
+        }
+    }
+
+    fn injection(
+        &self,
+        path: &ast::Path,
+        found: Found,
+        name: &Name,
+        binds: &[Bind],
+        diags: &mut Diagnostics,
+    ) -> Option<Action> {
+        let outcome = self.paths.outcome(found, &name.text);
+        let Some(Outcome::Declared(outcome)) = outcome else {
+            diags.push(self.no_outcome(found, name));
+            return None;
+        };
+        if self.paths.target(found, Outcome::Declared(outcome)) == Some(Target::Ignore) {
+            let message = format!("'{}' is ignored, so it is never reported", path.text());
+            diags.push(
+                Diagnostic::new(Code::E0603, path.span(), message)
+                    .note(self.paths.edge(found, Outcome::Declared(outcome)), "ignored here")
+                    .help("fire an event that leads somewhere"),
+            );
+            return None;
+        }
+        let outputs = self.outputs(path, found, outcome, binds, diags)?;
+        Some(Action::Inject(Injection { component: self.paths.number(found), outcome, outputs }))
+    }
+
+    /// Reports that a component has no such state or event.
+    pub(super) fn no_outcome(&self, found: Found, name: &Name) -> Diagnostic {
+        let owner = self.paths.name(found);
+        let what = if matches!(found.part, Part::Supervisor(_)) { "event" } else { "state" };
+        let message = match name.text == self.paths.special(found) {
+            true => format!("'{}' of '{owner}' comes from the run time alone", name.text),
+            false => format!("'{owner}' has no {what} '{}'", name.text),
+        };
+        let known = self.paths.outcomes(found);
+        unknown(Code::E0210, name.span, message, &name.text, known, "write another name")
+    }
+
+    /// The values that come with an outcome: one for each connected output.
+    fn outputs(
+        &self,
+        path: &ast::Path,
+        found: Found,
+        outcome: u16,
+        binds: &[Bind],
+        diags: &mut Diagnostics,
+    ) -> Option<Vec<(u16, Constant)>> {
+        let wanted = self.paths.outputs(found, outcome);
+        let mut values: Vec<Option<Constant>> = vec![None; wanted.len()];
+        let mut sound = true;
+        for bind in binds {
+            let (Bind::In { port, .. } | Bind::Out { port, .. }) = bind;
+            let place = wanted.iter().position(|(_, known, _)| known.name == port.text);
+            let Some(place) = place else {
+                let message =
+                    format!("'{}' brings no connected output '{}'", path.text(), port.text);
+                let known = wanted.iter().map(|(_, port, _)| port.name.as_str());
+                let none = "remove the value";
+                diags.push(unknown(Code::E0608, port.span, message, &port.text, known, none));
+                sound = false;
+                continue;
+            };
+            let Bind::In { formula: Some(formula), .. } = bind else {
+                diags.push(
+                    Diagnostic::new(Code::E0608, port.span, "an output needs a value here")
+                        .help(format!("write '{} = ...'", port.text)),
+                );
+                sound = false;
+                continue;
+            };
+            values[place] = self.constant(formula, &wanted[place].2, diags).map(|(_, value)| value);
+            sound &= values[place].is_some();
+        }
+        let missing = wanted.iter().zip(&values).filter(|(_, value)| value.is_none());
+        let missing: Vec<_> = missing.map(|((_, port, ty), _)| (port, ty)).collect();
+        if sound && !missing.is_empty() {
+            let names = words::list(missing.iter().map(|(port, _)| port.name.as_str()), "and");
+            let message = format!("'{}' also brings {names}, which has no value here", path.text());
+            let object = missing.iter().any(|(_, ty)| matches!(ty, Type::Object(_)));
+            let help = match object {
+                true => "choose another outcome: an object can be made by its component alone"
+                    .to_owned(),
+                false => format!("write '({} = ...)' behind it", missing[0].0.name),
+            };
+            diags.push(
+                Diagnostic::new(Code::E0608, path.span(), message)
+                    .note(missing[0].0.span, "declared here")
+                    .help(help),
+            );
+            return None;
+        }
+        let values: Option<Vec<_>> =
+            wanted.iter().zip(values).map(|((place, ..), value)| Some((*place, value?))).collect();
+        values
+    }
+}
+
+/// Reports that nothing says how a device fails.
+fn unsaid(span: Span, device: &str, kinds: &[&str]) -> Diagnostic {
+    let example: Vec<_> =
+        kinds.iter().map(|kind| format!("'{device}(kind = \"{kind}\")'")).collect();
+    let message = format!("how '{device}' fails is not said");
+    Diagnostic::new(Code::E0606, span, message).help(format!("write {}", example.join(" or ")))
+}
+
+fn control(path: &ast::Path, diags: &mut Diagnostics) -> Option<Control> {
+    let found = Control::parse(&path.text());
+    if found.is_none() {
+        let known = Control::ALL.iter().map(|control| control.word());
+        let message = format!("the robot has no '{}' that can be pressed", path.text());
+        diags.push(unknown(Code::E0606, path.span(), message, &path.text(), known, ""));
+    }
+    found
+}
+
+fn text_of(formula: &Formula, diags: &mut Diagnostics) -> Option<String> {
+    match formula.kind() {
+        FormulaKind::Text(quoted) => Some(unquote(&quoted, diags)),
+        _ => None,
+    }
+}

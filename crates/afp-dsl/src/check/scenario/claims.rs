@@ -1,0 +1,387 @@
+//! What a scenario expects.
+
+use super::Checker;
+use super::paths::{Found, Part};
+use crate::check::names::unknown;
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::graph::{Component, Target};
+use crate::scenario::{
+    Cause, Claim, Comparison, Destination, EndCause, Expectation, Outcome, Wanted,
+};
+use crate::syntax::ast::{self, Bound, ClaimKind, Formula, Line, Name, Path};
+use crate::types::Type;
+
+impl Checker<'_> {
+    pub(super) fn expectation(
+        &self,
+        line: &Line,
+        never: bool,
+        node: &ast::Claim,
+        bounds: &[Bound],
+        diags: &mut Diagnostics,
+    ) -> Option<Expectation> {
+        let window = self.window(bounds, diags);
+        let claim = self.claim(node, diags)?;
+        let (window, always) = window?;
+        let wanted = match (never, always) {
+            (true, _) => Wanted::Never,
+            (false, true) => Wanted::Always,
+            (false, false) => Wanted::Once,
+        };
+        let always_bound = bounds.iter().find(|bound| bound.word() == "always");
+        if let Some(bound) = always_bound.filter(|_| never || claim.is_event()) {
+            let message = match never {
+                true => "'never' holds always",
+                false => "what happens at an instant cannot hold always",
+            };
+            diags.push(Diagnostic::new(Code::E0604, bound.span(), message).help("remove 'always'"));
+            return None;
+        }
+        Some(Expectation { claim, wanted, window, text: line.text(), span: line.span() })
+    }
+
+    fn claim(&self, node: &ast::Claim, diags: &mut Diagnostics) -> Option<Claim> {
+        match node.kind() {
+            ClaimKind::Transition { from, to, by } => {
+                self.transition(&from, to.as_ref(), by.as_ref(), diags)
+            }
+            ClaimKind::Active(path) => self.active(&path, diags),
+            ClaimKind::Compare(path, sign, value) => self.compare(&path, &sign, &value?, diags),
+            ClaimKind::Running => Some(Claim::Running),
+            ClaimKind::End(by) => self.end(by.as_ref(), diags),
+            ClaimKind::Fact(path) => self.fact(&path, diags),
+            ClaimKind::Hole => None,
+        }
+    }
+
+    /// An element, alone.
+    fn element(&self, path: &Path, diags: &mut Diagnostics) -> Option<Found> {
+        let names = path.names();
+        let (found, rest) =
+            self.paths.find(self.paths.main(), &names).map_err(|error| diags.push(*error)).ok()?;
+        if rest.is_empty() && matches!(found.part, Part::Element(_)) {
+            return Some(found);
+        }
+        let message = format!("'{}' is no element", path.text());
+        diags.push(
+            Diagnostic::new(Code::E0602, path.span(), message)
+                .help("write the name of an actor, a computation or a sub-plan"),
+        );
+        None
+    }
+
+    fn active(&self, path: &Path, diags: &mut Diagnostics) -> Option<Claim> {
+        let found = self.element(path, diags)?;
+        if let Some(Component::Computation(_)) = self.paths.component(found) {
+            let message = format!("'{}' is a computation and takes no time", path.text());
+            let state = self.paths.outcomes(found).first().copied().unwrap_or("Error");
+            diags.push(
+                Diagnostic::new(Code::E0604, path.span(), message)
+                    .help(format!("expect one of its states, such as '{}.{state}'", path.text())),
+            );
+            return None;
+        }
+        Some(Claim::Active(self.paths.number(found)))
+    }
+
+    fn transition(
+        &self,
+        from_path: &Path,
+        to_path: Option<&Path>,
+        by_path: Option<&Path>,
+        diags: &mut Diagnostics,
+    ) -> Option<Claim> {
+        let from = self.element(from_path, diags);
+        let to = match to_path {
+            Some(path) => Some(self.element(path, diags)?),
+            None => None,
+        };
+        let from = from?;
+        if let (Some(to), Some(path)) = (to, to_path)
+            && to.home != from.home
+        {
+            let message = format!(
+                "'{}' and '{}' belong to different plans, so no edge joins them",
+                from_path.text(),
+                path.text()
+            );
+            diags.push(
+                Diagnostic::new(Code::E0603, path.span(), message)
+                    .help("name two elements of one plan, or expect the other one 'active'"),
+            );
+            return None;
+        }
+        let by = match by_path {
+            Some(path) => Some((self.cause(from, path, diags)?, path)),
+            None => None,
+        };
+        self.joined(from, to, by.as_ref(), (from_path, to_path), diags)?;
+        Some(Claim::Transition {
+            from: self.paths.number(from),
+            to: to.map_or(Destination::Terminate, |to| Destination::Element(self.paths.number(to))),
+            by: by.map(|((found, outcome), _)| Cause {
+                component: self.paths.number(found),
+                outcome,
+            }),
+        })
+    }
+
+    /// Reports when no edge leads from one to the other.
+    fn joined(
+        &self,
+        from: Found,
+        to: Option<Found>,
+        by: Option<&((Found, Option<Outcome>), &Path)>,
+        (from_path, to_path): (&Path, Option<&Path>),
+        diags: &mut Diagnostics,
+    ) -> Option<()> {
+        let target = match to.map(|to| to.part) {
+            Some(Part::Element(id)) => Target::Element(id),
+            _ => Target::Terminate,
+        };
+        let causes = self.paths.causes(from);
+        let leads = |(found, outcome): &&(Found, Outcome)| {
+            self.paths.target(*found, *outcome) == Some(target)
+        };
+        let fits = |(found, outcome): &&(Found, Outcome)| match by {
+            Some(((wanted, want), _)) => {
+                found == wanted && want.is_none_or(|want| want == *outcome)
+            }
+            None => true,
+        };
+        if causes.iter().any(|cause| leads(&cause) && fits(&cause)) {
+            return Some(());
+        }
+        let name = to_path.map_or("terminate".to_owned(), Path::text);
+        let others: Vec<_> = causes
+            .iter()
+            .filter(leads)
+            .map(|(found, outcome)| self.outcome_name(from, *found, *outcome))
+            .collect();
+        let (span, message) = match by {
+            Some((_, path)) => (
+                path.span(),
+                format!("'{}' does not lead from '{}' to '{name}'", path.text(), from_path.text()),
+            ),
+            None => (
+                to_path.map_or(from_path.span(), Path::span),
+                format!("no edge leads from '{}' to '{name}'", from_path.text()),
+            ),
+        };
+        let help = match others.as_slice() {
+            [] => "look at the plan's edges, or expect another element".to_owned(),
+            others => {
+                let list = crate::words::list(others.iter().map(String::as_str), "or");
+                format!("what leads there is {list}")
+            }
+        };
+        diags.push(Diagnostic::new(Code::E0603, span, message).help(help));
+        None
+    }
+
+    /// How an outcome is named behind `by`.
+    fn outcome_name(&self, from: Found, found: Found, outcome: Outcome) -> String {
+        let name = match outcome {
+            Outcome::Declared(place) => self.paths.outcomes(found)[usize::from(place)],
+            Outcome::Special => self.paths.special(found),
+        };
+        match found == from {
+            true => name.to_owned(),
+            false => format!("{}.{name}", self.paths.name(found)),
+        }
+    }
+
+    /// What a path behind `by` means where `from` is left: a supervisor of it or of its plan, one of
+    /// its states, or a path from the outermost plan.
+    fn cause(
+        &self,
+        from: Found,
+        path: &Path,
+        diags: &mut Diagnostics,
+    ) -> Option<(Found, Option<Outcome>)> {
+        let names = path.names();
+        let first = names.first()?;
+        if let ([_], Some(outcome)) = (&names[..], self.paths.outcome(from, &first.text)) {
+            return Some((from, Some(outcome)));
+        }
+        let near = self.paths.local(from, &first.text).map(|found| (found, &names[1..]));
+        let (found, rest) = match near {
+            Some(near) => near,
+            None => match self.paths.find(from.home, &names) {
+                Ok(found) => found,
+                Err(_) => self
+                    .paths
+                    .find(self.paths.main(), &names)
+                    .map_err(|_| diags.push(self.unknown_cause(from, first)))
+                    .ok()?,
+            },
+        };
+        self.outcome(found, rest, diags).map(|outcome| (found, outcome))
+    }
+
+    fn unknown_cause(&self, from: Found, name: &Name) -> Diagnostic {
+        let owner = self.paths.name(from);
+        let message = format!("nothing that can end '{owner}' is called '{}'", name.text);
+        let causes = self.paths.causes(from);
+        let known = causes.iter().filter(|(_, outcome)| *outcome != Outcome::Special);
+        let known = known.map(|(found, outcome)| match *found == from {
+            true => self.outcome_name(from, *found, *outcome),
+            false => self.paths.name(*found).to_owned(),
+        });
+        let mut known: Vec<_> = known.collect();
+        known.dedup();
+        let known = known.iter().map(String::as_str);
+        unknown(Code::E0602, name.span, message, &name.text, known, "remove 'by'")
+    }
+
+    /// The outcome behind a component's name, if one is named.
+    fn outcome(
+        &self,
+        found: Found,
+        rest: &[Name],
+        diags: &mut Diagnostics,
+    ) -> Option<Option<Outcome>> {
+        match rest {
+            [] => Some(None),
+            [name] => match self.paths.outcome(found, &name.text) {
+                Some(outcome) => Some(Some(outcome)),
+                None => {
+                    diags.push(self.no_outcome(found, name));
+                    None
+                }
+            },
+            [_, more, ..] => {
+                diags.push(
+                    Diagnostic::new(Code::E0210, more.span, "a state or event has no parts")
+                        .help("remove what stands behind it"),
+                );
+                None
+            }
+        }
+    }
+
+    fn end(&self, by: Option<&Path>, diags: &mut Diagnostics) -> Option<Claim> {
+        let Some(path) = by else { return Some(Claim::End(None)) };
+        let names = path.names();
+        let found = self.paths.find(self.paths.main(), &names);
+        let ending = match path.text().as_str() {
+            "OK" => Some(EndCause::Ok),
+            "Interrupted" => Some(EndCause::Interrupted),
+            "Error" => Some(EndCause::Error),
+            _ => None,
+        };
+        let (found, rest) = match (found, ending) {
+            (Err(_), Some(ending)) => return Some(Claim::End(Some(ending))),
+            (Err(error), None) => {
+                diags.push(*error);
+                return None;
+            }
+            (Ok(found), _) => found,
+        };
+        let outcome = self.outcome(found, rest, diags)?;
+        self.ends(found, outcome, path, diags)?;
+        let cause = Cause { component: self.paths.number(found), outcome };
+        Some(Claim::End(Some(EndCause::Cause(cause))))
+    }
+
+    /// Reports a cause that cannot end the plan.
+    fn ends(
+        &self,
+        found: Found,
+        outcome: Option<Outcome>,
+        path: &Path,
+        diags: &mut Diagnostics,
+    ) -> Option<()> {
+        let declared = u16::try_from(self.paths.outcomes(found).len()).unwrap_or(0);
+        let all = (0..declared).map(Outcome::Declared).chain([Outcome::Special]);
+        let element = matches!(found.part, Part::Element(_));
+        let ends = |each: Outcome| match self.paths.target(found, each) {
+            Some(Target::Terminate) => true,
+            None => each == Outcome::Special && element,
+            _ => false,
+        };
+        let main = found.home == self.paths.main();
+        if main && all.filter(|each| outcome.is_none_or(|wanted| wanted == *each)).any(ends) {
+            return Some(());
+        }
+        let message = format!("'{}' does not end '{}'", path.text(), self.paths.graph.main().name);
+        let error = Diagnostic::new(Code::E0603, path.span(), message);
+        diags.push(match outcome.filter(|_| main) {
+            Some(outcome) => error
+                .note(self.paths.edge(found, outcome), "it leads elsewhere")
+                .help("name what leads to 'terminate'"),
+            None => error.help("name a component of the outermost plan that leads to 'terminate'"),
+        });
+        None
+    }
+
+    fn compare(
+        &self,
+        path: &Path,
+        sign: &Name,
+        value: &Formula,
+        diags: &mut Diagnostics,
+    ) -> Option<Claim> {
+        let comparison = Comparison::parse(&sign.text)?;
+        let (entry, plan, id) =
+            self.paths.entry(&path.names()).map_err(|error| diags.push(*error)).ok()?;
+        let declared = &self.paths.graph.plan(plan).entries[id.index()];
+        if let Type::Object(_) = declared.ty {
+            let message = format!("'{}' is an object, which only components can read", path.text());
+            diags.push(
+                Diagnostic::new(Code::E0604, path.span(), message)
+                    .note(declared.span, "declared here")
+                    .help("expect what the plan makes of it"),
+            );
+            return None;
+        }
+        if comparison.is_order() && !declared.ty.is_numeric() {
+            let message = format!("values of '{}' have no order", declared.ty);
+            diags.push(
+                Diagnostic::new(Code::E0604, sign.span, message)
+                    .note(declared.span, "declared here")
+                    .help("write '==' or '!='"),
+            );
+            return None;
+        }
+        let (_, value) = self.constant(value, &declared.ty, diags)?;
+        Some(Claim::Compare { entry, comparison, value })
+    }
+
+    fn fact(&self, path: &Path, diags: &mut Diagnostics) -> Option<Claim> {
+        let names = path.names();
+        let (found, rest) = match self.paths.find(self.paths.main(), &names) {
+            Ok(found) => found,
+            Err(_) if path.text() == "collision" => return Some(Claim::Collision),
+            Err(error) => {
+                diags.push(*error);
+                return None;
+            }
+        };
+        if rest.is_empty() {
+            let name = path.text();
+            let message = format!("what is expected of '{name}' is not said");
+            let outcome = self.paths.outcomes(found).first().map(|first| format!("{name}.{first}"));
+            let help = match (found.part, outcome) {
+                (Part::Element(_), _) => format!("write '{name} active'"),
+                (_, Some(outcome)) => format!("write '{outcome}'"),
+                (_, None) => "name one of its events".to_owned(),
+            };
+            diags.push(Diagnostic::new(Code::E0604, path.span(), message).help(help));
+            return None;
+        }
+        let outcome = self.outcome(found, rest, diags)?;
+        if let Some(outcome) = outcome
+            && self.paths.target(found, outcome) == Some(Target::Ignore)
+        {
+            let message = format!("'{}' is ignored, so it is never taken", path.text());
+            diags.push(
+                Diagnostic::new(Code::E0603, path.span(), message)
+                    .note(self.paths.edge(found, outcome), "ignored here")
+                    .help("expect an event that leads somewhere"),
+            );
+            return None;
+        }
+        Some(Claim::Happens(Cause { component: self.paths.number(found), outcome }))
+    }
+}

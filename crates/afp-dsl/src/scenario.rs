@@ -1,0 +1,272 @@
+//! Scenarios: tests of a plan, checked and resolved.
+//!
+//! A scenario puts the robot into a world, lets things happen at instants, and says what is expected.
+//! Everything is resolved as in the static graph: components and entries go by the numbers of
+//! [`crate::unfold`], values are in SI units, times in nanoseconds. What presses, fails or collides is
+//! the platform's; the words for it are [`devices`].
+
+pub mod devices;
+
+use std::sync::Arc;
+
+use crate::graph::Graph;
+use crate::source::Span;
+use crate::toolbox::Constant;
+
+/// How long a scenario lasts unless it says otherwise, nanoseconds.
+pub const DEFAULT_UNTIL: u64 = 60_000_000_000;
+
+/// One scenario.
+#[derive(Clone, Debug)]
+pub struct Scenario {
+    /// Its name.
+    pub name: String,
+    /// The name in the text.
+    pub span: Span,
+    /// The plan that it is for, as the one that runs.
+    pub graph: Arc<Graph>,
+    /// The file with the plan, as it was read.
+    pub plan_file: String,
+    /// The file of the world, as written; without one it is that of the plan.
+    pub world: Option<String>,
+    /// Where the robot starts, unless it is where the world says.
+    pub robot: Option<Start>,
+    /// The seed of all noise.
+    pub seed: u64,
+    /// Values of `in` entries, by position.
+    pub set: Vec<(u16, Constant)>,
+    /// What happens, in order of time; at one instant as written.
+    pub stimuli: Vec<Stimulus>,
+    /// What is expected, as written.
+    pub expectations: Vec<Expectation>,
+    /// When it ends at the latest, nanoseconds.
+    pub until: u64,
+}
+
+/// Where the robot starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// Metres.
+    pub x: f64,
+    /// Metres.
+    pub y: f64,
+    /// Radians.
+    pub heading: f64,
+}
+
+/// Something that happens.
+#[derive(Clone, Debug)]
+pub struct Stimulus {
+    /// When, nanoseconds.
+    pub at: u64,
+    /// What.
+    pub action: Action,
+    /// The line as written.
+    pub text: String,
+    /// The line in the text.
+    pub span: Span,
+}
+
+/// What happens.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// An entry is written from outside.
+    Set(u16, Constant),
+    /// A button or the bumper is held down, for so many nanoseconds or for as long as the robot's own
+    /// presses last.
+    Press(devices::Control, Option<u64>),
+    /// It is let go.
+    Release(devices::Control),
+    /// A device fails, for so many nanoseconds or for good.
+    Fail(devices::Failure, Option<u64>),
+    /// A supervisor reports an event, or an element reaches a state, without a reason.
+    Inject(Injection),
+}
+
+/// An outcome that does not come from its component.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Injection {
+    /// The supervisor or actor.
+    pub component: u32,
+    /// Its event or state, by position.
+    pub outcome: u16,
+    /// The outputs that come with it, by position among the template's, each of its port's type.
+    pub outputs: Vec<(u16, Constant)>,
+}
+
+/// What is expected.
+#[derive(Clone, Debug)]
+pub struct Expectation {
+    /// The claim.
+    pub claim: Claim,
+    /// How often it has to hold.
+    pub wanted: Wanted,
+    /// Where.
+    pub window: Window,
+    /// The line as written.
+    pub text: String,
+    /// The line in the text.
+    pub span: Span,
+}
+
+/// How often a claim has to hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// At some instant of the window.
+    Once,
+    /// At every instant of the window.
+    Always,
+    /// At no instant of the window.
+    Never,
+}
+
+/// A stretch of time, nanoseconds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// Its first instant.
+    pub from: u64,
+    /// Its last instant.
+    pub to: u64,
+}
+
+/// What may hold or happen.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Claim {
+    /// An edge is taken.
+    Transition {
+        /// The element that is left.
+        from: u32,
+        /// Where the edge leads.
+        to: Destination,
+        /// The state or event that it belongs to.
+        by: Option<Cause>,
+    },
+    /// A state is reached or an event is taken.
+    Happens(Cause),
+    /// An element or sub-plan is active.
+    Active(u32),
+    /// An entry compares so with a value of its type; an unset entry with none.
+    Compare {
+        /// The entry.
+        entry: u32,
+        /// How.
+        comparison: Comparison,
+        /// With what.
+        value: Constant,
+    },
+    /// The plan has not ended.
+    Running,
+    /// The plan ends.
+    End(Option<EndCause>),
+    /// The robot touches something.
+    Collision,
+}
+
+/// Where an edge leads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Destination {
+    /// To an element.
+    Element(u32),
+    /// Out of the plan.
+    Terminate,
+}
+
+/// A component, or one of its outcomes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cause {
+    /// The element or supervisor.
+    pub component: u32,
+    /// Its state or event; any without one.
+    pub outcome: Option<Outcome>,
+}
+
+/// A state or event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// One of the template, by position.
+    Declared(u16),
+    /// `Error` of an element, `DeadlineMissed` of a supervisor.
+    Special,
+}
+
+/// What ends a plan, or how it ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EndCause {
+    /// The outcome whose edge leads to `terminate`, or the `Error` that leads nowhere.
+    Cause(Cause),
+    /// `OK`
+    Ok,
+    /// `Interrupted`
+    Interrupted,
+    /// `Error`
+    Error,
+}
+
+/// How two values compare.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Comparison {
+    /// `==`
+    Equal,
+    /// `!=`
+    NotEqual,
+    /// `<`
+    Less,
+    /// `<=`
+    LessEqual,
+    /// `>`
+    Greater,
+    /// `>=`
+    GreaterEqual,
+}
+
+impl Comparison {
+    /// The comparison that is written so.
+    pub fn parse(text: &str) -> Option<Comparison> {
+        Some(match text {
+            "==" => Comparison::Equal,
+            "!=" => Comparison::NotEqual,
+            "<" => Comparison::Less,
+            "<=" => Comparison::LessEqual,
+            ">" => Comparison::Greater,
+            ">=" => Comparison::GreaterEqual,
+            _ => return None,
+        })
+    }
+
+    /// Whether it needs an order.
+    pub fn is_order(self) -> bool {
+        !matches!(self, Comparison::Equal | Comparison::NotEqual)
+    }
+
+    /// Whether two values compare so; an order is known of numbers of one kind alone.
+    pub fn holds(self, left: &Constant, right: &Constant) -> bool {
+        let order = match (left, right) {
+            (Constant::Int(left), Constant::Int(right)) => left.partial_cmp(right),
+            (Constant::Float(left), Constant::Float(right)) => left.partial_cmp(right),
+            _ if left == right => Some(std::cmp::Ordering::Equal),
+            _ => None,
+        };
+        match self {
+            Comparison::Equal => order.is_some_and(|order| order.is_eq()),
+            Comparison::NotEqual => !order.is_some_and(|order| order.is_eq()),
+            Comparison::Less => order.is_some_and(|order| order.is_lt()),
+            Comparison::LessEqual => order.is_some_and(|order| order.is_le()),
+            Comparison::Greater => order.is_some_and(|order| order.is_gt()),
+            Comparison::GreaterEqual => order.is_some_and(|order| order.is_ge()),
+        }
+    }
+}
+
+impl Window {
+    /// Whether an instant lies in it.
+    pub fn contains(self, at: u64) -> bool {
+        (self.from..=self.to).contains(&at)
+    }
+}
+
+impl Claim {
+    /// Whether it happens at an instant rather than holds for a while.
+    pub fn is_event(&self) -> bool {
+        matches!(self, Claim::Transition { .. } | Claim::Happens(_) | Claim::End(_))
+    }
+}
