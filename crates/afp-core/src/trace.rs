@@ -77,6 +77,14 @@ pub enum Record<'a> {
     },
     /// Somebody asked the plan to stop.
     StopRequested,
+    /// A component is about to report an outcome that is not its own: whoever tests the plan put it
+    /// there.
+    Injected {
+        /// The supervisor or actor.
+        component: ComponentId,
+        /// The event or state.
+        outcome: u16,
+    },
     /// A supervisor was polled.
     Polled {
         /// The supervisor.

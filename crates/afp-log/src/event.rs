@@ -89,6 +89,11 @@ impl<N: Names + ?Sized> Teller<'_, N> {
                 PlanEvent { asked_ns: asked.as_nanos(), ..self.about(Kind::ClockWentBack, 0) }
             }
             Record::StopRequested => self.about(Kind::StopRequested, 0),
+            Record::Injected { component, outcome } => PlanEvent {
+                // Where it leads is told when it is taken.
+                target: String::new(),
+                ..self.outcome(Kind::Injected, component, outcome)
+            },
             Record::Polled { supervisor, verdict } => self.polled(supervisor, verdict),
             Record::Missed { supervisor, lateness, cause, skipped } => PlanEvent {
                 lateness_ns: lateness.as_nanos(),

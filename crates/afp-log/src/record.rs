@@ -27,6 +27,9 @@ impl OwnedRecord {
             }
             Record::ClockWentBack { asked } => (Record::ClockWentBack { asked }, none, none),
             Record::StopRequested => (Record::StopRequested, none, none),
+            Record::Injected { component, outcome } => {
+                (Record::Injected { component, outcome }, none, none)
+            }
             Record::Polled { supervisor, verdict } => {
                 (Record::Polled { supervisor, verdict }, none, none)
             }

@@ -31,9 +31,11 @@ use crate::options::RunOptions;
 pub use error::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, EXIT_USAGE, RunError};
 pub use hash::hash;
 pub use output::write_whole;
-pub use report::timeline;
+pub use report::{line, timeline};
+pub use robot::RobotLog;
 pub use run::run;
 pub use svg::draw_log;
+pub use tracer::Tracer;
 
 /// A plan and where it comes from.
 #[derive(Clone, Copy, Debug)]

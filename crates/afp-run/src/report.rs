@@ -28,6 +28,19 @@ pub fn timeline(log: &LogData) -> impl Iterator<Item = String> {
     })
 }
 
+/// A record as a line of the timeline; `None` for what is not worth one.
+pub fn line(at: Instant, record: &Record<'_>, names: &impl Names) -> Option<String> {
+    let template = match *record {
+        Record::Polled { .. } | Record::Input { .. } => return None,
+        Record::Started { component } => match names.component(component) {
+            name if name.kind == Kind::Supervisor => return None,
+            name => name.template,
+        },
+        _ => "",
+    };
+    timeline::line(&describe(at, record, names), template)
+}
+
 /// Writes to standard output as the run goes.
 pub(crate) struct Report {
     out: Box<dyn Write>,
@@ -63,21 +76,12 @@ impl Report {
 
     /// Tells of a record, if it is worth it.
     pub(crate) fn tell(&mut self, at: Instant, record: &Record<'_>, names: &impl Names) {
-        let template = match *record {
-            Record::Polled { .. } | Record::Input { .. } => return,
-            Record::Started { component } => {
-                let name = names.component(component);
-                if name.kind == Kind::Supervisor && !self.json {
-                    return;
-                }
-                name.template
-            }
-            _ => "",
-        };
-        let event = describe(at, record, names);
+        if matches!(record, Record::Polled { .. } | Record::Input { .. }) {
+            return;
+        }
         let line = match self.json {
-            true => json::line(&event),
-            false => timeline::line(&event, template),
+            true => json::line(&describe(at, record, names)),
+            false => line(at, record, names),
         };
         if let Some(line) = line {
             self.progress.clear();

@@ -18,14 +18,14 @@ const BODY_HEIGHT: f64 = 0.22;
 const SONAR_HEIGHT: f64 = 0.15;
 
 /// Keeps a log up to date with the simulation.
-pub(crate) struct RobotLog {
+pub struct RobotLog {
     start: Pose2,
     last_ping: Option<Instant>,
 }
 
 impl RobotLog {
     /// Writes what stands in the room, and the robot's body.
-    pub(crate) fn begin(log: &mut Recorder, world: &World) -> Self {
+    pub fn begin(log: &mut Recorder, world: &World) -> Self {
         let obstacles = world.obstacles.iter().enumerate().map(|(index, obstacle)| Shape {
             id: format!("{index} {}", obstacle.name),
             frame: WORLD,
@@ -45,7 +45,7 @@ impl RobotLog {
     }
 
     /// Writes where the robot is and what it has heard since.
-    pub(crate) fn look(&mut self, log: &mut Recorder, sim: &Simulation) {
+    pub fn look(&mut self, log: &mut Recorder, sim: &Simulation) {
         let Snapshot { time, pose, odometry, rotator, sonar, .. } = sim.snapshot();
         let beam = sim.beam();
         log.pose(time, WORLD, plane(pose));

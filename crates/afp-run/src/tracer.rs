@@ -5,7 +5,7 @@ use afp_core::{Instant, Value, ValueRef};
 use afp_log::{OwnedRecord, Recorder};
 
 /// Takes the records of a step.
-pub(crate) struct Tracer {
+pub struct Tracer {
     /// The log, where there is one.
     pub log: Option<Recorder>,
     /// What happened since it was last read, without polls that saw nothing.
@@ -15,14 +15,15 @@ pub(crate) struct Tracer {
 }
 
 impl Tracer {
-    pub(crate) fn new(log: Option<Recorder>) -> Self {
+    /// A run about to start.
+    pub fn new(log: Option<Recorder>) -> Self {
         Tracer { log, news: Vec::new(), held: Some(Vec::new()) }
     }
 
     /// The start is over; `entries` are the values of the plan's own entries after it.
     ///
     /// Commits of the start are undone to get at the configuration that it began with.
-    pub(crate) fn started(&mut self, at: Instant, entries: impl Iterator<Item = Value>) {
+    pub fn started(&mut self, at: Instant, entries: impl Iterator<Item = Value>) {
         let held = self.held.take().unwrap_or_default();
         let Some(log) = &mut self.log else { return };
         let mut entries: Vec<Value> = entries.collect();

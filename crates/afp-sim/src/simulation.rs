@@ -74,6 +74,8 @@ pub struct Simulation {
     color: Reading<Color>,
     exposure: Reading<Arc<Exposure>>,
     seed: u64,
+    /// Whether somebody holds the bumper in.
+    held: bool,
     escape: bool,
     /// After an emergency stop.
     stopped: bool,
@@ -119,6 +121,7 @@ impl Simulation {
             color: Reading::invalid(Invalid::NotYet, Instant::ZERO),
             exposure: Reading { time: Instant::ZERO, value: Err(Invalid::NotYet) },
             seed,
+            held: false,
             escape: false,
             stopped: false,
             faults: Schedule::new(),
@@ -173,6 +176,16 @@ impl Simulation {
     /// Lets the escape button go.
     pub fn release_escape(&mut self) {
         self.escape = false;
+    }
+
+    /// Holds the bumper in, as if something stood there.
+    pub fn press_bumper(&mut self) {
+        self.held = true;
+    }
+
+    /// Lets the bumper go.
+    pub fn release_bumper(&mut self) {
+        self.held = false;
     }
 
     /// What only a judge may know.

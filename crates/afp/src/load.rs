@@ -6,6 +6,7 @@
 mod config;
 mod element;
 mod formula;
+mod inject;
 mod names;
 mod outputs;
 mod plan;
@@ -13,6 +14,7 @@ mod registry;
 mod slots;
 mod tables;
 
+pub use inject::{Injection, NotActive};
 pub use names::PlanNames;
 pub use plan::{InputError, LoadError, LoadedPlan};
 pub use registry::Registry;

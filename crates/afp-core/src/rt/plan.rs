@@ -286,6 +286,13 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
         run(if S::ENABLED { Some(&mut see) } else { None }, &mut *self.env, at)
     }
 
+    /// Traces that a component reports what whoever tests the plan put there. `part` counts the
+    /// plan's elements, then its supervisors.
+    pub fn show_injected(&mut self, part: u32, outcome: u16) {
+        let component = ComponentId(self.place.components.saturating_add(part));
+        self.trace(&Record::Injected { component, outcome });
+    }
+
     /// Runs a sub-plan's machine at its own place: its start, its step, its interruption.
     #[inline]
     pub fn inside<R>(&mut self, child: Child, run: impl FnOnce(&mut Cx<'_, E, S, C>) -> R) -> R {

@@ -77,6 +77,10 @@ impl<N: Names + ?Sized> fmt::Display for Line<'_, N> {
         match *self.record {
             Record::ClockWentBack { asked } => write!(f, "clock went back to {asked}"),
             Record::StopRequested => f.write_str("stop requested"),
+            Record::Injected { component, outcome } => {
+                let (path, name) = (self.path(component), self.names.outcome(component, outcome));
+                write!(f, "{path} is made to report {name}")
+            }
             Record::Polled { supervisor, verdict } => {
                 write!(f, "{} polled: ", self.path(supervisor))?;
                 match verdict {

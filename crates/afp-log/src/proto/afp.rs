@@ -97,6 +97,8 @@ pub mod plan_event {
         Ended = 14,
         /// `lost` records could not be kept.
         Lost = 15,
+        /// A test made `component` report `outcome`.
+        Injected = 16,
     }
     impl Kind {
         /// String value of the enum field names used in the ProtoBuf definition.
@@ -121,6 +123,7 @@ pub mod plan_event {
                 Self::Faulted => "FAULTED",
                 Self::Ended => "ENDED",
                 Self::Lost => "LOST",
+                Self::Injected => "INJECTED",
             }
         }
         /// Creates an enum from field names used in the ProtoBuf definition.
@@ -142,6 +145,7 @@ pub mod plan_event {
                 "FAULTED" => Some(Self::Faulted),
                 "ENDED" => Some(Self::Ended),
                 "LOST" => Some(Self::Lost),
+                "INJECTED" => Some(Self::Injected),
                 _ => None,
             }
         }

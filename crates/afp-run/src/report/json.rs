@@ -105,6 +105,7 @@ fn kind(event: &PlanEvent) -> &'static str {
         Kind::Faulted => "faulted",
         Kind::Ended => "ended",
         Kind::Lost => "lost",
+        Kind::Injected => "injected",
     }
 }
 

@@ -35,6 +35,7 @@ pub(super) fn line(event: &PlanEvent, template: &str) -> Option<String> {
             format!("{BAD}! the clock went back to {asked:.6} s{BAD:#}")
         }
         Kind::StopRequested => format!("{EVENT}■ stop requested{EVENT:#}"),
+        Kind::Injected => format!("{EVENT}◇ {} (injected){EVENT:#}", outcome(component, event)),
         Kind::Missed => missed(event),
         Kind::Event => format!("{EVENT}⚡ {}{EVENT:#}", outcome(component, event)),
         Kind::AlreadyThere => {

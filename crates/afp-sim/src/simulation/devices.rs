@@ -64,7 +64,7 @@ impl Simulation {
     }
 
     pub(super) fn raw_touched(&self) -> Reading<bool> {
-        self.measured(self.switch.says())
+        self.measured(self.held || self.switch.says())
     }
 
     pub(super) fn raw_escape(&self) -> Reading<bool> {

@@ -6,6 +6,7 @@ use afp_core::{Clock, Environment, Fault};
 use afp_dsl::graph;
 
 use super::config::Config;
+use super::inject::{Injected, Injection, NotActive};
 use super::outputs::{Binding, Inputs, Stage};
 use super::plan::LoadedPlan;
 use super::slots::{ActorSlot, ComputationSlot};
@@ -15,6 +16,8 @@ pub struct ElementSlot<E: ?Sized + 'static> {
     inputs: Inputs,
     outputs: Vec<Binding>,
     running: Running<E>,
+    /// What it reports at its next poll in place of its own.
+    pub(super) injected: Injected,
 }
 
 /// What runs in an element.
@@ -36,7 +39,7 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
     /// An element that does not run.
     pub fn new(element: &graph::Element, running: Running<E>) -> Self {
         let (inputs, outputs) = (Inputs::new(&element.inputs), Binding::all(&element.outputs));
-        ElementSlot { inputs, outputs, running }
+        ElementSlot { inputs, outputs, running, injected: None }
     }
 
     /// Starts it: inputs, then the component.
@@ -96,6 +99,44 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
         }
     }
 
+    /// Reaches a state that was put there, after stopping what runs.
+    pub fn finish<S: Sink, C: Clock>(
+        &mut self,
+        injected: &Injection,
+        config: &mut Config,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Polled {
+        if let Err(fault) = self.interrupt(cx) {
+            return Polled::Failed(fault);
+        }
+        let mut stage = Stage::new(&self.outputs, &mut config.staged);
+        injected.stage(&mut stage);
+        match stage.result() {
+            Ok(()) => Polled::Done(injected.outcome),
+            Err(fault) => Polled::Failed(fault),
+        }
+    }
+
+    /// Puts a state there for the next poll of an active actor.
+    pub fn inject(&mut self, injection: &Injection) -> Result<(), NotActive> {
+        match self.running {
+            Running::Actor(_) => {
+                self.injected = injection.boxed();
+                Ok(())
+            }
+            Running::Computation(_) | Running::SubPlan { .. } => Err(NotActive),
+        }
+    }
+
+    /// Passes an injection on to the sub-plan that runs in it; `part` counts from the outer plan's
+    /// first element.
+    pub fn inject_inside(&mut self, part: u32, injection: &Injection) -> Result<(), NotActive> {
+        let Running::SubPlan { child, machine } = &mut self.running else { return Err(NotActive) };
+        let part = part.checked_sub(child.components).ok_or(NotActive)?;
+        let active = machine.active();
+        machine.plan_mut().inject_at(active, part, injection)
+    }
+
     /// Interrupts it, innermost first.
     pub fn interrupt<S: Sink, C: Clock>(&mut self, cx: &mut Cx<'_, E, S, C>) -> Result<(), Fault> {
         match &mut self.running {
@@ -107,6 +148,7 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
 
     /// Drops what runs in it.
     pub fn clear(&mut self) {
+        self.injected = None;
         match &mut self.running {
             Running::Actor(actor) => actor.clear(),
             Running::Computation(_) => {}

@@ -15,6 +15,7 @@ use afp_dsl::unfold::{self, Block};
 use super::config::{Config, ObjectCell};
 use super::element::{ElementSlot, Running};
 use super::formula::{Formula, spellings};
+use super::inject::{Injected, Injection, NotActive};
 use super::names::PlanNames;
 use super::outputs::{Binding, Inputs, Stage};
 use super::registry::Registry;
@@ -56,6 +57,14 @@ struct WatchSlot<E: ?Sized + 'static> {
     outputs: Vec<Binding>,
     wanted: Events,
     slot: Box<dyn SupervisorSlot<E>>,
+    injected: Injected,
+}
+
+impl<E: ?Sized + 'static> WatchSlot<E> {
+    fn clear(&mut self) {
+        self.slot.clear();
+        self.injected = None;
+    }
 }
 
 /// Why a graph cannot be loaded.
@@ -145,6 +154,48 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
         let entry = self.entry_number(name).ok_or_else(|| InputError::Unknown(name.to_owned()))?;
         let refused = |why| InputError::Refused(name.to_owned(), why);
         NamedPlan::set_input(self, entry, value).map_err(refused)
+    }
+
+    /// Makes a component of the running plan report an outcome at its next poll, whatever it sees: for
+    /// tests. An actor is interrupted first, so that it leaves the robot at rest.
+    ///
+    /// `active` is the active element of the plan, as its scheduler has it.
+    ///
+    /// # Errors
+    /// [`NotActive`] when the component is not being polled; nothing changes then.
+    pub fn inject(&mut self, active: Option<u16>, injection: &Injection) -> Result<(), NotActive> {
+        let part = injection.component.0.checked_sub(1).ok_or(NotActive)?;
+        self.inject_at(active, part, injection)
+    }
+
+    /// As [`LoadedPlan::inject`]; `part` counts from this plan's first element.
+    pub(super) fn inject_at(
+        &mut self,
+        active: Option<u16>,
+        part: u32,
+        injection: &Injection,
+    ) -> Result<(), NotActive> {
+        let active = active.ok_or(NotActive)?;
+        let (elements, supervisors) = (self.elements.len() as u32, self.supervisors.len() as u32);
+        if part < elements {
+            let slot = self.elements.get_mut(part as usize).ok_or(NotActive)?;
+            return match u32::from(active) == part {
+                true => slot.inject(injection),
+                false => Err(NotActive),
+            };
+        }
+        if let Some(number) = part.checked_sub(elements).filter(|number| *number < supervisors) {
+            let table = self.tables.table();
+            let locals = table.element(active).map(|row| row.locals).ok_or(NotActive)?;
+            let local = u32::from(locals.first)..u32::from(locals.first) + u32::from(locals.len);
+            if number >= u32::from(table.globals) && !local.contains(&number) {
+                return Err(NotActive);
+            }
+            let watch = self.supervisors.get_mut(number as usize).ok_or(NotActive)?;
+            watch.injected = injection.boxed();
+            return Ok(());
+        }
+        self.elements.get_mut(usize::from(active)).ok_or(NotActive)?.inject_inside(part, injection)
     }
 
     /// Gives the `port`-th `in` entry its value for the next activation.
@@ -242,6 +293,7 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
             inputs: Inputs::new(&supervisor.inputs),
             outputs: Binding::all(&supervisor.outputs),
             wanted,
+            injected: None,
             slot: self.find(supervisor.template, Registry::new_supervisor)?,
         })
     }
@@ -406,6 +458,13 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
         let Some(watch) = self.supervisors.get_mut(usize::from(supervisor)) else {
             return Fired::fault(Fault::INTERNAL);
         };
+        if let Some(injected) = watch.injected.take() {
+            let mut stage = Stage::new(&watch.outputs, &mut self.config.staged);
+            injected.stage(&mut stage);
+            let part = self.elements.len() as u32 + u32::from(supervisor);
+            cx.show_injected(part, injected.outcome);
+            return Fired::event(injected.outcome, stage.result());
+        }
         let mut stage = Stage::new(&watch.outputs, &mut self.config.staged);
         let args = watch.inputs.pull(&self.config.values);
         match watch.slot.poll(&args, &mut stage, cx.env, cx.now) {
@@ -434,7 +493,13 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
         let Some(slot) = self.elements.get_mut(usize::from(element)) else {
             return Polled::Failed(Fault::INTERNAL);
         };
-        slot.poll(&mut self.config, cx)
+        match slot.injected.take() {
+            None => slot.poll(&mut self.config, cx),
+            Some(injected) => {
+                cx.show_injected(element.into(), injected.outcome);
+                slot.finish(&injected, &mut self.config, cx)
+            }
+        }
     }
 
     fn interrupt_element<S: Sink, C: Clock>(
@@ -453,13 +518,13 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
         let locals = self.tables.table().element(element).map(|row| row.locals);
         for local in locals.map_or(0..0, |range| range.first..range.first + range.len) {
             if let Some(watch) = self.supervisors.get_mut(usize::from(local)) {
-                watch.slot.clear();
+                watch.clear();
             }
         }
     }
 
     fn end(&mut self) {
         self.elements.iter_mut().for_each(ElementSlot::clear);
-        self.supervisors.iter_mut().for_each(|watch| watch.slot.clear());
+        self.supervisors.iter_mut().for_each(WatchSlot::clear);
     }
 }
