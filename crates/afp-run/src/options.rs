@@ -14,7 +14,7 @@ pub use parse::{Button, Destination, Press, Speed};
 /// How a run goes.
 #[derive(Args, Clone, Debug)]
 pub struct RunOptions {
-    /// World file; else `[run] world` in afp.toml, else worlds/<plan>.toml, else a built-in room
+    /// World file, map (.yaml) or random:SEED; else `[run] world` in afp.toml, else worlds/<plan>.toml, else a built-in room
     #[arg(long, value_name = "FILE")]
     pub world: Option<PathBuf>,
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use afp_project::{ProjectFile, shown};
-use afp_sim::World;
+use afp_sim::{World, WorldError};
 
 use crate::error::RunError;
 
@@ -22,7 +22,10 @@ pub struct LoadedWorld {
     pub path: Option<PathBuf>,
 }
 
-/// The world of a plan: the file asked for, else `[run] world` of `afp.toml`, else
+/// What asks for a room made up instead of a file, before the seed.
+const RANDOM: &str = "random:";
+
+/// The world of a plan: the file asked for, which may also be a map (`.yaml`) or `random:SEED`, else `[run] world` of `afp.toml`, else
 /// `worlds/<plan file>.toml` beside the plan's folder, else the built-in room.
 ///
 /// # Errors
@@ -63,8 +66,30 @@ fn tidy(path: &Path) -> PathBuf {
 }
 
 fn load(path: &Path) -> Result<LoadedWorld, RunError> {
+    let seed = path.to_str().and_then(|name| name.strip_prefix(RANDOM));
+    if let Some(seed) = seed.and_then(|seed| seed.parse().ok()) {
+        return parse(World::random_text(seed), Some(path.to_owned()));
+    }
     let text = fs::read_to_string(path).map_err(RunError::file("cannot read the world", path))?;
+    if path.extension().is_some_and(|extension| extension == "yaml" || extension == "yml") {
+        return parse(map(path, text)?, Some(path.to_owned()));
+    }
     parse(text, Some(path.to_owned()))
+}
+
+/// The text of the world of a map, with the picture that lies beside it.
+fn map(path: &Path, yaml: String) -> Result<String, RunError> {
+    let wrong = |error: WorldError| RunError::Content {
+        path: path.to_owned(),
+        place: error.place,
+        text: yaml.clone(),
+        message: error.message,
+    };
+    let picture = path.with_file_name(World::map_picture(&yaml).map_err(wrong)?);
+    let bytes =
+        fs::read(&picture).map_err(RunError::file("cannot read the map's picture", &picture))?;
+    let name = path.file_stem().map(|name| name.to_string_lossy()).unwrap_or_default();
+    World::map_text(&name, &yaml, &bytes).map_err(wrong)
 }
 
 fn parse(text: String, path: Option<PathBuf>) -> Result<LoadedWorld, RunError> {
@@ -76,5 +101,27 @@ fn parse(text: String, path: Option<PathBuf>) -> Result<LoadedWorld, RunError> {
             text,
             message: error.message,
         }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_world_may_be_made_up_or_a_map_with_a_picture_beside_it() {
+        let room = find(Some(Path::new("random:7")), Path::new("plan.afp")).unwrap();
+        assert_eq!(room.world, World::random(7));
+        let folder = tempfile::tempdir().unwrap();
+        let yaml = folder.path().join("hall.yaml");
+        let text =
+            "image: hall.pgm\nresolution: 1\norigin: [-1.5, -1.5, 0]\noccupied_thresh: 0.6\n";
+        fs::write(&yaml, text).unwrap();
+        let missing = find(Some(&yaml), Path::new("plan.afp")).unwrap_err().to_string();
+        assert!(missing.contains("hall.pgm"), "{missing}");
+        fs::write(folder.path().join("hall.pgm"), "P2 4 4 1\n0 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1")
+            .unwrap();
+        let map = find(Some(&yaml), Path::new("plan.afp")).unwrap();
+        assert_eq!((map.world.name.as_str(), map.world.obstacles.len()), ("hall", 1));
     }
 }

@@ -20,6 +20,8 @@ pub(crate) enum Source {
     Infrared = 5,
     /// The colour sensor.
     Color = 6,
+    /// Rooms made up.
+    Rooms = 8,
     /// The grain of pictures.
     Camera = 7,
 }

@@ -6,8 +6,10 @@
 mod error;
 mod file;
 mod look;
+mod map;
 mod outline;
 mod path;
+mod random;
 
 pub use error::WorldError;
 pub use look::{Look, Rgb, Texture};
@@ -98,6 +100,9 @@ pub struct Light {
 }
 
 impl World {
+    /// The JSON schema of world files.
+    pub const SCHEMA: &str = include_str!("../../../worlds/world.schema.json");
+
     /// Reads a world from the text of its file.
     ///
     /// # Errors

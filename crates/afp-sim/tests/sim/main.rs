@@ -2,7 +2,10 @@
 
 mod determinism;
 mod faults;
+mod map;
 mod moving;
+mod random;
+mod schema;
 mod seeing;
 mod sensors;
 mod vehicle;

@@ -1,0 +1,91 @@
+//! Maps of `map_server`: a `.yaml` file and a picture, turned into a world.
+//!
+//! The world is written as the text of a world file, so that logs and pictures know what to do
+//! with it. Occupied cells become boxes, each as large as can be.
+
+mod boxes;
+mod picture;
+mod settings;
+
+use super::{HALF_LENGTH, HALF_WIDTH, World, WorldError};
+use boxes::{Cells, Rectangle};
+use settings::Settings;
+use std::fmt::Write;
+
+/// More boxes than this are no map of rooms.
+const MOST: usize = 50_000;
+/// The robot starts with so much room around it, metres.
+const ROOM: f64 = 0.05;
+
+impl World {
+    /// The name of the picture that a map's `.yaml` file asks for, against its own folder.
+    ///
+    /// # Errors
+    /// The text is no map.
+    pub fn map_picture(yaml: &str) -> Result<String, WorldError> {
+        Settings::read(yaml).map(|settings| settings.image)
+    }
+
+    /// The text of a world file for a map: `yaml` is the text of its `.yaml` file, `picture` the
+    /// bytes of its PGM or PNG. What is occupied is 2.5 m high; the robot starts at the free place
+    /// nearest to the origin of the map's frame and looks along x.
+    ///
+    /// # Errors
+    /// The text or the picture is none, the map is in mode `raw`, it has too many cells or no
+    /// place for the robot.
+    pub fn map_text(name: &str, yaml: &str, picture: &[u8]) -> Result<String, WorldError> {
+        let settings = Settings::read(yaml)?;
+        let grey = picture::read(picture).map_err(|message| WorldError { place: None, message })?;
+        let cells = Cells::new(&grey, |value| settings.occupied(value));
+        let radius = libm::hypot(HALF_LENGTH, HALF_WIDTH) + ROOM;
+        let start = start(&settings, &cells, radius).ok_or_else(|| WorldError {
+            place: None,
+            message: "the map has no free place that is large enough for the robot".to_owned(),
+        })?;
+        let boxes = cells.boxes();
+        if boxes.len() > MOST {
+            let message = format!("the map has {} separate parts, more than {MOST}", boxes.len());
+            return Err(WorldError { place: None, message });
+        }
+        Ok(text(name, &settings, &cells, start, &boxes))
+    }
+}
+
+/// The middle of the free cell nearest to the origin whose surroundings are free as well.
+fn start(settings: &Settings, cells: &Cells, radius: f64) -> Option<[f64; 2]> {
+    let reach = libm::ceil(radius / settings.resolution) as usize;
+    let far = |at: [f64; 2]| at[0] * at[0] + at[1] * at[1];
+    let free = (0..cells.height).flat_map(|row| (0..cells.width).map(move |column| (row, column)));
+    let free = free.filter(|(row, column)| cells.free_around(*row, *column, reach));
+    let places = free.map(|(row, column)| {
+        settings.place(column as f64 + 0.5, (cells.height - row) as f64 - 0.5)
+    });
+    places.min_by(|a, b| far(*a).total_cmp(&far(*b)))
+}
+
+fn text(
+    name: &str,
+    settings: &Settings,
+    cells: &Cells,
+    start: [f64; 2],
+    boxes: &[Rectangle],
+) -> String {
+    let [x, y] = start;
+    let name = toml_edit::Value::from(name);
+    let mut text =
+        format!("version = 1\nname = {name}\n\n[robot]\npose_m_deg = [{x:.4}, {y:.4}, 0.0]\n");
+    let degrees = settings.yaw.to_degrees();
+    for Rectangle { left, right, top, bottom } in boxes {
+        let (across, up) = ((left + right) as f64 / 2.0, (top + bottom) as f64 / 2.0);
+        let [x, y] = settings.place(across, cells.height as f64 - up);
+        let size = [right - left, bottom - top].map(|n| n as f64 * settings.resolution);
+        // Writing to a String cannot fail.
+        let _ = write!(
+            text,
+            "\n[[box]]\nname = \"map\"\npose_m_deg = [{x:.4}, {y:.4}, {degrees:.4}]\n\
+             size_m = [{:.4}, {:.4}]\nheight_m = 2.5\n",
+            size[0], size[1]
+        );
+    }
+    text
+}

@@ -1,0 +1,96 @@
+//! What a map's `.yaml` file says.
+
+use crate::world::WorldError;
+use saphyr::{LoadableYamlNode, Yaml};
+
+/// Where and how large the cells are, and which of them are occupied.
+#[derive(Debug, PartialEq)]
+pub(super) struct Settings {
+    pub(super) image: String,
+    /// The side of a cell, metres.
+    pub(super) resolution: f64,
+    /// The lower left corner of the picture, metres.
+    origin: [f64; 2],
+    /// How the picture is turned, radians.
+    pub(super) yaw: f64,
+    /// White is occupied.
+    negate: bool,
+    /// More than this is occupied: 0 white, 1 black.
+    threshold: f64,
+}
+
+impl Settings {
+    pub(super) fn read(yaml: &str) -> Result<Settings, WorldError> {
+        let documents = Yaml::load_from_str(yaml).map_err(|error| WorldError {
+            place: Some((error.marker().line(), error.marker().col() + 1)),
+            message: error.info().to_owned(),
+        })?;
+        let keys = Keys { text: yaml, map: documents.first() };
+        let image = keys.get("image").and_then(Yaml::as_str);
+        let image = image.ok_or_else(|| keys.error("image", "is to name a picture"))?.to_owned();
+        if keys.get("mode").and_then(Yaml::as_str).is_some_and(|mode| mode == "raw") {
+            return Err(keys.error("mode", "'raw' is not known; 'trinary' and 'scale' are"));
+        }
+        let resolution = keys.number("resolution")?;
+        if !(0.001..=10.0).contains(&resolution) {
+            return Err(keys.error("resolution", "is not within 0.001 and 10 metres"));
+        }
+        let [x, y, yaw] = keys.origin()?;
+        let negate = match keys.get("negate") {
+            None => false,
+            Some(value) => value
+                .as_bool()
+                .or_else(|| value.as_integer().map(|n| n != 0))
+                .ok_or_else(|| keys.error("negate", "is to be 0 or 1"))?,
+        };
+        let threshold = keys.number("occupied_thresh")?;
+        Ok(Settings { image, resolution, origin: [x, y], yaw, negate, threshold })
+    }
+
+    /// Whether a cell of this grey is occupied.
+    pub(super) fn occupied(&self, grey: u8) -> bool {
+        let dark = if self.negate { grey } else { 255 - grey };
+        f64::from(dark) / 255.0 > self.threshold
+    }
+
+    /// A place of the picture, counted in cells from its lower left corner, in metres.
+    pub(super) fn place(&self, across: f64, up: f64) -> [f64; 2] {
+        let (sin, cos) = libm::sincos(self.yaw);
+        let [x, y] = [across, up].map(|cells| cells * self.resolution);
+        [self.origin[0] + x * cos - y * sin, self.origin[1] + x * sin + y * cos]
+    }
+}
+
+/// The keys of the file.
+struct Keys<'a, 'b> {
+    text: &'a str,
+    map: Option<&'a Yaml<'b>>,
+}
+
+impl<'a, 'b> Keys<'a, 'b> {
+    fn get(&self, key: &str) -> Option<&'a Yaml<'b>> {
+        self.map?.as_mapping_get(key)
+    }
+
+    fn number(&self, key: &str) -> Result<f64, WorldError> {
+        self.get(key).and_then(number).ok_or_else(|| self.error(key, "is to be a number"))
+    }
+
+    fn origin(&self) -> Result<[f64; 3], WorldError> {
+        let values = self.get("origin").and_then(|origin| origin.as_vec());
+        let numbers: Vec<f64> = values.into_iter().flatten().filter_map(number).collect();
+        let wrong = |_| self.error("origin", "is to be three numbers: x, y and yaw");
+        <[f64; 3]>::try_from(numbers).map_err(wrong)
+    }
+
+    /// An error at the line of a key.
+    fn error(&self, key: &str, what: &str) -> WorldError {
+        let line = self.text.lines().position(|line| line.trim_start().starts_with(key));
+        WorldError { place: line.map(|line| (line + 1, 1)), message: format!("{key}: {what}") }
+    }
+}
+
+fn number(value: &Yaml<'_>) -> Option<f64> {
+    let whole = value.as_integer().map(|n| n as f64);
+    value.as_floating_point().or(whole).filter(|number| number.is_finite())
+}
