@@ -70,14 +70,14 @@ pub(super) fn decide(
         // An input without a value is reported as such.
         return if has_inputs || !ports.complete { Generic::Unknown } else { Generic::Undecided };
     };
-    if needs_number && !ty.is_numeric() {
-        let message = format!("expected a number, found {}", a_type(&ty));
-        diags.push(
-            Diagnostic::new(Code::E0206, span, message).help("use an int, a float or a quantity"),
-        );
-        return Generic::Unknown;
-    }
-    Generic::Is(ty)
+    let (wanted, help) = match &ty {
+        ty if needs_number && !ty.is_numeric() => ("a number", "use an int, a float or a quantity"),
+        Type::Object(_) => ("a value", "only the templates of its toolbox take an object"),
+        _ => return Generic::Is(ty),
+    };
+    let message = format!("expected {wanted}, found {}", a_type(&ty));
+    diags.push(Diagnostic::new(Code::E0206, span, message).help(help));
+    Generic::Unknown
 }
 
 /// The type of a port in this instance.
