@@ -4,6 +4,7 @@
 //! a compile error of its own, rendered as `afpc check` renders it.
 
 mod input;
+mod scenarios;
 mod sources;
 #[cfg(test)]
 mod tests;
@@ -35,6 +36,16 @@ pub fn toolbox(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
 #[proc_macro]
 pub fn plan(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand(input.into(), plan_code).into()
+}
+
+/// Makes a test of each scenario of a file or of the files of a folder.
+///
+/// `scenarios!("plans/tests")` takes a path relative to the crate's manifest; behind it may stand what
+/// registers the templates of toolboxes of one's own: `scenarios!("tests", gripper::templates::register)`.
+#[proc_macro]
+pub fn scenarios(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
+    let input = syn::parse::<scenarios::Input>(input).map_err(|error| error.into_compile_error());
+    input.and_then(|input| scenarios::tests(&input)).unwrap_or_else(|error| error).into()
 }
 
 fn expand(input: TokenStream, make: fn(&Input) -> Result<TokenStream, TokenStream>) -> TokenStream {

@@ -124,7 +124,7 @@ fn rust_path(krate: &CrateLink, root: &Path) -> String {
 }
 
 /// The folder of the manifest.
-fn root() -> PathBuf {
+pub fn root() -> PathBuf {
     env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from).unwrap_or_default()
 }
 

@@ -31,6 +31,20 @@ macro_rules! plan {
     };
 }
 
+/// Makes a `#[test]` of each scenario of a file or of the files of a folder.
+///
+/// `afp::scenarios!("plans/tests")`, with a path relative to the crate's manifest, belongs into a test;
+/// `afp-test` must be a dev-dependency. Behind the path may stand the functions that register the
+/// templates of toolboxes of one's own: `afp::scenarios!("tests", gripper::templates::register)`. A
+/// mistake in a scenario is a compile error; a failed one panics with what broke and the timeline around
+/// it. A new file in the folder is seen when the test is next compiled.
+#[macro_export]
+macro_rules! scenarios {
+    ($($arguments:tt)*) => {
+        $crate::macros::scenarios!($($arguments)*);
+    };
+}
+
 /// Makes typed templates from a toolbox file.
 ///
 /// It belongs into a module beside the types that implement the templates under the templates'

@@ -2,7 +2,7 @@
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::commands::{build, check, completions, explain, fmt, graph, later, log, run};
+use crate::commands::{build, check, completions, explain, fmt, graph, later, log, run, test};
 
 /// Compiles, checks, draws and runs Action Flow Plans.
 #[derive(Parser, Debug)]
@@ -29,6 +29,9 @@ pub enum Command {
     /// Runs a plan now, on the simulated robot
     #[command(after_help = afp_run::EXAMPLES)]
     Run(run::Arguments),
+    /// Runs scenarios, on all cores
+    #[command(after_help = test::EXAMPLES)]
+    Test(test::Arguments),
     /// Generates a readable Rust crate from a plan and builds it
     #[command(after_help = build::EXAMPLES)]
     Build(build::Arguments),

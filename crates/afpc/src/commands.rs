@@ -9,6 +9,7 @@ pub mod graph;
 pub mod later;
 pub mod log;
 pub mod run;
+pub mod test;
 
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
@@ -27,6 +28,7 @@ pub fn dispatch(command: &Command, linked: &[Linked]) -> ExitCode {
         Command::Fmt(arguments) => fmt::run(arguments),
         Command::Graph(arguments) => graph::run(arguments),
         Command::Run(arguments) => run::run(arguments, linked),
+        Command::Test(arguments) => test::run(arguments, linked),
         Command::Build(arguments) => build::run(arguments),
         Command::Log(arguments) => log::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),

@@ -1,0 +1,142 @@
+//! Which parts of a plan its scenarios made use of.
+
+use std::fmt::Write;
+
+use afp_dsl::graph::{EntryKind, Graph};
+use afp_dsl::unfold::{ComponentNames, EntryNames, Goal, Kind, Place, places, unfold};
+
+use crate::watch::hits::{Hits, Touched};
+
+/// How often the parts of a plan were used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Coverage {
+    /// The plan's name.
+    pub plan: String,
+    /// Its parts: elements, then what can come of each component, then entries.
+    pub parts: Vec<Part>,
+}
+
+/// A part of a plan.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// What it is.
+    pub kind: PartKind,
+    /// Its name: `go`, `go.touch.TouchSensorPressed`, `walldist`.
+    pub name: String,
+    /// How often it was used.
+    pub count: u64,
+}
+
+/// What a part of a plan is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PartKind {
+    /// An actor, a computation or a sub-plan that started.
+    Element,
+    /// A state that was reached.
+    State,
+    /// An event that was taken.
+    Event,
+    /// A `DeadlineMissed` that leads somewhere.
+    Deadline,
+    /// An `Error` that leads somewhere.
+    Error,
+    /// An entry that was written.
+    Entry,
+}
+
+impl PartKind {
+    /// Every kind.
+    pub const ALL: [PartKind; 6] = [
+        PartKind::Element,
+        PartKind::State,
+        PartKind::Event,
+        PartKind::Deadline,
+        PartKind::Error,
+        PartKind::Entry,
+    ];
+
+    /// What several of them are called.
+    pub fn plural(self) -> &'static str {
+        match self {
+            PartKind::Element => "elements",
+            PartKind::State => "states",
+            PartKind::Event => "events",
+            PartKind::Deadline => "deadlines",
+            PartKind::Error => "errors",
+            PartKind::Entry => "entries",
+        }
+    }
+}
+
+impl Coverage {
+    /// What was used of a plan, over all runs whose `hits` were added up.
+    pub fn new(graph: &Graph, hits: &Hits) -> Coverage {
+        let names = unfold(graph);
+        let mut parts = Vec::new();
+        let places = places(graph);
+        let components = names.components.iter().zip(&places).zip(&hits.components);
+        for ((names, place), touched) in components.skip(1) {
+            add(names, place, touched, &mut parts);
+        }
+        let entries = names.entries.iter().zip(&hits.entries);
+        parts.extend(entries.filter_map(|(entry, count)| of_entry(entry, *count)));
+        Coverage { plan: graph.main().name.clone(), parts }
+    }
+
+    /// How many parts of a kind there are and how many of them were used.
+    pub fn of(&self, kind: PartKind) -> (usize, usize) {
+        let parts = || self.parts.iter().filter(|part| part.kind == kind);
+        (parts().count(), parts().filter(|part| part.count > 0).count())
+    }
+
+    /// The parts that were never used.
+    pub fn unused(&self) -> impl Iterator<Item = &Part> {
+        self.parts.iter().filter(|part| part.count == 0)
+    }
+
+    /// A table with what was never used below it.
+    pub fn text(&self) -> String {
+        let mut text = format!("coverage of {}\n", self.plan);
+        for kind in PartKind::ALL {
+            let (all, used) = self.of(kind);
+            if all > 0 {
+                let _ = writeln!(text, "{:>10}  {used} of {all}", kind.plural());
+            }
+        }
+        for part in self.unused() {
+            let _ = writeln!(text, "     never  {}", part.name);
+        }
+        text
+    }
+}
+
+fn add(names: &ComponentNames, place: &Place, touched: &Touched, parts: &mut Vec<Part>) {
+    let (kind, special, path) = (names.kind, &place.special, &names.path);
+    let watches = kind == Kind::Supervisor;
+    let mut part = |kind, name: String, count| parts.push(Part { kind, name, count });
+    if !watches {
+        part(PartKind::Element, path.clone(), touched.starts);
+    }
+    let leads = |goal: &Option<Goal>| !matches!(goal, None | Some(Goal::Ignore));
+    for (((name, _), goal), count) in
+        names.outcomes.iter().zip(&place.outcomes).zip(&touched.outcomes)
+    {
+        if leads(goal) {
+            let kind = if watches { PartKind::Event } else { PartKind::State };
+            part(kind, format!("{path}.{name}"), *count);
+        }
+    }
+    if leads(special) {
+        let (kind, name) = match watches {
+            true => (PartKind::Deadline, "DeadlineMissed"),
+            false => (PartKind::Error, "Error"),
+        };
+        part(kind, format!("{path}.{name}"), touched.special);
+    }
+}
+
+/// An entry that can be written while the plan runs.
+fn of_entry(entry: &EntryNames, count: u64) -> Option<Part> {
+    let written = matches!(entry.kind, EntryKind::Var | EntryKind::Out);
+    written.then(|| Part { kind: PartKind::Entry, name: entry.path.clone(), count })
+}

@@ -1,0 +1,53 @@
+//! What the tests that `afp::scenarios!` makes call.
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::Path;
+
+use afp::load::Registry;
+use afp_dsl::source::Source;
+use afp_dsl::toolbox::Toolboxes;
+use afp_project::ProjectFile;
+use afp_sim::Simulation;
+
+use crate::{Setting, run};
+
+/// Runs the scenario of that name in `file`; panics with what broke, and the timeline around it.
+/// `templates` registers templates that are not built in.
+///
+/// # Panics
+/// The scenario failed, or could not be run.
+pub fn check(file: &Path, name: &str, templates: &(dyn Fn(&mut Registry<Simulation>) + Sync)) {
+    let failed = |text: String| -> ! {
+        panic!("scenario \"{name}\" of {}\n{}", file.display(), anstream::adapter::strip_str(&text))
+    };
+    let text = fs::read_to_string(file).unwrap_or_else(|error| failed(error.to_string()));
+    let mut toolboxes = Toolboxes::default();
+    for toolbox in afp_toolboxes::ALL {
+        toolboxes.add(Source::new(toolbox.file_name, toolbox.text), toolbox.rust_path);
+    }
+    let project = ProjectFile::of_plan(file).and_then(|project| project.toolboxes());
+    for own in project.unwrap_or_else(|error| failed(error.to_string())) {
+        let source = Source::new(own.path.display().to_string(), own.text);
+        toolboxes.add(source, &own.toolbox.name);
+    }
+    let source = Source::new(file.display().to_string(), text);
+    let compiled = afp_dsl::compile(&source, &toolboxes, &read);
+    let Some(scenario) = compiled.scenarios.iter().find(|each| each.name == name) else {
+        failed(compiled.render(false))
+    };
+    let setting = Setting::find(scenario, file).unwrap_or_else(|error| failed(error.to_string()));
+    match run(scenario, &setting, templates, None) {
+        Ok(verdict) if verdict.passed() => {}
+        Ok(verdict) => failed(verdict.report()),
+        Err(error) => failed(error.to_string()),
+    }
+}
+
+/// The text of a file that another one uses.
+fn read(path: &str) -> Result<String, String> {
+    fs::read_to_string(path).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => "there is no such file".to_owned(),
+        _ => error.to_string().to_lowercase(),
+    })
+}

@@ -1,0 +1,51 @@
+//! Where a scenario takes place.
+
+use std::path::{Path, PathBuf};
+
+use afp_dsl::scenario::Scenario;
+use afp_project::ProjectFile;
+use afp_run::RunError;
+use afp_run::world::{self, LoadedWorld};
+use afp_sim::Pose;
+
+/// The world of a scenario, with the robot at its start.
+#[derive(Clone, Debug)]
+pub struct Setting {
+    /// The world and its text.
+    pub world: LoadedWorld,
+}
+
+impl Setting {
+    /// Finds the world of a scenario that stands in `file`: the one that it names, seen from the file's
+    /// folder or else from the folder of `afp.toml`; without a name that of its plan.
+    ///
+    /// # Errors
+    /// There is no such world, it says something wrong, or the robot would stand in something.
+    pub fn find(scenario: &Scenario, file: &Path) -> Result<Setting, RunError> {
+        let mut found = match &scenario.world {
+            Some(written) => world::find(Some(&place(written, file)?), file)?,
+            None => world::find(None, Path::new(&scenario.plan_file))?,
+        };
+        if let Some(start) = scenario.robot {
+            let pose = Pose { x: start.x, y: start.y, heading: start.heading };
+            if let Some(obstacle) = found.world.obstacle_at(pose) {
+                let what = format!("the robot starts inside of '{}'", obstacle.name);
+                let message = format!("'{}': {what}", scenario.name);
+                return Err(RunError::usage(message, "change the line 'robot at ...'"));
+            }
+            found.world.start = pose;
+        }
+        Ok(Setting { world: found })
+    }
+}
+
+/// The file of a world that is written in a scenario.
+fn place(written: &str, file: &Path) -> Result<PathBuf, RunError> {
+    let beside = file.parent().unwrap_or(Path::new("")).join(written);
+    if beside.is_file() {
+        return Ok(beside);
+    }
+    let project = ProjectFile::of_plan(file)?;
+    let above = afp_project::shown(&project.folder.join(written));
+    Ok(if above.is_file() { above } else { beside })
+}

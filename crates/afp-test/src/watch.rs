@@ -1,0 +1,247 @@
+//! Listens to a run: which edges are taken, what is active, what entries hold, what was expected.
+
+pub(crate) mod hits;
+mod look;
+
+use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR, Ending, Record};
+use afp_core::{Instant, Value};
+use afp_dsl::scenario::{Cause, Destination, EndCause, Expectation, Outcome, Scenario};
+use afp_dsl::unfold::{Goal, Place, places};
+use afp_sim::Collision;
+
+use crate::verdict::Broken;
+use hits::Hits;
+use look::Look;
+
+/// Listens to the run of a scenario.
+pub(crate) struct Watch<'a> {
+    scenario: &'a Scenario,
+    places: Vec<Place>,
+    state: State,
+    /// An event that was taken, until it is known which element it ends.
+    event: Option<Cause>,
+    /// What the edge out of the outermost plan belongs to.
+    last: Option<Cause>,
+    looks: Vec<Look<'a>>,
+    pub(crate) hits: Hits,
+}
+
+/// How things stand.
+pub(crate) struct State {
+    /// Whether each component is active, by number.
+    active: Vec<bool>,
+    /// What each entry holds, by number.
+    entries: Vec<Value>,
+    /// How the plan ended.
+    pub(crate) ending: Option<Ending>,
+}
+
+/// Something that happened at an instant.
+pub(crate) enum Happening {
+    /// An edge was taken.
+    Edge { from: u32, to: Option<Goal>, by: Cause },
+    /// A state was reached or an event taken.
+    Outcome(Cause),
+    /// The plan ended.
+    End(Ending, Option<Cause>),
+}
+
+impl<'a> Watch<'a> {
+    pub(crate) fn new(scenario: &'a Scenario, entries: usize) -> Self {
+        let places = places(&scenario.graph);
+        Watch {
+            state: State {
+                active: vec![false; places.len()],
+                entries: vec![Value::Unset; entries],
+                ending: None,
+            },
+            hits: Hits::new(&places, entries),
+            looks: scenario.expectations.iter().map(Look::new).collect(),
+            scenario,
+            places,
+            event: None,
+            last: None,
+        }
+    }
+
+    /// How the plan ended, once it has.
+    pub(crate) fn ending(&self) -> Option<Ending> {
+        self.state.ending
+    }
+
+    /// Takes a record into account.
+    pub(crate) fn hear(&mut self, at: Instant, record: &Record<'_>) {
+        self.hits.hear(record);
+        match *record {
+            Record::Started { component } => self.set_active(component, true),
+            Record::Event { supervisor, event } => {
+                let cause = cause(supervisor, event);
+                self.event = Some(cause);
+                self.happen(at, &Happening::Outcome(cause));
+            }
+            Record::Interrupted { element } => {
+                self.set_active(element, false);
+                self.ended_by_event(at, element);
+            }
+            Record::Diverted { element, .. } => self.ended_by_event(at, element),
+            Record::Finished { element, state } => {
+                self.set_active(element, false);
+                self.leave(at, element, cause(element, state));
+            }
+            Record::Faulted { component, .. } => self.failed(at, component),
+            Record::Committed { entry, new, .. } => {
+                if let Some(value) = self.state.entries.get_mut(entry.0 as usize) {
+                    *value = new.to_owned();
+                }
+            }
+            Record::Ended { plan, ending } => self.ended(at, plan, ending),
+            _ => {}
+        }
+    }
+
+    /// The step at this instant is over: what holds now holds until the next one.
+    pub(crate) fn settle(&mut self, at: Instant) {
+        for look in &mut self.looks {
+            look.settle(at.as_nanos(), &self.state);
+        }
+    }
+
+    /// The run is over.
+    pub(crate) fn finish(&mut self, end: Instant, collisions: &[Collision]) -> Vec<Broken> {
+        let end = end.as_nanos();
+        let expectations = &self.scenario.expectations;
+        let mut broken: Vec<_> = std::mem::take(&mut self.looks)
+            .into_iter()
+            .zip(expectations)
+            .filter_map(|(look, expectation)| {
+                look.finish(end, &self.state, collisions, expectation)
+            })
+            .collect();
+        broken.extend(self.unexpected_error(end));
+        broken.sort_by_key(|broken| broken.at);
+        broken
+    }
+
+    /// A plan that ends in `Error` without anybody expecting it to end.
+    fn unexpected_error(&self, end: u64) -> Option<Broken> {
+        use afp_dsl::scenario::Claim;
+        let expected = |each: &Expectation| matches!(each.claim, Claim::End(_));
+        let Some(Ending::Error(fault)) = self.state.ending else { return None };
+        let told = self.scenario.expectations.iter().any(expected);
+        (!told).then(|| Broken {
+            text: "(a plan must not end in Error unless an end is expected)".to_owned(),
+            span: self.scenario.span,
+            at: Instant::from_nanos(self.hits.ended.unwrap_or(end)),
+            why: format!("the plan ended in Error: {fault}"),
+        })
+    }
+
+    fn place(&self, id: ComponentId) -> Option<&Place> {
+        self.places.get(id.0 as usize)
+    }
+
+    fn set_active(&mut self, id: ComponentId, active: bool) {
+        if let Some(known) = self.state.active.get_mut(id.0 as usize) {
+            *known = active;
+        }
+    }
+
+    /// An event ends an element of its own plan; those inside of it end along with it.
+    fn ended_by_event(&mut self, at: Instant, element: ComponentId) {
+        let Some(event) = self.event else { return };
+        let home = |id: u32| self.places.get(id as usize).map(|place| place.plan);
+        if home(event.component) == home(element.0) {
+            self.event = None;
+            self.leave(at, element, event);
+        }
+    }
+
+    /// An element is left.
+    fn leave(&mut self, at: Instant, element: ComponentId, by: Cause) {
+        let to = self.goal(by);
+        let outermost = self.place(element).is_some_and(|place| place.plan == 0);
+        if outermost && to == Some(Goal::Terminate) {
+            self.last = Some(by);
+        }
+        if by.component == element.0 {
+            self.happen(at, &Happening::Outcome(by));
+        }
+        self.happen(at, &Happening::Edge { from: element.0, to, by });
+    }
+
+    fn goal(&self, by: Cause) -> Option<Goal> {
+        let place = self.places.get(by.component as usize)?;
+        match by.outcome? {
+            Outcome::Declared(outcome) => place.outcomes.get(usize::from(outcome)).copied()?,
+            Outcome::Special => place.special,
+        }
+    }
+
+    /// A component failed: the element that it is, or that it watches over, takes its `Error` edge.
+    fn failed(&mut self, at: Instant, component: ComponentId) {
+        let Some(place) = self.place(component) else { return };
+        let element = place.owner.unwrap_or(component.0);
+        let by = Cause { component: element, outcome: Some(Outcome::Special) };
+        let outermost = place.plan == 0;
+        self.set_active(ComponentId(element), false);
+        match self.goal(by) {
+            Some(_) => self.leave(at, ComponentId(element), by),
+            None if outermost => self.last = Some(by),
+            None => {}
+        }
+    }
+
+    fn ended(&mut self, at: Instant, plan: ComponentId, ending: Ending) {
+        for (place, active) in self.places.iter().zip(&mut self.state.active) {
+            if place.plan == plan.0 {
+                *active = false;
+            }
+        }
+        if plan == ComponentId(0) {
+            self.state.ending = Some(ending);
+            self.hits.ended = Some(at.as_nanos());
+            let last = self.last;
+            self.happen(at, &Happening::End(ending, last));
+        }
+    }
+
+    fn happen(&mut self, at: Instant, happening: &Happening) {
+        for look in &mut self.looks {
+            look.happen(at.as_nanos(), happening);
+        }
+    }
+}
+
+/// An outcome as the trace numbers it.
+fn cause(component: ComponentId, outcome: u16) -> Cause {
+    let outcome = match outcome {
+        DEADLINE_MISSED | ERROR => Outcome::Special,
+        outcome => Outcome::Declared(outcome),
+    };
+    Cause { component: component.0, outcome: Some(outcome) }
+}
+
+/// Whether what happened is what a scenario names.
+fn fits(wanted: &Cause, by: Cause) -> bool {
+    wanted.component == by.component
+        && wanted.outcome.is_none_or(|outcome| Some(outcome) == by.outcome)
+}
+
+/// Whether an edge leads where a scenario says.
+fn leads(wanted: Destination, to: Option<Goal>) -> bool {
+    match wanted {
+        Destination::Element(element) => to == Some(Goal::Element(element)),
+        Destination::Terminate => to == Some(Goal::Terminate),
+    }
+}
+
+/// Whether the plan ended as a scenario says.
+fn ends(wanted: Option<EndCause>, ending: Ending, last: Option<Cause>) -> bool {
+    match wanted {
+        None => true,
+        Some(EndCause::Ok) => ending == Ending::Ok,
+        Some(EndCause::Interrupted) => ending == Ending::Interrupted,
+        Some(EndCause::Error) => matches!(ending, Ending::Error(_)),
+        Some(EndCause::Cause(wanted)) => last.is_some_and(|last| fits(&wanted, last)),
+    }
+}

@@ -1,0 +1,105 @@
+//! How often a run used each part of its plan.
+
+use afp_core::trace::{Author, ComponentId, DEADLINE_MISSED, ERROR, Record};
+use afp_dsl::unfold::Place;
+
+/// How often each component and entry was used, by number.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Hits {
+    /// The components.
+    pub components: Vec<Touched>,
+    /// How often each entry was written by a component or from outside.
+    pub entries: Vec<u64>,
+    /// When the plan ended, nanoseconds.
+    pub(crate) ended: Option<u64>,
+    /// The element of each local supervisor.
+    owners: Vec<Option<u32>>,
+}
+
+/// How often a component was used.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Touched {
+    /// Its starts; for a computation, its runs.
+    pub starts: u64,
+    /// How often each of its states was reached or events taken, by position.
+    pub outcomes: Vec<u64>,
+    /// How often it failed (an element) or missed a deadline with a consequence (a supervisor).
+    pub special: u64,
+}
+
+impl Hits {
+    pub(crate) fn new(places: &[Place], entries: usize) -> Self {
+        let touched = |place: &Place| {
+            let outcomes = vec![0; place.outcomes.len()];
+            Touched { starts: 0, outcomes, special: 0 }
+        };
+        Hits {
+            components: places.iter().map(touched).collect(),
+            entries: vec![0; entries],
+            ended: None,
+            owners: places.iter().map(|place| place.owner).collect(),
+        }
+    }
+
+    pub(crate) fn hear(&mut self, record: &Record<'_>) {
+        match *record {
+            Record::Started { component } => self.start(component),
+            Record::Finished { element, state } => {
+                // A computation is over when it starts.
+                if self.touched(element).is_some_and(|touched| touched.starts == 0) {
+                    self.start(element);
+                }
+                self.reach(element, state);
+            }
+            Record::Event { supervisor, event } => self.reach(supervisor, event),
+            Record::Faulted { component, .. } => {
+                let owner = self.owners.get(component.0 as usize).copied().flatten();
+                self.reach(owner.map_or(component, ComponentId), ERROR);
+            }
+            Record::Committed { author, entry, .. }
+                if author != Author::Component(ComponentId(0)) =>
+            {
+                if let Some(count) = self.entries.get_mut(entry.0 as usize) {
+                    *count += 1;
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Adds what another run of the same plan used.
+    pub fn add(&mut self, other: &Hits) {
+        for (mine, other) in self.components.iter_mut().zip(&other.components) {
+            mine.starts += other.starts;
+            mine.special += other.special;
+            for (mine, other) in mine.outcomes.iter_mut().zip(&other.outcomes) {
+                *mine += other;
+            }
+        }
+        for (mine, other) in self.entries.iter_mut().zip(&other.entries) {
+            *mine += other;
+        }
+    }
+
+    fn touched(&mut self, id: ComponentId) -> Option<&mut Touched> {
+        self.components.get_mut(id.0 as usize)
+    }
+
+    fn start(&mut self, id: ComponentId) {
+        if let Some(touched) = self.touched(id) {
+            touched.starts += 1;
+        }
+    }
+
+    fn reach(&mut self, id: ComponentId, outcome: u16) {
+        let Some(touched) = self.touched(id) else { return };
+        match outcome {
+            DEADLINE_MISSED | ERROR => touched.special += 1,
+            outcome => {
+                if let Some(count) = touched.outcomes.get_mut(usize::from(outcome)) {
+                    *count += 1;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! One expectation while a scenario runs.
+
+use afp_core::{Ending, Instant, Value};
+use afp_dsl::scenario::{Claim, Expectation, Wanted};
+use afp_dsl::toolbox::Constant;
+use afp_sim::Collision;
+
+use super::{Happening, State, ends, fits, leads};
+use crate::verdict::Broken;
+
+/// What has been seen of an expectation so far.
+pub(super) struct Look<'a> {
+    expectation: &'a Expectation,
+    /// Whether the claim holds since the last step, and when that was.
+    now: Option<(u64, bool)>,
+    /// The first instant of the window at which it held.
+    held: Option<u64>,
+    /// The first one at which it did not.
+    failed: Option<u64>,
+    /// The first time that it happened outside of the window.
+    outside: Option<u64>,
+}
+
+impl<'a> Look<'a> {
+    pub(super) fn new(expectation: &'a Expectation) -> Self {
+        Look { expectation, now: None, held: None, failed: None, outside: None }
+    }
+
+    /// Something happened.
+    pub(super) fn happen(&mut self, at: u64, happening: &Happening) {
+        let fits = match (&self.expectation.claim, happening) {
+            (
+                Claim::Transition { from, to, by },
+                Happening::Edge { from: left, to: goal, by: why },
+            ) => from == left && leads(*to, *goal) && by.is_none_or(|by| fits(&by, *why)),
+            (Claim::Happens(wanted), Happening::Outcome(cause)) => fits(wanted, *cause),
+            (Claim::End(wanted), Happening::End(ending, last)) => ends(*wanted, *ending, *last),
+            _ => false,
+        };
+        if !fits {
+            return;
+        }
+        match self.expectation.window.contains(at) {
+            true => self.held = self.held.or(Some(at)),
+            false => self.outside = self.outside.or(Some(at)),
+        }
+    }
+
+    /// A step is over.
+    pub(super) fn settle(&mut self, at: u64, state: &State) {
+        let Some(holds) = self.holds(state) else { return };
+        self.pass(at);
+        self.now = Some((at, holds));
+    }
+
+    /// Whether the claim holds now; `None` for one that is no matter of the plan's state.
+    fn holds(&self, state: &State) -> Option<bool> {
+        match &self.expectation.claim {
+            Claim::Active(id) => Some(state.active.get(*id as usize) == Some(&true)),
+            Claim::Running => Some(state.ending.is_none()),
+            Claim::Compare { entry, comparison, value } => {
+                let known = state.entries.get(*entry as usize).and_then(constant);
+                Some(known.is_some_and(|known| comparison.holds(&known, value)))
+            }
+            Claim::Transition { .. } | Claim::Happens(_) | Claim::End(_) | Claim::Collision => None,
+        }
+    }
+
+    /// Notes what has held from the last step up to `at`, that instant excluded.
+    fn pass(&mut self, at: u64) {
+        let Some((since, held)) = self.now else { return };
+        let window = self.expectation.window;
+        let first = since.max(window.from);
+        if first >= at || first > window.to {
+            return;
+        }
+        match held {
+            true => self.held = self.held.or(Some(first)),
+            false => self.failed = self.failed.or(Some(first)),
+        }
+    }
+
+    /// The run is over at `end`; says what broke.
+    pub(super) fn finish(
+        mut self,
+        end: u64,
+        state: &State,
+        collisions: &[Collision],
+        expectation: &Expectation,
+    ) -> Option<Broken> {
+        // The last state holds to the end of the scenario, even if the run was cut short.
+        self.pass(u64::MAX);
+        if expectation.claim == Claim::Collision {
+            self.touch(collisions);
+        }
+        let window = expectation.window;
+        let (at, why) = match expectation.wanted {
+            Wanted::Once if self.held.is_some() => return None,
+            Wanted::Once => (window.to.min(end), self.missing(state)),
+            Wanted::Never => (self.held?, "it was so".to_owned()),
+            Wanted::Always => (self.failed?, self.otherwise(state)),
+        };
+        let (text, span) = (expectation.text.clone(), expectation.span);
+        Some(Broken { text, span, at: Instant::from_nanos(at), why })
+    }
+
+    /// Takes the robot's collisions into account.
+    fn touch(&mut self, collisions: &[Collision]) {
+        let window = self.expectation.window;
+        let within = |collision: &&Collision| {
+            collision.end.as_nanos() >= window.from && collision.begin.as_nanos() <= window.to
+        };
+        let first =
+            collisions.iter().filter(within).map(|c| c.begin.as_nanos().max(window.from)).min();
+        self.held = first;
+        let whole = collisions
+            .iter()
+            .any(|c| c.begin.as_nanos() <= window.from && c.end.as_nanos() >= window.to);
+        self.failed = (!whole).then_some(window.from);
+    }
+
+    fn missing(&self, state: &State) -> String {
+        match (&self.expectation.claim, self.outside) {
+            (_, Some(at)) => {
+                format!("it happened outside of that time, at {:.3} s", at as f64 / 1e9)
+            }
+            (Claim::End(_), None) => match state.ending {
+                None => "the plan did not end".to_owned(),
+                Some(ending) => format!("the plan ended otherwise, as {}", word(ending)),
+            },
+            (Claim::Compare { entry, .. }, None) => self.value(*entry, state),
+            (Claim::Collision, None) => "the robot touched nothing".to_owned(),
+            _ => "it did not happen".to_owned(),
+        }
+    }
+
+    fn otherwise(&self, state: &State) -> String {
+        match &self.expectation.claim {
+            Claim::Compare { entry, .. } => self.value(*entry, state),
+            _ => "it was otherwise".to_owned(),
+        }
+    }
+
+    /// What an entry holds in the end.
+    fn value(&self, entry: u32, state: &State) -> String {
+        match state.entries.get(entry as usize) {
+            Some(Value::Unset) | None => "it was never written".to_owned(),
+            Some(Value::Float(number)) => {
+                format!("it was otherwise; in the end it is {number} (SI)")
+            }
+            Some(value) => format!("it was otherwise; in the end it is {}", value.borrow()),
+        }
+    }
+}
+
+fn word(ending: Ending) -> String {
+    match ending {
+        Ending::Ok => "OK".to_owned(),
+        Ending::Interrupted => "Interrupted".to_owned(),
+        Ending::Error(fault) => format!("Error ({fault})"),
+    }
+}
+
+/// A value as the compiler has it; `None` for an unset entry or an object.
+fn constant(value: &Value) -> Option<Constant> {
+    Some(match value {
+        Value::Bool(value) => Constant::Bool(*value),
+        Value::Int(value) => Constant::Int(*value),
+        Value::Float(value) => Constant::Float(*value),
+        Value::Text(text) => Constant::Text(text.as_str().to_owned()),
+        Value::Choice(value) => Constant::Choice(*value),
+        Value::Unset | Value::Object(_) => return None,
+    })
+}

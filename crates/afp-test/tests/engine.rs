@@ -1,0 +1,172 @@
+//! What scenarios come to: each kind of claim kept and broken, stimuli, faults, the same run twice.
+
+use std::path::Path;
+
+use afp_dsl::files::Texts;
+use afp_dsl::source::Source;
+use afp_dsl::toolbox::Toolboxes;
+use afp_sim::Fault;
+use afp_test::{Setting, Verdict};
+
+const PLAN: &str = r#"
+use carbot
+use std
+
+plan Ahead {
+    in way: length = 1 m
+    var gone: length = 0 m
+    var i: int = 0
+    start go
+    supervise escape: CheckEscapeButton { EscapeButtonPressed -> terminate }
+    actor go: Forward(distance = way, driven => gone) {
+        supervise touch: CheckTouchSensor { TouchSensorPressed -> back }
+        ForwardSuccessful -> count
+    }
+    computation count: Count(value = i, limit = 1, next => i) { Again -> nested, Done -> terminate }
+    actor back: Forward(distance = -10 cm) { ForwardSuccessful -> count }
+    subplan nested: Nested(way = 20 cm) { OK -> count, Interrupted -> terminate }
+}
+
+plan Nested {
+    in way: length
+    start turn
+    actor turn: Forward(distance = way) {
+        supervise touch: CheckTouchSensor { TouchSensorPressed -> terminate }
+        ForwardSuccessful -> terminate
+    }
+}
+"#;
+
+fn run(lines: &str) -> Verdict {
+    let text = format!("{PLAN}\nscenario \"it\" for Ahead {{\n{lines}\n}}\n");
+    let mut toolboxes = Toolboxes::default();
+    for builtin in afp_toolboxes::ALL {
+        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
+    }
+    let source = Source::new("case.afp", text);
+    let compiled = afp_dsl::compile(&source, &toolboxes, &Texts::default());
+    let [scenario] = compiled.scenarios.as_slice() else { panic!("{}", compiled.render(false)) };
+    let setting = Setting::find(scenario, Path::new("case.afp")).unwrap();
+    afp_test::run(scenario, &setting, &|_| {}, None).unwrap()
+}
+
+#[track_caller]
+fn passes(lines: &str) {
+    let verdict = run(lines);
+    assert!(verdict.passed(), "{}", verdict.report());
+}
+
+/// One expectation breaks, for that reason and at that time.
+#[track_caller]
+fn breaks(lines: &str, why: &str, at: f64) {
+    let verdict = run(lines);
+    let [broken] = verdict.broken.as_slice() else { panic!("{:?}", verdict.broken) };
+    assert!(broken.why.contains(why), "{broken:?}");
+    assert!((broken.at.as_secs_f64() - at).abs() < 1e-6, "{broken:?}");
+}
+
+/// East of the robot there is nothing for two metres.
+const FREE: &str = "robot at (3.5 m, 2.4 m) heading 0 deg\n";
+
+#[test]
+fn each_kind_of_claim_is_kept() {
+    passes(&format!(
+        "{FREE} set way = 20 cm
+        expect go -> count by ForwardSuccessful before 10 s
+        expect go.ForwardSuccessful
+        expect count.Again
+        expect count -> nested
+        expect nested active after 1 s
+        expect nested.turn active
+        expect nested.way == 20 cm
+        expect i == 1
+        expect i <= 1 always
+        expect gone > 19 cm
+        expect count -> terminate by Done
+        expect end by count.Done
+        expect end by OK
+        expect running before 1 s
+        never running after 29 s
+        never collision
+        never back active
+        until 30 s"
+    ));
+}
+
+#[test]
+fn each_kind_of_claim_breaks() {
+    breaks("expect go -> back before 100 ms\n until 1 s", "did not happen", 0.099_999_999);
+    breaks("expect back active before 1 s", "did not happen", 0.999_999_999);
+    breaks("at 1 s: press touch\n never go -> back by touch", "it was so", 1.0);
+    breaks("at 1 s: press touch\n expect go active always\n until 2 s", "otherwise", 1.0);
+    breaks("at 1 s: press touch\n expect go -> back within 2 ms after 1.5 s", "at 1.000 s", 1.502);
+    breaks("expect way == 2 m\n until 1 s", "in the end it is 1 (SI)", 1.0);
+    breaks("at 1 s: set way = 2 m\n expect way == 1 m always\n until 2 s", "it is 2 (SI)", 1.0);
+    breaks("at 1 s: press escape\n expect end by OK", "as Interrupted", 2.0);
+    breaks("expect end before 1 s\n until 1 s", "did not end", 0.999_999_999);
+    breaks("expect collision before 1 s", "touched nothing", 0.999_999_999);
+    breaks("at 1 s: press escape\n expect running always\n until 5 s", "otherwise", 1.0);
+}
+
+#[test]
+fn outcomes_are_injected_at_the_next_poll_and_traced() {
+    let lines = format!(
+        "{FREE} at 1.004 s: finish go.ForwardSuccessful(driven = 7 m)
+        at 2 s: fire nested.turn.touch.TouchSensorPressed
+        expect gone == 7 m after 1.1 s
+        expect go -> count within 6 ms after 1.004 s
+        expect nested -> terminate by Interrupted within 10 ms after 2 s
+        expect end by nested.Interrupted"
+    );
+    let verdict = run(&lines);
+    assert!(verdict.passed(), "{}", verdict.report());
+    let traced = verdict.timeline.iter().filter(|(_, line)| line.contains("(injected)")).count();
+    assert_eq!(traced, 2);
+}
+
+#[test]
+fn what_is_not_active_cannot_be_made_to_report() {
+    let idle = "expect go active\n until 2 s";
+    breaks(&format!("at 1 s: finish back.ForwardSuccessful\n {idle}"), "'back' is not", 1.0);
+    let nested = "at 1 s: fire nested.turn.touch.TouchSensorPressed\n";
+    breaks(&format!("{nested} {idle}"), "'nested.turn.touch' is not active", 1.0);
+}
+
+#[test]
+fn an_error_that_nobody_expects_breaks_a_scenario() {
+    let dead = "at 1 s: fail odometry(kind = \"lost\")\n";
+    let verdict = run(&format!("{FREE} {dead} expect go active"));
+    let [broken] = verdict.broken.as_slice() else { panic!("{:?}", verdict.broken) };
+    assert!(broken.why.contains("ended in Error"), "{broken:?}");
+    passes(&format!("{FREE} {dead} expect end by go.Error"));
+}
+
+#[test]
+fn the_same_scenario_is_the_same_run() {
+    let lines = "seed 3\n set way = 20 cm\n expect end";
+    assert_eq!(run(lines).trace, run(lines).trace);
+    assert_ne!(run(lines).trace, run(&lines.replace("seed 3", "seed 4")).trace);
+}
+
+#[test]
+fn the_report_shows_the_timeline_around_what_broke() {
+    let verdict = run("at 1 s: press touch\n never go -> back by touch\n until 3 s");
+    let report = verdict.report();
+    assert!(report.contains("never go -> back by touch\n    1.000 s: it was so\n"), "{report}");
+    let (before, behind) = report.split_once("broken here").unwrap();
+    assert!(before.contains("TouchSensorPressed → back") && !behind.contains("→ back"), "{report}");
+}
+
+#[test]
+fn the_words_for_faults_are_those_of_the_simulator() {
+    use afp_dsl::scenario::devices::DEVICES;
+    let pairs = |(device, kinds): &(&'static str, &'static [&'static str])| {
+        let device = *device;
+        kinds.iter().map(move |kind| (device, *kind)).collect::<Vec<_>>()
+    };
+    let mut ours: Vec<_> = DEVICES.iter().flat_map(pairs).collect();
+    let mut theirs: Vec<_> = Fault::names().collect();
+    ours.sort_unstable();
+    theirs.sort_unstable();
+    assert_eq!(ours, theirs);
+}

@@ -1,0 +1,3 @@
+//! The scenarios of the plans that are shipped.
+
+afp::scenarios!("../../plans/tests");

@@ -1,0 +1,179 @@
+//! `afpc test`: runs scenarios, all cores at once, and says what they came to.
+
+mod find;
+mod tell;
+
+use std::path::{Path, PathBuf};
+use std::time::Instant as Wall;
+
+use afp::load::Registry;
+use afp_dsl::scenario::Scenario;
+use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, RunError};
+use afp_sim::Simulation;
+use afp_test::{Coverage, Hits, Setting, Verdict};
+use clap::Args;
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+
+use crate::plan_file::{NoPlan, PlanFile};
+use crate::{Linked, runner};
+
+use tell::Teller;
+
+/// Arguments of `afpc test`.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// Files or folders with scenarios, and words that the names of those to run contain [default:
+    /// the project's folder, its plans, tests and scenarios]
+    #[arg(value_name = "FILTER|FILE")]
+    what: Vec<String>,
+
+    /// Prints one JSON object for each scenario
+    #[arg(long)]
+    json: bool,
+
+    /// Tells which elements, states, events, errors and entries no scenario made use of
+    #[arg(long)]
+    coverage: bool,
+}
+
+pub const EXAMPLES: &str = "\
+Examples:
+  afpc test                       all scenarios of the project
+  afpc test bump                  those with 'bump' in their names
+  afpc test plans/tests/room.afp  those of a file
+  afpc test --coverage            and what none of them made use of
+
+A failed scenario is run again with a log: target/afp/tests/<name>.mcap.
+Exit codes: 0 all passed, 1 a file is wrong, 2 nothing to run, 3 a scenario failed";
+
+/// A scenario to run.
+struct Case<'a> {
+    /// The file as it was named.
+    file: &'a Path,
+    /// The line of its name.
+    line: usize,
+    scenario: &'a Scenario,
+}
+
+/// What became of a case.
+struct Done {
+    verdict: Result<Verdict, RunError>,
+    /// The log of a failed one.
+    log: Option<PathBuf>,
+}
+
+/// Runs scenarios; gives the exit code.
+///
+/// # Errors
+/// Nothing to run, a file that cannot be read.
+pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
+    let find::Wanted { files, filters } = find::wanted(&arguments.what)?;
+    let mut code = EXIT_OK;
+    let mut read = Vec::new();
+    for file in &files {
+        let file = PlanFile::read(&file.display().to_string())?;
+        if file.compiled.diags.has_errors() {
+            anstream::eprintln!("{}", file.compiled.render(true));
+            code = EXIT_FAILED;
+        }
+        read.push(file);
+    }
+    link(&read, linked)?;
+    let cases: Vec<_> =
+        read.iter().flat_map(cases).filter(|case| matches(case, &filters)).collect();
+    if cases.is_empty() && code == EXIT_OK {
+        return Err(find::nothing(&filters, &files).into());
+    }
+    let failed = run_all(&cases, arguments, linked)?;
+    Ok(if failed { EXIT_PLAN_ERROR } else { code })
+}
+
+/// Becomes a program with the toolboxes that the plans use, if some are not linked in.
+fn link(files: &[PlanFile], linked: &[Linked]) -> Result<(), NoPlan> {
+    for file in files {
+        let Some(graph) = file.compiled.scenarios.first().map(|first| &first.graph) else {
+            continue;
+        };
+        let toolboxes = file.own.used_by(graph)?;
+        runner::become_one_with(&toolboxes, linked, &file.own.project)?;
+    }
+    Ok(())
+}
+
+fn cases(file: &PlanFile) -> impl Iterator<Item = Case<'_>> {
+    let line = |scenario: &Scenario| {
+        let source = file.compiled.sources.get(scenario.span.file);
+        source.map_or(0, |source| source.line_column(scenario.span.start).0)
+    };
+    let scenarios = file.compiled.scenarios.iter();
+    scenarios.map(move |scenario| Case { file: &file.path, line: line(scenario), scenario })
+}
+
+fn matches(case: &Case<'_>, filters: &[String]) -> bool {
+    let name = case.scenario.name.to_lowercase();
+    filters.is_empty() || filters.iter().any(|filter| name.contains(&filter.to_lowercase()))
+}
+
+/// Runs the cases on all cores; whether one of them failed.
+fn run_all(cases: &[Case<'_>], arguments: &Arguments, linked: &[Linked]) -> Result<bool, NoPlan> {
+    let templates = |registry: &mut Registry<Simulation>| {
+        linked.iter().for_each(|toolbox| (toolbox.register)(registry));
+    };
+    let begun = Wall::now();
+    let teller = Teller::new(cases.len(), arguments.json);
+    let done: Vec<Done> = cases
+        .par_iter()
+        .with_max_len(1)
+        .map(|case| {
+            let done = run_one(case, &templates);
+            teller.done(case, &done);
+            done
+        })
+        .collect();
+    teller.end(cases, &done, begun.elapsed().as_secs_f64())?;
+    if arguments.coverage {
+        tell::coverage(&coverage(cases, &done), arguments.json)?;
+    }
+    Ok(done.iter().any(|done| !done.passed()))
+}
+
+/// What the runs used, for each plan.
+fn coverage(cases: &[Case<'_>], done: &[Done]) -> Vec<Coverage> {
+    let mut plans: Vec<(&Scenario, Hits)> = Vec::new();
+    for (case, done) in cases.iter().zip(done) {
+        let Ok(verdict) = &done.verdict else { continue };
+        let key = |scenario: &Scenario| {
+            let plan = scenario.graph.main();
+            (scenario.plan_file.clone(), plan.name.clone())
+        };
+        match plans.iter_mut().find(|(known, _)| key(known) == key(case.scenario)) {
+            Some((_, hits)) => hits.add(&verdict.hits),
+            None => plans.push((case.scenario, verdict.hits.clone())),
+        }
+    }
+    plans.iter().map(|(scenario, hits)| Coverage::new(&scenario.graph, hits)).collect()
+}
+
+impl Done {
+    fn passed(&self) -> bool {
+        self.verdict.as_ref().is_ok_and(Verdict::passed)
+    }
+}
+
+fn run_one(case: &Case<'_>, templates: afp_test::Templates<'_>) -> Done {
+    let setting = match Setting::find(case.scenario, case.file) {
+        Ok(setting) => setting,
+        Err(error) => return Done { verdict: Err(error), log: None },
+    };
+    let verdict = afp_test::run(case.scenario, &setting, templates, None);
+    let failed = verdict.as_ref().is_ok_and(|verdict| !verdict.passed());
+    if !failed {
+        return Done { verdict, log: None };
+    }
+    // The same run once more, since passing ones need no log.
+    let path = find::log_of(case.file, &case.scenario.name);
+    let log = path.and_then(|path| {
+        afp_test::run(case.scenario, &setting, templates, Some(&path)).ok().map(|_| path)
+    });
+    Done { verdict, log }
+}

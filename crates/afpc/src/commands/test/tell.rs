@@ -1,0 +1,149 @@
+//! What `afpc test` prints: a line for each scenario, what broke, a sum.
+
+use std::fmt::Write;
+use std::io::IsTerminal;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use afp_core::Ending;
+use afp_test::{Coverage, Verdict};
+use anstyle::{AnsiColor, Style};
+use serde_json::json;
+
+use super::{Case, Done};
+use crate::commands::print;
+use crate::plan_file::NoPlan;
+
+const GOOD: Style = AnsiColor::Green.on_default().bold();
+const BAD: Style = AnsiColor::BrightRed.on_default().bold();
+const QUIET: Style = Style::new().dimmed();
+
+/// Tells how it goes.
+pub(super) struct Teller {
+    all: usize,
+    done: AtomicUsize,
+    json: bool,
+    progress: bool,
+}
+
+impl Teller {
+    pub fn new(all: usize, json: bool) -> Self {
+        let progress = std::io::stderr().is_terminal();
+        Teller { all, done: AtomicUsize::new(0), json, progress }
+    }
+
+    /// A scenario is done; called from all threads.
+    pub fn done(&self, case: &Case<'_>, done: &Done) {
+        let number = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        if self.progress {
+            anstream::eprint!("\r\x1b[K");
+        }
+        if !self.json {
+            anstream::println!("{}", line(case, done));
+        }
+        if self.progress && number < self.all {
+            anstream::eprint!("{QUIET}{number} of {}{QUIET:#}", self.all);
+        }
+    }
+
+    /// All are done: in the order of the files, what broke.
+    pub fn end(&self, cases: &[Case<'_>], done: &[Done], seconds: f64) -> Result<(), NoPlan> {
+        let mut text = String::new();
+        for (case, done) in cases.iter().zip(done) {
+            if self.json {
+                let _ = writeln!(text, "{}", object(case, done));
+            } else if !done.passed() {
+                let _ = writeln!(text, "\n{}", broken(case, done));
+            }
+        }
+        if !self.json {
+            let failed = done.iter().filter(|done| !done.passed()).count();
+            let verdicts = done.iter().filter_map(|done| done.verdict.as_ref().ok());
+            let simulated: f64 = verdicts.map(|verdict| verdict.length().as_secs_f64()).sum();
+            let style = if failed == 0 { GOOD } else { BAD };
+            let _ = writeln!(
+                text,
+                "\n{style}{} passed, {failed} failed{style:#}  {QUIET}{simulated:.1} s simulated in {seconds:.2} s{QUIET:#}",
+                done.len() - failed
+            );
+        }
+        print(&text)?;
+        Ok(())
+    }
+}
+
+/// What the runs of each plan used.
+pub(super) fn coverage(plans: &[Coverage], json: bool) -> Result<(), NoPlan> {
+    for plan in plans {
+        if !json {
+            print(&format!("\n{}", plan.text()))?;
+            continue;
+        }
+        let parts = plan.parts.iter().map(
+            |part| json!({ "kind": part.kind.plural(), "name": part.name, "count": part.count }),
+        );
+        let line = json!({ "coverage": plan.plan, "parts": parts.collect::<Vec<_>>() });
+        print(&format!("{line}\n"))?;
+    }
+    Ok(())
+}
+
+fn line(case: &Case<'_>, done: &Done) -> String {
+    let Case { file, line, scenario } = case;
+    let (style, word) = if done.passed() { (GOOD, "ok") } else { (BAD, "FAILED") };
+    let length = done.verdict.as_ref().map_or(0.0, |verdict| verdict.length().as_secs_f64());
+    format!(
+        "{style}{word:>6}{style:#} {length:>8.3} s  {}  {QUIET}{}:{line}{QUIET:#}",
+        scenario.name,
+        file.display()
+    )
+}
+
+fn broken(case: &Case<'_>, done: &Done) -> String {
+    let Case { file, line, scenario } = case;
+    let mut text = format!("{BAD}{}{BAD:#}\n  --> {}:{line}\n", scenario.name, file.display());
+    match &done.verdict {
+        Ok(verdict) => text += &verdict.report(),
+        Err(error) => text += &format!("{}\n", error.styled()),
+    }
+    if let Some(log) = &done.log {
+        let _ = writeln!(text, "  log: {}", log.display());
+    }
+    text
+}
+
+fn object(case: &Case<'_>, done: &Done) -> serde_json::Value {
+    let Case { file, line, scenario } = case;
+    let (name, plan) = (&scenario.name, &scenario.graph.main().name);
+    let head = json!({
+        "file": file.display().to_string(), "line": line, "scenario": name, "plan": plan,
+        "passed": done.passed(), "log": done.log.as_ref().map(|log| log.display().to_string()),
+    });
+    let more = match &done.verdict {
+        Ok(verdict) => verdict_object(verdict),
+        Err(error) => json!({ "error": error.to_string() }),
+    };
+    merged(head, more)
+}
+
+fn verdict_object(verdict: &Verdict) -> serde_json::Value {
+    let ending = verdict.ending.map(|ending| match ending {
+        Ending::Ok => "ok",
+        Ending::Interrupted => "interrupted",
+        Ending::Error(_) => "error",
+    });
+    let broken = verdict.broken.iter().map(
+        |broken| json!({ "text": broken.text, "at_s": broken.at.as_secs_f64(), "why": broken.why }),
+    );
+    json!({
+        "simulated_s": verdict.length().as_secs_f64(), "ending": ending,
+        "broken": broken.collect::<Vec<_>>(), "trace": format!("{:016x}", verdict.trace),
+    })
+}
+
+/// One object with the keys of both.
+fn merged(mut head: serde_json::Value, more: serde_json::Value) -> serde_json::Value {
+    if let (Some(head), serde_json::Value::Object(more)) = (head.as_object_mut(), more) {
+        head.extend(more);
+    }
+    head
+}

@@ -1,0 +1,73 @@
+//! `afpc test`: finds scenarios, runs them, says what broke.
+
+mod common;
+
+use common::Place;
+
+const SCENARIOS: &str = r#"use "../wall_following.afp"
+
+scenario "a bump leads back" for WallFollowing {
+    at 1 s: press touch
+    expect searchFirstWall -> backupCollision by touch within 1 ms after 1 s
+    until 2 s
+}
+
+scenario "nothing is ever touched" for WallFollowing {
+    never collision
+    until 20 s
+}
+"#;
+
+fn place() -> Place {
+    let place = Place::with_plan();
+    place.write("tests/room.afp", SCENARIOS);
+    place
+}
+
+#[test]
+fn scenarios_are_found_run_and_judged() {
+    let place = place();
+    let said = place.afpc("test");
+    assert_eq!(said.code, 3, "{said:#?}");
+    for text in [
+        "ok    2.000 s  a bump leads back  tests/room.afp:3",
+        "FAILED",
+        "  never collision\n",
+        "broken here",
+        "1 passed, 1 failed",
+        "log: target/afp/tests/room.nothing_is_ever_touched.mcap",
+    ] {
+        assert!(said.out.contains(text), "no {text:?} in {}", said.out);
+    }
+    let log = place.afpc("log target/afp/tests/room.nothing_is_ever_touched.mcap info");
+    log.succeeds();
+    assert!(log.out.contains("nothing is ever touched"), "{}", log.out);
+}
+
+#[test]
+fn words_and_files_choose() {
+    let place = place();
+    let said = place.afpc("test bump --json --coverage");
+    said.succeeds();
+    assert_eq!(said.out.lines().count(), 2, "{}", said.out);
+    let coverage = said.last_json();
+    assert_eq!(coverage["coverage"], "WallFollowing");
+    let part = |name: &str| {
+        let parts = coverage["parts"].as_array().unwrap();
+        parts.iter().find(|part| part["name"] == name).unwrap()["count"].as_u64().unwrap()
+    };
+    assert_eq!(part("searchFirstWall.touch.TouchSensorPressed"), 1);
+    assert_eq!(part("followWall"), 0);
+    place.afpc("test tests/room.afp bump").succeeds();
+    place.afpc("test nonsense").fails(2, &["no scenario has 'nonsense' in its name"]);
+    place.afpc("test wall_following.afp").fails(2, &["has no scenarios"]);
+}
+
+#[test]
+fn a_wrong_scenario_does_not_hide_the_others() {
+    let place = place();
+    place.write("tests/wrong.afp", "use \"../wall_following.afp\"\n\nscenario \"x\" for WallFollowing { expect nobody active }\n");
+    place.afpc("test bump").fails(1, &["E0602", "tests/wrong.afp:3"]);
+    let said = place.afpc("test bump");
+    assert!(said.out.contains("a bump leads back"), "{}", said.out);
+}
