@@ -3,6 +3,8 @@
 //! The baseline is the same number of rapier steps of the same room and body, and the same rays as
 //! the range sensor casts on the way.
 
+mod crowd;
+
 use std::hint::black_box;
 use std::time;
 
@@ -28,7 +30,7 @@ const SEED: u64 = 7;
 /// Most that the simulator may take of the bare engine.
 const OF_BARE: f64 = 1.5;
 /// Least that the simulator must be faster than real time.
-const OF_REAL_TIME: f64 = 500.0;
+const OF_REAL_TIME: f64 = 1000.0;
 
 /// Races the bare engine, a run without a log and one with.
 pub fn run(rounds: u32, report: &mut Report) {
@@ -61,6 +63,7 @@ pub fn run(rounds: u32, report: &mut Report) {
             None => row,
         });
     }
+    crowd::run(rounds, report);
 }
 
 /// The engine alone.

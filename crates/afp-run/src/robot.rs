@@ -3,6 +3,7 @@
 use afp_core::Instant;
 use afp_log::Recorder;
 use afp_log::robot::{Pose2, Ranging, Shape, Transform};
+use afp_sim::world::{Mobility, Obstacle};
 use afp_sim::{Pose, Simulation, Snapshot, World};
 
 use afp_carbot::devices::Ultrasonic;
@@ -21,18 +22,17 @@ const SONAR_HEIGHT: f64 = 0.15;
 pub struct RobotLog {
     start: Pose2,
     last_ping: Option<Instant>,
+    /// What moves, as it was last written.
+    movers: Vec<(usize, Shape)>,
 }
 
 impl RobotLog {
     /// Writes what stands in the room, and the robot's body.
     pub fn begin(log: &mut Recorder, world: &World) -> Self {
-        let obstacles = world.obstacles.iter().enumerate().map(|(index, obstacle)| Shape {
-            id: format!("{index} {}", obstacle.name),
-            frame: WORLD,
-            outline: obstacle.outline.corners(),
-            height: obstacle.height,
-            color: [0.72, 0.68, 0.6, 0.9],
-        });
+        let obstacles = || world.obstacles.iter().enumerate();
+        let movers = obstacles().filter(|(_, obstacle)| obstacle.mobility != Mobility::Fixed);
+        let movers = movers.map(|(index, obstacle)| (index, shape(index, obstacle))).collect();
+        let obstacles = obstacles().map(|(index, obstacle)| shape(index, obstacle));
         let body = Shape {
             id: "robot".to_owned(),
             frame: BASE,
@@ -41,7 +41,7 @@ impl RobotLog {
             color: [0.15, 0.45, 0.75, 0.9],
         };
         log.scene(Instant::ZERO, obstacles.chain([body]).collect());
-        RobotLog { start: plane(world.start), last_ping: None }
+        RobotLog { start: plane(world.start), last_ping: None, movers }
     }
 
     /// Writes where the robot is and what it has heard since.
@@ -68,6 +68,34 @@ impl RobotLog {
             let half_angle = beam.opening.si() / 2.0;
             log.ranging(time, Ranging { frame: SONAR, half_angle, range: sonar.distance });
         }
+        self.look_at_movers(log, sim, time);
+    }
+
+    /// Writes where everything is that has moved since.
+    fn look_at_movers(&mut self, log: &mut Recorder, sim: &Simulation, time: Instant) {
+        let mut moved = Vec::new();
+        for (obstacle, shape) in &mut self.movers {
+            let outline = sim.outline(*obstacle);
+            if outline != shape.outline {
+                shape.outline = outline;
+                moved.push(shape.clone());
+            }
+        }
+        if !moved.is_empty() {
+            log.scene(time, moved);
+        }
+    }
+}
+
+/// An obstacle as it stands at the start.
+fn shape(index: usize, obstacle: &Obstacle) -> Shape {
+    let [red, green, blue] = obstacle.look.color.map(|part| f64::from(part) / 255.0);
+    Shape {
+        id: format!("{index} {}", obstacle.name),
+        frame: WORLD,
+        outline: obstacle.outline.corners(),
+        height: obstacle.height,
+        color: [red, green, blue, 0.9],
     }
 }
 

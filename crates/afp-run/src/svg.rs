@@ -6,7 +6,7 @@ mod legend;
 mod marks;
 
 use afp_core::trace::{ComponentId, Names};
-use afp_sim::world::Outline;
+use afp_sim::world::{Mobility, Obstacle, Outline};
 use afp_sim::{Pose, World};
 
 use crate::judge::{Mark, Step};
@@ -55,8 +55,18 @@ pub(crate) fn draw(picture: &Picture<'_>, names: &impl Names) -> String {
     let view = View::around(bounds(world, path));
     let mut canvas = Canvas::new(view);
     canvas.floor();
+    for patch in &world.patches {
+        canvas.patch(&patch.corners, patch.color);
+    }
     for obstacle in &world.obstacles {
         canvas.obstacle(&obstacle.outline.corners(), obstacle.height < LOW);
+    }
+    for (obstacle, way) in ways(world) {
+        let (middle, _) = middle(&obstacle.outline);
+        canvas.way(&way.map(|by| [middle[0] + by[0], middle[1] + by[1]]).collect::<Vec<_>>());
+    }
+    for light in &world.lights {
+        canvas.light(light.position);
     }
     let stretches = stretches(path);
     canvas.robot(world.start, false);
@@ -154,16 +164,29 @@ fn bounds(world: &World, path: &[Step]) -> [[f64; 2]; 2] {
     [low, high]
 }
 
+/// What goes its own way, with the places against its start.
+fn ways(world: &World) -> impl Iterator<Item = (&Obstacle, impl Iterator<Item = [f64; 2]>)> {
+    world.obstacles.iter().filter_map(|obstacle| match &obstacle.mobility {
+        Mobility::Scripted(path) => Some((obstacle, path.places())),
+        Mobility::Fixed | Mobility::Movable { .. } => None,
+    })
+}
+
 /// The middle and the width of an obstacle that has room for its name; walls have none.
 fn labelled(outline: &Outline) -> Option<([f64; 2], f64)> {
-    let corners = outline.corners();
     let least = match outline {
         Outline::Box { half, .. } => 2.0 * half[0].min(half[1]),
         Outline::Polygon(_) => f64::INFINITY,
     };
+    (least > 0.2).then(|| middle(outline))
+}
+
+/// The middle and the width of an outline.
+fn middle(outline: &Outline) -> ([f64; 2], f64) {
+    let corners = outline.corners();
     let count = corners.len() as f64;
     let sum = corners.iter().fold([0.0, 0.0], |sum, at| [sum[0] + at[0], sum[1] + at[1]]);
     let xs = || corners.iter().map(|at| at[0]);
     let width = xs().fold(f64::NEG_INFINITY, f64::max) - xs().fold(f64::INFINITY, f64::min);
-    (least > 0.2).then_some(([sum[0] / count, sum[1] / count], width))
+    ([sum[0] / count, sum[1] / count], width)
 }

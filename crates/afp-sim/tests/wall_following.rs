@@ -113,7 +113,7 @@ fn the_robot_bumps_once_finds_the_wall_and_comes_back_to_it_at_the_outer_corner(
         "parallelToWall",
         "followWall",
     ];
-    for seed in 0..10 {
+    for seed in 0..20 {
         let out = run(seed);
         let path: Vec<&str> = out.path.iter().map(String::as_str).collect();
         assert!(path.starts_with(&expected), "seed {seed}: {out:?}");

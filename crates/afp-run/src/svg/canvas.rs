@@ -71,6 +71,28 @@ impl Canvas {
         }
     }
 
+    /// Paint on the floor.
+    pub(super) fn patch(&mut self, corners: &[[f64; 2]], [red, green, blue]: [u8; 3]) {
+        let points = self.points(corners);
+        self.put(format_args!(
+            r#"<polygon class="patch" fill="rgb({red},{green},{blue})" points="{points}"/>"#
+        ));
+    }
+
+    /// The way of something that moves by itself.
+    pub(super) fn way(&mut self, places: &[[f64; 2]]) {
+        let points = self.points(places);
+        self.put(format_args!(r#"<polyline class="way" points="{points}"/>"#));
+    }
+
+    /// A source of infrared light.
+    pub(super) fn light(&mut self, at: [f64; 2]) {
+        let (x, y) = self.view.point(at);
+        self.put(format_args!(
+            r#"<g class="light"><circle cx="{x:.1}" cy="{y:.1}" r="4"/><circle cx="{x:.1}" cy="{y:.1}" r="9"/></g>"#
+        ));
+    }
+
     pub(super) fn obstacle(&mut self, corners: &[[f64; 2]], low: bool) {
         let points = self.points(corners);
         let class = if low { "low" } else { "high" };
@@ -201,6 +223,9 @@ text { font: 13px system-ui, "Helvetica Neue", Arial, sans-serif; fill: #2b2b2b 
 .grid { stroke: #ecebe7; stroke-width: 1 }
 .high { fill: #ddd8cf; stroke: #9b948a; stroke-width: 1 }
 .low { fill: url(#hatch); stroke: #b4642d; stroke-width: 1.2; stroke-dasharray: 4 2.5 }
+.patch { opacity: .35 }
+.way { fill: none; stroke: #77736b; stroke-width: 1.6; stroke-dasharray: 2 4; stroke-linecap: round }
+.light circle { fill: none; stroke: #c2185b; stroke-width: 1.6 }
 .path { fill: none; stroke-width: 3.2; stroke-linecap: round; stroke-linejoin: round; opacity: .92 }
 .footprint { fill: none; stroke: #2b2b2b; stroke-linecap: butt; stroke-linejoin: round; opacity: .045 }
 .dot { stroke: #ffffff; stroke-width: 1.2 }

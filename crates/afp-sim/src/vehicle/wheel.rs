@@ -17,7 +17,7 @@ const MOTOR_ACCELERATION: f64 = 2.0;
 const STEER_REACH: f64 = 1.75;
 const STEER_RATE: f64 = 7.0;
 /// A wheel's grip: force per slip, newtons per metre a second, and the most it can hold.
-const GRIP: f64 = 150.0;
+const GRIP: f64 = 300.0;
 const FRICTION: f64 = 0.7 * MASS * 9.81 / 4.0;
 
 /// How the body moves, in its own frame: ahead, to the left, turning.

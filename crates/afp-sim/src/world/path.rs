@@ -50,6 +50,12 @@ impl Path {
         (period > 0.0 && period.is_finite()).then_some(Path { legs, start, period })
     }
 
+    /// The places that it goes through, against where it stands at the start, metres; the first is
+    /// there.
+    pub fn places(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.legs.iter().map(|leg| leg.from)
+    }
+
     /// Where it is `time` seconds after the start, against where it stood then, metres.
     pub fn offset(&self, time: f64) -> [f64; 2] {
         if time <= self.start {

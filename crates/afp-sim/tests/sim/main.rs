@@ -1,5 +1,6 @@
 //! The simulated world and robot: what they promise to templates and judges.
 
+mod closed_forms;
 mod determinism;
 mod faults;
 mod map;
@@ -18,9 +19,14 @@ use afp_sim::{Simulation, World};
 
 /// A simulation of a robot at the origin, looking along the x axis, among `obstacles` (TOML).
 fn among(obstacles: &str) -> Simulation {
+    among_with(obstacles, 1)
+}
+
+/// The same with another seed.
+fn among_with(obstacles: &str, seed: u64) -> Simulation {
     let text = format!("version = 1\n[robot]\npose_m_deg = [0.0, 0.0, 0.0]\n{obstacles}");
     let world = World::parse(&text).expect("the test's world is well-formed");
-    Simulation::new(&world, 1).expect("the test's world can be built")
+    Simulation::new(&world, seed).expect("the test's world can be built")
 }
 
 /// A box of a height, by its middle and its size.
