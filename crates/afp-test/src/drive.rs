@@ -120,6 +120,7 @@ impl<'a> Drive<'a> {
             end,
             ending: self.watch.ending(),
             hits: self.watch.hits,
+            activations: self.watch.activations,
             timeline: self.timeline,
             trace: self.trace.0,
         })

@@ -7,6 +7,7 @@
 
 mod coverage;
 mod drive;
+mod generate;
 mod macros;
 mod setting;
 mod stimuli;
@@ -21,9 +22,11 @@ use afp_run::RunError;
 use afp_sim::Simulation;
 
 pub use coverage::{Coverage, Part, PartKind};
+pub use generate::{Generated, generate};
 pub use macros::check;
 pub use setting::Setting;
 pub use verdict::{Broken, Verdict};
+pub use watch::Activation;
 pub use watch::hits::{Hits, Touched};
 
 /// The Rust behind the templates that plans may use.

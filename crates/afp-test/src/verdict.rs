@@ -5,6 +5,7 @@ use std::fmt::Write;
 use afp_core::{Duration, Ending, Instant};
 use afp_dsl::source::Span;
 
+use crate::watch::Activation;
 use crate::watch::hits::Hits;
 
 /// How much of the timeline is told before and behind what broke.
@@ -22,6 +23,8 @@ pub struct Verdict {
     pub ending: Option<Ending>,
     /// What the run made use of.
     pub hits: Hits,
+    /// When each element was active, in the order in which they were left.
+    pub activations: Vec<Activation>,
     /// The timeline, line by line; with colours.
     pub timeline: Vec<(Instant, String)>,
     /// The hash of the trace: the same for the same scenario, on every machine.

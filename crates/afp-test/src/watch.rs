@@ -20,10 +20,24 @@ pub(crate) struct Watch<'a> {
     state: State,
     /// An event that was taken, until it is known which element it ends.
     event: Option<Cause>,
+    /// Since when each active component is.
+    since: Vec<Option<Instant>>,
+    pub(crate) activations: Vec<Activation>,
     /// What the edge out of the outermost plan belongs to.
     last: Option<Cause>,
     looks: Vec<Look<'a>>,
     pub(crate) hits: Hits,
+}
+
+/// A stretch of time in which an element was active.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Activation {
+    /// The element, by its number.
+    pub element: u32,
+    /// When it started.
+    pub from: Instant,
+    /// When it was left, or the run was over.
+    pub to: Instant,
 }
 
 /// How things stand.
@@ -58,7 +72,9 @@ impl<'a> Watch<'a> {
             hits: Hits::new(&places, entries),
             looks: scenario.expectations.iter().map(Look::new).collect(),
             scenario,
+            since: vec![None; places.len()],
             places,
+            activations: Vec::new(),
             event: None,
             last: None,
         }
@@ -73,19 +89,19 @@ impl<'a> Watch<'a> {
     pub(crate) fn hear(&mut self, at: Instant, record: &Record<'_>) {
         self.hits.hear(record);
         match *record {
-            Record::Started { component } => self.set_active(component, true),
+            Record::Started { component } => self.set_active(at, component, true),
             Record::Event { supervisor, event } => {
                 let cause = cause(supervisor, event);
                 self.event = Some(cause);
                 self.happen(at, &Happening::Outcome(cause));
             }
             Record::Interrupted { element } => {
-                self.set_active(element, false);
+                self.set_active(at, element, false);
                 self.ended_by_event(at, element);
             }
             Record::Diverted { element, .. } => self.ended_by_event(at, element),
             Record::Finished { element, state } => {
-                self.set_active(element, false);
+                self.set_active(at, element, false);
                 self.leave(at, element, cause(element, state));
             }
             Record::Faulted { component, .. } => self.failed(at, component),
@@ -108,6 +124,9 @@ impl<'a> Watch<'a> {
 
     /// The run is over.
     pub(crate) fn finish(&mut self, end: Instant, collisions: &[Collision]) -> Vec<Broken> {
+        for id in 0..self.since.len() as u32 {
+            self.set_active(end, ComponentId(id), false);
+        }
         let end = end.as_nanos();
         let expectations = &self.scenario.expectations;
         let mut broken: Vec<_> = std::mem::take(&mut self.looks)
@@ -140,7 +159,13 @@ impl<'a> Watch<'a> {
         self.places.get(id.0 as usize)
     }
 
-    fn set_active(&mut self, id: ComponentId, active: bool) {
+    fn set_active(&mut self, at: Instant, id: ComponentId, active: bool) {
+        if let Some(since) = self.since.get_mut(id.0 as usize) {
+            if let Some(from) = since.take() {
+                self.activations.push(Activation { element: id.0, from, to: at });
+            }
+            *since = active.then_some(at);
+        }
         if let Some(known) = self.state.active.get_mut(id.0 as usize) {
             *known = active;
         }
@@ -183,7 +208,7 @@ impl<'a> Watch<'a> {
         let element = place.owner.unwrap_or(component.0);
         let by = Cause { component: element, outcome: Some(Outcome::Special) };
         let outermost = place.plan == 0;
-        self.set_active(ComponentId(element), false);
+        self.set_active(at, ComponentId(element), false);
         match self.goal(by) {
             Some(_) => self.leave(at, ComponentId(element), by),
             None if outermost => self.last = Some(by),

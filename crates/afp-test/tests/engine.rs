@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use afp_dsl::Compiled;
 use afp_dsl::files::Texts;
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
@@ -37,14 +38,20 @@ plan Nested {
 }
 "#;
 
-fn run(lines: &str) -> Verdict {
-    let text = format!("{PLAN}\nscenario \"it\" for Ahead {{\n{lines}\n}}\n");
+fn compiled(plan: &str, lines: &str) -> Compiled {
+    let text = format!("{plan}\nscenario \"it\" for Ahead {{\n{lines}\n}}\n");
     let mut toolboxes = Toolboxes::default();
     for builtin in afp_toolboxes::ALL {
         toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
     }
     let source = Source::new("case.afp", text);
     let compiled = afp_dsl::compile(&source, &toolboxes, &Texts::default());
+    assert!(!compiled.scenarios.is_empty(), "{}", compiled.render(false));
+    compiled
+}
+
+fn run(lines: &str) -> Verdict {
+    let compiled = compiled(PLAN, lines);
     let [scenario] = compiled.scenarios.as_slice() else { panic!("{}", compiled.render(false)) };
     let setting = Setting::find(scenario, Path::new("case.afp")).unwrap();
     afp_test::run(scenario, &setting, &|_| {}, None).unwrap()
@@ -155,6 +162,27 @@ fn the_report_shows_the_timeline_around_what_broke() {
     assert!(report.contains("never go -> back by touch\n    1.000 s: it was so\n"), "{report}");
     let (before, behind) = report.split_once("broken here").unwrap();
     assert!(before.contains("TouchSensorPressed → back") && !behind.contains("→ back"), "{report}");
+}
+
+#[test]
+fn scenarios_are_made_for_every_event_at_five_points_and_pass() {
+    let base = compiled(PLAN, "expect go active\n until 20 s");
+    let scenario = &base.scenarios[0];
+    let setting = Setting::find(scenario, Path::new("case.afp")).unwrap();
+    let runs = afp_test::run(scenario, &setting, &|_| {}, None).unwrap().activations;
+    let made = afp_test::generate(&scenario.graph, "case.afp", &runs);
+    assert!(made.scenarios >= 15, "{}", made.text);
+    assert!(made.text.contains("expect go -> back by touch.TouchSensorPressed within"));
+    let text = made.text.split_once("\n\n").unwrap().1;
+    let all = compiled(
+        PLAN,
+        &format!("expect go active }}\n{text}\nscenario \"end\" for Ahead {{ expect go active"),
+    );
+    assert_eq!(all.scenarios.len(), made.scenarios + 2);
+    for scenario in &all.scenarios {
+        let verdict = afp_test::run(scenario, &setting, &|_| {}, None).unwrap();
+        assert!(verdict.passed(), "{}\n{}", scenario.name, verdict.report());
+    }
 }
 
 #[test]

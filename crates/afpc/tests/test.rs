@@ -64,6 +64,17 @@ fn words_and_files_choose() {
 }
 
 #[test]
+fn scenarios_are_generated_and_pass() {
+    let place = Place::with_plan();
+    let said = place.afpc("test --generate wall_following.afp");
+    said.succeeds();
+    assert!(said.out.starts_with("tests/wall_following_generated.afp: "), "{}", said.out);
+    place.afpc("fmt --check tests/wall_following_generated.afp").succeeds();
+    place.afpc("test").succeeds();
+    place.afpc("test --generate").fails(2, &["needs the file of a plan"]);
+}
+
+#[test]
 fn a_wrong_scenario_does_not_hide_the_others() {
     let place = place();
     place.write("tests/wrong.afp", "use \"../wall_following.afp\"\n\nscenario \"x\" for WallFollowing { expect nobody active }\n");

@@ -1,6 +1,7 @@
 //! `afpc test`: runs scenarios, all cores at once, and says what they came to.
 
 mod find;
+mod generate;
 mod tell;
 
 use std::path::{Path, PathBuf};
@@ -34,6 +35,10 @@ pub struct Arguments {
     /// Tells which elements, states, events, errors and entries no scenario made use of
     #[arg(long)]
     coverage: bool,
+
+    /// Writes scenarios for plans: every event at five points of each actor's run
+    #[arg(long)]
+    generate: bool,
 }
 
 pub const EXAMPLES: &str = "\
@@ -42,6 +47,7 @@ Examples:
   afpc test bump                  those with 'bump' in their names
   afpc test plans/tests/room.afp  those of a file
   afpc test --coverage            and what none of them made use of
+  afpc test --generate plans/wall_following.afp
 
 A failed scenario is run again with a log: target/afp/tests/<name>.mcap.
 Exit codes: 0 all passed, 1 a file is wrong, 2 nothing to run, 3 a scenario failed";
@@ -67,6 +73,10 @@ struct Done {
 /// # Errors
 /// Nothing to run, a file that cannot be read.
 pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
+    if arguments.generate {
+        let files: Vec<_> = arguments.what.iter().map(PathBuf::from).collect();
+        return generate::run(&files, &|registry| register(linked, registry), linked);
+    }
     let find::Wanted { files, filters } = find::wanted(&arguments.what)?;
     let mut code = EXIT_OK;
     let mut read = Vec::new();
@@ -114,11 +124,14 @@ fn matches(case: &Case<'_>, filters: &[String]) -> bool {
     filters.is_empty() || filters.iter().any(|filter| name.contains(&filter.to_lowercase()))
 }
 
+/// Registers the templates of linked toolboxes.
+fn register(linked: &[Linked], registry: &mut Registry<Simulation>) {
+    linked.iter().for_each(|toolbox| (toolbox.register)(registry));
+}
+
 /// Runs the cases on all cores; whether one of them failed.
 fn run_all(cases: &[Case<'_>], arguments: &Arguments, linked: &[Linked]) -> Result<bool, NoPlan> {
-    let templates = |registry: &mut Registry<Simulation>| {
-        linked.iter().for_each(|toolbox| (toolbox.register)(registry));
-    };
+    let templates = |registry: &mut Registry<Simulation>| register(linked, registry);
     let begun = Wall::now();
     let teller = Teller::new(cases.len(), arguments.json);
     let done: Vec<Done> = cases

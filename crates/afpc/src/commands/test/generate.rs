@@ -1,0 +1,79 @@
+//! `afpc test --generate`: writes scenarios for a plan.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use afp_dsl::graph::{EntryKind, Graph};
+use afp_dsl::scenario::Scenario;
+use afp_run::{EXIT_OK, RunError, write_whole};
+use afp_test::{Generated, Setting, Templates};
+
+use crate::commands::print;
+use crate::plan_file::{NoPlan, PlanFile};
+use crate::{Linked, runner};
+
+/// How long the run lasts that says when actors are active, nanoseconds.
+const RUN: u64 = 60_000_000_000;
+
+/// Writes a file of scenarios for the first plan of each file, and says where.
+///
+/// # Errors
+/// No file is named, a plan is wrong or cannot run without values, a file cannot be written.
+pub(super) fn run(
+    files: &[PathBuf],
+    templates: Templates<'_>,
+    linked: &[Linked],
+) -> Result<u8, NoPlan> {
+    if files.is_empty() {
+        let help = "afpc test --generate plans/patrol.afp";
+        return Err(RunError::usage("'--generate' needs the file of a plan", help).into());
+    }
+    for file in files {
+        let (file, graph) = PlanFile::graph(&file.display().to_string())?;
+        runner::become_one_with(&file.own.used_by(&graph)?, linked, &file.own.project)?;
+        let made = generate(&file.path, graph, templates)?;
+        let path = place(&file.path)?;
+        let text = afp_dsl::format(&made.text).unwrap_or(made.text);
+        write_whole("cannot write the scenarios", &path, text)?;
+        print(&format!("{}: {} scenarios\n", path.display(), made.scenarios))?;
+        for why in &made.left_out {
+            print(&format!("  left out: {why}\n"))?;
+        }
+    }
+    Ok(EXIT_OK)
+}
+
+fn generate(file: &Path, graph: Graph, templates: Templates<'_>) -> Result<Generated, RunError> {
+    let missing =
+        |entry: &&afp_dsl::graph::Entry| entry.kind == EntryKind::In && entry.init.is_none();
+    if let Some(entry) = graph.main().entries.iter().find(missing) {
+        let message = format!("the 'in' entry '{}' has no default", entry.name);
+        return Err(RunError::usage(message, "give it one, or write the scenarios yourself"));
+    }
+    let scenario = Scenario {
+        name: "as it goes".to_owned(),
+        span: graph.main().span,
+        graph: Arc::new(graph),
+        plan_file: file.display().to_string(),
+        world: None,
+        robot: None,
+        seed: 0,
+        set: Vec::new(),
+        stimuli: Vec::new(),
+        expectations: Vec::new(),
+        until: RUN,
+    };
+    let setting = Setting::find(&scenario, file)?;
+    let runs = afp_test::run(&scenario, &setting, templates, None)?.activations;
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    Ok(afp_test::generate(&scenario.graph, &format!("../{name}"), &runs))
+}
+
+/// `tests/patrol_generated.afp` beside `patrol.afp`.
+fn place(file: &Path) -> Result<PathBuf, RunError> {
+    let folder = file.parent().unwrap_or(Path::new("")).join("tests");
+    fs::create_dir_all(&folder).map_err(RunError::file("cannot make the folder", &folder))?;
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    Ok(folder.join(format!("{stem}_generated.afp")))
+}
