@@ -58,6 +58,11 @@ fn words_and_files_choose() {
     };
     assert_eq!(part("searchFirstWall.touch.TouchSensorPressed"), 1);
     assert_eq!(part("followWall"), 0);
+    place.afpc("run wall_following.afp --until 60s --log a.mcap --svg none").succeeds();
+    let more = place.afpc("test bump --json --coverage --add-log a.mcap").last_json();
+    let parts = more["parts"].as_array().unwrap();
+    let follow = parts.iter().find(|part| part["name"] == "followWall").unwrap();
+    assert!(follow["count"].as_u64().unwrap() > 0, "{follow}");
     place.afpc("test tests/room.afp bump").succeeds();
     place.afpc("test nonsense").fails(2, &["no scenario has 'nonsense' in its name"]);
     place.afpc("test wall_following.afp").fails(2, &["has no scenarios"]);

@@ -1,7 +1,11 @@
 //! How often a run used each part of its plan.
 
-use afp_core::trace::{Author, ComponentId, DEADLINE_MISSED, ERROR, Record};
+use afp_core::trace::{Author, ComponentId, DEADLINE_MISSED, ERROR, Record, TraceEntryId};
+use afp_core::{Fault, ValueRef};
 use afp_dsl::unfold::Place;
+use afp_log::LogData;
+use afp_log::proto::afp::PlanEvent;
+use afp_log::proto::afp::plan_event::Kind;
 
 /// How often each component and entry was used, by number.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -25,6 +29,35 @@ pub struct Touched {
     pub outcomes: Vec<u64>,
     /// How often it failed (an element) or missed a deadline with a consequence (a supervisor).
     pub special: u64,
+}
+
+impl Touched {
+    /// The same component, never used.
+    fn none(&self) -> Touched {
+        Touched { starts: 0, outcomes: vec![0; self.outcomes.len()], special: 0 }
+    }
+}
+
+/// The record behind an event of a log, as far as it matters here.
+fn record(event: &PlanEvent) -> Option<Record<'static>> {
+    let component = ComponentId(event.component_id);
+    let outcome = u16::try_from(event.outcome_id).ok()?;
+    Some(match event.kind() {
+        Kind::Started => Record::Started { component },
+        Kind::Finished => Record::Finished { element: component, state: outcome },
+        Kind::Event => Record::Event { supervisor: component, event: outcome },
+        Kind::Faulted => Record::Faulted { component, fault: Fault::INTERNAL },
+        Kind::Committed => Record::Committed {
+            author: match event.component_id {
+                u32::MAX => Author::Outside,
+                _ => Author::Component(component),
+            },
+            entry: TraceEntryId(event.entry_id),
+            old: ValueRef::Unset,
+            new: ValueRef::Unset,
+        },
+        _ => return None,
+    })
 }
 
 impl Hits {
@@ -79,6 +112,22 @@ impl Hits {
         for (mine, other) in self.entries.iter_mut().zip(&other.entries) {
             *mine += other;
         }
+    }
+
+    /// Adds what a logged run of the same plan used; `false` when the log is of another plan.
+    pub fn add_log(&mut self, log: &LogData) -> bool {
+        if log.table.components.len() != self.components.len() {
+            return false;
+        }
+        let mut other = Hits {
+            components: self.components.iter().map(Touched::none).collect(),
+            entries: vec![0; self.entries.len()],
+            ended: None,
+            owners: self.owners.clone(),
+        };
+        log.events.iter().filter_map(record).for_each(|record| other.hear(&record));
+        self.add(&other);
+        true
     }
 
     fn touched(&mut self, id: ComponentId) -> Option<&mut Touched> {

@@ -36,6 +36,10 @@ pub struct Arguments {
     #[arg(long)]
     coverage: bool,
 
+    /// Counts logged runs of the same plans too
+    #[arg(long, value_name = "LOG", requires = "coverage")]
+    add_log: Vec<PathBuf>,
+
     /// Writes scenarios for plans: every event at five points of each actor's run
     #[arg(long)]
     generate: bool,
@@ -145,13 +149,17 @@ fn run_all(cases: &[Case<'_>], arguments: &Arguments, linked: &[Linked]) -> Resu
         .collect();
     teller.end(cases, &done, begun.elapsed().as_secs_f64())?;
     if arguments.coverage {
-        tell::coverage(&coverage(cases, &done), arguments.json)?;
+        tell::coverage(&coverage(cases, &done, &arguments.add_log)?, arguments.json)?;
     }
     Ok(done.iter().any(|done| !done.passed()))
 }
 
 /// What the runs used, for each plan.
-fn coverage(cases: &[Case<'_>], done: &[Done]) -> Vec<Coverage> {
+fn coverage(
+    cases: &[Case<'_>],
+    done: &[Done],
+    logs: &[PathBuf],
+) -> Result<Vec<Coverage>, RunError> {
     let mut plans: Vec<(&Scenario, Hits)> = Vec::new();
     for (case, done) in cases.iter().zip(done) {
         let Ok(verdict) = &done.verdict else { continue };
@@ -164,7 +172,19 @@ fn coverage(cases: &[Case<'_>], done: &[Done]) -> Vec<Coverage> {
             None => plans.push((case.scenario, verdict.hits.clone())),
         }
     }
-    plans.iter().map(|(scenario, hits)| Coverage::new(&scenario.graph, hits)).collect()
+    for path in logs {
+        let log = afp_log::read(path)?;
+        let name = log.facts.get("plan").map_or("", String::as_str);
+        let known = plans.iter_mut().find(|(scenario, _)| scenario.graph.main().name == name);
+        if !known.is_some_and(|(_, hits)| hits.add_log(&log)) {
+            let message = format!("'{}' is no log of a plan with scenarios here", path.display());
+            return Err(RunError::usage(
+                message,
+                "leave it out, or run it with the plan as it is now",
+            ));
+        }
+    }
+    Ok(plans.iter().map(|(scenario, hits)| Coverage::new(&scenario.graph, hits)).collect())
 }
 
 impl Done {
