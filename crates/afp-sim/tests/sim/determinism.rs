@@ -48,3 +48,10 @@ fn the_same_seed_gives_the_same_run() {
 fn the_run_is_the_recorded_one() {
     assert_eq!(script(11), GOLDEN, "{:#018x}", script(11));
 }
+
+#[test]
+fn a_simulation_may_run_on_any_thread() {
+    fn any_thread<T: Send + Sync>() {}
+    any_thread::<Simulation>();
+    any_thread::<World>();
+}

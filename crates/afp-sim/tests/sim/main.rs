@@ -9,6 +9,7 @@ mod random;
 mod schema;
 mod seeing;
 mod sensors;
+mod storms;
 mod vehicle;
 mod world;
 
