@@ -11,6 +11,12 @@ use common::{Place, Said, said};
 const TOOLBOX: &str = include_str!("gestures/gestures.afp");
 const RUST: &str = include_str!("gestures/src/lib.rs");
 const PLAN: &str = include_str!("gestures/dance.afp");
+const SCENARIO: &str = "use \"../dance.afp\"\n
+scenario \"turns and goes on\" for Dance {
+    expect second -> ahead by enough before 10 s
+    until 20 s
+}
+";
 const HOST: &str = include_str!("gestures/host.rs");
 const QUIET: &str = "--log none --svg none";
 
@@ -136,6 +142,11 @@ fn through_a_runner(place: &Place) -> String {
     let again = build_with(without_cargo, &run);
     again.succeeds();
     assert_eq!((&*again.out, &*again.err), (&*first.out, ""));
+
+    place.write("plans/tests/dance.afp", SCENARIO);
+    let tested = afpc(place, "test");
+    tested.succeeds();
+    assert!(tested.out.contains("1 passed, 0 failed"), "{}{}", tested.out, tested.err);
 
     // Exit codes and messages are those of the runner.
     afpc(place, &format!("{run} --set spent=1s")).fails(2, &["cannot be set from outside"]);
