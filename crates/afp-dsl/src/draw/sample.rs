@@ -2,7 +2,6 @@
 
 use std::fmt::Write;
 
-use crate::files::Texts;
 use crate::source::Source;
 use crate::toolbox::Toolboxes;
 use crate::{Compiled, compile};
@@ -15,11 +14,12 @@ pub(super) const EVERY_PART: &str = include_str!("../../tests/draw/every_part.af
 
 /// Compiles a plan that has no errors.
 pub(super) fn compiled(text: &str) -> Compiled {
-    compiled_with(text, &[])
+    compiled_with(&Source::new("sample.afp", text), &[])
 }
 
-/// Compiles a plan that needs more toolboxes than the built-in ones.
-pub(super) fn compiled_with(text: &str, toolbox_texts: &[String]) -> Compiled {
+/// Compiles a plan that needs more toolboxes than the built-in ones; its name is a path, from which
+/// the files that it uses are found.
+pub(super) fn compiled_with(source: &Source, toolbox_texts: &[String]) -> Compiled {
     let mut toolboxes = Toolboxes::default();
     for builtin in afp_toolboxes::ALL {
         toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
@@ -27,7 +27,8 @@ pub(super) fn compiled_with(text: &str, toolbox_texts: &[String]) -> Compiled {
     for text in toolbox_texts {
         toolboxes.add(Source::new("more.afp", text.as_str()), "more");
     }
-    let compiled = compile(&Source::new("sample.afp", text), &toolboxes, &Texts::default());
+    let read = |path: &str| std::fs::read_to_string(path).map_err(|error| error.to_string());
+    let compiled = compile(source, &toolboxes, &read);
     assert!(compiled.graph.is_some(), "{}", compiled.render(false));
     compiled
 }

@@ -6,6 +6,7 @@ use super::svg::sketch;
 use super::{Options, Theme, svg};
 use crate::Compiled;
 use crate::layout_file::Layout;
+use crate::source::Source;
 use crate::toolbox::Toolbox;
 
 /// Two lines nearer than this look like one.
@@ -16,11 +17,15 @@ fn nothing_overlaps_in_the_plans_that_are_shipped() {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
     let files =
         [format!("{root}/plans"), format!("{root}/examples")].map(|folder| afp_files(&folder));
-    let texts = files.concat().into_iter().map(|file| std::fs::read_to_string(file).unwrap());
-    let (toolboxes, plans): (Vec<_>, Vec<_>) = texts.partition(|text| is_toolbox(text));
+    let sources = files
+        .concat()
+        .into_iter()
+        .map(|file| Source::new(file.to_str().unwrap(), std::fs::read_to_string(&file).unwrap()));
+    let (toolboxes, plans): (Vec<_>, Vec<_>) = sources.partition(|file| is_toolbox(&file.text));
+    let toolboxes: Vec<_> = toolboxes.into_iter().map(|file| file.text).collect();
     assert!(plans.len() >= 2, "plans have moved");
-    for text in plans {
-        check_all(&compiled_with(&text, &toolboxes));
+    for plan in plans {
+        check_all(&compiled_with(&plan, &toolboxes));
     }
 }
 
