@@ -60,11 +60,7 @@ fn checks(toolboxes: &Toolboxes, texts: Vec<String>) -> impl FnMut(u64) {
 }
 
 fn toolboxes() -> Toolboxes {
-    let mut toolboxes = Toolboxes::default();
-    for toolbox in afp_toolboxes::ALL {
-        toolboxes.add(Source::new(toolbox.file_name, toolbox.text), toolbox.rust_path);
-    }
-    toolboxes
+    afp_toolboxes::sources().collect()
 }
 
 fn milliseconds(case: &Times) -> Row {

@@ -91,9 +91,5 @@ pub fn settings(data: &[u8]) {
 }
 
 fn toolboxes() -> Toolboxes {
-    let mut toolboxes = Toolboxes::default();
-    for toolbox in afp_toolboxes::ALL {
-        toolboxes.add(Source::new(toolbox.file_name, toolbox.text), toolbox.rust_path);
-    }
-    toolboxes
+    afp_toolboxes::sources().collect()
 }

@@ -43,6 +43,31 @@ pub struct Scenario {
     pub until: u64,
 }
 
+impl Scenario {
+    /// A run of a plan in its own world in which nothing happens and nothing is expected, for so
+    /// many nanoseconds.
+    pub fn quiet(
+        name: impl Into<String>,
+        graph: Arc<Graph>,
+        plan_file: impl Into<String>,
+        until: u64,
+    ) -> Scenario {
+        Scenario {
+            name: name.into(),
+            span: graph.main().span,
+            graph,
+            plan_file: plan_file.into(),
+            world: None,
+            robot: None,
+            seed: 0,
+            set: Vec::new(),
+            stimuli: Vec::new(),
+            expectations: Vec::new(),
+            until,
+        }
+    }
+}
+
 /// Where the robot starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {

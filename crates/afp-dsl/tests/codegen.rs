@@ -18,10 +18,7 @@ fn cases() -> Vec<PathBuf> {
 }
 
 fn toolboxes() -> Toolboxes {
-    let mut toolboxes = Toolboxes::default();
-    for builtin in afp_toolboxes::ALL {
-        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
-    }
+    let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/codegen/toolbox.afp");
     toolboxes.add(Source::new("toolbox.afp", fs::read_to_string(folder).unwrap()), "crate::kit");
     toolboxes

@@ -14,10 +14,7 @@ const EVERY_PART: &str = include_str!("draw/every_part.afp");
 const EXPECTED: &str = include_str!("draw/wall_following.json");
 
 fn compiled(text: &str) -> Compiled {
-    let mut toolboxes = Toolboxes::default();
-    for builtin in afp_toolboxes::ALL {
-        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
-    }
+    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     let compiled = compile(&Source::new("plan.afp", text), &toolboxes, &Texts::default());
     assert!(compiled.graph.is_some(), "{}", compiled.render(false));
     compiled

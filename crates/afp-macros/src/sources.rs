@@ -76,10 +76,7 @@ pub struct Available {
 /// # Errors
 /// A sentence that says what is missing or wrong.
 pub fn toolboxes(files: &[(String, String)]) -> Result<Available, String> {
-    let mut toolboxes = Toolboxes::default();
-    for builtin in afp_toolboxes::ALL {
-        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
-    }
+    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     let mut all = Available { toolboxes, texts: Vec::new(), without_crate: Vec::new() };
     all.add_project().map_err(|error| error.to_string())?;
     for (path, module) in files {

@@ -169,10 +169,7 @@ fn story<P: Plan<Script> + NamedPlan>(
 }
 
 fn loaded() -> LoadedPlan<Script> {
-    let mut toolboxes = Toolboxes::default();
-    for builtin in afp_toolboxes::ALL {
-        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
-    }
+    let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     toolboxes.add(Source::new("toolbox.afp", kit::templates::SOURCE), "crate::kit");
     let text = include_str!("../../afp-dsl/tests/codegen/everything.afp");
     let compiled =

@@ -45,10 +45,7 @@ struct Outcome {
 }
 
 fn load() -> LoadedPlan<Simulation> {
-    let mut toolboxes = Toolboxes::default();
-    for builtin in afp_toolboxes::ALL {
-        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
-    }
+    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     let compiled = compile(&Source::new("wall_following.afp", PLAN), &toolboxes, &Texts::default());
     let messages = compiled.render(false);
     let graph = compiled.graph.expect(&messages);

@@ -22,10 +22,7 @@ pub fn check(file: &Path, name: &str, templates: &(dyn Fn(&mut Registry<Simulati
         panic!("scenario \"{name}\" of {}\n{}", file.display(), anstream::adapter::strip_str(&text))
     };
     let text = fs::read_to_string(file).unwrap_or_else(|error| failed(error.to_string()));
-    let mut toolboxes = Toolboxes::default();
-    for toolbox in afp_toolboxes::ALL {
-        toolboxes.add(Source::new(toolbox.file_name, toolbox.text), toolbox.rust_path);
-    }
+    let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     let project = ProjectFile::of_plan(file).and_then(|project| project.toolboxes());
     for own in project.unwrap_or_else(|error| failed(error.to_string())) {
         let source = Source::new(own.path.display().to_string(), own.text);

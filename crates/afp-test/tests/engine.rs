@@ -40,10 +40,7 @@ plan Nested {
 
 fn compiled(plan: &str, lines: &str) -> Compiled {
     let text = format!("{plan}\nscenario \"it\" for Ahead {{\n{lines}\n}}\n");
-    let mut toolboxes = Toolboxes::default();
-    for builtin in afp_toolboxes::ALL {
-        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
-    }
+    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     let source = Source::new("case.afp", text);
     let compiled = afp_dsl::compile(&source, &toolboxes, &Texts::default());
     assert!(!compiled.scenarios.is_empty(), "{}", compiled.render(false));

@@ -12,10 +12,7 @@ use afp_dsl::toolbox::Toolboxes;
 use afp_test::{Setting, Verdict};
 
 fn compiled(name: &str, text: &str) -> Compiled {
-    let mut toolboxes = Toolboxes::default();
-    for builtin in afp_toolboxes::ALL {
-        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
-    }
+    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     let compiled = afp_dsl::compile(&Source::new(name, text), &toolboxes, &Texts::default());
     assert!(compiled.graph.is_some(), "{}", compiled.render(false));
     compiled
@@ -34,19 +31,7 @@ fn every_event_leads_where_the_plan_says() {
     for file in files {
         let (name, text) = (file.display().to_string(), fs::read_to_string(&file).unwrap());
         let graph = Arc::new(compiled(&name, &text).graph.unwrap());
-        let base = Scenario {
-            name: "as it goes".to_owned(),
-            span: graph.main().span,
-            graph: graph.clone(),
-            plan_file: name.clone(),
-            world: None,
-            robot: None,
-            seed: 0,
-            set: Vec::new(),
-            stimuli: Vec::new(),
-            expectations: Vec::new(),
-            until: DEFAULT_UNTIL,
-        };
+        let base = Scenario::quiet("as it goes", graph.clone(), &*name, DEFAULT_UNTIL);
         let setting = Setting::find(&base, &file).unwrap();
         let made = afp_test::generate(&graph, "same file", &run(&base, &setting).activations);
         // The scenarios stand below the plan itself, so nothing is used.

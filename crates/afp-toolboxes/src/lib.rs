@@ -32,6 +32,12 @@ pub const ALL: &[Builtin] = &[
     },
 ];
 
+/// Each toolbox as a set of toolboxes takes it in: the name of its file, its text, and the crate that
+/// implements it.
+pub fn sources() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
+    ALL.iter().map(|toolbox| (toolbox.file_name, toolbox.text, toolbox.rust_path))
+}
+
 macro_rules! icons {
     ($($name:literal),* $(,)?) => {
         /// Every icon: the name that templates give, and the SVG text (24 x 24, drawn in

@@ -44,10 +44,7 @@ impl OwnToolboxes {
     /// # Errors
     /// A toolbox file is that of another toolbox than the project says.
     pub fn with_built_in(&self) -> Result<Toolboxes, ProjectError> {
-        let mut toolboxes = Toolboxes::default();
-        for toolbox in afp_toolboxes::ALL {
-            toolboxes.add(Source::new(toolbox.file_name, toolbox.text), toolbox.rust_path);
-        }
+        let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
         for file in &self.files {
             // Plans can be checked before there is a crate; whoever needs it asks for it.
             let name = &file.toolbox.name;

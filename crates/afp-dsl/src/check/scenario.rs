@@ -113,18 +113,10 @@ fn scenario(
         .collect();
     let (until, until_span) = times::until(&lines, diags);
     let checker = Checker { context, paths: Paths::new(&graph), head, until, until_span };
+    let plan_file = &files.get(head.file)?.source.name;
     let mut scenario = Scenario {
-        name: unquote(&name, diags),
         span: name.span,
-        plan_file: files.get(head.file)?.source.name.clone(),
-        world: None,
-        robot: None,
-        seed: 0,
-        set: Vec::new(),
-        stimuli: Vec::new(),
-        expectations: Vec::new(),
-        until,
-        graph: graph.clone(),
+        ..Scenario::quiet(unquote(&name, diags), graph.clone(), plan_file, until)
     };
     checker.lines(&lines, &mut scenario, diags);
     let broken = diags.error_within(node.span());

@@ -20,10 +20,7 @@ pub(super) fn compiled(text: &str) -> Compiled {
 /// Compiles a plan that needs more toolboxes than the built-in ones; its name is a path, from which
 /// the files that it uses are found.
 pub(super) fn compiled_with(source: &Source, toolbox_texts: &[String]) -> Compiled {
-    let mut toolboxes = Toolboxes::default();
-    for builtin in afp_toolboxes::ALL {
-        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
-    }
+    let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     for text in toolbox_texts {
         toolboxes.add(Source::new("more.afp", text.as_str()), "more");
     }

@@ -197,6 +197,12 @@ impl Kind {
         matches!(self, Kind::Whitespace | Kind::Comment | Kind::Doc | Kind::BlockComment)
     }
 
+    /// Whether it compares two values.
+    pub(super) fn is_comparison(self) -> bool {
+        use Kind::{EqualEqual, Greater, GreaterEqual, Less, LessEqual, NotEqual};
+        matches!(self, EqualEqual | NotEqual | Less | LessEqual | Greater | GreaterEqual)
+    }
+
     /// How a diagnostic names a token that is expected.
     pub(super) fn describe(self) -> &'static str {
         match self {

@@ -62,3 +62,15 @@ impl Toolboxes {
         self.broken.iter().any(|known| known == name)
     }
 }
+
+/// Reads toolbox files, each given as the name of its file, its text, and the path of the crate that
+/// implements it, as `afp_toolboxes::sources()` gives them.
+impl<'a> FromIterator<(&'a str, &'a str, &'a str)> for Toolboxes {
+    fn from_iter<I: IntoIterator<Item = (&'a str, &'a str, &'a str)>>(files: I) -> Toolboxes {
+        let mut toolboxes = Toolboxes::default();
+        for (name, text, rust_path) in files {
+            toolboxes.add(Source::new(name, text), rust_path);
+        }
+        toolboxes
+    }
+}

@@ -14,10 +14,7 @@ const SUB_PLANS: &str = include_str!("../graph/sub_plans.afp");
 /// The dump of the graph of a text, which must compile.
 #[track_caller]
 fn dump(text: &str) -> String {
-    let mut toolboxes = Toolboxes::default();
-    for builtin in afp_toolboxes::ALL {
-        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
-    }
+    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     let compiled = compile(&Source::new("case.afp", text), &toolboxes, &Texts::default());
     let graph = compiled.graph.as_ref();
     graph.unwrap_or_else(|| panic!("{}\n{text}", compiled.render(false))).dump()

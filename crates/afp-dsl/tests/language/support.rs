@@ -11,10 +11,7 @@ use afp_dsl::toolbox::Toolboxes;
 
 /// The built-in toolboxes and those of `tests/toolboxes/`.
 pub fn toolboxes() -> Toolboxes {
-    let mut toolboxes = Toolboxes::default();
-    for builtin in afp_toolboxes::ALL {
-        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
-    }
+    let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     for path in files("tests/toolboxes") {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         toolboxes.add(Source::new(name, read(&path)), "extra");

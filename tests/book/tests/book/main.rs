@@ -12,7 +12,6 @@ mod toml_blocks;
 use std::path::{Path, PathBuf};
 
 use afp_book::Block;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 
 /// The book's folder.
@@ -29,11 +28,7 @@ fn blocks(kind: &str) -> Vec<Block> {
 
 /// The built-in toolboxes.
 fn toolboxes() -> Toolboxes {
-    let mut toolboxes = Toolboxes::default();
-    for builtin in afp_toolboxes::ALL {
-        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
-    }
-    toolboxes
+    afp_toolboxes::sources().collect()
 }
 
 /// Compares a text of the book with what it should be; with `AFP_BLESS=1` rewrites it instead.

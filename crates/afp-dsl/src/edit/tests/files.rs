@@ -109,10 +109,7 @@ fn refused(home: usize, change: &Change, why: &str) {
 /// Checks that the first file compiles with the others.
 #[track_caller]
 fn assert_compiles(texts: &[String]) {
-    let mut toolboxes = Toolboxes::default();
-    for builtin in afp_toolboxes::ALL {
-        toolboxes.add(Source::new(builtin.file_name, builtin.text), builtin.rust_path);
-    }
+    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     let mut others = Texts::default();
     PATHS.iter().zip(texts).for_each(|(path, text)| others.add(path, text.as_str()));
     let compiled = compile(&Source::new(PATHS[0], &*texts[0]), &toolboxes, &others);

@@ -202,7 +202,7 @@ impl Claim {
             };
         }
         let comparison = find_token(&self.node, self.file, |kind, text, span| {
-            is_comparison(kind).then(|| Name { text: text.to_owned(), span })
+            kind.is_comparison().then(|| Name { text: text.to_owned(), span })
         });
         match comparison {
             Some(sign) => ClaimKind::Compare(first, sign, Formula::child_of(&self.node, self.file)),
@@ -238,16 +238,4 @@ impl Path {
 
 fn path(node: &Node, file: u16) -> Option<Path> {
     child(node, Kind::Path).map(|node| Path::new(node, file))
-}
-
-fn is_comparison(kind: Kind) -> bool {
-    matches!(
-        kind,
-        Kind::EqualEqual
-            | Kind::NotEqual
-            | Kind::Less
-            | Kind::LessEqual
-            | Kind::Greater
-            | Kind::GreaterEqual
-    )
 }

@@ -144,7 +144,7 @@ impl Parser<'_, '_> {
     }
 
     fn claim(&mut self) {
-        let is_path = matches!(self.nth(1), Kind::Dot | Kind::Arrow) || is_comparison(self.nth(1));
+        let is_path = matches!(self.nth(1), Kind::Dot | Kind::Arrow) || self.nth(1).is_comparison();
         if !is_path && self.at_word("running") {
             return self.keyword();
         }
@@ -157,7 +157,7 @@ impl Parser<'_, '_> {
                 self.path();
             }
             self.by();
-        } else if is_comparison(self.nth(0)) {
+        } else if self.nth(0).is_comparison() {
             self.bump();
             self.formula();
         } else {
@@ -170,16 +170,4 @@ impl Parser<'_, '_> {
             self.path();
         }
     }
-}
-
-fn is_comparison(kind: Kind) -> bool {
-    matches!(
-        kind,
-        Kind::EqualEqual
-            | Kind::NotEqual
-            | Kind::Less
-            | Kind::LessEqual
-            | Kind::Greater
-            | Kind::GreaterEqual
-    )
 }

@@ -51,19 +51,8 @@ fn generate(file: &Path, graph: Graph, templates: Templates<'_>) -> Result<Gener
         let message = format!("the 'in' entry '{}' has no default", entry.name);
         return Err(RunError::usage(message, "give it one, or write the scenarios yourself"));
     }
-    let scenario = Scenario {
-        name: "as it goes".to_owned(),
-        span: graph.main().span,
-        graph: Arc::new(graph),
-        plan_file: file.display().to_string(),
-        world: None,
-        robot: None,
-        seed: 0,
-        set: Vec::new(),
-        stimuli: Vec::new(),
-        expectations: Vec::new(),
-        until: RUN,
-    };
+    let plan_file = file.display().to_string();
+    let scenario = Scenario::quiet("as it goes", Arc::new(graph), plan_file, RUN);
     let setting = Setting::find(&scenario, file)?;
     let runs = afp_test::run(&scenario, &setting, templates, None)?.activations;
     let name = file.file_name().unwrap_or_default().to_string_lossy();
