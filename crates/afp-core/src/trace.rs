@@ -4,12 +4,14 @@
 //! paths that people know. With [`NoTrace`] the compiler removes all of it.
 
 mod display;
+mod hash;
 
 use crate::fault::Fault;
 use crate::time::{Duration, Instant};
 use crate::value::ValueRef;
 
 pub use display::Line;
+pub use hash::TraceHash;
 
 /// A component of a running plan, sub-plans unfolded: 0 is the outermost plan itself, then its
 /// elements and supervisors, then those of its sub-plans.

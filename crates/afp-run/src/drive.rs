@@ -7,7 +7,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use afp_core::rt::Plan;
-use afp_core::trace::{Line, Names, Record, TraceEntryId};
+use afp_core::trace::{Line, Names, Record, TraceEntryId, TraceHash};
 use afp_core::{
     Duration, Ending, Environment, Fault, Instant, PlanState, Scheduler, StartError, StillClock,
     Wake,
@@ -33,6 +33,7 @@ pub(crate) struct Drive<'a, P: PlanState, N> {
     pub names: &'a N,
     pub tracer: Tracer,
     pub judge: Judge,
+    pub trace: TraceHash,
     pub report: Report,
     pub pace: Pace,
     pub stop: StopFlag,
@@ -164,6 +165,7 @@ impl<P: Plan<Simulation>, N: Names> Drive<'_, P, N> {
         for owned in news.drain(..) {
             let (at, record) = (owned.at, owned.get());
             self.judge.hear(at, &record, self.names, &truth);
+            self.trace.record(at, &record, self.names);
             self.report.tell(at, &record, self.names);
             if let (Some(log), Some(level)) = (log.as_mut(), level(&record)) {
                 let line = Line { at, record: &record, names: self.names }.to_string();

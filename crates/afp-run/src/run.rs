@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use afp_core::rt::{NamedPlan, Plan};
-use afp_core::trace::{Ending, Names};
+use afp_core::trace::{Ending, Names, TraceHash};
 use afp_core::{Instant, Scheduler};
 use afp_log::{About, NameTable, Recorder, WhenFull, Written};
 use afp_sim::{STEP, Simulation};
@@ -62,6 +62,7 @@ where
         names: &names,
         tracer: Tracer::new(log),
         judge: Judge::new(&names),
+        trace: TraceHash::default(),
         report: Report::new(options.json, options.end()),
         pace: Pace::new(options.speed),
         stop,
@@ -102,6 +103,7 @@ where
         stopped_by: setting.stopped_by,
         end,
         misses: drive.scheduler.misses(),
+        trace: drive.trace,
         collisions: truth.collisions(),
     };
     let figures = Figures::new(&ran, &drive.judge, drive.names);

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use afp::load::{LoadedPlan, PlanNames};
 use afp_core::rt::NamedPlan;
-use afp_core::trace::{Line, Names, Record};
+use afp_core::trace::{Names, TraceHash};
 use afp_core::{Duration, Environment, Fault, Instant, PlanState, Scheduler, StartError, Wake};
 use afp_dsl::scenario::Scenario;
 use afp_dsl::scenario::devices::Control;
@@ -37,7 +37,7 @@ pub(crate) struct Drive<'a> {
     stimuli: Stimuli,
     broken: Vec<Broken>,
     timeline: Vec<(Instant, String)>,
-    trace: Fnv,
+    trace: TraceHash,
 }
 
 impl<'a> Drive<'a> {
@@ -77,7 +77,7 @@ impl<'a> Drive<'a> {
             stimuli,
             broken: Vec::new(),
             timeline: Vec::new(),
-            trace: Fnv::default(),
+            trace: TraceHash::default(),
         };
         drive.robot = drive.tracer.log.as_mut().map(|log| RobotLog::begin(log, &world.world));
         Ok(drive)
@@ -122,7 +122,7 @@ impl<'a> Drive<'a> {
             hits: self.watch.hits,
             activations: self.watch.activations,
             timeline: self.timeline,
-            trace: self.trace.0,
+            trace: self.trace.get(),
         })
     }
 
@@ -168,7 +168,7 @@ impl<'a> Drive<'a> {
         for owned in self.tracer.news.drain(..) {
             let (at, record) = (owned.at, owned.get());
             self.watch.hear(at, &record);
-            self.trace.line(at, &record, &self.names);
+            self.trace.record(at, &record, &self.names);
             if let Some(line) = afp_run::line(at, &record, &self.names) {
                 self.timeline.push((at, line));
             }
@@ -247,30 +247,5 @@ fn about(scenario: &Scenario, setting: &Setting) -> About {
     About {
         facts: facts.map(|(key, value)| (key.to_owned(), value)).to_vec(),
         attachments: vec![("world.toml".to_owned(), "application/toml", world.text.clone())],
-    }
-}
-
-/// The FNV-1a hash of the trace as text, without polls that saw nothing.
-struct Fnv(u64);
-
-impl Default for Fnv {
-    fn default() -> Self {
-        Fnv(0xcbf2_9ce4_8422_2325)
-    }
-}
-
-impl Fnv {
-    fn line(&mut self, at: Instant, record: &Record<'_>, names: &PlanNames) {
-        use std::fmt::Write;
-        let _ = writeln!(self, "{}", Line { at, record, names });
-    }
-}
-
-impl std::fmt::Write for Fnv {
-    fn write_str(&mut self, text: &str) -> std::fmt::Result {
-        for byte in text.bytes() {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-        }
-        Ok(())
     }
 }

@@ -51,6 +51,17 @@ fn json_is_the_same_every_time() {
 }
 
 #[test]
+fn a_run_in_real_time_is_that_at_full_speed() {
+    let place = Place::with_plan();
+    let run = format!("run wall_following.afp --json --until 3500ms --world random:5 {QUIET}");
+    let fast = place.afpc(&run);
+    fast.succeeds();
+    assert_eq!(place.afpc(&format!("{run} --speed 1x")).out, fast.out);
+    let trace = &fast.last_json()["summary"]["trace"];
+    assert_eq!(trace.as_str().map(str::len), Some(16), "{trace}");
+}
+
+#[test]
 fn a_log_does_not_change_the_run() {
     let place = Place::with_plan();
     let run = "run wall_following.afp --json --until 20s --svg none --log";

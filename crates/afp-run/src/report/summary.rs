@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use afp_core::Instant;
-use afp_core::trace::{ComponentId, Ending, Kind, Names};
+use afp_core::trace::{ComponentId, Ending, Kind, Names, TraceHash};
 use afp_sim::{Collision, World};
 use anstyle::{AnsiColor, Style};
 use serde::{Serialize, Serializer};
@@ -47,6 +47,8 @@ pub(crate) struct Figures {
     #[serde(skip_serializing_if = "Option::is_none")]
     wall_error: Option<Wall>,
     contacts: Vec<Contact>,
+    /// The hash of the trace.
+    trace: String,
 }
 
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -87,6 +89,7 @@ pub(crate) struct Ran<'a> {
     pub stopped_by: Option<StoppedBy>,
     pub end: Instant,
     pub misses: u64,
+    pub trace: TraceHash,
     pub collisions: &'a [Collision],
 }
 
@@ -122,6 +125,7 @@ impl Figures {
             distance_m: judge.distance,
             wall_error: (judged_s > 0.0).then_some(Wall { mean_m, max_m, judged_s }),
             contacts: ran.collisions.iter().map(contact).collect(),
+            trace: ran.trace.to_string(),
         }
     }
 }
@@ -217,6 +221,7 @@ impl Summary {
             let (begin, end) = (contact.begin_s, contact.end_s);
             line("contact", format!("{} from {begin:.2} s to {end:.2} s", contact.obstacle));
         }
+        line("trace", figures.trace.clone());
         line("speed", format!("{:.0} x real time", self.speed));
         if self.lost > 0 {
             line("lost", format!("{BAD}{} log records{BAD:#}", self.lost));
