@@ -56,6 +56,7 @@ icons! {
     "check_value",
     "compare",
     "count",
+    "curve",
     "forward",
     "log",
     "search_wall",
