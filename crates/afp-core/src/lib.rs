@@ -8,6 +8,7 @@
 mod clock;
 mod component;
 mod fault;
+mod job;
 mod machine;
 pub mod quantity;
 #[doc(hidden)]
@@ -23,6 +24,7 @@ pub use component::{
     SupervisorTemplate,
 };
 pub use fault::{Fault, Reason};
+pub use job::{Job, Ticket, Worker};
 pub use machine::MAX_TRANSITIONS_PER_STEP;
 pub use rt::{NamedPlan, Plan, PlanState, WriteError};
 pub use scheduler::{MAX_WRITES_PER_STEP, Scheduler, StartError, Wake};

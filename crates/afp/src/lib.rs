@@ -5,9 +5,9 @@
 
 pub use afp_core as core;
 pub use afp_core::{
-    Actor, Computation, Duration, Ending, Environment, Events, Fault, Instant, NamedPlan, Plan,
-    Poll, Reason, Scheduler, StartError, StillClock, Supervisor, Text, Value, ValueRef, Wake,
-    WriteError, quantity, trace,
+    Actor, Computation, Duration, Ending, Environment, Events, Fault, Instant, Job, NamedPlan,
+    Plan, Poll, Reason, Scheduler, StartError, StillClock, Supervisor, Text, Ticket, Value,
+    ValueRef, Wake, Worker, WriteError, quantity, trace,
 };
 
 #[cfg(feature = "load")]

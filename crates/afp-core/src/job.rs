@@ -1,0 +1,95 @@
+//! Long computations beside the plan: handed to a worker, asked after at every poll.
+//!
+//! No poll may take long, so a component that has much to compute (a path, the flow of a picture)
+//! describes it as a [`Job`] and hands it to a [`Worker`], which the platform owns together with
+//! every buffer the job needs. Nothing is allocated and nobody waits:
+//!
+//! ```text
+//!   begin ──Some(ticket)──▶ under way ──poll: Ready──▶ over
+//!     │                       │   ╲───poll: Err──────▶ over
+//!    None: every place         ╲──────cancel──────────▶ over, the result is lost
+//!     is taken, ask again
+//! ```
+//!
+//! In virtual time a job is ready when its declared time has passed, however long the machine took,
+//! so a trace is the same everywhere. The workers themselves are in `afp-worker`.
+
+use crate::component::Poll;
+use crate::fault::{Fault, Reason};
+use crate::time::{Duration, Instant};
+
+/// A long computation together with its buffers: what it works on and what it gives.
+pub trait Job: Send + 'static {
+    /// How long it takes at most on the slowest platform; in virtual time it takes just that.
+    const TAKES: Duration;
+
+    /// Computes, on a worker. What it works on has been written into it by whoever began it.
+    ///
+    /// # Errors
+    /// Whoever asks after the job gets the fault.
+    fn run(&mut self) -> Result<(), Fault>;
+}
+
+/// Names a job that was begun, to the worker that has it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ticket {
+    /// The worker's place and how many jobs it has had there.
+    place: u16,
+    round: u64,
+}
+
+impl Ticket {
+    /// The `round`-th job at a place; for those who implement workers.
+    pub const fn new(place: u16, round: u64) -> Self {
+        Ticket { place, round }
+    }
+
+    /// The place.
+    pub const fn place(self) -> u16 {
+        self.place
+    }
+
+    /// How many jobs had been there, this one included.
+    pub const fn round(self) -> u64 {
+        self.round
+    }
+}
+
+/// Does jobs of one kind, one after the other, with a fixed number of places for them.
+///
+/// A component that ends without asking after its job need not tell anybody: a finished job that
+/// nobody has fetched for a second gives its place up when another needs it.
+pub trait Worker<J: Job> {
+    /// Lets `prepare` write what a job works on into its buffers, and begins it. None if every place
+    /// is taken; the same can be asked for again at the next poll.
+    ///
+    /// # Errors
+    /// [`Fault::JOB_PANICKED`] when jobs have panicked at every place.
+    fn begin(
+        &mut self,
+        now: Instant,
+        prepare: &mut dyn FnMut(&mut J),
+    ) -> Result<Option<Ticket>, Fault>;
+
+    /// The job with its results, once; pending while it is under way.
+    ///
+    /// # Errors
+    /// The fault of the job; [`Fault::JOB_PANICKED`] if it panicked; [`Fault::JOB_LOST`] if it was
+    /// fetched or cancelled before or gave up its place. All of them end the job.
+    fn poll(&mut self, ticket: Ticket, now: Instant) -> Result<Poll<&J>, Fault>;
+
+    /// Gives up a job, which may go on computing for nobody; an actor does so when it is
+    /// interrupted. One that is over already is none of the ticket's business.
+    fn cancel(&mut self, ticket: Ticket, now: Instant);
+}
+
+impl Fault {
+    /// A job panicked. Its place is not used again, for who knows what it left in its buffers.
+    pub const JOB_PANICKED: Fault =
+        Fault::new(&Reason { code: "job-panicked", text: "a job on a worker panicked" });
+    /// A job that was asked after is over already.
+    pub const JOB_LOST: Fault = Fault::new(&Reason {
+        code: "job-lost",
+        text: "a job was asked after that nobody had fetched in time, or that was cancelled",
+    });
+}
