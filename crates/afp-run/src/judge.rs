@@ -4,8 +4,8 @@ use afp_core::trace::{ComponentId, Ending, Kind, Names, Record};
 use afp_core::{Duration, Instant, ValueRef};
 use afp_sim::{Pose, Truth};
 
-/// How often the truth is looked at.
-pub(crate) const SAMPLE: Duration = Duration::from_millis(20);
+use crate::rig::SAMPLE;
+
 /// Wall following counts from so long after its start.
 const SETTLING: Duration = Duration::from_secs(2);
 /// The template whose wall distance is judged, and its input that says which.

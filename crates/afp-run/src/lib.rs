@@ -3,16 +3,17 @@
 //! [`main()`] is the whole of a generated binary; [`run`] drives any plan on the simulated robot.
 //! Neither knows the language: a plan is what implements the scheduler's contract.
 
-mod drive;
+mod attend;
 mod error;
 mod hash;
-mod inputs;
-mod judge;
+pub mod inputs;
+pub mod judge;
 mod keys;
 pub mod options;
 mod output;
 mod pace;
 mod report;
+pub mod rig;
 mod robot;
 mod run;
 mod stop;
@@ -32,10 +33,8 @@ pub use error::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, EXIT_USAGE, RunError};
 pub use hash::hash;
 pub use output::write_whole;
 pub use report::{line, timeline};
-pub use robot::RobotLog;
 pub use run::run;
 pub use svg::draw_log;
-pub use tracer::Tracer;
 
 /// A plan and where it comes from.
 #[derive(Clone, Copy, Debug)]

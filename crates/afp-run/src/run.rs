@@ -4,12 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use afp_core::rt::{NamedPlan, Plan};
-use afp_core::trace::{Ending, Names, TraceHash};
-use afp_core::{Instant, Scheduler};
+use afp_core::{Duration, Ending, Environment, Instant, StartError};
 use afp_log::{About, NameTable, Recorder, WhenFull, Written};
 use afp_sim::{STEP, Simulation};
 
-use crate::drive::{Drive, Stimuli};
+use crate::attend::{Attendants, Stimuli};
 use crate::error::{EXIT_OK, EXIT_PLAN_ERROR, RunError};
 use crate::hash::hash;
 use crate::judge::Judge;
@@ -17,10 +16,9 @@ use crate::options::{Destination, RunOptions, Speed};
 use crate::output::{check_writable, write_whole};
 use crate::pace::Pace;
 use crate::report::{Figures, Ran, Report, StoppedBy, Summary};
-use crate::robot::RobotLog;
+use crate::rig::{Go, Rig};
 use crate::stop::StopFlag;
 use crate::svg::{self, Picture};
-use crate::tracer::Tracer;
 use crate::world::{self, LoadedWorld};
 use crate::{Program, inputs};
 
@@ -56,24 +54,43 @@ where
     };
     let stop =
         StopFlag::on_signals().map_err(RunError::file("cannot handle", "signals".as_ref()))?;
-    let mut drive = Drive {
-        scheduler: Scheduler::new(plan),
-        sim,
-        names: &names,
-        tracer: Tracer::new(log),
+    let mut attendants = Attendants {
         judge: Judge::new(&names),
-        trace: TraceHash::default(),
         report: Report::new(options.json, options.end()),
         pace: Pace::new(options.speed),
         stop,
-        robot_log: None,
         stimuli: Stimuli::new(&options.press),
-        end: options.end(),
     };
-    drive.robot_log = drive.tracer.log.as_mut().map(|log| RobotLog::begin(log, &world.world));
-    drive.report.head(&head(program, options, &world));
-    let stopped_by = drive.run().map_err(|error| inputs::missing(error, &names))?;
-    finish(drive, &paths, &Setting { program, options, world: &world, stopped_by })
+    let mut rig = Rig::new(plan, sim, Duration::ZERO);
+    if let Some(log) = log {
+        rig.record(log, &world.world);
+    }
+    attendants.report.head(&head(program, options, &world));
+    let stopped_by = drive(&mut rig, &mut attendants, options.end())
+        .map_err(|error| inputs::missing(error, &names))?;
+    finish(rig, attendants, &paths, &Setting { program, options, world: &world, stopped_by })
+}
+
+/// Runs the plan to its end, or until it is stopped. The motors stand afterwards.
+fn drive<P>(
+    rig: &mut Rig<P>,
+    attendants: &mut Attendants,
+    end: Instant,
+) -> Result<Option<StoppedBy>, StartError>
+where
+    P: NamedPlan + Plan<Simulation>,
+{
+    let went = rig.run(end, attendants)?;
+    let stopped_by = match (went, rig.ending()) {
+        (Go::Stop, None) => Some(StoppedBy::Signal),
+        (_, None) => Some(StoppedBy::Until),
+        (_, Some(_)) => None,
+    };
+    if stopped_by.is_some() {
+        rig.stop(attendants);
+    }
+    rig.sim.emergency_stop();
+    Ok(stopped_by)
 }
 
 /// What was asked for and how it came out.
@@ -85,47 +102,47 @@ struct Setting<'a> {
 }
 
 /// Closes the log, draws the picture, prints the summary.
-fn finish<P, N: Names>(
-    mut drive: Drive<'_, P, N>,
+fn finish<P>(
+    mut rig: Rig<P>,
+    attendants: Attendants,
     paths: &Paths,
     setting: &Setting<'_>,
 ) -> Result<u8, RunError>
 where
     P: NamedPlan + Plan<Simulation>,
 {
-    let end = drive.sim.now();
-    let speed = end.as_secs_f64() / drive.pace.spent();
-    let truth = drive.sim.truth();
+    let Attendants { judge, report, pace, .. } = attendants;
+    let end = rig.sim.now();
+    let speed = end.as_secs_f64() / pace.spent();
     let ran = Ran {
         plan: setting.program.name,
         world: &setting.world.world,
         seed: setting.options.seed,
         stopped_by: setting.stopped_by,
         end,
-        misses: drive.scheduler.misses(),
-        trace: drive.trace,
-        collisions: truth.collisions(),
+        misses: rig.scheduler.misses(),
+        collisions: rig.sim.truth().collisions(),
+        trace: rig.trace(),
     };
-    let figures = Figures::new(&ran, &drive.judge, drive.names);
-    let written = drive.tracer.log.take().map(Recorder::finish).transpose()?;
+    let figures = Figures::new(&ran, &judge, rig.names());
+    let written = rig.finish_log()?;
     if let Some(path) = &paths.svg {
         let picture = Picture {
             world: &setting.world.world,
             title: figures.plan.clone(),
             subtitle: format!("{}, seed {}", figures.world, figures.seed),
-            path: &drive.judge.path,
-            marks: &drive.judge.marks,
+            path: &judge.path,
+            marks: &judge.marks,
             figures: figures.for_picture(),
         };
-        write_whole("cannot write the picture", path, svg::draw(&picture, drive.names))?;
+        write_whole("cannot write the picture", path, svg::draw(&picture, rig.names()))?;
     }
     let lost = written.as_ref().map_or(0, |written: &Written| written.lost);
     let log = written.map(|written| written.path);
-    let ending = drive.judge.ending;
     let summary = Summary { figures, speed, log, svg: paths.svg.clone(), lost };
-    let told = drive.report.end(&summary);
+    let told = report.end(&summary);
     told.map_err(RunError::file("cannot write to", "standard output".as_ref()))?;
-    match ending {
+    match rig.ending() {
         Some(Ending::Error(_)) => Ok(EXIT_PLAN_ERROR),
         _ => Ok(EXIT_OK),
     }

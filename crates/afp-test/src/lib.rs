@@ -54,5 +54,5 @@ pub fn run(
         let help = "the toolbox file and the Rust crate behind it do not belong together";
         RunError::usage(error.to_string(), help)
     })?;
-    drive::Drive::new(scenario, setting, plan, log)?.run()
+    drive::run(scenario, setting, plan, log)
 }
