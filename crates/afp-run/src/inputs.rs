@@ -1,37 +1,55 @@
-//! `--set`: values for the plan's `in` entries.
+//! `--set` and `--vary`: values for the plan's `in` entries and for its world.
 
 use afp_core::rt::NamedPlan;
 use afp_core::trace::{EntryKind, EntryName, Names, TraceEntryId};
-use afp_core::{Fault, StartError, WriteError};
+use afp_core::{Fault, StartError, Value, WriteError};
 
 use crate::error::RunError;
+use crate::world::{LoadedWorld, change};
 
-/// Sets `in` entries as the command line says.
+/// Sets `in` entries of a plan and values of its world as the command line says.
 ///
 /// # Errors
 /// An entry that is not there or cannot be set, a value that does not fit.
-pub(crate) fn set(plan: &mut impl NamedPlan, set: &[(String, String)]) -> Result<(), RunError> {
-    let names = plan.names();
+pub fn set_all(
+    plan: &mut impl NamedPlan,
+    world: &mut LoadedWorld,
+    set: &[(String, String)],
+) -> Result<(), RunError> {
     for (name, text) in set {
-        let entry = plan.entry_named(name).ok_or_else(|| unknown(name, &names))?;
-        let about = names.entry(TraceEntryId(entry.into()));
-        if about.kind != EntryKind::In {
-            return Err(RunError::usage(
-                format!("the entry '{name}' cannot be set from outside: it is no 'in' entry"),
-                settable(&names),
-            ));
+        match change::key(name) {
+            Some(key) => *world = world.with(key, text)?,
+            None => {
+                self::set(plan, name, text)?;
+            }
         }
-        let value =
-            plan.read(entry, text).map_err(|why| unreadable(text, &about, why, plan, entry))?;
-        plan.set_input(entry, &value).map_err(|why: WriteError| {
-            RunError::usage(format!("'--set {name}={text}': {why}"), settable(&names))
-        })?;
     }
     Ok(())
 }
 
+/// Sets an `in` entry; gives the value that it has now.
+///
+/// # Errors
+/// An entry that is not there or cannot be set, a value that does not fit.
+pub fn set(plan: &mut impl NamedPlan, name: &str, text: &str) -> Result<Value, RunError> {
+    let names = plan.names();
+    let entry = plan.entry_named(name).ok_or_else(|| unknown(name, &names))?;
+    let about = names.entry(TraceEntryId(entry.into()));
+    if about.kind != EntryKind::In {
+        return Err(RunError::usage(
+            format!("the entry '{name}' cannot be set from outside: it is no 'in' entry"),
+            settable(&names),
+        ));
+    }
+    let value = plan.read(entry, text).map_err(|why| unreadable(text, &about, why, plan, entry))?;
+    plan.set_input(entry, &value).map_err(|why: WriteError| {
+        RunError::usage(format!("'{name}={text}': {why}"), settable(&names))
+    })?;
+    Ok(value)
+}
+
 /// Why a plan does not start, as an error of the command line.
-pub(crate) fn missing(error: StartError, names: &impl Names) -> RunError {
+pub fn missing(error: StartError, names: &impl Names) -> RunError {
     match error {
         StartError::InputMissing(entry) => {
             let EntryName { path, ty, .. } = names.entry(TraceEntryId(entry.into()));
@@ -73,7 +91,7 @@ fn unreadable(
     let help = if text.parse::<f64>().is_ok() && !unit.is_empty() {
         let unit = plan.units(number).find(|unit| unit.name == "cm" || unit.name == "deg");
         let unit = unit.map_or(entry.unit, |unit| unit.name).to_owned();
-        format!("write the unit: '--set {path}={text}{unit}'")
+        format!("write the unit: '{path}={text}{unit}'")
     } else if !unit.is_empty() {
         let units: Vec<_> = plan.units(number).map(|unit| unit.name.to_owned()).take(8).collect();
         format!("a number and a unit: {}", units.join(", "))
@@ -84,5 +102,5 @@ fn unreadable(
     } else {
         format!("'{path}' is a {ty}")
     };
-    RunError::usage(format!("'--set {path}={text}': not a {ty}"), help)
+    RunError::usage(format!("'{path}={text}': not a {ty}"), help)
 }

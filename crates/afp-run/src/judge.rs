@@ -1,7 +1,7 @@
 //! What a run came to: counts from the trace, distance and wall error from the ground truth.
 
 use afp_core::trace::{ComponentId, Ending, Kind, Names, Record};
-use afp_core::{Duration, Instant, ValueRef};
+use afp_core::{Duration, Fault, Instant, ValueRef};
 use afp_sim::{Pose, Truth};
 
 use crate::rig::SAMPLE;
@@ -31,7 +31,7 @@ pub(crate) struct Mark {
 
 /// The error of wall following so far.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct WallError {
+pub struct WallError {
     sum: f64,
     /// The greatest, metres.
     pub max: f64,
@@ -40,32 +40,51 @@ pub(crate) struct WallError {
 
 impl WallError {
     /// The mean of its absolute value, metres.
-    pub(crate) fn mean(&self) -> f64 {
+    pub fn mean(&self) -> f64 {
         self.sum / self.samples as f64
     }
 
     /// How long it was judged, seconds.
-    pub(crate) fn seconds(&self) -> f64 {
+    pub fn seconds(&self) -> f64 {
         self.samples as f64 * SAMPLE.as_secs_f64()
     }
 }
 
 /// Watches a run.
-pub(crate) struct Judge {
+pub struct Judge {
     /// Activations of each component, by id.
-    pub activations: Vec<u64>,
+    pub(crate) activations: Vec<u64>,
     /// How often each component reached each state or event, by id.
-    pub outcomes: Vec<Vec<u64>>,
+    pub(crate) outcomes: Vec<Vec<u64>>,
+    /// How often an actor was interrupted.
     pub interruptions: u64,
+    /// The way that the robot went, metres.
     pub distance: f64,
+    /// How well it kept its distance to walls.
     pub wall: WallError,
-    pub path: Vec<Step>,
-    pub marks: Vec<Mark>,
+    pub(crate) path: Vec<Step>,
+    pub(crate) marks: Vec<Mark>,
+    /// How the plan ended, once it has.
     pub ending: Option<Ending>,
+    /// The actor or computation that was left last.
+    left: Option<ComponentId>,
+    /// What it was left for.
+    cause: Option<Cause>,
     actor: Option<ComponentId>,
     follows: Option<Following>,
     followers: Vec<bool>,
     last: Option<Pose>,
+}
+
+/// What ends an activity.
+#[derive(Clone, Copy, Debug)]
+enum Cause {
+    /// A state or event.
+    Outcome(ComponentId, u16),
+    /// A fault of a component.
+    Fault(ComponentId, Fault),
+    /// A request from outside.
+    Stop,
 }
 
 #[derive(Clone, Copy)]
@@ -76,7 +95,8 @@ struct Following {
 }
 
 impl Judge {
-    pub(crate) fn new(names: &impl Names) -> Self {
+    /// Nothing has happened yet.
+    pub fn new(names: &impl Names) -> Self {
         let ids = || (0..names.components()).map(ComponentId);
         let known = |id| (0..).take_while(move |n| !names.outcome(id, *n).is_empty()).count();
         let follows = |id| {
@@ -92,6 +112,8 @@ impl Judge {
             path: Vec::new(),
             marks: Vec::new(),
             ending: None,
+            left: None,
+            cause: None,
             actor: None,
             follows: None,
             followers: ids().map(follows).collect(),
@@ -100,7 +122,7 @@ impl Judge {
     }
 
     /// Takes a record into account.
-    pub(crate) fn hear(
+    pub fn hear(
         &mut self,
         at: Instant,
         record: &Record<'_>,
@@ -126,29 +148,66 @@ impl Judge {
                 if names.component(element).kind == Kind::Actor {
                     self.interruptions += 1;
                 }
-                self.left(element);
+                self.left(element, names);
             }
             Record::Finished { element, state } => {
                 self.reached(element, state);
-                self.left(element);
+                if self.left(element, names) {
+                    self.cause = Some(Cause::Outcome(element, state));
+                }
             }
-            Record::Faulted { component, .. } => self.left(component),
+            Record::Faulted { component, fault } => {
+                let active = self.actor;
+                self.left(component, names);
+                let failed = if component == ComponentId(0) { active } else { Some(component) };
+                self.cause = Some(Cause::Fault(failed.unwrap_or(component), fault));
+            }
             Record::Event { supervisor, event } => {
                 self.reached(supervisor, event);
+                self.cause = Some(Cause::Outcome(supervisor, event));
                 self.marks.push(Mark { pose: truth.pose(), at, supervisor, event });
             }
+            Record::StopRequested => self.cause = Some(Cause::Stop),
             Record::Ended { plan: ComponentId(0), ending } => self.ending = Some(ending),
             _ => {}
         }
     }
 
-    fn left(&mut self, element: ComponentId) {
+    /// Where the run was when it ended: the path of the actor, computation or supervisor that was left or
+    /// failed last.
+    pub fn place<'n>(&self, names: &'n impl Names) -> &'n str {
+        let failed = match self.cause {
+            Some(Cause::Fault(id, _)) => Some(id),
+            _ => None,
+        };
+        failed.or(self.left).map_or("", |id| names.component(id).path)
+    }
+
+    /// What ended the run: a state or an event with its component, a fault by its code, or `stop`.
+    pub fn cause(&self, names: &impl Names) -> String {
+        match self.cause {
+            None => String::new(),
+            Some(Cause::Outcome(id, outcome)) => {
+                format!("{}.{}", names.component(id).path, names.outcome(id, outcome))
+            }
+            Some(Cause::Fault(_, fault)) => fault.code().to_owned(),
+            Some(Cause::Stop) => "stop".to_owned(),
+        }
+    }
+
+    /// An element is left; whether it is one that does something itself.
+    fn left(&mut self, element: ComponentId, names: &impl Names) -> bool {
         if self.actor == Some(element) {
             self.actor = None;
         }
         if self.follows.is_some_and(|following| following.actor == element) {
             self.follows = None;
         }
+        let inner = !matches!(names.component(element).kind, Kind::Plan | Kind::SubPlan);
+        if inner {
+            self.left = Some(element);
+        }
+        inner
     }
 
     fn reached(&mut self, component: ComponentId, outcome: u16) {
@@ -159,7 +218,7 @@ impl Judge {
     }
 
     /// Looks at the truth; to be called every [`SAMPLE`].
-    pub(crate) fn look(&mut self, now: Instant, truth: &Truth<'_>) {
+    pub fn look(&mut self, now: Instant, truth: &Truth<'_>) {
         let pose = truth.pose();
         if let Some(last) = self.last {
             self.distance += libm::hypot(pose.x - last.x, pose.y - last.y);

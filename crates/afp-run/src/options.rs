@@ -22,7 +22,7 @@ pub struct RunOptions {
     #[arg(long, value_name = "ROBOT", default_value = "sim")]
     pub robot: Robot,
 
-    /// Sets an 'in' entry, with its unit: --set walldist=35cm
+    /// Sets an 'in' entry, with its unit, or a value of the world: --set walldist=35cm, --set world.robot.charge=0.5
     #[arg(long, value_name = "ENTRY=VALUE", value_parser = parse::assignment)]
     pub set: Vec<(String, String)>,
 

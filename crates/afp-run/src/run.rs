@@ -35,8 +35,8 @@ where
     P: NamedPlan + Plan<Simulation>,
 {
     options.check()?;
-    inputs::set(&mut plan, &options.set)?;
-    let world = world::find(options.world.as_deref(), Path::new(program.file))?;
+    let mut world = world::find(options.world.as_deref(), Path::new(program.file))?;
+    inputs::set_all(&mut plan, &mut world, &options.set)?;
     let sim = Simulation::new(&world.world, options.seed).map_err(|error| RunError::Content {
         path: world.path.clone().unwrap_or_default(),
         place: error.place,

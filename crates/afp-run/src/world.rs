@@ -1,5 +1,7 @@
 //! Finds the world of a run.
 
+pub mod change;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -1,0 +1,171 @@
+//! One value of a world's file in place of another: `--set world.robot.charge=0.5`.
+//!
+//! Keys of a file carry their units (`height_m`); what is written here carries its own.
+
+use afp_core::rt::{Scale, Unit, parse_quantity};
+use toml_edit::{DocumentMut, Item, Table, Value, value};
+
+use super::LoadedWorld;
+use crate::error::RunError;
+
+/// What the name of a setting begins with that is one of the world.
+const PREFIX: &str = "world.";
+
+/// The key of a setting of the world; `None` for an entry of the plan.
+pub fn key(name: &str) -> Option<&str> {
+    name.strip_prefix(PREFIX)
+}
+
+const LENGTH: &[Unit<'static>] = &[
+    Unit { name: "m", scale: Scale::Decimal(0) },
+    Unit { name: "cm", scale: Scale::Decimal(-2) },
+    Unit { name: "mm", scale: Scale::Decimal(-3) },
+    Unit { name: "km", scale: Scale::Decimal(3) },
+];
+const ANGLE: &[Unit<'static>] = &[
+    Unit { name: "deg", scale: Scale::Decimal(0) },
+    Unit { name: "rad", scale: Scale::Factor(180.0 / std::f64::consts::PI) },
+];
+const SPEED: &[Unit<'static>] = &[
+    Unit { name: "m/s", scale: Scale::Decimal(0) },
+    Unit { name: "cm/s", scale: Scale::Decimal(-2) },
+    Unit { name: "mm/s", scale: Scale::Decimal(-3) },
+];
+const MASS: &[Unit<'static>] =
+    &[Unit { name: "kg", scale: Scale::Decimal(0) }, Unit { name: "g", scale: Scale::Decimal(-3) }];
+const TIME: &[Unit<'static>] =
+    &[Unit { name: "s", scale: Scale::Decimal(0) }, Unit { name: "ms", scale: Scale::Decimal(-3) }];
+
+/// The units of a key, by the end of its name; the first is that of the file. None for plain numbers.
+fn units(key: &str, place: Option<usize>) -> &'static [Unit<'static>] {
+    let ends = |end: &str| key.ends_with(end);
+    match place {
+        Some(2) if ends("_m_deg") => ANGLE,
+        _ if ends("_m") || ends("_m_deg") => LENGTH,
+        _ if ends("_m_s") => SPEED,
+        _ if ends("_kg") => MASS,
+        _ if ends("_s") => TIME,
+        _ => &[],
+    }
+}
+
+impl LoadedWorld {
+    /// This world with one value of its file changed. `key` is the way to it: names of tables, in a
+    /// list the name or the number from 0 of what is meant, a key, in a list of numbers a number from
+    /// 0: `robot.charge`, `box.sofa.height_m`, `robot.pose_m_deg.0`.
+    ///
+    /// # Errors
+    /// There is no such thing, the unit does not fit, or the world makes no sense with that value.
+    pub fn with(&self, key: &str, text: &str) -> Result<LoadedWorld, RunError> {
+        let mut document: DocumentMut =
+            self.text.parse().map_err(|error| refused(key, text, &format!("{error}")))?;
+        let mut parts: Vec<&str> = key.split('.').collect();
+        let index = parts.last().and_then(|last| last.parse::<usize>().ok());
+        if index.is_some() {
+            parts.pop();
+        }
+        let Some((name, tables)) = parts.split_last() else {
+            return Err(refused(key, text, "there is no such key"));
+        };
+        let number = read(text, units(name, index)).map_err(|why| refused(key, text, &why))?;
+        let mut item = document.as_item_mut();
+        for part in tables {
+            item = inside(item, part).map_err(|why| refused(key, text, &why))?;
+        }
+        set(item, name, index, number).map_err(|why| refused(key, text, &why))?;
+        super::parse(document.to_string(), self.path.clone())
+    }
+}
+
+fn refused(key: &str, text: &str, why: &str) -> RunError {
+    RunError::usage(
+        format!("'{PREFIX}{key}={text}': {why}"),
+        "the way to a value of the world's file, such as 'world.robot.charge=0.5' or \
+         'world.box.sofa.height_m=50cm'",
+    )
+}
+
+/// What is called `part` in a table, or is the one of that name or number in a list of tables.
+fn inside<'a>(item: &'a mut Item, part: &str) -> Result<&'a mut Item, String> {
+    let absent = || format!("there is no '{part}'");
+    if let Some(table) = item.as_table_like_mut() {
+        if !table.contains_key(part) {
+            table.insert(part, Item::Table(Table::new()));
+        }
+        return item.get_mut(part).ok_or_else(absent);
+    }
+    let list = item.as_array_of_tables().ok_or_else(absent)?;
+    let name =
+        |table: &'_ Table| table.get("name").and_then(Item::as_str).unwrap_or_default().to_owned();
+    let names: Vec<String> = list.iter().map(name).collect();
+    let by_number = || part.parse::<usize>().ok().filter(|number| *number < names.len());
+    let Some(place) = names.iter().position(|name| name == part).or_else(by_number) else {
+        let names: Vec<_> = names.iter().map(|name| format!("'{name}'")).collect();
+        return Err(format!("there is no '{part}' among {}", names.join(", ")));
+    };
+    item.get_mut(place).ok_or_else(absent)
+}
+
+fn set(item: &mut Item, name: &str, index: Option<usize>, to: Value) -> Result<(), String> {
+    let Some(table) = item.as_table_like_mut() else {
+        return Err(format!("there is no '{name}' in a list; name one of them first"));
+    };
+    let Some(index) = index else {
+        table.insert(name, value(to));
+        return Ok(());
+    };
+    let list = table.get_mut(name).and_then(Item::as_array_mut);
+    let place = list.and_then(|list| list.get_mut(index));
+    *place.ok_or_else(|| format!("'{name}' has no number {index}"))? = to;
+    Ok(())
+}
+
+/// A value as it stands in the file.
+fn read(text: &str, units: &[Unit<'static>]) -> Result<Value, String> {
+    if units.is_empty() {
+        let number = text.parse::<f64>().map(Value::from);
+        let truth = || text.parse::<bool>().map(Value::from);
+        return Ok(number.or_else(|_| truth()).unwrap_or_else(|_| Value::from(text)));
+    }
+    let names = || units.iter().map(|unit| unit.name).collect::<Vec<_>>().join(", ");
+    let number = parse_quantity(text, units.iter().copied());
+    number.map(Value::from).map_err(|_| format!("expected a number with a unit: {}", names()))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    fn room() -> LoadedWorld {
+        super::super::find(None, Path::new("nowhere/else.afp")).unwrap()
+    }
+
+    #[test]
+    fn values_are_found_by_name_and_carry_units() {
+        let world = room().with("box.closet.height_m", "150cm").unwrap();
+        let closet = world.world.obstacles.iter().find(|it| it.name == "closet").unwrap();
+        assert_eq!(closet.height, 1.5);
+        let world = world.with("robot.pose_m_deg.2", "90deg").unwrap();
+        assert!((world.world.start.heading - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+        assert_eq!(world.with("robot.charge", "0.5").unwrap().world.charge, 0.5);
+        assert_eq!(room().with("box.0.height_m", "1m").unwrap().world.obstacles.len(), 10);
+    }
+
+    #[test]
+    fn what_is_not_there_or_does_not_fit_is_refused() {
+        for (key, text, why) in [
+            ("box.clost.height_m", "1m", "no 'clost' among 'closet'"),
+            ("box.closet.height_m", "1", "a number with a unit: m, cm"),
+            ("box.closet.height_m", "1s", "a number with a unit: m, cm"),
+            ("robot.pose_m_deg.3", "1m", "no number 3"),
+            ("robot.charg", "0.5", "charg"),
+            ("robot.charge", "2", "charge"),
+            ("box.height_m", "1m", "name one of them first"),
+        ] {
+            let error = room().with(key, text).unwrap_err().to_string();
+            assert!(error.contains(why), "{key}: {error}");
+        }
+    }
+}
