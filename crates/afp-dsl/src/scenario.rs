@@ -106,6 +106,8 @@ pub enum Action {
     Fail(devices::Failure, Option<u64>),
     /// A supervisor reports an event, or an element reaches a state, without a reason.
     Inject(Injection),
+    /// An actor, those of a sub-plan, or all of them do nothing from their next start on.
+    Idle(Option<u32>),
 }
 
 /// An outcome that does not come from its component.
@@ -143,6 +145,8 @@ pub enum Wanted {
     Always,
     /// At no instant of the window.
     Never,
+    /// So often in the window; for what happens at an instant.
+    Times(u32),
 }
 
 /// A stretch of time, nanoseconds.
@@ -185,6 +189,19 @@ pub enum Claim {
     End(Option<EndCause>),
     /// The robot touches something.
     Collision,
+    /// An actor or sub-plan is interrupted.
+    Interrupt(u32),
+    /// An entry is written.
+    Commit {
+        /// The entry; any without one.
+        of: Option<u32>,
+        /// The element, supervisor or plan that writes it; anybody without one.
+        by: Option<u32>,
+    },
+    /// The last command to the drive was to stand still, or there was none.
+    Halted,
+    /// The robot does not move.
+    Standing,
 }
 
 /// Where an edge leads.
@@ -292,6 +309,13 @@ impl Window {
 impl Claim {
     /// Whether it happens at an instant rather than holds for a while.
     pub fn is_event(&self) -> bool {
-        matches!(self, Claim::Transition { .. } | Claim::Happens(_) | Claim::End(_))
+        matches!(
+            self,
+            Claim::Transition { .. }
+                | Claim::Happens(_)
+                | Claim::End(_)
+                | Claim::Interrupt(_)
+                | Claim::Commit { .. }
+        )
     }
 }

@@ -11,7 +11,7 @@ use afp_core::trace::{Line, Names, Record, TraceEntryId, TraceHash};
 use afp_core::{Duration, Ending, Fault, Instant, Scheduler, StartError, Wake};
 use afp_log::robot::Level;
 use afp_log::{Recorder, Written};
-use afp_sim::{Simulation, Truth, VirtualClock, World};
+use afp_sim::{STEP, Simulation, Truth, VirtualClock, World};
 
 use crate::error::RunError;
 use crate::robot::RobotLog;
@@ -54,9 +54,15 @@ pub trait Company<P: NamedPlan> {
         let _ = (at, record, names, truth);
     }
 
-    /// All records of the step at this instant have been heard.
-    fn settle(&mut self, now: Instant) {
-        let _ = now;
+    /// All records of the step at this instant have been heard; for who follows the robot, at every
+    /// instant at which anything happens.
+    fn settle(&mut self, rig: &Rig<P>, now: Instant) {
+        let _ = (rig, now);
+    }
+
+    /// Whether it follows the robot: nothing is left out for longer than a step of physics.
+    fn follows(&self) -> bool {
+        false
     }
 
     /// Whether the truth is to be looked at, every [`SAMPLE`].
@@ -195,7 +201,9 @@ impl<P: NamedPlan + Plan<Simulation>> Rig<P> {
     pub fn tick(&mut self, limit: Instant, company: &mut impl Company<P>) -> Go {
         let due = self.due();
         let look = if self.is_watched(company) { self.look } else { Instant::MAX };
-        let target = due.min(company.next()).min(look).min(limit).min(self.last());
+        let follow = if company.follows() { self.sim.now() + STEP } else { Instant::MAX };
+        let next = company.next().min(look).min(follow);
+        let target = due.min(next).min(limit).min(self.last());
         match company.wait(target, self.sim.now()) {
             Go::On => {}
             other => return other,
@@ -209,6 +217,9 @@ impl<P: NamedPlan + Plan<Simulation>> Rig<P> {
         company.happen(self, now);
         if due <= now {
             self.step(now, company);
+        }
+        if company.follows() {
+            company.settle(self, now);
         }
         Go::On
     }
@@ -274,7 +285,7 @@ impl<P: NamedPlan + Plan<Simulation>> Rig<P> {
                 log.text(at, level, "plan", line.split_once(' ').map_or("", |(_, text)| text));
             }
         }
-        company.settle(now);
+        company.settle(self, now);
     }
 
     fn look_at(&mut self, now: Instant, company: &mut impl Company<P>) {

@@ -190,7 +190,10 @@ impl Simulation {
 
     /// What only a judge may know.
     pub fn truth(&self) -> Truth<'_> {
+        let body = &self.physics.bodies[self.body];
         Truth {
+            motion: (f64::from(body.linvel().length()), f64::from(body.angvel())),
+            asked: self.drive.asked(),
             position: self.position(),
             obstacles: &self.obstacles,
             shapes: &self.shapes,

@@ -56,7 +56,14 @@ pub struct Truth<'a> {
     pub(crate) obstacles: &'a [Obstacle],
     pub(crate) shapes: &'a [(Isometry, SharedShape)],
     pub(crate) collisions: &'a Collisions,
+    /// Metres and radians a second.
+    pub(crate) motion: (f64, f64),
+    /// What the drive was told last, metres and radians a second.
+    pub(crate) asked: (f64, f64),
 }
+
+/// A robot slower than this stands, metres and radians a second: castors creep as they come to rest.
+const STANDING: (f64, f64) = (0.005, 0.02);
 
 impl<'a> Truth<'a> {
     /// Where the robot's centre is.
@@ -67,6 +74,17 @@ impl<'a> Truth<'a> {
             y: f64::from(at.y),
             heading: libm::atan2(f64::from(turn.im), f64::from(turn.re)),
         }
+    }
+
+    /// Whether the robot does not move: less than 5 mm/s and 0.02 rad/s.
+    pub fn is_standing(&self) -> bool {
+        let (speed, turn) = self.motion;
+        speed < STANDING.0 && turn.abs() < STANDING.1
+    }
+
+    /// Whether the last command to the drive was to stand still, or there was none.
+    pub fn is_halted(&self) -> bool {
+        self.asked == (0.0, 0.0)
     }
 
     /// Every collision so far, in the order of their beginnings.

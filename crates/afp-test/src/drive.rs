@@ -1,14 +1,14 @@
 //! One run of a scenario, in virtual time.
 //!
-//! Without a log the truth is looked at in the end only, since the simulation keeps its own list of
-//! collisions.
+//! Without a log, and unless claims are about the robot, the truth is looked at in the end only, since
+//! the simulation keeps its own list of collisions.
 
 use std::path::Path;
 
 use afp::load::{LoadedPlan, PlanNames};
 use afp_core::rt::NamedPlan;
 use afp_core::trace::{Names, Record};
-use afp_core::{Duration, Environment, Instant, StartError};
+use afp_core::{Duration, Environment, Instant, PlanState, StartError};
 use afp_dsl::scenario::Scenario;
 use afp_dsl::scenario::devices::Control;
 use afp_log::{About, NameTable, Recorder, WhenFull};
@@ -32,6 +32,8 @@ struct Attendants<'a> {
     watch: Watch<'a>,
     stimuli: Stimuli,
     broken: Vec<Broken>,
+    /// Whether entries have always held what was committed.
+    sound: bool,
     timeline: Vec<(Instant, String)>,
 }
 
@@ -52,6 +54,7 @@ pub(crate) fn run(
         watch: Watch::new(scenario, rig.names().entries() as usize),
         stimuli,
         broken: Vec::new(),
+        sound: true,
         timeline: Vec::new(),
     };
     let until = Instant::from_nanos(scenario.until);
@@ -119,8 +122,33 @@ impl Company<Loaded> for Attendants<'_> {
         }
     }
 
-    fn settle(&mut self, now: Instant) {
-        self.watch.settle(now);
+    fn settle(&mut self, rig: &Rig<Loaded>, now: Instant) {
+        self.watch.settle(now, &rig.sim.truth());
+        self.compare(rig, now);
+    }
+
+    fn follows(&self) -> bool {
+        self.watch.looks_at_robot()
+    }
+}
+
+impl Attendants<'_> {
+    /// Whatever the plan holds has been committed: half a commit would be seen here.
+    fn compare(&mut self, rig: &Rig<Loaded>, now: Instant) {
+        let plan = rig.scheduler.plan();
+        let entries = &self.scenario.graph.main().entries;
+        let held = (0..entries.len() as u16).map(|entry| plan.entry(entry));
+        let Some((place, held, known)) = self.watch.differs(held).filter(|_| self.sound) else {
+            return;
+        };
+        let name = entries.get(place).map_or("", |entry| entry.name.as_str());
+        self.broken.push(Broken {
+            text: "(entries hold what was committed)".to_owned(),
+            span: self.scenario.span,
+            at: now,
+            why: format!("'{name}' holds {held}, its last commit was {known}"),
+        });
+        self.sound = false;
     }
 }
 
@@ -135,6 +163,11 @@ fn act(deed: Deed, rig: &mut Rig<Loaded>, now: Instant) -> Result<(), String> {
         Deed::Hold(Control::Touch, true) => rig.sim.press_bumper(),
         Deed::Hold(Control::Touch, false) => rig.sim.release_bumper(),
         Deed::Break(fault, time) => rig.sim.inject(fault, now, time),
+        Deed::Idle(element) => {
+            if !rig.scheduler.plan_mut().idle(element) {
+                return Err("there is no such actor".to_owned());
+            }
+        }
         Deed::Inject(injection) => {
             let active = rig.scheduler.active();
             let injected = rig.scheduler.plan_mut().inject(active, &injection);

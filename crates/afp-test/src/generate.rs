@@ -1,22 +1,24 @@
-//! Scenarios made from a plan: every event of every supervisor, at five points of each actor's run.
+//! Scenarios made from a plan: every event of every supervisor, at five points of each element's run.
 //!
-//! A run without stimuli says when each actor is active; what it never reaches has no scenario, and the
-//! text says so.
+//! Runs of the plan say when each element is active: first one without stimuli, then others with
+//! another seed, then others in which somebody fires an event or finishes an actor on the way. What none
+//! of them reaches has no scenario, and the text says so.
+
+mod pair;
+mod parts;
+mod reach;
 
 use std::fmt::Write;
+use std::sync::Arc;
 
-use afp_dsl::graph::{Component, ElementId, Graph, Plan, Supervisor, SupervisorId, Target};
-use afp_dsl::toolbox::OutPort;
-use afp_dsl::types::Type;
+use afp_dsl::graph::{Component, Graph};
+use afp_dsl::scenario::Scenario;
+use afp_run::RunError;
 
-use crate::watch::Activation;
-
-/// The points of an actor's run, in percent.
-const POINTS: [u64; 5] = [10, 30, 50, 70, 90];
-/// Points are whole milliseconds.
-const GRAIN: u64 = 1_000_000;
-/// A scenario goes on for so long behind its point, nanoseconds.
-const BEHIND: u64 = 1_000_000_000;
+use crate::verdict::Verdict;
+use pair::Pair;
+use parts::Parts;
+use reach::Reach;
 
 /// The text of a file of scenarios.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,156 +31,49 @@ pub struct Generated {
     pub left_out: Vec<String>,
 }
 
-/// Scenarios for the outermost plan of a graph. `from` is its file, seen from the one to be written;
-/// `activations` are those of a run without stimuli, at seed 0 in the plan's own world.
-pub fn generate(graph: &Graph, from: &str, activations: &[Activation]) -> Generated {
+/// Scenarios for a graph's plan and all its sub-plans. `from` is the plan's file, seen from the one to be
+/// written; `quiet` is a run of the plan in which nothing happens; `run` runs it, and others like it.
+///
+/// # Errors
+/// What `run` says.
+pub fn generate(
+    from: &str,
+    quiet: &Scenario,
+    run: &mut dyn FnMut(&Scenario) -> Result<Verdict, RunError>,
+) -> Result<Generated, RunError> {
+    let graph: &Arc<Graph> = &quiet.graph;
+    let parts = Parts::new(graph);
+    let reach = Reach::explore(&parts, quiet, run)?;
     let mut all = Generated { text: String::new(), scenarios: 0, left_out: Vec::new() };
-    let plan = graph.main();
-    for (element, number) in plan.elements.iter().zip(1_u32..) {
-        if matches!(element.component, Component::Computation(_)) {
+    for element in parts.elements() {
+        if matches!(parts.component(element), Some(Component::Computation(_)) | None) {
             continue;
         }
-        let runs = activations.iter().filter(|run| run.element == number);
-        let Some(run) = runs.max_by_key(|run| run.to.since(run.from)) else {
-            all.left_out.push(format!("'{}' is not reached", element.name));
+        let Some((way, active)) = reach.of(element) else {
+            all.left_out.push(format!("no run reached '{}'", parts.path(element)));
             continue;
         };
-        let globals = (0..plan.globals).map(SupervisorId);
-        let locals = element.supervisors.iter().copied();
-        for id in globals.chain(locals) {
-            let pair = Pair { graph, plan, element: ElementId((number - 1) as u16), id };
-            pair.add(run, &mut all);
+        for supervisor in parts.supervisors_over(element) {
+            let pair = Pair { parts: &parts, way, active, element, supervisor };
+            pair.add(&mut all);
         }
     }
-    let mut text = format!(
-        "use \"{from}\"\n\n// Made by 'afpc test --generate'; seed 0, the plan's own world.\n"
-    );
+    let mut text = format!("use \"{from}\"\n\n// Made by 'afpc test --generate'.\n");
     for why in &all.left_out {
+        // Writing to a String cannot fail.
         let _ = writeln!(text, "// Left out: {why}.");
     }
     text.push_str(&all.text);
-    Generated { text, ..all }
+    Ok(Generated { text, ..all })
 }
 
-/// An actor or sub-plan and a supervisor that watches over it.
-struct Pair<'a> {
-    graph: &'a Graph,
-    plan: &'a Plan,
-    element: ElementId,
-    id: SupervisorId,
-}
-
-impl Pair<'_> {
-    fn supervisor(&self) -> &Supervisor {
-        &self.plan.supervisors[self.id.index()]
-    }
-
-    fn add(&self, run: &Activation, all: &mut Generated) {
-        let supervisor = self.supervisor();
-        let events = &self.graph.template(supervisor.template).outcomes;
-        for (place, (event, target)) in (0..).zip(events.iter().zip(&supervisor.events)) {
-            let back = *target == Target::Element(self.element) && supervisor.owner.is_none();
-            if *target == Target::Ignore || back {
-                continue;
-            }
-            let Some(values) = self.values(place) else {
-                all.left_out.push(format!("'{}.{}' brings an object", supervisor.name, event.name));
-                continue;
-            };
-            let points = self.points(run);
-            if points.is_empty() {
-                let name = &self.plan.elements[self.element.index()].name;
-                all.left_out.push(format!("'{name}' is active for too short a time"));
-                return;
-            }
-            for (percent, at) in points {
-                self.write(&event.name, *target, &values, (percent, at), all);
-            }
-        }
-    }
-
-    /// Points at which nothing else happens before the supervisor is polled next.
-    fn points(&self, run: &Activation) -> Vec<(u64, u64)> {
-        let (from, to) = (run.from.as_nanos(), run.to.as_nanos());
-        let at = |percent: u64| (from + (to - from) / 100 * percent) / GRAIN * GRAIN;
-        let points = POINTS.iter().map(|percent| (*percent, at(*percent)));
-        points.filter(|(_, at)| *at > from && at + self.supervisor().every < to).collect()
-    }
-
-    fn write(
-        &self,
-        event: &str,
-        target: Target,
-        values: &str,
-        (percent, at): (u64, u64),
-        all: &mut Generated,
-    ) {
-        let supervisor = self.supervisor();
-        let element = &self.plan.elements[self.element.index()].name;
-        let target = match target {
-            Target::Element(id) => &self.plan.elements[id.index()].name,
-            Target::Terminate | Target::Ignore => "terminate",
-        };
-        let name = &supervisor.name;
-        let path = match supervisor.owner {
-            Some(_) => format!("{element}.{name}"),
-            None => name.clone(),
-        };
-        let (every, time) = (spell(supervisor.every), spell(at));
-        let until = spell(at + BEHIND);
-        let _ = write!(
-            all.text,
-            "
-scenario \"{element}: {name}.{event} at {percent} %\" for {plan} {{
-    at {time}: fire {path}.{event}{values}
-    expect {element} -> {target} by {name}.{event} within {every} after {time}
-    until {until}
-}}
-",
-            plan = self.plan.name,
-        );
-        all.scenarios += 1;
-    }
-
-    /// Values for the connected outputs of an event, in brackets; `None` when one is an object.
-    fn values(&self, event: u16) -> Option<String> {
-        let supervisor = self.supervisor();
-        let ports = &self.graph.template(supervisor.template).outputs;
-        let connected =
-            supervisor.outputs.iter().filter_map(|out| ports.get(usize::from(out.port)));
-        let carried = connected.filter(|port: &&OutPort| port.on.contains(&event));
-        let values: Option<Vec<_>> = carried
-            .map(|port| {
-                let ty = match (&port.ty, &supervisor.generic) {
-                    (Type::Any | Type::Number, Some(ty)) => ty,
-                    (ty, _) => ty,
-                };
-                Some(format!("{} = {}", port.name, zero(ty)?))
-            })
-            .collect();
-        let values = values?;
-        Some(if values.is_empty() { String::new() } else { format!("({})", values.join(", ")) })
-    }
-}
-
-/// A value of a type; there is none of an object.
-fn zero(ty: &Type) -> Option<String> {
-    Some(match ty {
-        Type::Bool => "false".to_owned(),
-        Type::Int => "0".to_owned(),
-        Type::Quantity(dimension) => {
-            format!("0.0 {}", dimension.usual_unit()).trim_end().to_owned()
-        }
-        Type::Text => "\"\"".to_owned(),
-        Type::Enum(home) => format!("{}.{}", home.name, home.variants.first()?),
-        Type::Object(_) | Type::Any | Type::Number => return None,
-    })
-}
-
-/// Nanoseconds in the largest unit that needs no fraction.
+/// A time as people write it: whole, or as seconds to the microsecond.
 fn spell(time: u64) -> String {
+    let seconds = |digits: usize| format!("{:.digits$} s", time as f64 / 1e9);
     match time {
         time if time.is_multiple_of(1_000_000_000) => format!("{} s", time / 1_000_000_000),
+        time if time > 1_000_000_000 && time.is_multiple_of(1_000_000) => seconds(3),
+        time if time > 1_000_000_000 && time.is_multiple_of(1_000) => seconds(6),
         time if time.is_multiple_of(1_000_000) => format!("{} ms", time / 1_000_000),
         time if time.is_multiple_of(1_000) => format!("{} us", time / 1_000),
         time => format!("{time} ns"),

@@ -24,6 +24,8 @@ pub(crate) enum Deed {
     Break(Fault, Duration),
     /// A component reports what it does not see.
     Inject(Injection),
+    /// An actor, or all of them, do nothing from their next start on.
+    Idle(Option<ComponentId>),
 }
 
 /// What is still to happen; at one instant in the order of the text.
@@ -57,6 +59,9 @@ impl Stimuli {
                     let fault = fault(failure).ok_or(line)?;
                     let time = time.map_or(Duration::MAX, Duration::from_nanos);
                     add(at, line, Deed::Break(fault, time));
+                }
+                Action::Idle(element) => {
+                    add(at, line, Deed::Idle(element.map(ComponentId)));
                 }
                 Action::Inject(injection) => add(at, line, Deed::Inject(injected(injection))),
             }

@@ -2,12 +2,14 @@
 
 pub(crate) mod hits;
 mod look;
+#[cfg(test)]
+mod tests;
 
-use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR, Ending, Record};
-use afp_core::{Instant, Value};
-use afp_dsl::scenario::{Cause, Destination, EndCause, Expectation, Outcome, Scenario};
+use afp_core::trace::{Author, ComponentId, DEADLINE_MISSED, ERROR, Ending, Record, TraceEntryId};
+use afp_core::{Instant, Value, ValueRef};
+use afp_dsl::scenario::{Cause, Claim, Destination, EndCause, Expectation, Outcome, Scenario};
 use afp_dsl::unfold::{Goal, Place, places};
-use afp_sim::Collision;
+use afp_sim::{Collision, Truth};
 
 use crate::verdict::Broken;
 use hits::Hits;
@@ -20,6 +22,8 @@ pub(crate) struct Watch<'a> {
     state: State,
     /// An event that was taken, until it is known which element it ends.
     event: Option<Cause>,
+    /// The commit that is being heard: who writes, and which entries so far.
+    commit: Option<(Author, Vec<TraceEntryId>)>,
     /// Since when each active component is.
     since: Vec<Option<Instant>>,
     pub(crate) activations: Vec<Activation>,
@@ -48,6 +52,10 @@ pub(crate) struct State {
     entries: Vec<Value>,
     /// How the plan ended.
     pub(crate) ending: Option<Ending>,
+    /// Whether the last command to the drive was to stand still.
+    halted: bool,
+    /// Whether the robot does not move.
+    standing: bool,
 }
 
 /// Something that happened at an instant.
@@ -58,6 +66,10 @@ pub(crate) enum Happening {
     Outcome(Cause),
     /// The plan ended.
     End(Ending, Option<Cause>),
+    /// An element was interrupted.
+    Interrupt(u32),
+    /// An entry was written, as the first one of its commit or behind others.
+    Commit { entry: u32, author: Author, first: bool },
 }
 
 impl<'a> Watch<'a> {
@@ -68,6 +80,8 @@ impl<'a> Watch<'a> {
                 active: vec![false; places.len()],
                 entries: vec![Value::Unset; entries],
                 ending: None,
+                halted: true,
+                standing: true,
             },
             hits: Hits::new(&places, entries),
             looks: scenario.expectations.iter().map(Look::new).collect(),
@@ -76,6 +90,7 @@ impl<'a> Watch<'a> {
             places,
             activations: Vec::new(),
             event: None,
+            commit: None,
             last: None,
         }
     }
@@ -88,6 +103,9 @@ impl<'a> Watch<'a> {
     /// Takes a record into account.
     pub(crate) fn hear(&mut self, at: Instant, record: &Record<'_>) {
         self.hits.hear(record);
+        if !matches!(record, Record::Committed { .. }) {
+            self.commit = None;
+        }
         match *record {
             Record::Started { component } => self.set_active(at, component, true),
             Record::Event { supervisor, event } => {
@@ -97,6 +115,7 @@ impl<'a> Watch<'a> {
             }
             Record::Interrupted { element } => {
                 self.set_active(at, element, false);
+                self.happen(at, &Happening::Interrupt(element.0));
                 self.ended_by_event(at, element);
             }
             Record::Diverted { element, .. } => self.ended_by_event(at, element),
@@ -105,18 +124,35 @@ impl<'a> Watch<'a> {
                 self.leave(at, element, cause(element, state));
             }
             Record::Faulted { component, .. } => self.failed(at, component),
-            Record::Committed { entry, new, .. } => {
-                if let Some(value) = self.state.entries.get_mut(entry.0 as usize) {
-                    *value = new.to_owned();
-                }
+            Record::Committed { author, entry, new, .. } => {
+                self.committed(at, author, entry, new);
             }
             Record::Ended { plan, ending } => self.ended(at, plan, ending),
             _ => {}
         }
     }
 
+    /// Whether the robot has to be looked at between steps.
+    pub(crate) fn looks_at_robot(&self) -> bool {
+        let robot = |each: &Expectation| matches!(each.claim, Claim::Halted | Claim::Standing);
+        self.scenario.expectations.iter().any(robot)
+    }
+
+    /// The first entry that holds something else than its commits say: its number, what it holds, and
+    /// what was committed. `held` are the entries of the outermost plan.
+    pub(crate) fn differs<'v>(
+        &'v self,
+        held: impl Iterator<Item = ValueRef<'v>>,
+    ) -> Option<(usize, ValueRef<'v>, ValueRef<'v>)> {
+        let committed = self.state.entries.iter().map(Value::borrow);
+        let pairs = held.zip(committed).enumerate();
+        let mut pairs = pairs.map(|(place, (held, committed))| (place, held, committed));
+        pairs.find(|(_, held, committed)| held != committed)
+    }
+
     /// The step at this instant is over: what holds now holds until the next one.
-    pub(crate) fn settle(&mut self, at: Instant) {
+    pub(crate) fn settle(&mut self, at: Instant, truth: &Truth<'_>) {
+        (self.state.halted, self.state.standing) = (truth.is_halted(), truth.is_standing());
         for look in &mut self.looks {
             look.settle(at.as_nanos(), &self.state);
         }
@@ -143,7 +179,6 @@ impl<'a> Watch<'a> {
 
     /// A plan that ends in `Error` without anybody expecting it to end.
     fn unexpected_error(&self, end: u64) -> Option<Broken> {
-        use afp_dsl::scenario::Claim;
         let expected = |each: &Expectation| matches!(each.claim, Claim::End(_));
         let Some(Ending::Error(fault)) = self.state.ending else { return None };
         let told = self.scenario.expectations.iter().any(expected);
@@ -153,6 +188,25 @@ impl<'a> Watch<'a> {
             at: Instant::from_nanos(self.hits.ended.unwrap_or(end)),
             why: format!("the plan ended in Error: {fault}"),
         })
+    }
+
+    fn committed(&mut self, at: Instant, author: Author, id: TraceEntryId, new: ValueRef<'_>) {
+        let entry = id.0;
+        if let Some(value) = self.state.entries.get_mut(entry as usize) {
+            *value = new.to_owned();
+        }
+        // A commit writes an entry once.
+        let first = match &mut self.commit {
+            Some((known, entries)) if *known == author && !entries.contains(&id) => {
+                entries.push(id);
+                false
+            }
+            commit => {
+                *commit = Some((author, vec![id]));
+                true
+            }
+        };
+        self.happen(at, &Happening::Commit { entry, author, first });
     }
 
     fn place(&self, id: ComponentId) -> Option<&Place> {

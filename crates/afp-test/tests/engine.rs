@@ -4,6 +4,7 @@ use std::path::Path;
 
 use afp_dsl::Compiled;
 use afp_dsl::files::Texts;
+use afp_dsl::scenario::Scenario;
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 use afp_sim::Fault;
@@ -90,6 +91,17 @@ fn each_kind_of_claim_is_kept() {
         expect end by count.Done
         expect end by OK
         expect running before 1 s
+        expect count.Again once
+        expect count -> nested by Again 1 times
+        expect commit by go once
+        expect commit of gone by go 1 times
+        expect commit of i by count 2 times
+        never commit by go before 1 s
+        never interrupt of go
+        never halted within 100 ms after 50 ms
+        expect halted before 20 s
+        never standing within 100 ms after 500 ms
+        expect standing always after 25 s
         never running after 29 s
         never collision
         never back active
@@ -109,6 +121,14 @@ fn each_kind_of_claim_breaks() {
     breaks("at 1 s: press escape\n expect end by OK", "as Interrupted", 2.0);
     breaks("expect end before 1 s\n until 1 s", "did not end", 0.999_999_999);
     breaks("expect collision before 1 s", "touched nothing", 0.999_999_999);
+    breaks(
+        "at 1 s: press touch\n expect interrupt of go 2 times\n until 2 s",
+        "once, at 1.000",
+        2.0,
+    );
+    breaks("at 1 s: press touch\n expect commit by go once\n until 2 s", "did not happen", 2.0);
+    breaks("expect halted always\n until 2 s", "told to move", 0.01);
+    breaks("expect standing after 1 s\n until 2 s", "never stood", 2.0);
     breaks("at 1 s: press escape\n expect running always\n until 5 s", "otherwise", 1.0);
 }
 
@@ -134,6 +154,26 @@ fn what_is_not_active_cannot_be_made_to_report() {
     breaks(&format!("at 1 s: finish back.ForwardSuccessful\n {idle}"), "'back' is not", 1.0);
     let nested = "at 1 s: fire nested.turn.touch.TouchSensorPressed\n";
     breaks(&format!("{nested} {idle}"), "'nested.turn.touch' is not active", 1.0);
+}
+
+#[test]
+fn idle_actors_are_active_and_do_nothing() {
+    let lines = format!(
+        "{FREE} at 0 s: idle back
+        at 1 s: press touch
+        expect go -> back by touch
+        expect back active before 1.1 s
+        expect standing always after 1.5 s
+        at 3 s: finish back.ForwardSuccessful
+        at 2 s: idle all
+        expect nested.turn active always after 3.1 s
+        expect halted always after 1.1 s
+        until 5 s"
+    );
+    passes(&lines);
+    let moving = run(&lines.replace("idle all", "release touch"));
+    let whys: Vec<_> = moving.broken.iter().map(|broken| broken.why.as_str()).collect();
+    assert_eq!(whys[..2], ["the drive was told to move", "the robot moved"]);
 }
 
 #[test]
@@ -166,10 +206,12 @@ fn scenarios_are_made_for_every_event_at_five_points_and_pass() {
     let base = compiled(PLAN, "expect go active\n until 20 s");
     let scenario = &base.scenarios[0];
     let setting = Setting::find(scenario, Path::new("case.afp")).unwrap();
-    let runs = afp_test::run(scenario, &setting, &|_| {}, None).unwrap().activations;
-    let made = afp_test::generate(&scenario.graph, "case.afp", &runs);
+    let quiet = Scenario::quiet("", scenario.graph.clone(), "case.afp", 30_000_000_000);
+    let mut go = |scenario: &Scenario| afp_test::run(scenario, &setting, &|_| {}, None);
+    let made = afp_test::generate("case.afp", &quiet, &mut go).unwrap();
+    assert_eq!(made.left_out, [""; 0]);
     assert!(made.scenarios >= 15, "{}", made.text);
-    assert!(made.text.contains("expect go -> back by touch.TouchSensorPressed within"));
+    assert!(made.text.contains("expect go -> back by touch.TouchSensorPressed once within"));
     let text = made.text.split_once("\n\n").unwrap().1;
     let all = compiled(
         PLAN,
@@ -178,6 +220,52 @@ fn scenarios_are_made_for_every_event_at_five_points_and_pass() {
     assert_eq!(all.scenarios.len(), made.scenarios + 2);
     for scenario in &all.scenarios {
         let verdict = afp_test::run(scenario, &setting, &|_| {}, None).unwrap();
+        assert!(verdict.passed(), "{}\n{}", scenario.name, verdict.report());
+    }
+}
+
+#[test]
+fn generation_reaches_what_needs_events_and_says_what_it_does_not_reach() {
+    const HIDDEN: &str = r#"
+use carbot
+use std
+plan Ahead {
+    start go
+    actor go: Wait(duration = 5 s) {
+        supervise touch: CheckTouchSensor { TouchSensorPressed -> aside }
+        Elapsed -> terminate
+    }
+    actor aside: Wait(duration = 2 s) {
+        supervise escape: CheckEscapeButton { EscapeButtonPressed -> pick }
+        Elapsed -> terminate
+    }
+    computation pick: Compare(left = 1, right = 2) { Less -> deep, Equal -> never, Greater -> never }
+    actor deep: Forward(distance = 1 m) {
+        supervise touch: CheckTouchSensor { TouchSensorPressed -> go }
+        ForwardSuccessful -> terminate
+    }
+    actor never: Wait(duration = 1 s) { Elapsed -> terminate }
+}
+"#;
+    let base = compiled(HIDDEN, "expect end");
+    let quiet = Scenario::quiet("", base.scenarios[0].graph.clone(), "case.afp", 30_000_000_000);
+    let setting = Setting::find(&quiet, Path::new("case.afp")).unwrap();
+    let mut runs = 0;
+    let made = afp_test::generate("case.afp", &quiet, &mut |scenario: &Scenario| {
+        runs += 1;
+        afp_test::run(scenario, &setting, &|_| {}, None)
+    });
+    let made = made.unwrap();
+    assert_eq!(made.left_out, ["no run reached 'never'"]);
+    assert!(runs < 20, "{runs} runs");
+    let (_, deep) = made.text.split_once("\"deep: touch.TouchSensorPressed at 10 %").unwrap();
+    let place = |text: &str| deep.find(text).unwrap();
+    assert!(place("fire go.touch.TouchSensorPressed") < place("fire aside.escape.Escape"));
+    assert!(place("fire aside.escape.Escape") < place("fire deep.touch.TouchSensorPressed"));
+    let (_, text) = made.text.split_once('\n').unwrap();
+    let plan = format!("{}\n{text}", HIDDEN);
+    for scenario in compiled(&plan, "expect end").scenarios {
+        let verdict = afp_test::run(&scenario, &setting, &|_| {}, None).unwrap();
         assert!(verdict.passed(), "{}\n{}", scenario.name, verdict.report());
     }
 }

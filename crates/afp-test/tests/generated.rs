@@ -1,47 +1,169 @@
-//! Every event at five points of each actor's run, for the plans that are shipped.
+//! Every event at five points of each element's run, for the plans that are shipped; and that what these
+//! scenarios expect is not always so.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use afp::load::Registry;
+use afp::{Actor, Fault, Instant, Poll};
+use afp_carbot::devices::Navigator;
+use afp_carbot::{Forward, templates};
+use afp_core::quantity::{AngularSpeed, Speed};
+use afp_core::rt::Registry as _;
 use afp_dsl::Compiled;
 use afp_dsl::files::Texts;
 use afp_dsl::scenario::{DEFAULT_UNTIL, Scenario};
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
-use afp_test::{Setting, Verdict};
+use afp_sim::Simulation;
+use afp_test::{Generated, Setting, Templates, Verdict};
+use templates::forward::{Inputs, Live, State};
+
+/// The templates of `examples/embed`, for a robot without a loudspeaker.
+mod shop {
+    afp::toolbox!("../../examples/embed/shop.afp");
+}
+
+const SHOP: &str = include_str!("../../../examples/embed/shop.afp");
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
 
 fn compiled(name: &str, text: &str) -> Compiled {
-    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+    let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+    toolboxes.add(Source::new("shop.afp", SHOP), "shop");
     let compiled = afp_dsl::compile(&Source::new(name, text), &toolboxes, &Texts::default());
     assert!(compiled.graph.is_some(), "{}", compiled.render(false));
     compiled
 }
 
-fn run(scenario: &Scenario, setting: &Setting) -> Verdict {
-    afp_test::run(scenario, setting, &|_| {}, None).unwrap()
+/// A plan with the scenarios that are made for it.
+struct Made {
+    setting: Setting,
+    generated: Generated,
+    scenarios: Vec<Scenario>,
+}
+
+impl Made {
+    fn new(file: &Path, templates: Templates<'_>) -> Made {
+        let (name, text) = (file.display().to_string(), fs::read_to_string(file).unwrap());
+        let graph = Arc::new(compiled(&name, &text).graph.unwrap());
+        let quiet = Scenario::quiet("as it goes", graph, &*name, DEFAULT_UNTIL);
+        let setting = Setting::find(&quiet, file).unwrap();
+        let mut go = |scenario: &Scenario| afp_test::run(scenario, &setting, templates, None);
+        let generated = afp_test::generate("same file", &quiet, &mut go).unwrap();
+        // The scenarios stand below the plan itself, so nothing is used.
+        let (_, scenarios) = generated.text.split_once('\n').unwrap();
+        let all = compiled(&name, &format!("{text}\n{scenarios}"));
+        assert_eq!(all.scenarios.len(), generated.scenarios, "{}", all.render(false));
+        Made { setting, generated, scenarios: all.scenarios }
+    }
+
+    fn run(&self, scenario: &Scenario, templates: Templates<'_>) -> Verdict {
+        afp_test::run(scenario, &self.setting, templates, None).unwrap()
+    }
+
+    #[track_caller]
+    fn all_pass(&self, templates: Templates<'_>) {
+        for scenario in &self.scenarios {
+            let verdict = self.run(scenario, templates);
+            assert!(verdict.passed(), "{}\n{}", scenario.name, verdict.report());
+        }
+    }
 }
 
 #[test]
-fn every_event_leads_where_the_plan_says() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../plans");
-    let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+fn every_event_of_the_shipped_plans_interrupts_as_it_should() {
+    let files = fs::read_dir(root().join("plans")).unwrap().map(|entry| entry.unwrap().path());
     let files: Vec<_> = files.filter(|path| path.extension().is_some_and(|e| e == "afp")).collect();
     assert!(!files.is_empty());
     for file in files {
-        let (name, text) = (file.display().to_string(), fs::read_to_string(&file).unwrap());
-        let graph = Arc::new(compiled(&name, &text).graph.unwrap());
-        let base = Scenario::quiet("as it goes", graph.clone(), &*name, DEFAULT_UNTIL);
-        let setting = Setting::find(&base, &file).unwrap();
-        let made = afp_test::generate(&graph, "same file", &run(&base, &setting).activations);
-        // The scenarios stand below the plan itself, so nothing is used.
-        let (_, scenarios) = made.text.split_once('\n').unwrap();
-        let all = compiled(&name, &format!("{text}\n{scenarios}"));
-        assert_eq!(all.scenarios.len(), made.scenarios);
-        assert!(made.scenarios >= 5, "{name}");
-        for scenario in &all.scenarios {
-            let verdict = run(scenario, &setting);
-            assert!(verdict.passed(), "{name}: {}\n{}", scenario.name, verdict.report());
+        let made = Made::new(&file, &|_| {});
+        let name = file.display();
+        assert_eq!(made.generated.left_out, [""; 0], "{name}");
+        assert!(made.generated.scenarios >= 5, "{name}");
+        made.all_pass(&|_| {});
+    }
+}
+
+#[test]
+fn every_event_in_the_sub_plans_of_the_example_does_too() {
+    let templates = |registry: &mut Registry<Simulation>| {
+        shop::register(registry);
+    };
+    let made = Made::new(&root().join("examples/embed/plans/errands.afp"), &templates);
+    assert!(made.generated.text.contains("expect fetch.there -> terminate by touch"));
+    assert_eq!(made.generated.left_out, [""; 0]);
+    made.all_pass(&templates);
+}
+
+/// Interrupts `Forward` as `A` has it; what breaks.
+fn interrupted<A: Actor<templates::Forward, Simulation> + 'static>() -> Vec<String> {
+    let sound = Made::new(&root().join("plans/wall_following.afp"), &|_| {});
+    let mutant = |registry: &mut Registry<Simulation>| {
+        registry.actor::<templates::Forward, A>("carbot", "Forward");
+    };
+    let driving = |scenario: &&Scenario| scenario.name.starts_with("searchFirstWall: touch");
+    let driving: Vec<_> = sound.scenarios.iter().filter(driving).collect();
+    assert_eq!(driving.len(), 5);
+    let broken = driving.iter().flat_map(|scenario| sound.run(scenario, &mutant).broken);
+    broken.map(|broken| format!("{}: {}", broken.text, broken.why)).collect()
+}
+
+#[test]
+fn an_actor_that_goes_on_when_it_is_interrupted_is_found() {
+    let halted = |broken: &&String| broken.starts_with("expect halted always");
+    assert_eq!(interrupted::<Mutant<false>>().iter().filter(halted).count(), 5);
+    let slowly = interrupted::<Mutant<true>>();
+    assert_eq!(slowly.iter().filter(halted).count(), 5, "{slowly:?}");
+    assert_eq!(interrupted::<Forward>(), [""; 0]);
+}
+
+/// Announces nothing.
+struct Announce;
+
+impl Actor<shop::Announce, Simulation> for Announce {
+    fn start(_: shop::announce::Inputs<'_>, _: &mut Simulation, _: Instant) -> Result<Self, Fault> {
+        Ok(Announce)
+    }
+
+    fn poll(
+        &mut self,
+        _: shop::announce::Live,
+        _: &mut Simulation,
+        _: Instant,
+    ) -> Result<Poll<shop::announce::State>, Fault> {
+        Ok(Poll::Ready(shop::announce::State::Announced))
+    }
+
+    fn interrupt(&mut self, _: &mut Simulation, _: Instant) -> Result<(), Fault> {
+        Ok(())
+    }
+}
+
+/// `Forward` that goes on when it is interrupted: as it was told last, or slowly.
+struct Mutant<const SLOWLY: bool>(Forward);
+
+impl<const SLOWLY: bool> Actor<templates::Forward, Simulation> for Mutant<SLOWLY> {
+    fn start(inputs: Inputs, env: &mut Simulation, now: Instant) -> Result<Self, Fault> {
+        Forward::start(inputs, env, now).map(Mutant)
+    }
+
+    fn poll(
+        &mut self,
+        live: Live,
+        env: &mut Simulation,
+        now: Instant,
+    ) -> Result<Poll<State>, Fault> {
+        self.0.poll(live, env, now)
+    }
+
+    fn interrupt(&mut self, env: &mut Simulation, now: Instant) -> Result<(), Fault> {
+        if SLOWLY {
+            env.drive(Speed::from_si(0.1), AngularSpeed::from_si(0.0), now);
         }
+        Ok(())
     }
 }

@@ -5,6 +5,8 @@
 
 mod actions;
 mod claims;
+mod commits;
+mod often;
 mod paths;
 mod times;
 

@@ -24,6 +24,8 @@ pub(crate) struct Drive {
     wheels: [Wheel; 2],
     command: (f64, f64),
     commanded: Instant,
+    /// The last command, whatever became of it.
+    asked: (f64, f64),
     health: Health,
 }
 
@@ -50,6 +52,7 @@ impl Drive {
             wheels: [Wheel::new(WHEEL_Y), Wheel::new(-WHEEL_Y)],
             command: (0.0, 0.0),
             commanded: Instant::ZERO,
+            asked: (0.0, 0.0),
             health: Health::default(),
         }
     }
@@ -58,19 +61,27 @@ impl Drive {
         &self.wheels
     }
 
+    /// The last command, metres and radians a second; zeros before the first. Neither a controller that
+    /// is dead nor one that stops by itself changes it.
+    pub(crate) fn asked(&self) -> (f64, f64) {
+        self.asked
+    }
+
     /// Takes a command; one that is not finite means a standstill.
     pub(crate) fn command(&mut self, speed: f64, turn: f64, now: Instant) {
+        let sound = speed.is_finite() && turn.is_finite();
+        let (speed, turn) = if sound { (speed, turn) } else { (0.0, 0.0) };
+        self.asked = (speed, turn);
         if self.health.dead {
             return;
         }
-        let sound = speed.is_finite() && turn.is_finite();
-        let (speed, turn) = if sound { (speed, turn) } else { (0.0, 0.0) };
         self.commanded = now;
         self.obey(speed.clamp(-TOP_SPEED, TOP_SPEED), turn.clamp(-TOP_TURN, TOP_TURN));
     }
 
     /// Blocks the wheels at once.
     pub(crate) fn block(&mut self) {
+        self.asked = (0.0, 0.0);
         self.obey(0.0, 0.0);
         for wheel in &mut self.wheels {
             wheel.block();

@@ -1,5 +1,6 @@
 //! One expectation while a scenario runs.
 
+use afp_core::trace::{Author, ComponentId};
 use afp_core::{Ending, Instant, Value};
 use afp_dsl::scenario::{Claim, Expectation, Wanted};
 use afp_dsl::toolbox::Constant;
@@ -7,6 +8,9 @@ use afp_sim::Collision;
 
 use super::{Happening, State, ends, fits, leads};
 use crate::verdict::Broken;
+
+/// So many times are told.
+const MOST: usize = 5;
 
 /// What has been seen of an expectation so far.
 pub(super) struct Look<'a> {
@@ -19,11 +23,13 @@ pub(super) struct Look<'a> {
     failed: Option<u64>,
     /// The first time that it happened outside of the window.
     outside: Option<u64>,
+    /// Every time that it happened in the window, where that is counted.
+    times: Vec<u64>,
 }
 
 impl<'a> Look<'a> {
     pub(super) fn new(expectation: &'a Expectation) -> Self {
-        Look { expectation, now: None, held: None, failed: None, outside: None }
+        Look { expectation, now: None, held: None, failed: None, outside: None, times: Vec::new() }
     }
 
     /// Something happened.
@@ -35,13 +41,23 @@ impl<'a> Look<'a> {
             ) => from == left && leads(*to, *goal) && by.is_none_or(|by| fits(&by, *why)),
             (Claim::Happens(wanted), Happening::Outcome(cause)) => fits(wanted, *cause),
             (Claim::End(wanted), Happening::End(ending, last)) => ends(*wanted, *ending, *last),
+            (Claim::Interrupt(wanted), Happening::Interrupt(element)) => wanted == element,
+            (Claim::Commit { of, by }, Happening::Commit { entry, author, first }) => {
+                let by = by.is_none_or(|by| *author == Author::Component(ComponentId(by)));
+                by && of.map_or(*first, |of| of == *entry)
+            }
             _ => false,
         };
         if !fits {
             return;
         }
         match self.expectation.window.contains(at) {
-            true => self.held = self.held.or(Some(at)),
+            true => {
+                self.held = self.held.or(Some(at));
+                if let Wanted::Times(_) = self.expectation.wanted {
+                    self.times.push(at);
+                }
+            }
             false => self.outside = self.outside.or(Some(at)),
         }
     }
@@ -62,7 +78,14 @@ impl<'a> Look<'a> {
                 let known = state.entries.get(*entry as usize).and_then(constant);
                 Some(known.is_some_and(|known| comparison.holds(&known, value)))
             }
-            Claim::Transition { .. } | Claim::Happens(_) | Claim::End(_) | Claim::Collision => None,
+            Claim::Halted => Some(state.halted),
+            Claim::Standing => Some(state.standing),
+            Claim::Transition { .. }
+            | Claim::Happens(_)
+            | Claim::End(_)
+            | Claim::Interrupt(_)
+            | Claim::Commit { .. }
+            | Claim::Collision => None,
         }
     }
 
@@ -99,6 +122,12 @@ impl<'a> Look<'a> {
             Wanted::Once => (window.to.min(end), self.missing(state)),
             Wanted::Never => (self.held?, "it was so".to_owned()),
             Wanted::Always => (self.failed?, self.otherwise(state)),
+            Wanted::Times(wanted) if self.times.len() == wanted as usize => return None,
+            Wanted::Times(wanted) => match self.times.get(wanted as usize) {
+                Some(more) => (*more, self.often()),
+                None if self.times.is_empty() => (window.to.min(end), self.missing(state)),
+                None => (window.to.min(end), self.often()),
+            },
         };
         let (text, span) = (expectation.text.clone(), expectation.span);
         Some(Broken { text, span, at: Instant::from_nanos(at), why })
@@ -119,6 +148,17 @@ impl<'a> Look<'a> {
         self.failed = (!whole).then_some(window.from);
     }
 
+    /// How often it happened.
+    fn often(&self) -> String {
+        let at = self.times.iter().take(MOST).map(|at| format!("{:.3} s", *at as f64 / 1e9));
+        let (count, at) = (self.times.len(), at.collect::<Vec<_>>().join(", "));
+        let more = if count > MOST { " and so on" } else { "" };
+        match count {
+            1 => format!("it happened once, at {at}"),
+            count => format!("it happened {count} times, at {at}{more}"),
+        }
+    }
+
     fn missing(&self, state: &State) -> String {
         match (&self.expectation.claim, self.outside) {
             (_, Some(at)) => {
@@ -130,6 +170,8 @@ impl<'a> Look<'a> {
             },
             (Claim::Compare { entry, .. }, None) => self.value(*entry, state),
             (Claim::Collision, None) => "the robot touched nothing".to_owned(),
+            (Claim::Halted, None) => "the drive was never told to stand still".to_owned(),
+            (Claim::Standing, None) => "the robot never stood".to_owned(),
             _ => "it did not happen".to_owned(),
         }
     }
@@ -137,6 +179,8 @@ impl<'a> Look<'a> {
     fn otherwise(&self, state: &State) -> String {
         match &self.expectation.claim {
             Claim::Compare { entry, .. } => self.value(*entry, state),
+            Claim::Halted => "the drive was told to move".to_owned(),
+            Claim::Standing => "the robot moved".to_owned(),
             _ => "it was otherwise".to_owned(),
         }
     }

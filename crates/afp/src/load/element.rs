@@ -18,6 +18,16 @@ pub struct ElementSlot<E: ?Sized + 'static> {
     running: Running<E>,
     /// What it reports at its next poll in place of its own.
     pub(super) injected: Injected,
+    idle: Idle,
+}
+
+/// Whether an actor does nothing, for tests.
+#[derive(Clone, Copy, Debug, Default)]
+struct Idle {
+    /// From its next start on.
+    next: bool,
+    /// Since its last start.
+    now: bool,
 }
 
 /// What runs in an element.
@@ -39,7 +49,7 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
     /// An element that does not run.
     pub fn new(element: &graph::Element, running: Running<E>) -> Self {
         let (inputs, outputs) = (Inputs::new(&element.inputs), Binding::all(&element.outputs));
-        ElementSlot { inputs, outputs, running, injected: None }
+        ElementSlot { inputs, outputs, running, injected: None, idle: Idle::default() }
     }
 
     /// Starts it: inputs, then the component.
@@ -48,7 +58,9 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
         config: &mut Config,
         cx: &mut Cx<'_, E, S, C>,
     ) -> Started {
+        self.idle.now = self.idle.next;
         let started = match &mut self.running {
+            Running::Actor(_) if self.idle.now => Ok(Started::Running),
             Running::Actor(actor) => {
                 let args = self.inputs.pull(&config.values);
                 let start = cx.show_inputs(|see, env, now| actor.start(&args, see, env, now));
@@ -79,6 +91,7 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
         cx: &mut Cx<'_, E, S, C>,
     ) -> Polled {
         match &mut self.running {
+            Running::Actor(_) if self.idle.now => Polled::Pending,
             Running::Actor(actor) => {
                 let mut stage = Stage::new(&self.outputs, &mut config.staged);
                 let args = self.inputs.pull(&config.values);
@@ -137,9 +150,27 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
         machine.plan_mut().inject_at(active, part, injection)
     }
 
+    /// Lets an actor, or all of a sub-plan, do nothing from the next start on.
+    pub fn idle(&mut self) {
+        match &mut self.running {
+            Running::Actor(_) => self.idle.next = true,
+            Running::Computation(_) => {}
+            Running::SubPlan { machine, .. } => machine.plan_mut().idle_all(),
+        }
+    }
+
+    /// As [`ElementSlot::idle`] for a part of the sub-plan; `part` as in
+    /// [`ElementSlot::inject_inside`].
+    pub fn idle_inside(&mut self, part: u32) -> bool {
+        let Running::SubPlan { child, machine } = &mut self.running else { return false };
+        let part = part.checked_sub(child.components);
+        part.is_some_and(|part| machine.plan_mut().idle_at(part))
+    }
+
     /// Interrupts it, innermost first.
     pub fn interrupt<S: Sink, C: Clock>(&mut self, cx: &mut Cx<'_, E, S, C>) -> Result<(), Fault> {
         match &mut self.running {
+            Running::Actor(_) if self.idle.now => Ok(()),
             Running::Actor(actor) => actor.interrupt(cx.env, cx.now),
             Running::Computation(_) => Err(Fault::INTERNAL),
             Running::SubPlan { child, machine } => cx.inside(*child, |cx| machine.interrupt(cx)),

@@ -6,7 +6,7 @@ use afp_core::rt::{
     Child, Committer, Cx, Events, Fired, Machine, NamedPlan, Plan, Polled, Scale, Slot, Started,
     Tables, Unit, int_to_float,
 };
-use afp_core::trace::Sink;
+use afp_core::trace::{ComponentId, Sink};
 use afp_core::{Clock, Environment, Fault, PlanState, Value, ValueRef, WriteError};
 use afp_dsl::graph::{self, Component, EntryKind, Graph, PlanId};
 use afp_dsl::types::Type;
@@ -196,6 +196,35 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
             return Ok(());
         }
         self.elements.get_mut(usize::from(active)).ok_or(NotActive)?.inject_inside(part, injection)
+    }
+
+    /// Makes an actor, or all actors of a sub-plan, do nothing from their next start on: for tests. They
+    /// are active all the same, until they are interrupted or made to report a state. Without an
+    /// element it is about all actors.
+    ///
+    /// Gives whether there is such an element.
+    pub fn idle(&mut self, element: Option<ComponentId>) -> bool {
+        let Some(element) = element else {
+            self.idle_all();
+            return true;
+        };
+        element.0.checked_sub(1).is_some_and(|part| self.idle_at(part))
+    }
+
+    pub(super) fn idle_all(&mut self) {
+        self.elements.iter_mut().for_each(ElementSlot::idle);
+    }
+
+    /// As [`LoadedPlan::idle`]; `part` counts from this plan's first element.
+    pub(super) fn idle_at(&mut self, part: u32) -> bool {
+        match self.elements.get_mut(part as usize) {
+            Some(element) => {
+                element.idle();
+                true
+            }
+            // The parts of a sub-plan follow one another, so that one sub-plan at most has it.
+            None => self.elements.iter_mut().any(|element| element.idle_inside(part)),
+        }
     }
 
     /// Gives the `port`-th `in` entry its value for the next activation.

@@ -16,7 +16,7 @@ use crate::types::{Dimension, Type};
 use crate::words;
 
 /// Everything that can happen.
-const VERBS: &[&str] = &["press", "release", "fail", "fire", "finish", "set"];
+const VERBS: &[&str] = &["press", "release", "fail", "fire", "finish", "idle", "set"];
 
 impl Checker<'_> {
     pub(super) fn action(&self, node: &ast::Action, diags: &mut Diagnostics) -> Option<Action> {
@@ -37,6 +37,7 @@ impl Checker<'_> {
             "fail" => Some(Action::Fail(self.failure(&path, &node.binds(), diags)?, duration)),
             "fire" => self.fire(&path, &node.binds(), diags),
             "finish" => self.finish(&path, &node.binds(), diags),
+            "idle" => self.idle(&path, diags),
             _ => {
                 let message = format!("there is no action '{}'", verb.text);
                 let known = VERBS.iter().copied();
@@ -60,7 +61,7 @@ impl Checker<'_> {
             );
             return None;
         }
-        if ["press", "release"].contains(&verb.text.as_str())
+        if ["press", "release", "idle"].contains(&verb.text.as_str())
             && let Some(Bind::In { port, .. } | Bind::Out { port, .. }) = node.binds().first()
         {
             let message = format!("'{}' has nothing that is called '{}'", verb.text, port.text);
@@ -97,6 +98,34 @@ impl Checker<'_> {
             Diagnostic::new(Code::E0602, path.span(), "'finish' is for states of actors")
                 .help(help),
         );
+        None
+    }
+
+    /// Actors that are to do nothing: one, those of a sub-plan, all.
+    fn idle(&self, path: &ast::Path, diags: &mut Diagnostics) -> Option<Action> {
+        let names = path.names();
+        let found = match self.paths.find(self.paths.main(), &names) {
+            Ok((found, [])) => found,
+            Ok(_) => {
+                let error = Diagnostic::new(Code::E0602, path.span(), "'idle' is for actors");
+                diags.push(error.help("name the actor alone"));
+                return None;
+            }
+            Err(_) if path.text() == "all" => return Some(Action::Idle(None)),
+            Err(error) => {
+                diags.push(*error);
+                return None;
+            }
+        };
+        let help = match self.paths.component(found) {
+            Some(Component::Actor(_) | Component::SubPlan(_)) => {
+                return Some(Action::Idle(Some(self.paths.number(found))));
+            }
+            Some(Component::Computation(_)) => "a computation does nothing to the robot anyway",
+            None => "a supervisor watches only; name the actor",
+        };
+        let error = Diagnostic::new(Code::E0602, path.span(), "'idle' is for actors and sub-plans");
+        diags.push(error.help(help));
         None
     }
 

@@ -1,13 +1,12 @@
 //! What a scenario expects.
 
 use super::Checker;
+use super::often::wanted;
 use super::paths::{Found, Part};
 use crate::check::names::unknown;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{Component, Target};
-use crate::scenario::{
-    Cause, Claim, Comparison, Destination, EndCause, Expectation, Outcome, Wanted,
-};
+use crate::scenario::{Cause, Claim, Comparison, Destination, EndCause, Expectation, Outcome};
 use crate::syntax::ast::{self, Bound, ClaimKind, Formula, Line, Name, Path};
 use crate::types::Type;
 
@@ -22,21 +21,8 @@ impl Checker<'_> {
     ) -> Option<Expectation> {
         let window = self.window(bounds, diags);
         let claim = self.claim(node, diags)?;
-        let (window, always) = window?;
-        let wanted = match (never, always) {
-            (true, _) => Wanted::Never,
-            (false, true) => Wanted::Always,
-            (false, false) => Wanted::Once,
-        };
-        let always_bound = bounds.iter().find(|bound| bound.word() == "always");
-        if let Some(bound) = always_bound.filter(|_| never || claim.is_event()) {
-            let message = match never {
-                true => "'never' holds always",
-                false => "what happens at an instant cannot hold always",
-            };
-            diags.push(Diagnostic::new(Code::E0604, bound.span(), message).help("remove 'always'"));
-            return None;
-        }
+        let window = window?;
+        let wanted = wanted(never, &claim, bounds, diags)?;
         Some(Expectation { claim, wanted, window, text: line.text(), span: line.span() })
     }
 
@@ -49,6 +35,8 @@ impl Checker<'_> {
             ClaimKind::Compare(path, sign, value) => self.compare(&path, &sign, &value?, diags),
             ClaimKind::Running => Some(Claim::Running),
             ClaimKind::End(by) => self.end(by.as_ref(), diags),
+            ClaimKind::Interrupt(path) => self.interrupt(&path, diags),
+            ClaimKind::Commit { of, by } => self.commit(of.as_ref(), by.as_ref(), diags),
             ClaimKind::Fact(path) => self.fact(&path, diags),
             ClaimKind::Hole => None,
         }
@@ -71,6 +59,15 @@ impl Checker<'_> {
     }
 
     fn active(&self, path: &Path, diags: &mut Diagnostics) -> Option<Claim> {
+        self.lasting(path, diags).map(Claim::Active)
+    }
+
+    fn interrupt(&self, path: &Path, diags: &mut Diagnostics) -> Option<Claim> {
+        self.lasting(path, diags).map(Claim::Interrupt)
+    }
+
+    /// An element that takes time, by its number.
+    fn lasting(&self, path: &Path, diags: &mut Diagnostics) -> Option<u32> {
         let found = self.element(path, diags)?;
         if let Some(Component::Computation(_)) = self.paths.component(found) {
             let message = format!("'{}' is a computation and takes no time", path.text());
@@ -81,7 +78,7 @@ impl Checker<'_> {
             );
             return None;
         }
-        Some(Claim::Active(self.paths.number(found)))
+        Some(self.paths.number(found))
     }
 
     fn transition(
@@ -352,10 +349,12 @@ impl Checker<'_> {
         let names = path.names();
         let (found, rest) = match self.paths.find(self.paths.main(), &names) {
             Ok(found) => found,
-            Err(_) if path.text() == "collision" => return Some(Claim::Collision),
             Err(error) => {
-                diags.push(*error);
-                return None;
+                let fact = robot_fact(&path.text());
+                if fact.is_none() {
+                    diags.push(*error);
+                }
+                return fact;
             }
         };
         if rest.is_empty() {
@@ -383,5 +382,15 @@ impl Checker<'_> {
             return None;
         }
         Some(Claim::Happens(Cause { component: self.paths.number(found), outcome }))
+    }
+}
+
+/// What can be said of the robot without naming a part of the plan.
+fn robot_fact(word: &str) -> Option<Claim> {
+    match word {
+        "collision" => Some(Claim::Collision),
+        "halted" => Some(Claim::Halted),
+        "standing" => Some(Claim::Standing),
+        _ => None,
     }
 }

@@ -42,6 +42,13 @@ pub(super) enum Part {
     Supervisor(SupervisorId),
 }
 
+impl Home {
+    /// The plan.
+    pub fn plan(self) -> PlanId {
+        self.plan
+    }
+}
+
 impl<'a> Paths<'a> {
     pub fn new(graph: &'a Graph) -> Self {
         Paths { graph, blocks: blocks(graph) }
@@ -172,6 +179,16 @@ impl<'a> Paths<'a> {
                 Part::Element(id) => u32::from(id.0),
                 Part::Supervisor(id) => plan.elements.len() as u32 + u32::from(id.0),
             }
+    }
+
+    /// The entries that the component's outputs lead to, by their numbers.
+    pub fn written(&self, found: Found) -> Vec<u32> {
+        let plan = self.graph.plan(found.home.plan);
+        let outputs = match found.part {
+            Part::Element(id) => &plan.elements[id.index()].outputs,
+            Part::Supervisor(id) => &plan.supervisors[id.index()].outputs,
+        };
+        outputs.iter().map(|output| found.home.entries + u32::from(output.entry.0)).collect()
     }
 
     /// The component's name.

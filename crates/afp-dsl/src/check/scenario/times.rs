@@ -40,22 +40,16 @@ impl Checker<'_> {
         }
     }
 
-    /// The window of an expectation, and whether it is `always`.
-    pub(super) fn window(
-        &self,
-        bounds: &[Bound],
-        diags: &mut Diagnostics,
-    ) -> Option<(Window, bool)> {
+    /// The window of an expectation.
+    pub(super) fn window(&self, bounds: &[Bound], diags: &mut Diagnostics) -> Option<Window> {
         let mut seen: Vec<(String, Span)> = Vec::new();
         let mut window = Window { from: 0, to: self.until };
         let mut length = None;
-        let mut always = false;
         for bound in bounds {
             let word = bound.word();
             let clash = |known: &str| {
-                known == word
-                    || (word == "within" && known == "before")
-                    || (word == "before" && known == "within")
+                let same = |words: &[&str]| words.contains(&known) && words.contains(&&*word);
+                known == word || same(&["within", "before"]) || same(&["always", "once", "times"])
             };
             if let Some((first, place)) = seen.iter().find(|(known, _)| clash(known)) {
                 let message = match *first == word {
@@ -70,8 +64,7 @@ impl Checker<'_> {
                 return None;
             }
             seen.push((word.clone(), bound.span()));
-            if word == "always" {
-                always = true;
+            if ["always", "once", "times"].contains(&word.as_str()) {
                 continue;
             }
             let written = bound.time()?;
@@ -98,6 +91,6 @@ impl Checker<'_> {
             );
             return None;
         }
-        Some((window, always))
+        Some(window)
     }
 }

@@ -14,7 +14,7 @@ views! {
     Action
     /// What a scenario expects.
     Claim
-    /// `always`, `within 3 ms` and the like.
+    /// `always`, `once`, `within 3 ms` and the like.
     Bound
     /// `a.b.c`
     Path
@@ -66,6 +66,15 @@ pub enum ClaimKind {
     Running,
     /// `end by cause`
     End(Option<Path>),
+    /// `interrupt of path`
+    Interrupt(Path),
+    /// `commit of entry by author`, one of them perhaps missing.
+    Commit {
+        /// The entry that is written.
+        of: Option<Path>,
+        /// Who writes.
+        by: Option<Path>,
+    },
     /// A state, an event or a fact of the world.
     Fact(Path),
     /// Nothing that can be understood; reported.
@@ -191,6 +200,14 @@ impl Claim {
         if has("end") {
             return ClaimKind::End(paths.next());
         }
+        if has("commit") {
+            let of = if has("of") { paths.next() } else { None };
+            let by = if by { paths.next() } else { None };
+            return ClaimKind::Commit { of, by };
+        }
+        if has("interrupt") {
+            return paths.next().map_or(ClaimKind::Hole, ClaimKind::Interrupt);
+        }
         let Some(first) = paths.next() else { return ClaimKind::Hole };
         if token(&self.node, Kind::Arrow, self.file).is_some() {
             let to = if has("terminate") { None } else { paths.next() };
@@ -213,9 +230,14 @@ impl Claim {
 }
 
 impl Bound {
-    /// `always`, `within`, `before` or `after`.
+    /// `always`, `once`, `times`, `within`, `before` or `after`.
     pub fn word(&self) -> String {
         keyword(&self.node)
+    }
+
+    /// The number before `times`.
+    pub fn number(&self) -> Option<Name> {
+        token(&self.node, Kind::Int, self.file)
     }
 
     /// Its time.

@@ -127,8 +127,14 @@ impl Parser<'_, '_> {
         self.close();
         loop {
             match self.word(0) {
-                "always" => {
+                "always" | "once" => {
                     self.open(Kind::Bound);
+                    self.keyword();
+                    self.close();
+                }
+                _ if self.at(Kind::Int) && self.word(1) == "times" => {
+                    self.open(Kind::Bound);
+                    self.bump();
                     self.keyword();
                     self.close();
                 }
@@ -150,6 +156,21 @@ impl Parser<'_, '_> {
         }
         if !is_path && self.eat_word("end") {
             return self.by();
+        }
+        match (self.word(0), self.word(1)) {
+            ("interrupt", "of") => {
+                self.keyword();
+                self.keyword();
+                return self.path();
+            }
+            ("commit", "of" | "by") => {
+                self.keyword();
+                if self.eat_word("of") {
+                    self.path();
+                }
+                return self.by();
+            }
+            _ => {}
         }
         self.path();
         if self.eat(Kind::Arrow) {

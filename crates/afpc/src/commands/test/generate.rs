@@ -52,11 +52,12 @@ fn generate(file: &Path, graph: Graph, templates: Templates<'_>) -> Result<Gener
         return Err(RunError::usage(message, "give it one, or write the scenarios yourself"));
     }
     let plan_file = file.display().to_string();
-    let scenario = Scenario::quiet("as it goes", Arc::new(graph), plan_file, RUN);
-    let setting = Setting::find(&scenario, file)?;
-    let runs = afp_test::run(&scenario, &setting, templates, None)?.activations;
+    let quiet = Scenario::quiet("as it goes", Arc::new(graph), plan_file, RUN);
+    let setting = Setting::find(&quiet, file)?;
     let name = file.file_name().unwrap_or_default().to_string_lossy();
-    Ok(afp_test::generate(&scenario.graph, &format!("../{name}"), &runs))
+    afp_test::generate(&format!("../{name}"), &quiet, &mut |scenario| {
+        afp_test::run(scenario, &setting, templates, None)
+    })
 }
 
 /// `tests/patrol_generated.afp` beside `patrol.afp`.

@@ -1,0 +1,212 @@
+//! The scenarios of one element and one supervisor that watches over it.
+
+use std::fmt::Write;
+
+use afp_core::Instant;
+use afp_dsl::graph::Component;
+use afp_dsl::unfold::Goal;
+
+use super::parts::Parts;
+use super::reach::Way;
+use super::{Generated, spell};
+use crate::watch::Activation;
+
+/// The points of an element's run, in percent.
+const POINTS: [u64; 5] = [10, 30, 50, 70, 90];
+/// A scenario goes on for so long after the robot has to stand, nanoseconds.
+const BEHIND: u64 = 200_000_000;
+
+/// An element and a supervisor that watches over it.
+pub(super) struct Pair<'a> {
+    pub parts: &'a Parts<'a>,
+    /// The run in which the element is active, and when.
+    pub way: &'a Way,
+    pub active: Activation,
+    pub element: u32,
+    pub supervisor: u32,
+}
+
+/// A moment at which the supervisor is polled.
+#[derive(Clone, Copy)]
+struct Point {
+    percent: u64,
+    /// Nanoseconds.
+    at: u64,
+}
+
+impl Pair<'_> {
+    /// Adds its scenarios.
+    pub fn add(&self, all: &mut Generated) {
+        let Some(place) = self.parts.place(self.supervisor) else { return };
+        let points = self.points();
+        for (event, goal) in (0..).zip(&place.outcomes) {
+            let Some(goal) = goal.filter(|goal| *goal != Goal::Ignore) else { continue };
+            let name = self.parts.outcome(self.supervisor, event);
+            let Some((_, fire)) = self.parts.injection(self.supervisor, event) else {
+                let path = self.parts.path(self.supervisor);
+                all.left_out.push(format!("'{path}.{name}' brings an object"));
+                continue;
+            };
+            if points.is_empty() {
+                let path = self.parts.path(self.element);
+                let supervisor = self.parts.name(self.supervisor);
+                all.left_out.push(format!(
+                    "'{path}' is active for too short a time to be interrupted by '{supervisor}'"
+                ));
+                return;
+            }
+            for point in &points {
+                self.scenario(*point, event, goal, &fire, &mut all.text);
+                all.scenarios += 1;
+            }
+        }
+    }
+
+    /// Where the supervisor is polled at about those shares of the element's run.
+    fn points(&self) -> Vec<Point> {
+        let Some(every) = self.parts.supervisor(self.supervisor).map(|each| each.every) else {
+            return Vec::new();
+        };
+        let (from, to) = (self.active.from.as_nanos(), self.active.to.as_nanos());
+        let point = |percent: &u64| {
+            let wanted = from + (to - from) / 100 * percent;
+            let since = self.way.since(self.supervisor, Instant::from_nanos(wanted))?.as_nanos();
+            let polls = (wanted - since).div_ceil(every);
+            let at = since + polls * every;
+            (from < at && at < to).then_some(Point { percent: *percent, at })
+        };
+        let mut points: Vec<_> = POINTS.iter().filter_map(point).collect();
+        points.dedup_by_key(|point| point.at);
+        points
+    }
+
+    fn scenario(&self, point: Point, event: u16, goal: Goal, fire: &str, text: &mut String) {
+        let Point { percent, at } = point;
+        let Some(supervisor) = self.parts.supervisor(self.supervisor) else { return };
+        let (parts, element) = (self.parts, self.parts.path(self.element));
+        let name = format!("{}.{}", supervisor.name, parts.outcome(self.supervisor, event));
+        // It would lead a global supervisor to where the plan is already.
+        let there = goal == Goal::Element(self.element) && supervisor.owner.is_none();
+        let (time, within) = (spell(at), spell(supervisor.deadline));
+        let soon = format!("within {within} after {time}");
+        let stand = self.standstill(at);
+        let mut lines = Vec::new();
+        if self.way.seed != 0 {
+            lines.push(format!("seed {}", self.way.seed));
+        }
+        let before = self.way.stimuli.iter().filter(|stimulus| stimulus.at < at);
+        lines.extend(before.map(|stimulus| stimulus.text.clone()));
+        if !there {
+            lines.push(format!("at {time}: idle all"));
+        }
+        lines.push(format!("at {time}: {fire}"));
+        if there {
+            lines.push(format!("never interrupt of {element} {soon}"));
+        } else {
+            let to = match goal {
+                Goal::Element(to) => parts.name(to),
+                Goal::Terminate | Goal::Ignore => "terminate",
+            };
+            let to = self.beside(to);
+            lines.push(format!("expect {element} -> {to} by {name} once {soon}"));
+            lines.extend(self.ending(goal, &soon));
+            lines.extend(self.interrupts(at, &soon));
+            lines.extend(self.commits(at, event, goal, &soon));
+            lines.push(format!("expect halted always after {time}"));
+            lines.extend(
+                stand.map(|stand| format!("expect standing always after {}", spell(stand))),
+            );
+        }
+        lines.push(format!("until {}", spell(stand.unwrap_or(at + supervisor.deadline) + BEHIND)));
+        let plan = parts.path(0);
+        let title = format!("{element}: {name} at {percent} %");
+        // Writing to a String cannot fail.
+        let _ = write!(text, "\nscenario \"{title}\" for {plan} {{\n");
+        for line in lines {
+            let _ = writeln!(text, "    {line}");
+        }
+        text.push_str("}\n");
+    }
+
+    /// An element of the same plan by its whole name.
+    fn beside(&self, name: &str) -> String {
+        let path = self.parts.path(self.element);
+        match path.rsplit_once('.') {
+            Some((home, _)) if name != "terminate" => format!("{home}.{name}"),
+            _ => name.to_owned(),
+        }
+    }
+
+    /// How the outermost plan ends.
+    fn ending(&self, goal: Goal, soon: &str) -> Option<String> {
+        let outermost = self.parts.place(self.element)?.plan == 0;
+        (outermost && goal == Goal::Terminate)
+            .then(|| format!("expect end by Interrupted once {soon}"))
+    }
+
+    /// What the event interrupts: the element and what is active inside of it.
+    fn chain(&self, at: u64) -> Vec<u32> {
+        let lasts = |number: &u32| {
+            let component = self.parts.component(*number);
+            matches!(component, Some(Component::Actor(_) | Component::SubPlan(_)))
+        };
+        let within = |number: &u32| self.parts.is_within(*number, self.element);
+        self.way
+            .active(Instant::from_nanos(at))
+            .filter(|each| lasts(each) && within(each))
+            .collect()
+    }
+
+    fn interrupts(&self, at: u64, soon: &str) -> Vec<String> {
+        let interrupt =
+            |number| format!("expect interrupt of {} once {soon}", self.parts.path(number));
+        self.chain(at).into_iter().map(interrupt).collect()
+    }
+
+    /// The event's commit is whole and happens once; what is interrupted writes nothing.
+    fn commits(&self, at: u64, event: u16, goal: Goal, soon: &str) -> Vec<String> {
+        let parts = self.parts;
+        let path = parts.path(self.supervisor);
+        let brought: Vec<u32> =
+            parts.brought(self.supervisor, event).into_iter().map(|out| out.0).collect();
+        let mut lines = Vec::new();
+        if !brought.is_empty() {
+            lines.push(format!("expect commit by {path} once {soon}"));
+        } else if !parts.written(self.supervisor).is_empty() {
+            lines.push(format!("never commit by {path} {soon}"));
+        }
+        for entry in &brought {
+            let entry = parts.entry(*entry);
+            lines.push(format!("expect commit of {entry} by {path} once {soon}"));
+        }
+        // Others may write the entries at once where the plan goes on with more than an actor.
+        let alone = match goal {
+            Goal::Element(to) => matches!(parts.component(to), Some(Component::Actor(_))),
+            Goal::Terminate => parts.place(self.element).is_some_and(|place| place.plan == 0),
+            Goal::Ignore => false,
+        };
+        for number in self.chain(at) {
+            let written = parts.written(number);
+            if !written.is_empty() {
+                lines.push(format!("never commit by {} {soon}", parts.path(number)));
+            }
+            for entry in written.iter().filter(|entry| alone && !brought.contains(*entry)) {
+                lines.push(format!("never commit of {} {soon}", parts.entry(*entry)));
+            }
+        }
+        lines
+    }
+
+    /// When the robot has to stand: each actor that has been active leaves it so within its stop time.
+    fn standstill(&self, at: u64) -> Option<u64> {
+        let now = Instant::from_nanos(at);
+        let chain = self.chain(at);
+        let mut active = chain.iter().filter_map(|number| self.parts.stop(*number));
+        active.next()?;
+        let ends = self.way.before(now).filter_map(|active| {
+            let end = active.to.as_nanos().min(at);
+            Some(end + self.parts.stop(active.element)?)
+        });
+        ends.max()
+    }
+}

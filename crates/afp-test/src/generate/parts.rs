@@ -1,0 +1,229 @@
+//! The components of a plan by their numbers, each with what the graph says of it.
+
+use afp_dsl::graph::{
+    Component, Element, ElementId, Graph, Output, Plan, PlanId, Supervisor, SupervisorId,
+    TemplateId,
+};
+use afp_dsl::scenario::Injection;
+use afp_dsl::toolbox::{Constant, OutPort};
+use afp_dsl::types::Type;
+use afp_dsl::unfold::{Goal, Place, Unfolded, blocks, places, unfold};
+
+/// A plan by the numbers of its components.
+pub(super) struct Parts<'a> {
+    graph: &'a Graph,
+    names: Unfolded,
+    places: Vec<Place>,
+    parts: Vec<Part>,
+}
+
+/// Where a component stands in the graph.
+#[derive(Clone, Copy)]
+struct Part {
+    plan: PlanId,
+    what: What,
+    /// The number of its plan's first entry.
+    entries: u32,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum What {
+    Plan,
+    Element(ElementId),
+    Supervisor(SupervisorId),
+}
+
+impl<'a> Parts<'a> {
+    pub fn new(graph: &'a Graph) -> Self {
+        let main = Part { plan: graph.main, what: What::Plan, entries: 0 };
+        let mut parts = vec![main];
+        add(graph, main, &mut parts);
+        Parts { graph, names: unfold(graph), places: places(graph), parts }
+    }
+
+    /// The elements of the plan and of its sub-plans.
+    pub fn elements(&self) -> impl Iterator<Item = u32> {
+        let parts = (0..).zip(&self.parts);
+        parts.filter(|(_, part)| matches!(part.what, What::Element(_))).map(|(number, _)| number)
+    }
+
+    fn part(&self, number: u32) -> Option<(&Plan, &Part)> {
+        let part = self.parts.get(number as usize)?;
+        Some((self.graph.plan(part.plan), part))
+    }
+
+    fn element(&self, number: u32) -> Option<&Element> {
+        match self.part(number)? {
+            (plan, Part { what: What::Element(id), .. }) => plan.elements.get(id.index()),
+            _ => None,
+        }
+    }
+
+    /// A supervisor.
+    pub fn supervisor(&self, number: u32) -> Option<&Supervisor> {
+        match self.part(number)? {
+            (plan, Part { what: What::Supervisor(id), .. }) => plan.supervisors.get(id.index()),
+            _ => None,
+        }
+    }
+
+    /// What an element is made from.
+    pub fn component(&self, number: u32) -> Option<Component> {
+        self.element(number).map(|element| element.component)
+    }
+
+    /// The time from the interruption of an actor to standstill, where its template says so.
+    pub fn stop(&self, number: u32) -> Option<u64> {
+        match self.component(number)? {
+            Component::Actor(id) => self.graph.template(id).stop,
+            Component::Computation(_) | Component::SubPlan(_) => None,
+        }
+    }
+
+    /// Its dotted name.
+    pub fn path(&self, number: u32) -> &str {
+        self.names.components.get(number as usize).map_or("", |names| &names.path)
+    }
+
+    /// The name behind the last dot.
+    pub fn name(&self, number: u32) -> &str {
+        self.path(number).rsplit('.').next().unwrap_or("")
+    }
+
+    /// The name of a state or event.
+    pub fn outcome(&self, number: u32, outcome: u16) -> &str {
+        let names = self.names.components.get(number as usize);
+        let outcome = names.and_then(|names| names.outcomes.get(usize::from(outcome)));
+        outcome.map_or("", |(name, _)| name)
+    }
+
+    /// The dotted name of an entry.
+    pub fn entry(&self, number: u32) -> &str {
+        self.names.entries.get(number as usize).map_or("", |entry| &entry.path)
+    }
+
+    /// How a component hangs together with the others.
+    pub fn place(&self, number: u32) -> Option<&Place> {
+        self.places.get(number as usize)
+    }
+
+    /// Where an outcome leads.
+    pub fn goal(&self, number: u32, outcome: u16) -> Option<Goal> {
+        *self.place(number)?.outcomes.get(usize::from(outcome))?
+    }
+
+    /// The supervisors that can end an element, those of its own plan and its own.
+    pub fn supervisors_over(&self, element: u32) -> Vec<u32> {
+        let Some(home) = self.place(element).map(|place| place.plan) else { return Vec::new() };
+        let over = |(number, place): (u32, &Place)| {
+            let here = place.plan == home && place.owner.is_none_or(|owner| owner == element);
+            (here && self.supervisor(number).is_some()).then_some(number)
+        };
+        (0..).zip(&self.places).filter_map(over).collect()
+    }
+
+    /// Whether `inner` is `outer` or a part of it.
+    pub fn is_within(&self, inner: u32, outer: u32) -> bool {
+        let mut number = inner;
+        loop {
+            match self.place(number) {
+                _ if number == outer => return true,
+                Some(place) if place.plan != number => number = place.plan,
+                _ => return false,
+            }
+        }
+    }
+
+    fn outputs(&self, number: u32) -> &[Output] {
+        match (self.element(number), self.supervisor(number)) {
+            (Some(element), _) => &element.outputs,
+            (_, Some(supervisor)) => &supervisor.outputs,
+            _ => &[],
+        }
+    }
+
+    /// The entries that a component writes at all, by number.
+    pub fn written(&self, number: u32) -> Vec<u32> {
+        let first = self.part(number).map_or(0, |(_, part)| part.entries);
+        self.outputs(number).iter().map(|out| first + u32::from(out.entry.0)).collect()
+    }
+
+    /// The outputs of an actor or supervisor that an outcome brings and that are connected: the entry
+    /// and the port with the type of its value.
+    pub fn brought(&self, number: u32, outcome: u16) -> Vec<(u32, u16, &OutPort, Type)> {
+        let Some((template, generic)) = self.template(number) else { return Vec::new() };
+        let ports = &self.graph.template(template).outputs;
+        let first = self.part(number).map_or(0, |(_, part)| part.entries);
+        let with_port = |out: &Output| {
+            let port = ports.get(usize::from(out.port))?;
+            let ty = match (&port.ty, generic) {
+                (Type::Any | Type::Number, Some(ty)) => ty.clone(),
+                (ty, _) => ty.clone(),
+            };
+            let entry = first + u32::from(out.entry.0);
+            port.on.contains(&outcome).then_some((entry, out.port, port, ty))
+        };
+        self.outputs(number).iter().filter_map(with_port).collect()
+    }
+
+    fn template(&self, number: u32) -> Option<(TemplateId, Option<&Type>)> {
+        if let Some(supervisor) = self.supervisor(number) {
+            return Some((supervisor.template, supervisor.generic.as_ref()));
+        }
+        let element = self.element(number)?;
+        match element.component {
+            Component::Actor(id) => Some((id, element.generic.as_ref())),
+            Component::Computation(_) | Component::SubPlan(_) => None,
+        }
+    }
+
+    /// An outcome to be put there, with zeros for all that it brings, and how a scenario writes it;
+    /// `None` when it brings an object.
+    pub fn injection(&self, number: u32, outcome: u16) -> Option<(Injection, String)> {
+        let (mut outputs, mut texts) = (Vec::new(), Vec::new());
+        for (_, place, port, ty) in self.brought(number, outcome) {
+            let (value, text) = zero(&ty)?;
+            outputs.push((place, value));
+            texts.push(format!("{} = {text}", port.name));
+        }
+        let verb = if self.supervisor(number).is_some() { "fire" } else { "finish" };
+        let values =
+            if texts.is_empty() { String::new() } else { format!("({})", texts.join(", ")) };
+        let text =
+            format!("{verb} {}.{}{values}", self.path(number), self.outcome(number, outcome));
+        Some((Injection { component: number, outcome, outputs }, text))
+    }
+}
+
+fn add(graph: &Graph, home: Part, parts: &mut Vec<Part>) {
+    let plan = graph.plan(home.plan);
+    let part = |what| Part { what, ..home };
+    parts.extend((0..plan.elements.len()).map(|id| part(What::Element(ElementId(id as u16)))));
+    parts.extend(
+        (0..plan.supervisors.len()).map(|id| part(What::Supervisor(SupervisorId(id as u16)))),
+    );
+    let block = &blocks(graph)[home.plan.index()];
+    for (element, (_, entries)) in plan.elements.iter().zip(&block.children) {
+        if let Component::SubPlan(child) = element.component {
+            let inner = Part { plan: child, what: What::Plan, entries: home.entries + entries };
+            add(graph, inner, parts);
+        }
+    }
+}
+
+/// A value of a type, and how it is written; there is none of an object.
+fn zero(ty: &Type) -> Option<(Constant, String)> {
+    Some(match ty {
+        Type::Bool => (Constant::Bool(false), "false".to_owned()),
+        Type::Int => (Constant::Int(0), "0".to_owned()),
+        Type::Quantity(dimension) => {
+            let text = format!("0.0 {}", dimension.usual_unit()).trim_end().to_owned();
+            (Constant::Float(0.0), text)
+        }
+        Type::Text => (Constant::Text(String::new()), "\"\"".to_owned()),
+        Type::Enum(home) => {
+            (Constant::Choice(0), format!("{}.{}", home.name, home.variants.first()?))
+        }
+        Type::Object(_) | Type::Any | Type::Number => return None,
+    })
+}
