@@ -23,6 +23,7 @@ pub const TEST: &[Suite] = &[
 pub const NIGHTLY: &[Suite] = &[
     ("workspace", workspace),
     ("random plans", random_plans),
+    ("random worlds", random_worlds),
     ("python", python::run),
     ("scxml", || scxml::run(2000)),
     ("gate", gate::run),
@@ -38,6 +39,9 @@ pub const LINT: &[Suite] =
 
 /// Random plans that the nightly run compares.
 const RANDOM_PLANS: &str = "400";
+
+/// Random worlds that the nightly run drives through.
+const RANDOM_WORLDS: &str = "10000";
 
 /// Steps that the nightly run takes without an allocation.
 const STEPS: &str = "10000000";
@@ -100,6 +104,9 @@ fn again(name: &str) -> String {
         "random plans" => {
             format!("    AFP_RANDOM_PLANS={RANDOM_PLANS} cargo test -p afp-tests random")
         }
+        "random worlds" => {
+            format!("    AFP_WORLDS={RANDOM_WORLDS} cargo test --release -p afp-worlds")
+        }
         "long run" => {
             format!("    AFP_STEPS={STEPS} cargo test --release -p afp-tests --test no_allocation")
         }
@@ -121,6 +128,12 @@ fn workspace() -> Result<(), Failure> {
 fn random_plans() -> Result<(), Failure> {
     let test = ["test", "--package", "afp-tests", "random", "--", "--nocapture"];
     run_command(cargo().args(test).env("AFP_RANDOM_PLANS", RANDOM_PLANS))
+}
+
+/// Plans in rooms made up, with faults at random; and the recorded traces, optimised.
+fn random_worlds() -> Result<(), Failure> {
+    let test = ["test", "--release", "--package", "afp-worlds", "--", "--nocapture"];
+    run_command(cargo().args(test).env("AFP_WORLDS", RANDOM_WORLDS))
 }
 
 /// Ten million steps of a plan, without an allocation, equal in both back ends.

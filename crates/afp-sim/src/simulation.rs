@@ -168,6 +168,15 @@ impl Simulation {
         self.steps
     }
 
+    /// Whether the engine has taken no body out for being nowhere: where a pose or a velocity is not
+    /// finite, it lets the body take no more part.
+    pub fn sound(&self) -> bool {
+        let mut bodies = self.physics.bodies.iter();
+        let mut colliders = self.physics.colliders.iter();
+        bodies.all(|(_, body)| body.is_enabled())
+            && colliders.all(|(_, collider)| collider.is_enabled())
+    }
+
     /// Holds the escape button down.
     pub fn press_escape(&mut self) {
         self.escape = true;

@@ -1,0 +1,123 @@
+//! What happens at random: faults, presses of the button, bumps.
+
+use std::fmt;
+
+use afp_core::{Duration, Instant};
+use afp_sim::{Amount, Fault, Simulation};
+use rand_pcg::Pcg32;
+use rand_pcg::rand_core::Rng;
+
+/// Something that happens to the robot from outside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Deed {
+    /// Something breaks for a while; [`Duration::MAX`] is for good.
+    Break(Fault, Duration),
+    /// The escape button is pressed or let go.
+    Escape(bool),
+    /// The bumper is pressed or let go.
+    Bump(bool),
+}
+
+/// What happens when, in order of time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Chance(pub Vec<(Instant, Deed)>);
+
+/// A stream of chances.
+pub(crate) struct Dice(Pcg32);
+
+impl Dice {
+    pub(crate) fn new(number: u64, stream: u64) -> Self {
+        // An odd multiplier spreads neighbouring numbers over the generator's state.
+        Dice(Pcg32::new(number.wrapping_mul(0x9e37_79b9_7f4a_7c15), stream))
+    }
+
+    pub(crate) fn below(&mut self, bound: usize) -> usize {
+        self.0.next_u32() as usize % bound
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * f64::from(self.0.next_u32()) / 4_294_967_296.0
+    }
+
+    fn percent(&mut self, chance: usize) -> bool {
+        self.below(100) < chance
+    }
+
+    /// Whole milliseconds, so that a person can write the schedule down.
+    fn millis(&mut self, low: f64, high: f64) -> Duration {
+        Duration::from_millis(self.between(low * 1e3, high * 1e3) as u64)
+    }
+}
+
+impl Chance {
+    /// Up to four faults, up to three bumps, and sometimes the escape button, within `seconds`.
+    pub(crate) fn random(dice: &mut Dice, seconds: f64) -> Chance {
+        let mut deeds = Vec::new();
+        for _ in 0..dice.below(5) {
+            let from = Instant::ZERO + dice.millis(0.0, seconds);
+            let fault = fault(dice);
+            let during = dice.millis(0.02, 5.0);
+            let during = if dice.percent(15) { Duration::MAX } else { during };
+            deeds.push((from, Deed::Break(fault, during)));
+        }
+        for _ in 0..dice.below(4) {
+            hold(dice, &mut deeds, seconds, Deed::Bump);
+        }
+        if dice.percent(30) {
+            hold(dice, &mut deeds, seconds, Deed::Escape);
+        }
+        // The sort is stable: of two at the same time the one thrown first comes first.
+        deeds.sort_by_key(|(at, _)| *at);
+        Chance(deeds)
+    }
+
+    /// Lets happen what is due, to the robot.
+    pub(crate) fn happen(&self, next: &mut usize, sim: &mut Simulation) {
+        while let Some((at, deed)) = self.0.get(*next)
+            && *at <= sim.now()
+        {
+            *next += 1;
+            match *deed {
+                Deed::Break(fault, during) => sim.inject(fault, *at, during),
+                Deed::Escape(true) => sim.press_escape(),
+                Deed::Escape(false) => sim.release_escape(),
+                Deed::Bump(true) => sim.press_bumper(),
+                Deed::Bump(false) => sim.release_bumper(),
+            }
+        }
+    }
+}
+
+/// Any fault, of any strength.
+fn fault(dice: &mut Dice) -> Fault {
+    let names: Vec<_> = Fault::names().collect();
+    let (device, kind) = names[dice.below(names.len())];
+    let time = if kind == "slow" { dice.millis(0.001, 0.04) } else { dice.millis(0.01, 0.6) };
+    let amount = Amount { time: Some(time), share: Some(dice.between(0.03, 0.5)) };
+    Fault::named(device, kind, amount).expect("the name is one of the list")
+}
+
+/// Holds something down for a while.
+fn hold(dice: &mut Dice, deeds: &mut Vec<(Instant, Deed)>, seconds: f64, deed: fn(bool) -> Deed) {
+    let at = Instant::ZERO + dice.millis(0.0, seconds);
+    deeds.push((at, deed(true)));
+    deeds.push((at + dice.millis(0.01, 0.5), deed(false)));
+}
+
+impl fmt::Display for Chance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (at, deed) in &self.0 {
+            match deed {
+                Deed::Break(fault, Duration::MAX) => writeln!(f, "{at}: {fault:?} for good")?,
+                Deed::Break(fault, during) => writeln!(f, "{at}: {fault:?} for {during}")?,
+                Deed::Escape(down) => writeln!(f, "{at}: escape {}", word(*down))?,
+                Deed::Bump(down) => writeln!(f, "{at}: bumper {}", word(*down))?,
+            }
+        }
+        Ok(())
+    }
+}
+
+fn word(down: bool) -> &'static str {
+    if down { "pressed" } else { "let go" }
+}

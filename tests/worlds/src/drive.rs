@@ -1,0 +1,100 @@
+//! Drives one case.
+
+use std::cell::RefCell;
+use std::fmt::Write;
+use std::rc::Rc;
+
+use afp::load::{LoadedPlan, Registry};
+use afp_core::rt::NamedPlan;
+use afp_core::trace::{Ending, Line, Observe, Record, TraceHash, Verdict};
+use afp_core::{Duration, Instant, Scheduler, Wake};
+use afp_sim::Simulation;
+
+use crate::case::Case;
+use crate::watch::Watch;
+use crate::witness::Witness;
+
+/// How often the truth is looked at.
+const LOOK: Duration = Duration::from_millis(20);
+/// How long the robot is watched after the end.
+const REST: Duration = Duration::from_secs(2);
+
+/// What a case came to.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The hash of its trace.
+    pub trace: TraceHash,
+    /// How the plan ended, if it did.
+    pub ending: Option<Ending>,
+    /// Promises that broke, oldest first.
+    pub broken: Vec<(Instant, String)>,
+    /// What happened, line by line.
+    pub timeline: String,
+}
+
+/// Drives a case to its end.
+///
+/// # Panics
+/// The simulator, the scheduler or a template panics, which they should not.
+pub fn run(case: &Case) -> Outcome {
+    let mut registry = Registry::<Witness>::new();
+    afp_std::templates::register(&mut registry);
+    afp_carbot::templates::register(&mut registry);
+    let plan = LoadedPlan::new(&case.plan.graph, &registry).expect("every template has its Rust");
+    let names = plan.names();
+    let sim = Simulation::new(&case.world, case.seed).expect("the room can be built");
+    let reach = case.world.obstacles.iter().flat_map(|obstacle| obstacle.outline.corners());
+    let reach = reach.flatten().fold(0.0, f64::max);
+    let mut watch = Watch::new(&sim, stop_time(case), reach);
+    watch.happened(&case.chance);
+    let watch = Rc::new(RefCell::new(watch));
+    let (mut trace, mut timeline) = (TraceHash::default(), String::new());
+    let mut sink = Observe(|at: Instant, record: &Record<'_>| {
+        trace.record(at, record, &names);
+        watch.borrow_mut().hear(at, record, &names);
+        if !matches!(record, Record::Input { .. } | Record::Polled { verdict: Verdict::Clear, .. })
+        {
+            let _ = writeln!(timeline, "{}", Line { at, record, names: &names });
+        }
+    });
+    let clock = sim.clock();
+    let mut robot = Witness { sim, watch: Rc::clone(&watch) };
+    let mut scheduler = Scheduler::new(plan);
+    let start = scheduler.start(&mut robot, &mut sink, &clock, Instant::ZERO);
+    let mut wake = start.expect("every entry has a value");
+    let (mut end, mut look, mut next) = (case.until, Instant::ZERO, 0);
+    while robot.sim.now() < end {
+        let due = match wake {
+            Wake::At(due) => due.max(clock.free()),
+            Wake::Ended(_) => Instant::MAX,
+        };
+        let deed = case.chance.0.get(next).map_or(Instant::MAX, |(at, _)| *at);
+        robot.sim.advance_to(due.min(look).min(deed).min(end));
+        let now = robot.sim.now();
+        if now == look {
+            watch.borrow_mut().look(&robot.sim);
+            look = look + LOOK;
+        }
+        case.chance.happen(&mut next, &mut robot.sim);
+        if due <= now {
+            watch.borrow_mut().step(now);
+            wake = scheduler.step(&mut robot, &mut sink, &clock, now);
+            watch.borrow_mut().stepped(now);
+            if matches!(wake, Wake::Ended(_)) {
+                // Nobody helps the robot: what the plan did must be enough.
+                end = now + REST;
+            }
+        }
+    }
+    let ending = scheduler.ending();
+    drop((robot, scheduler));
+    let watch = Rc::into_inner(watch).expect("nobody else holds it any more");
+    Outcome { trace, ending, broken: watch.into_inner().broken(), timeline }
+}
+
+/// The longest stop time that a template of the plan's toolboxes declares.
+fn stop_time(case: &Case) -> Duration {
+    let toolboxes = case.plan.graph.toolboxes.iter();
+    let stops = toolboxes.flat_map(|toolbox| &toolbox.templates).filter_map(|each| each.stop);
+    Duration::from_nanos(stops.max().unwrap_or(0))
+}

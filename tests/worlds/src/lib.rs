@@ -1,0 +1,19 @@
+//! Random worlds: a made-up room, a plan, and things that happen at random, thirty seconds long.
+//!
+//! [`Case::random`] makes one from a number and [`run`] drives it. What must hold in any of them is
+//! watched while it runs: see [`Watch`] for the rules. Nothing depends on the machine, so the hash of a
+//! case's trace is the same everywhere.
+#![forbid(unsafe_code)]
+
+mod case;
+mod chance;
+mod drive;
+mod plans;
+mod watch;
+mod witness;
+
+pub use case::Case;
+pub use chance::{Chance, Deed};
+pub use drive::{Outcome, run};
+pub use plans::{Plan, plan, plans};
+pub use watch::Watch;

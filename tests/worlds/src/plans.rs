@@ -1,0 +1,66 @@
+//! The plans that are driven: those shipped, and those of this package for what they lack.
+
+use std::fs;
+use std::path::Path;
+use std::sync::OnceLock;
+
+use afp_dsl::compile;
+use afp_dsl::files::Texts;
+use afp_dsl::graph::Graph;
+use afp_dsl::source::Source;
+use afp_dsl::toolbox::Toolboxes;
+
+/// Where plans are, seen from the root of the checkout.
+const FOLDERS: [&str; 2] = ["plans", "tests/worlds/plans"];
+
+/// A plan that can be driven in any room.
+#[derive(Debug)]
+pub struct Plan {
+    /// The name of its file, without `.afp`.
+    pub name: String,
+    /// What it compiles to.
+    pub graph: Graph,
+}
+
+/// Every plan, by name.
+///
+/// # Panics
+/// A file cannot be read, or does not compile.
+pub fn plans() -> &'static [Plan] {
+    static PLANS: OnceLock<Vec<Plan>> = OnceLock::new();
+    PLANS.get_or_init(|| {
+        let mut plans: Vec<Plan> = FOLDERS.iter().flat_map(|folder| of(folder)).collect();
+        plans.sort_by(|a, b| a.name.cmp(&b.name));
+        plans
+    })
+}
+
+/// The plan of a name.
+///
+/// # Panics
+/// There is none.
+pub fn plan(name: &str) -> &'static Plan {
+    let found = plans().iter().find(|plan| plan.name == name);
+    found.unwrap_or_else(|| panic!("there is no plan '{name}'"))
+}
+
+/// The plans of a folder.
+fn of(folder: &str) -> Vec<Plan> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
+    let files = fs::read_dir(&folder).unwrap_or_else(|why| panic!("{}: {why}", folder.display()));
+    let paths = files.flatten().map(|file| file.path());
+    paths
+        .filter(|path| path.extension().is_some_and(|end| end == "afp"))
+        .map(|p| read(&p))
+        .collect()
+}
+
+fn read(path: &Path) -> Plan {
+    let text = fs::read_to_string(path).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
+    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let source = Source::new(format!("{name}.afp"), text);
+    let compiled = compile(&source, &toolboxes, &Texts::default());
+    let said = compiled.render(false);
+    Plan { name, graph: compiled.graph.unwrap_or_else(|| panic!("{said}")) }
+}

@@ -1,0 +1,102 @@
+//! Whether the robot stands when it should.
+
+use afp_core::{Duration, Instant};
+use afp_sim::{Pose, Simulation};
+
+/// A robot that goes no faster stands: metres and radians a second.
+const STANDS: (f64, f64) = (0.006, 0.026);
+/// The controller stops by itself when it has heard nothing for so long.
+const DEAD_MAN: Duration = Duration::from_millis(200);
+/// What was pushed comes to rest within this.
+const PUSHED: Duration = Duration::from_millis(300);
+/// The fastest that the robot goes, metres a second, and what of the weight brakes: the grip of the
+/// two wheels that drive, and the castors.
+const FASTEST: f64 = 0.31;
+const GRIP: f64 = 0.7 * 9.81 / 2.0;
+const ROLLING: f64 = 0.02 * 9.81 / 2.0;
+
+/// Watches the robot while the command is zero.
+#[derive(Debug)]
+pub(super) struct Stand {
+    /// Since when the command is zero; none while it is not.
+    since: Option<Instant>,
+    /// When a command last came.
+    commanded: Instant,
+    /// The time that the templates declare.
+    stop: Duration,
+    /// When and where it was last looked at.
+    last: (Instant, Pose),
+    /// From when to when the floor is how slippery.
+    slippery: Vec<(Instant, Instant, f64)>,
+    /// From when to when the controller hears nothing.
+    deaf: Vec<(Instant, Instant)>,
+}
+
+impl Stand {
+    pub(super) fn new(pose: Pose, stop: Duration) -> Self {
+        Stand {
+            since: Some(Instant::ZERO),
+            commanded: Instant::ZERO,
+            stop,
+            last: (Instant::ZERO, pose),
+            slippery: Vec::new(),
+            deaf: Vec::new(),
+        }
+    }
+
+    pub(super) fn commanded(&mut self, zero: bool, now: Instant) {
+        // Without commands the controller has stopped by itself.
+        let expired = self.commanded + DEAD_MAN;
+        let before = self.since.or((expired < now).then_some(expired));
+        self.since = if zero { before.or(Some(now)) } else { None };
+        self.commanded = now;
+    }
+
+    pub(super) fn slippery(&mut self, from: Instant, until: Instant, grip: f64) {
+        self.slippery.push((from, until, grip));
+    }
+
+    pub(super) fn deaf(&mut self, from: Instant, until: Instant) {
+        self.deaf.push((from, until));
+    }
+
+    /// Looks at the robot; says so if it moves but should not.
+    pub(super) fn look(&mut self, sim: &Simulation) -> Option<String> {
+        let (now, pose) = (sim.now(), sim.truth().pose());
+        let (then, before) = std::mem::replace(&mut self.last, (now, pose));
+        let seconds = now.since(then).as_secs_f64();
+        let since = self.since.unwrap_or(self.commanded + DEAD_MAN);
+        if seconds == 0.0 || then < since + self.allowed(since) || pushed(sim, then) {
+            return None;
+        }
+        let speed = (pose.x - before.x).hypot(pose.y - before.y) / seconds;
+        let turned = pose.heading - before.heading;
+        let turned = turned - (turned / std::f64::consts::TAU).round() * std::f64::consts::TAU;
+        let turn = (turned / seconds).abs();
+        (speed > STANDS.0 || turn > STANDS.1).then(|| {
+            let after = now.since(since);
+            format!("it moves with {speed:.3} m/s and {turn:.3} rad/s, {after} after the command to stand")
+        })
+    }
+
+    /// How long the robot may take that was told to stand at an instant.
+    fn allowed(&self, since: Instant) -> Duration {
+        let deaf = self.deaf.iter().any(|(from, until)| *from <= since && since < *until);
+        let heard = if deaf { DEAD_MAN } else { Duration::ZERO };
+        let horizon = since + heard + self.stop + Duration::from_secs(3);
+        let slips =
+            self.slippery.iter().filter(|(from, until, _)| *from < horizon && since < *until);
+        let grip = slips.map(|(_, _, grip)| *grip).fold(1.0, f64::min);
+        let slide = match grip < 1.0 {
+            true => Duration::from_secs_f64(FASTEST / (GRIP * grip + ROLLING)),
+            false => Duration::ZERO,
+        };
+        heard + self.stop + slide
+    }
+}
+
+/// Whether something has touched the robot since, or just before.
+fn pushed(sim: &Simulation, then: Instant) -> bool {
+    let touches = sim.truth().collisions();
+    touches.iter().any(|touch| touch.end + PUSHED >= then)
+}

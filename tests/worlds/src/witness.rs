@@ -1,0 +1,149 @@
+//! The robot with a witness between it and the plan, who sees every reading and every command.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use afp_carbot::devices::{
+    Battery, Beam, Body, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo, Frame, Glow,
+    InfraredSensor, Lens, Motion, Navigator, Odometry, Reading, RotatingTelemetry, Rotator,
+    TouchSensor, Ultrasonic,
+};
+use afp_core::quantity::{Angle, AngularSpeed, Speed};
+use afp_core::{Environment, Instant};
+use afp_sim::{Sensor, Simulation};
+
+use crate::watch::Watch;
+
+/// A simulated robot whose plan is watched.
+pub(crate) struct Witness {
+    pub(crate) sim: Simulation,
+    pub(crate) watch: Rc<RefCell<Watch>>,
+}
+
+impl Witness {
+    /// Notes what a plan was told.
+    fn told<T>(&self, sensor: Sensor, reading: Reading<T>) -> Reading<T> {
+        let valid = reading.value.is_ok();
+        self.watch.borrow_mut().told(sensor, valid, reading.time, self.sim.now());
+        reading
+    }
+
+    /// A reading that says nonsense breaks a promise.
+    fn sane(&self, what: &str, sane: bool) {
+        if !sane {
+            self.watch.borrow_mut().breaks(self.sim.now(), format!("a valid reading of {what}"));
+        }
+    }
+}
+
+impl Environment for Witness {
+    fn stop(&mut self, now: Instant) {
+        self.watch.borrow_mut().commanded(0.0, 0.0, now);
+        self.sim.stop(now);
+    }
+
+    fn emergency_stop(&mut self) {
+        self.watch.borrow_mut().commanded(0.0, 0.0, self.sim.now());
+        self.sim.emergency_stop();
+    }
+}
+
+impl Navigator for Witness {
+    fn drive(&mut self, speed: Speed, turn: AngularSpeed, now: Instant) {
+        self.watch.borrow_mut().commanded(speed.si(), turn.si(), now);
+        self.sim.drive(speed, turn, now);
+    }
+
+    fn body(&self) -> Body {
+        self.sim.body()
+    }
+}
+
+impl Odometry for Witness {
+    fn motion(&self) -> Reading<Motion> {
+        let reading = self.told(Sensor::Odometry, self.sim.motion());
+        if let Ok(Motion { x, y, heading, speed, turn }) = reading.value {
+            let all = [x.si(), y.si(), heading.si(), speed.si(), turn.si()];
+            self.sane(&format!("odometry is {all:?}"), all.iter().all(|value| value.is_finite()));
+        }
+        reading
+    }
+}
+
+impl Ultrasonic for Witness {
+    fn echo(&self) -> Reading<Echo> {
+        let reading = self.told(Sensor::Ultrasonic, self.sim.echo());
+        if let Ok(Echo { distance: Some(distance), .. }) = reading.value {
+            let beam = self.beam();
+            self.sane(
+                &format!("range is {distance:?}"),
+                beam.min <= distance && distance <= beam.max,
+            );
+        }
+        reading
+    }
+
+    fn beam(&self) -> Beam {
+        self.sim.beam()
+    }
+}
+
+impl Rotator for Witness {
+    fn point(&mut self, bearing: Angle, now: Instant) {
+        self.sim.point(bearing, now);
+    }
+}
+
+impl RotatingTelemetry for Witness {
+    fn bearing(&self) -> Reading<Angle> {
+        let reading = self.told(Sensor::Rotator, self.sim.bearing());
+        if let Ok(bearing) = reading.value {
+            self.sane(&format!("the rotator is {bearing:?}"), bearing.si().abs() < 4.0);
+        }
+        reading
+    }
+}
+
+impl TouchSensor for Witness {
+    fn touched(&self) -> Reading<bool> {
+        self.told(Sensor::Touch, self.sim.touched())
+    }
+}
+
+impl Buttons for Witness {
+    fn pressed(&self, button: Button) -> Reading<bool> {
+        self.told(Sensor::Buttons, self.sim.pressed(button))
+    }
+}
+
+impl InfraredSensor for Witness {
+    fn glow(&self) -> Reading<Option<Glow>> {
+        self.told(Sensor::Infrared, self.sim.glow())
+    }
+
+    fn field_of_view(&self) -> Angle {
+        self.sim.field_of_view()
+    }
+}
+
+impl ColorSensor for Witness {
+    fn color(&self) -> Reading<Color> {
+        self.told(Sensor::Color, self.sim.color())
+    }
+}
+
+impl Camera for Witness {
+    fn frame(&self) -> Reading<Frame<'_>> {
+        self.told(Sensor::Camera, self.sim.frame())
+    }
+
+    fn lens(&self) -> Lens {
+        self.sim.lens()
+    }
+}
+
+impl Battery for Witness {
+    fn charge(&self) -> Reading<Charge> {
+        self.told(Sensor::Battery, self.sim.charge())
+    }
+}

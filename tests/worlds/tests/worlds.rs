@@ -1,0 +1,87 @@
+//! Random worlds, by default two hundred; `AFP_WORLDS` says how many, `AFP_WORLD_SEED` which one.
+
+use std::env;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use afp_worlds::{Case, Outcome, run};
+
+/// How many worlds are driven through unless told otherwise.
+const WORLDS: u64 = 200;
+/// How often a long run says how far it is.
+const NEWS: Duration = Duration::from_secs(10);
+
+fn asked(name: &str) -> Option<u64> {
+    let text = env::var(name).ok()?;
+    Some(text.parse().unwrap_or_else(|_| panic!("{name}={text}: not a number")))
+}
+
+/// How to see one world again.
+fn again(number: u64) -> String {
+    let profile = if cfg!(debug_assertions) { "" } else { " --release" };
+    format!("AFP_WORLD_SEED={number} cargo test{profile} -p afp-worlds -- --nocapture")
+}
+
+/// Drives through a world; what breaks or panics, in words.
+fn verdict(number: u64) -> (Option<Outcome>, Vec<String>) {
+    match catch_unwind(AssertUnwindSafe(|| run(&Case::random(number)))) {
+        Ok(outcome) => {
+            let broken = outcome.broken.iter().map(|(at, why)| format!("{at}: {why}")).collect();
+            (Some(outcome), broken)
+        }
+        Err(_) => (None, vec!["it panicked".to_owned()]),
+    }
+}
+
+/// Drives through one world, and tells everything about it.
+fn tell(number: u64) {
+    print!("{}", Case::random(number));
+    let (outcome, broken) = verdict(number);
+    if let Some(outcome) = outcome {
+        print!("{}", outcome.timeline);
+        println!("trace {}, {:?}", outcome.trace, outcome.ending);
+    }
+    assert!(broken.is_empty(), "world {number}:\n{}", broken.join("\n"));
+}
+
+#[test]
+fn in_any_world_every_promise_is_kept() {
+    if let Some(number) = asked("AFP_WORLD_SEED") {
+        return tell(number);
+    }
+    let worlds = asked("AFP_WORLDS").unwrap_or(WORLDS);
+    let (next, done) = (AtomicU64::new(0), AtomicU64::new(0));
+    let findings = Mutex::new(Vec::new());
+    let (begin, told) = (Instant::now(), Mutex::new(Instant::now()));
+    let work = || {
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            if number >= worlds {
+                return;
+            }
+            let (_, broken) = verdict(number);
+            if let Some(first) = broken.first() {
+                let finding = format!("world {number}: {first}\n    {}", again(number));
+                eprintln!("{finding}");
+                findings.lock().expect("nobody panics here").push(finding);
+            }
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            let mut told = told.lock().expect("nobody panics here");
+            if told.elapsed() > NEWS {
+                *told = Instant::now();
+                eprintln!("{done} of {worlds} worlds, {:.0} s", begin.elapsed().as_secs_f64());
+            }
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(work);
+        }
+    });
+    let findings = findings.into_inner().expect("nobody panics here");
+    println!("{worlds} worlds in {:.1} s", begin.elapsed().as_secs_f64());
+    assert!(findings.is_empty(), "{} of {worlds}:\n{}", findings.len(), findings.join("\n"));
+}
