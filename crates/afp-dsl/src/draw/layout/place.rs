@@ -220,8 +220,12 @@ fn align(grid: &mut Grid, ways: &[usize], wish: Option<f64>) {
             bounds = next;
             length += 1;
         }
-        // A way always has room where it stands, but for rounding.
-        let (run, after) = rest.split_at(length.max(1));
+        if length == 0 {
+            // Neighbours wedge it in, if only by rounding: it stays where it is.
+            rest = &rest[1..];
+            continue;
+        }
+        let (run, after) = rest.split_at(length);
         let mean = run.iter().map(|way| grid.items[*way].x).sum::<f64>() / run.len() as f64;
         let x = wish.unwrap_or(mean).max(bounds.0).min(bounds.1);
         for way in run {
