@@ -1,12 +1,16 @@
 //! A robot for tests: it moves exactly as commanded among plane walls, and its devices can fail.
 
 use crate::devices::{
-    Beam, Body, Button, Buttons, Echo, Invalid, Motion, Navigator, Odometry, Reading,
-    RotatingTelemetry, Rotator, TouchSensor, Ultrasonic,
+    Battery, Beam, Body, Button, Buttons, Charge, Color, ColorSensor, Echo, Glow, InfraredSensor,
+    Invalid, Motion, Navigator, Odometry, Reading, RotatingTelemetry, Rotator, TouchSensor,
+    Ultrasonic,
 };
 use crate::motion::wrap;
-use afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
-use afp_core::{Actor, ActorTemplate, Duration, Environment, Fault, Instant, Poll};
+use afp_core::quantity::{Angle, AngularSpeed, Length, Speed, Voltage};
+use afp_core::{
+    Actor, ActorTemplate, Duration, Environment, Events, Fault, Instant, Poll, Supervisor,
+    SupervisorTemplate,
+};
 use std::vec::Vec;
 
 /// A plane wall: the direction of its normal, away from the origin, and its distance from there.
@@ -36,6 +40,16 @@ pub(crate) struct Fake {
     pub(crate) range_dies: u64,
     pub(crate) dead_switches: bool,
     pub(crate) stuck_rotator: bool,
+    /// A source of infrared light of strength 1, and where it is.
+    pub(crate) light: Option<(f64, f64)>,
+    /// From this many milliseconds on it is dark.
+    pub(crate) light_goes_out: u64,
+    pub(crate) dead_infrared: bool,
+    pub(crate) floor: Color,
+    pub(crate) dead_color: bool,
+    /// The share of the charge that is left.
+    pub(crate) charge: f64,
+    pub(crate) dead_battery: bool,
     /// Pings sent from this many milliseconds on hear nothing, for so many pings.
     pub(crate) lost_pings: (u64, u64),
     target: f64,
@@ -60,6 +74,13 @@ impl Fake {
             range_dies: u64::MAX,
             dead_switches: false,
             stuck_rotator: false,
+            light: None,
+            light_goes_out: u64::MAX,
+            dead_infrared: false,
+            floor: Color { red: 0.5, green: 0.5, blue: 0.5 },
+            dead_color: false,
+            charge: 1.0,
+            dead_battery: false,
             lost_pings: (u64::MAX, 0),
             target: 0.0,
             command: (0.0, 0.0),
@@ -139,6 +160,27 @@ impl Fake {
         assert_eq!(self.command, (0.0, 0.0), "interrupt does not stop");
         Ok(None)
     }
+
+    /// Polls a supervisor every ten milliseconds, for so many, or until it reports.
+    pub(crate) fn watch<'a, T: SupervisorTemplate, S: Supervisor<T, Fake>>(
+        &mut self,
+        inputs: T::Inputs<'_>,
+        live: impl Fn() -> T::Live<'a>,
+        wanted: u64,
+        millis: u64,
+    ) -> Result<Option<T::Event>, Fault> {
+        let now = self.now;
+        let mut supervisor = S::start(inputs, Events::from_bits(wanted), self, now)?;
+        for _ in 0..millis / 10 {
+            self.tick();
+            let now = self.now;
+            let event = supervisor.poll(live(), self, now)?;
+            if event.is_some() {
+                return Ok(event);
+            }
+        }
+        Ok(None)
+    }
 }
 
 impl Environment for Fake {
@@ -207,6 +249,37 @@ impl RotatingTelemetry for Fake {
 impl TouchSensor for Fake {
     fn touched(&self) -> Reading<bool> {
         reading(self.dead_switches, self.touched, self.now)
+    }
+}
+
+impl InfraredSensor for Fake {
+    fn glow(&self) -> Reading<Option<Glow>> {
+        let light = self.light.filter(|_| self.millis() < self.light_goes_out);
+        let glow = light.and_then(|(x, y)| {
+            let (ahead, aside) = (x - self.motion.x.si(), y - self.motion.y.si());
+            let bearing = wrap(aside.atan2(ahead) - self.motion.heading.si());
+            let strength = 1.0 / (ahead * ahead + aside * aside).max(0.01);
+            let seen = bearing.abs() <= self.field_of_view().si() / 2.0;
+            seen.then_some(Glow { bearing: Angle::from_si(bearing), strength })
+        });
+        reading(self.dead_infrared, glow, self.now)
+    }
+
+    fn field_of_view(&self) -> Angle {
+        Angle::from_deg(120.0)
+    }
+}
+
+impl ColorSensor for Fake {
+    fn color(&self) -> Reading<Color> {
+        reading(self.dead_color, self.floor, self.now)
+    }
+}
+
+impl Battery for Fake {
+    fn charge(&self) -> Reading<Charge> {
+        let charge = Charge { voltage: Voltage::from_si(7.4), left: self.charge };
+        reading(self.dead_battery, charge, self.now)
     }
 }
 

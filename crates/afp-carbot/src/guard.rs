@@ -24,6 +24,21 @@ pub const NO_TOUCH: Fault = Fault::new(&Reason {
 /// A button says nothing usable.
 pub const NO_BUTTON: Fault =
     Fault::new(&Reason { code: "no-button", text: "the button gave no valid reading for 500 ms" });
+/// The infrared sensor says nothing usable; darkness is something usable.
+pub const NO_INFRARED: Fault = Fault::new(&Reason {
+    code: "no-infrared",
+    text: "the infrared sensor gave no valid reading for 500 ms",
+});
+/// The colour sensor says nothing usable.
+pub const NO_COLOR: Fault = Fault::new(&Reason {
+    code: "no-color",
+    text: "the colour sensor gave no valid reading for 500 ms",
+});
+/// The battery's gauge says nothing usable.
+pub const NO_BATTERY: Fault = Fault::new(&Reason {
+    code: "no-battery",
+    text: "the battery's gauge gave no valid reading for 500 ms",
+});
 /// The rotator does not get where it should.
 pub const STUCK_ROTATOR: Fault = Fault::new(&Reason {
     code: "stuck-rotator",

@@ -16,8 +16,12 @@
 #[cfg(test)]
 extern crate std;
 
+mod approach_infrared;
+mod check_battery;
+mod check_color;
 mod check_driving_lane;
 mod check_escape_button;
+mod check_infrared;
 mod check_touch_sensor;
 mod curve;
 pub mod devices;
@@ -31,18 +35,24 @@ pub mod templates {
     afp_macros::toolbox!("carbot.afp");
 }
 mod turn;
+mod turn_to_infrared;
 mod wall_forward;
 
 #[cfg(test)]
 mod fake;
 
+pub use approach_infrared::ApproachInfrared;
+pub use check_battery::CheckBattery;
+pub use check_color::CheckColor;
 pub use check_driving_lane::CheckDrivingLane;
 pub use check_escape_button::CheckEscapeButton;
+pub use check_infrared::CheckInfrared;
 pub use check_touch_sensor::CheckTouchSensor;
 pub use curve::Curve;
 pub use forward::Forward;
 pub use search_wall::SearchWall;
 pub use turn::Turn;
+pub use turn_to_infrared::TurnToInfrared;
 pub use wall_forward::WallForward;
 
 use afp_core::Environment;

@@ -48,9 +48,13 @@ macro_rules! icons {
 }
 
 icons! {
+    "approach_infrared",
     "assign",
+    "check_battery",
+    "check_color",
     "check_driving_lane",
     "check_escape_button",
+    "check_infrared",
     "check_timeout",
     "check_touch_sensor",
     "check_value",
@@ -61,6 +65,7 @@ icons! {
     "log",
     "search_wall",
     "turn",
+    "turn_to_infrared",
     "wait",
     "wall_forward",
 }

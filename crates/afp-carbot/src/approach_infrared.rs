@@ -1,0 +1,163 @@
+//! Drive towards infrared light.
+
+use crate::devices::{InfraredSensor, Navigator, Odometry};
+use crate::guard::{Guard, NO_INFRARED, NO_ODOMETRY, PATIENCE};
+use crate::motion::Ramp;
+use crate::templates;
+use crate::templates::approach_infrared::{Inputs, Live, State};
+use afp_core::quantity::{AngularSpeed, Speed};
+use afp_core::{Actor, Fault, Instant, Poll};
+
+/// Speed is gained and lost at this many metres a second squared.
+const ACCELERATION: f64 = 0.5;
+/// The light counts as bright enough when the way left is less than this, metres.
+const CLOSE: f64 = 0.005;
+/// How sharply to steer: turn rate per radian off.
+const STEER: f64 = 1.5;
+/// The share of a new reading in what is steered by.
+const NEWS: f64 = 0.4;
+
+/// Steers by the light's bearing, smoothed, and stops where the light is as bright as wanted.
+#[derive(Debug)]
+pub struct ApproachInfrared {
+    strength: f64,
+    speed: f64,
+    ramp: Ramp,
+    infrared: Guard,
+    odometry: Guard,
+    last_look: Instant,
+    /// When the light was seen last; the beginning counts as seen.
+    seen: Instant,
+    /// Smoothed; none before the first light.
+    light: Option<Light>,
+    /// What the robot comes to a standstill for.
+    ending: Option<State>,
+}
+
+/// What is steered by: where the light is, radians, and how bright.
+#[derive(Clone, Copy, Debug)]
+struct Light {
+    bearing: f64,
+    strength: f64,
+}
+
+impl<E> Actor<templates::ApproachInfrared, E> for ApproachInfrared
+where
+    E: Navigator + Odometry + InfraredSensor + ?Sized,
+{
+    fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
+        env.halt(now);
+        Ok(ApproachInfrared {
+            strength: inputs.strength,
+            speed: inputs.speed.si(),
+            ramp: Ramp::new(ACCELERATION, now),
+            infrared: Guard::new(NO_INFRARED, now),
+            odometry: Guard::new(NO_ODOMETRY, now),
+            last_look: now,
+            seen: now,
+            light: None,
+            ending: None,
+        })
+    }
+
+    fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
+        let motion = self.odometry.current(env.motion(), now)?;
+        self.look(env, now)?;
+        self.ending = self.ending.or_else(|| self.end(now));
+        if let Some(state) = self.ending {
+            env.halt(now);
+            let stands = motion.is_some_and(|motion| motion.stands());
+            return Ok(if stands { Poll::Ready(state) } else { Poll::Pending });
+        }
+        // In the dark it waits: what was ahead may have gone anywhere.
+        let in_sight = self.light.filter(|_| self.seen == self.last_look && motion.is_some());
+        let Some(light) = in_sight else {
+            env.halt(now);
+            self.ramp = Ramp::new(ACCELERATION, now);
+            return Ok(Poll::Pending);
+        };
+        let cruise = self.speed * libm::cos(light.bearing).max(0.0);
+        let speed = self.ramp.rate(self.way(light), cruise, now);
+        env.drive(Speed::from_si(speed), AngularSpeed::from_si(STEER * light.bearing), now);
+        Ok(Poll::Pending)
+    }
+
+    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        env.halt(now);
+        Ok(())
+    }
+}
+
+impl ApproachInfrared {
+    /// Takes in a new reading of the sensor, if there is one.
+    fn look<E>(&mut self, env: &E, now: Instant) -> Result<(), Fault>
+    where
+        E: InfraredSensor + ?Sized,
+    {
+        let reading = env.glow();
+        let Some(glow) = self.infrared.next(reading, self.last_look, now)? else { return Ok(()) };
+        self.last_look = reading.time;
+        let Some(glow) = glow else { return Ok(()) };
+        self.seen = reading.time;
+        let new = Light { bearing: glow.bearing.si(), strength: glow.strength };
+        let old = self.light.unwrap_or(new);
+        self.light = Some(Light {
+            bearing: old.bearing + NEWS * (new.bearing - old.bearing),
+            strength: old.strength + NEWS * (new.strength - old.strength),
+        });
+        Ok(())
+    }
+
+    /// What ends the approach at `now`, if something does.
+    fn end(&self, now: Instant) -> Option<State> {
+        if self.light.is_some_and(|light| self.way(light) < CLOSE) {
+            return Some(State::InfraredReached);
+        }
+        (now.since(self.seen) > PATIENCE).then_some(State::InfraredLost)
+    }
+
+    /// The way left, metres, were the source of strength 1: brightness falls with the square of the
+    /// distance.
+    fn way(&self, light: Light) -> f64 {
+        let distance = |strength: f64| 1.0 / libm::sqrt(strength.max(1e-6));
+        distance(light.strength) - distance(self.strength)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fake::Fake;
+
+    fn approach(robot: &mut Fake) -> Result<Option<State>, Fault> {
+        let inputs = Inputs { strength: 4.0, speed: Speed::from_si(0.2) };
+        robot.run::<templates::ApproachInfrared, ApproachInfrared>(inputs, || Live {}, 30)
+    }
+
+    #[test]
+    fn stops_where_the_light_is_as_bright_as_wanted() {
+        for (x, y) in [(2.0, 0.0), (2.0, 0.7), (1.5, -1.0), (0.3, 0.0)] {
+            let mut robot = Fake::new(&[]);
+            robot.light = Some((x, y));
+            assert!(matches!(approach(&mut robot), Ok(Some(State::InfraredReached))), "{x} {y}");
+            let far = f64::hypot(x - robot.motion.x.si(), y - robot.motion.y.si());
+            let wanted = f64::min(0.5, f64::hypot(x, y));
+            assert!((far - wanted).abs() < 0.02, "{x} {y}: {far}");
+        }
+    }
+
+    #[test]
+    fn darkness_ends_it_where_it_stands() {
+        let mut robot = Fake::new(&[]);
+        assert!(matches!(approach(&mut robot), Ok(Some(State::InfraredLost))));
+        assert_eq!((robot.motion.x.si(), robot.millis()), (0.0, 510));
+    }
+
+    #[test]
+    fn a_dead_sensor_is_a_fault_and_not_darkness() {
+        let mut robot = Fake::new(&[]);
+        robot.dead_infrared = true;
+        assert_eq!(approach(&mut robot), Err(NO_INFRARED));
+        assert_eq!(robot.motion.x.si(), 0.0);
+    }
+}

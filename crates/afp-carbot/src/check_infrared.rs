@@ -1,0 +1,87 @@
+//! Watch for infrared light.
+
+use crate::devices::InfraredSensor;
+use crate::guard::{Guard, NO_INFRARED, PATIENCE};
+use crate::templates;
+use crate::templates::check_infrared::{Event, Inputs, Live};
+use afp_core::{Events, Fault, Instant, Supervisor};
+
+/// Reports while there is light, or when there has been none for half a second.
+#[derive(Debug)]
+pub struct CheckInfrared {
+    guard: Guard,
+    seen_wanted: bool,
+    lost_wanted: bool,
+    last_look: Instant,
+    /// When there was light last; the beginning counts.
+    seen: Instant,
+}
+
+impl<E: InfraredSensor + ?Sized> Supervisor<templates::CheckInfrared, E> for CheckInfrared {
+    fn start(_: Inputs, wanted: Events, _: &mut E, now: Instant) -> Result<Self, Fault> {
+        Ok(CheckInfrared {
+            guard: Guard::new(NO_INFRARED, now),
+            seen_wanted: wanted.contains(0),
+            lost_wanted: wanted.contains(1),
+            last_look: now,
+            seen: now,
+        })
+    }
+
+    fn poll(&mut self, live: Live, env: &mut E, now: Instant) -> Result<Option<Event>, Fault> {
+        let reading = env.glow();
+        let Some(glow) = self.guard.next(reading, self.last_look, now)? else { return Ok(None) };
+        self.last_look = reading.time;
+        match glow.filter(|glow| glow.strength >= live.strength) {
+            Some(glow) => {
+                self.seen = reading.time;
+                let bearing = glow.bearing;
+                Ok(self.seen_wanted.then_some(Event::InfraredSeen { bearing }))
+            }
+            None => {
+                let lost = reading.time.since(self.seen) >= PATIENCE;
+                Ok((lost && self.lost_wanted).then_some(Event::InfraredLost))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fake::Fake;
+
+    /// Watches for so many milliseconds, or until something is reported.
+    fn watch(robot: &mut Fake, wanted: u64, millis: u64) -> Result<Option<Event>, Fault> {
+        let live = || Live { strength: 0.5 };
+        robot.watch::<templates::CheckInfrared, CheckInfrared>(Inputs {}, live, wanted, millis)
+    }
+
+    #[test]
+    fn light_is_seen_when_it_is_strong_enough() {
+        let mut robot = Fake::new(&[]);
+        robot.light = Some((1.0, 0.5));
+        let Ok(Some(Event::InfraredSeen { bearing })) = watch(&mut robot, 1, 100) else {
+            panic!("nothing seen")
+        };
+        assert!((bearing.si() - f64::atan2(0.5, 1.0)).abs() < 1e-9);
+        robot.light = Some((2.0, 0.0));
+        assert_eq!(watch(&mut robot, 1, 2000), Ok(None));
+    }
+
+    #[test]
+    fn light_is_lost_after_half_a_second_and_not_before() {
+        let mut robot = Fake::new(&[]);
+        assert_eq!(watch(&mut robot, 2, 490), Ok(None));
+        assert_eq!(watch(&mut robot, 2, 600), Ok(Some(Event::InfraredLost)));
+        robot.light = Some((1.0, 0.0));
+        assert_eq!(watch(&mut robot, 2, 600), Ok(None));
+    }
+
+    #[test]
+    fn a_dead_sensor_is_a_fault_and_not_darkness() {
+        let mut robot = Fake::new(&[]);
+        robot.dead_infrared = true;
+        assert_eq!(watch(&mut robot, 3, 1000), Err(NO_INFRARED));
+    }
+}
