@@ -34,6 +34,7 @@ pub use hash::hash;
 pub use output::write_whole;
 pub use report::{line, timeline};
 pub use run::run;
+pub use stop::StopFlag;
 pub use svg::draw_log;
 
 /// A plan and where it comes from.

@@ -5,12 +5,15 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Whether somebody asked the process to stop.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct StopFlag(Arc<AtomicBool>);
+pub struct StopFlag(Arc<AtomicBool>);
 
 impl StopFlag {
     /// A flag that Ctrl-C and SIGTERM raise. A second one ends the process at once.
     #[cfg(unix)]
-    pub(crate) fn on_signals() -> std::io::Result<Self> {
+    ///
+    /// # Errors
+    /// Signals cannot be handled.
+    pub fn on_signals() -> std::io::Result<Self> {
         use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
         use signal_hook::flag;
         let stop = StopFlag::default();
@@ -24,12 +27,20 @@ impl StopFlag {
 
     /// A flag that nothing raises: there are no signals here.
     #[cfg(not(unix))]
-    pub(crate) fn on_signals() -> std::io::Result<Self> {
+    ///
+    /// # Errors
+    /// None.
+    pub fn on_signals() -> std::io::Result<Self> {
         Ok(StopFlag::default())
     }
 
     /// Whether it was raised.
-    pub(crate) fn is_raised(&self) -> bool {
+    pub fn is_raised(&self) -> bool {
         self.0.load(Ordering::Relaxed)
+    }
+
+    /// The flag itself, for other threads to look at.
+    pub fn flag(&self) -> &AtomicBool {
+        &self.0
     }
 }

@@ -17,6 +17,7 @@ mod watch;
 use std::path::Path;
 
 use afp::load::{LoadedPlan, Registry};
+use afp_dsl::graph::Graph;
 use afp_dsl::scenario::Scenario;
 use afp_run::RunError;
 use afp_sim::Simulation;
@@ -46,13 +47,21 @@ pub fn run(
     templates: Templates<'_>,
     log: Option<&Path>,
 ) -> Result<Verdict, RunError> {
+    let plan = load(&scenario.graph, templates)?;
+    drive::run(scenario, setting, plan, log)
+}
+
+/// Loads a plan; `templates` registers what it uses beyond `std` and `carbot`.
+///
+/// # Errors
+/// A template without Rust.
+pub fn load(graph: &Graph, templates: Templates<'_>) -> Result<LoadedPlan<Simulation>, RunError> {
     let mut registry = Registry::<Simulation>::new();
     afp_std::templates::register(&mut registry);
     afp_carbot::templates::register(&mut registry);
     templates(&mut registry);
-    let plan = LoadedPlan::new(&scenario.graph, &registry).map_err(|error| {
+    LoadedPlan::new(graph, &registry).map_err(|error| {
         let help = "the toolbox file and the Rust crate behind it do not belong together";
         RunError::usage(error.to_string(), help)
-    })?;
-    drive::run(scenario, setting, plan, log)
+    })
 }

@@ -2,7 +2,9 @@
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::commands::{build, check, completions, explain, fmt, graph, later, log, run, test};
+use crate::commands::{
+    build, check, completions, explain, fmt, graph, later, log, run, sweep, test,
+};
 
 /// Compiles, checks, draws and runs Action Flow Plans.
 #[derive(Parser, Debug)]
@@ -32,6 +34,9 @@ pub enum Command {
     /// Runs scenarios, on all cores
     #[command(after_help = test::EXAMPLES)]
     Test(test::Arguments),
+    /// Runs a plan many times, over seeds, worlds and values, on all cores
+    #[command(after_help = sweep::EXAMPLES)]
+    Sweep(sweep::Arguments),
     /// Generates a readable Rust crate from a plan and builds it
     #[command(after_help = build::EXAMPLES)]
     Build(build::Arguments),

@@ -9,6 +9,7 @@ pub mod graph;
 pub mod later;
 pub mod log;
 pub mod run;
+pub mod sweep;
 pub mod test;
 
 use std::io::{ErrorKind, Write};
@@ -29,6 +30,7 @@ pub fn dispatch(command: &Command, linked: &[Linked]) -> ExitCode {
         Command::Graph(arguments) => graph::run(arguments),
         Command::Run(arguments) => run::run(arguments, linked),
         Command::Test(arguments) => test::run(arguments, linked),
+        Command::Sweep(arguments) => sweep::run(arguments, linked),
         Command::Build(arguments) => build::run(arguments),
         Command::Log(arguments) => log::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),

@@ -31,6 +31,11 @@ pub struct Linked {
     pub register: fn(&mut Registry<Simulation>),
 }
 
+/// Registers the templates of linked toolboxes.
+fn register(linked: &[Linked], registry: &mut Registry<Simulation>) {
+    linked.iter().for_each(|toolbox| (toolbox.register)(registry));
+}
+
 /// The whole program.
 pub fn main(linked: &'static [Linked]) -> ExitCode {
     commands::dispatch(&cli::parse(), linked)

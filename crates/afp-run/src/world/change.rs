@@ -57,23 +57,40 @@ impl LoadedWorld {
     /// # Errors
     /// There is no such thing, the unit does not fit, or the world makes no sense with that value.
     pub fn with(&self, key: &str, text: &str) -> Result<LoadedWorld, RunError> {
+        super::parse(self.changed(key, text)?.0, self.path.clone())
+    }
+
+    /// What a value for a key is in SI units; `None` for what is no number.
+    ///
+    /// # Errors
+    /// As [`LoadedWorld::with`], but for worlds that make no sense.
+    pub fn si(&self, key: &str, text: &str) -> Result<Option<f64>, RunError> {
+        Ok(self.changed(key, text)?.1)
+    }
+
+    /// The text with the value changed, and the value in SI units.
+    fn changed(&self, key: &str, text: &str) -> Result<(String, Option<f64>), RunError> {
+        let refused = |why: &str| refused(key, text, why);
         let mut document: DocumentMut =
-            self.text.parse().map_err(|error| refused(key, text, &format!("{error}")))?;
+            self.text.parse().map_err(|error| refused(&format!("{error}")))?;
         let mut parts: Vec<&str> = key.split('.').collect();
         let index = parts.last().and_then(|last| last.parse::<usize>().ok());
         if index.is_some() {
             parts.pop();
         }
-        let Some((name, tables)) = parts.split_last() else {
-            return Err(refused(key, text, "there is no such key"));
-        };
-        let number = read(text, units(name, index)).map_err(|why| refused(key, text, &why))?;
+        let (name, tables) = parts.split_last().ok_or_else(|| refused("there is no such key"))?;
+        let units = units(name, index);
+        let to = read(text, units).map_err(|why| refused(&why))?;
+        let si = to.as_float().map(|number| match units.first() {
+            Some(unit) if unit.name == "deg" => number.to_radians(),
+            _ => number,
+        });
         let mut item = document.as_item_mut();
         for part in tables {
-            item = inside(item, part).map_err(|why| refused(key, text, &why))?;
+            item = inside(item, part).map_err(|why| refused(&why))?;
         }
-        set(item, name, index, number).map_err(|why| refused(key, text, &why))?;
-        super::parse(document.to_string(), self.path.clone())
+        set(item, name, index, to).map_err(|why| refused(&why))?;
+        Ok((document.to_string(), si))
     }
 }
 

@@ -6,7 +6,6 @@ use afp_run::RunError;
 const LATER: &[(&str, &str)] = &[
     ("new", "project templates"),
     ("lsp", "the language server"),
-    ("sweep", "sweeps over seeds"),
     ("replay", "replay of logs"),
     ("deploy", "the Raspberry Pi driver"),
     ("attach", "the live server"),

@@ -1,14 +1,12 @@
 //! `afpc run`: compiles a plan in memory and drives the simulated robot with it.
 
-use afp::load::{LoadedPlan, Registry};
+use afp_run::Program;
 use afp_run::options::RunOptions;
-use afp_run::{Program, RunError};
-use afp_sim::Simulation;
 use clap::Args;
 
 use crate::cli::PlanArgument;
 use crate::plan_file::{NoPlan, PlanFile};
-use crate::{Linked, runner};
+use crate::{Linked, register, runner};
 
 /// Arguments of `afpc run`.
 #[derive(Args, Debug)]
@@ -31,16 +29,7 @@ pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
         runner::become_one_with(&toolboxes, linked, &file.own.project)?;
     }
     let (file, graph) = file.checked()?;
-    let mut registry = Registry::<Simulation>::new();
-    afp_std::templates::register(&mut registry);
-    afp_carbot::templates::register(&mut registry);
-    for toolbox in linked {
-        (toolbox.register)(&mut registry);
-    }
-    let plan = LoadedPlan::new(&graph, &registry).map_err(|error| {
-        let help = "the toolbox file and the Rust crate behind it do not belong together";
-        RunError::usage(error.to_string(), help)
-    })?;
+    let plan = afp_test::load(&graph, &|registry| register(linked, registry))?;
     let path = file.path.display().to_string();
     let texts = file.compiled.plan_texts();
     let texts: Vec<_> = texts.iter().map(|(path, text)| (path.as_str(), text.as_str())).collect();

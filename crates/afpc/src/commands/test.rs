@@ -16,7 +16,7 @@ use clap::Args;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use crate::plan_file::{NoPlan, PlanFile};
-use crate::{Linked, runner};
+use crate::{Linked, register, runner};
 
 use tell::Teller;
 
@@ -126,11 +126,6 @@ fn cases(file: &PlanFile) -> impl Iterator<Item = Case<'_>> {
 fn matches(case: &Case<'_>, filters: &[String]) -> bool {
     let name = case.scenario.name.to_lowercase();
     filters.is_empty() || filters.iter().any(|filter| name.contains(&filter.to_lowercase()))
-}
-
-/// Registers the templates of linked toolboxes.
-fn register(linked: &[Linked], registry: &mut Registry<Simulation>) {
-    linked.iter().for_each(|toolbox| (toolbox.register)(registry));
 }
 
 /// Runs the cases on all cores; whether one of them failed.

@@ -1,0 +1,118 @@
+//! Runs on all cores, outcomes as they come.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{SyncSender, sync_channel};
+use std::thread;
+use std::time::Instant as Wall;
+
+use afp::load::LoadedPlan;
+use afp_core::{Duration, Fault, Instant};
+use afp_run::RunError;
+use afp_run::rig::Rig;
+use afp_sim::Simulation;
+
+use crate::grid::{Row, Sweep};
+use crate::outcome::{Ending, Outcome};
+use crate::{attend, panics};
+
+/// Outcomes that may wait until somebody takes them.
+const WAITING: usize = 64;
+
+/// A plan that has not started, its inputs set, and a robot that has not moved.
+pub struct Made {
+    /// The plan.
+    pub plan: LoadedPlan<Simulation>,
+    /// The robot in its world.
+    pub sim: Simulation,
+}
+
+/// Makes what a run needs; the same for the same row. An error ends the run, not the sweep.
+pub type Maker<'a> = &'a (dyn Fn(&Row<'_>) -> Result<Made, RunError> + Sync);
+
+/// Does runs of a sweep.
+#[derive(Clone, Copy)]
+pub struct Engine<'a> {
+    /// The sweep.
+    pub sweep: &'a Sweep,
+    /// Makes plans and robots.
+    pub maker: Maker<'a>,
+    /// How many threads there are; at least one.
+    pub jobs: usize,
+    /// Calls everything off once it is true: runs that have not ended leave no outcome.
+    pub stop: &'a AtomicBool,
+}
+
+impl Engine<'_> {
+    /// Does the runs of those numbers, about in that order, and hands each outcome to `each` on the
+    /// calling thread. What `each` returns says whether to go on.
+    pub fn run(&self, runs: &[u64], mut each: impl FnMut(Outcome) -> bool) {
+        let next = AtomicUsize::new(0);
+        let enough = AtomicBool::new(false);
+        let (send, outcomes) = sync_channel(WAITING);
+        thread::scope(|scope| {
+            for _ in 0..self.jobs.clamp(1, runs.len().max(1)) {
+                let (send, next, enough) = (send.clone(), &next, &enough);
+                scope.spawn(move || self.work(runs, next, enough, &send));
+            }
+            drop(send);
+            for outcome in outcomes {
+                if !enough.load(Ordering::Relaxed) && !each(outcome) {
+                    enough.store(true, Ordering::Relaxed);
+                }
+            }
+        });
+    }
+
+    /// Takes one run after the other.
+    fn work(
+        &self,
+        runs: &[u64],
+        next: &AtomicUsize,
+        enough: &AtomicBool,
+        send: &SyncSender<Outcome>,
+    ) {
+        while !self.stop.load(Ordering::Relaxed) && !enough.load(Ordering::Relaxed) {
+            let Some(run) = runs.get(next.fetch_add(1, Ordering::Relaxed)) else { return };
+            let Some(outcome) = self.one(*run) else { return };
+            if send.send(outcome).is_err() {
+                return;
+            }
+        }
+    }
+
+    /// Does one run on this thread; `None` when it was called off. A panic is an outcome.
+    pub fn one(&self, run: u64) -> Option<Outcome> {
+        panics::keep();
+        let begun = Wall::now();
+        let row = self.sweep.row(run);
+        let done = catch_unwind(AssertUnwindSafe(|| self.drive(&row)));
+        let said = panics::take();
+        let mut outcome =
+            done.unwrap_or_else(|_| Some(Outcome::failed(run, Ending::Panicked, said.clone())))?;
+        if outcome.ending == Ending::Error && outcome.why == Fault::PANIC.code() && !said.is_empty()
+        {
+            outcome.why = format!("{}: {said}", outcome.why);
+        }
+        outcome.took_s = begun.elapsed().as_secs_f64();
+        Some(outcome)
+    }
+
+    fn drive(&self, row: &Row<'_>) -> Option<Outcome> {
+        let Made { plan, sim } = match (self.maker)(row) {
+            Ok(made) => made,
+            Err(error) => {
+                return Some(Outcome::failed(row.run, Ending::NotStarted, first_line(&error)));
+            }
+        };
+        let rig = Rig::new(plan, sim, Duration::ZERO);
+        attend::drive(row.run, rig, Instant::ZERO + self.sweep.until, self.stop)
+    }
+}
+
+/// What is wrong, without where and what to do.
+fn first_line(error: &RunError) -> String {
+    let text = error.to_string();
+    let line = text.lines().next().unwrap_or_default();
+    line.strip_prefix("error: ").unwrap_or(line).to_owned()
+}

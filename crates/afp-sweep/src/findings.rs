@@ -1,0 +1,192 @@
+//! What a sweep came to: endings counted, measures, failures by where and why.
+
+use std::collections::BTreeMap;
+
+use crate::outcome::{Ending, Outcome};
+
+/// What a sweep came to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Findings {
+    /// How many runs ended in each way; ways in which none ended are left out.
+    pub endings: Vec<(Ending, u64)>,
+    /// Runs that ended in the same way at the same place for the same reason: failures last, the most
+    /// frequent first.
+    pub groups: Vec<Group>,
+    /// The measures of the runs that started.
+    pub measures: Vec<(Measure, Spread)>,
+}
+
+/// Runs that ended alike.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Group {
+    /// How.
+    pub ending: Ending,
+    /// Where.
+    pub place: String,
+    /// Why.
+    pub why: String,
+    /// How many.
+    pub count: u64,
+    /// The first of them.
+    pub run: u64,
+}
+
+/// Something that is measured in each run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Simulated time, seconds.
+    Time,
+    /// The way, metres.
+    Distance,
+    /// How often the robot ran into something.
+    Collisions,
+    /// How often an actor was interrupted.
+    Interruptions,
+    /// Missed deadlines.
+    Misses,
+    /// The mean error of following a wall, metres.
+    WallErrorMean,
+    /// The greatest.
+    WallErrorMax,
+}
+
+/// The middle and the ends of what was measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// The least.
+    pub min: f64,
+    /// The middle one; of an even number the mean of the two in the middle.
+    pub median: f64,
+    /// The greatest.
+    pub max: f64,
+}
+
+impl Measure {
+    /// Every measure.
+    pub const ALL: [Measure; 7] = [
+        Measure::Time,
+        Measure::Distance,
+        Measure::Collisions,
+        Measure::Interruptions,
+        Measure::Misses,
+        Measure::WallErrorMean,
+        Measure::WallErrorMax,
+    ];
+
+    /// Its name in tables, with its unit.
+    pub fn name(self) -> &'static str {
+        match self {
+            Measure::Time => "time_s",
+            Measure::Distance => "distance_m",
+            Measure::Collisions => "collisions",
+            Measure::Interruptions => "interruptions",
+            Measure::Misses => "deadline_misses",
+            Measure::WallErrorMean => "wall_error_mean_m",
+            Measure::WallErrorMax => "wall_error_max_m",
+        }
+    }
+
+    /// What it was in a run.
+    pub fn of(self, outcome: &Outcome) -> Option<f64> {
+        Some(match self {
+            Measure::Time => outcome.time_s,
+            Measure::Distance => outcome.distance_m,
+            Measure::Collisions => outcome.collisions as f64,
+            Measure::Interruptions => outcome.interruptions as f64,
+            Measure::Misses => outcome.deadline_misses as f64,
+            Measure::WallErrorMean => return outcome.wall_error_mean_m,
+            Measure::WallErrorMax => return outcome.wall_error_max_m,
+        })
+    }
+}
+
+impl Spread {
+    fn new(mut values: Vec<f64>) -> Option<Spread> {
+        values.sort_by(f64::total_cmp);
+        let (min, max) = (*values.first()?, *values.last()?);
+        let middle = |at: usize| values.get(at).copied().unwrap_or(min);
+        let median = (middle((values.len() - 1) / 2) + middle(values.len() / 2)) / 2.0;
+        Some(Spread { min, median, max })
+    }
+}
+
+impl Findings {
+    /// Sums up; the order of the outcomes does not matter.
+    pub fn new(outcomes: &[Outcome]) -> Findings {
+        let count = |ending| outcomes.iter().filter(|it| it.ending == ending).count() as u64;
+        let endings = Ending::ALL.into_iter().map(|ending| (ending, count(ending)));
+        let started: Vec<_> = outcomes.iter().filter(|it| !it.trace.is_empty()).collect();
+        let spread = |measure: Measure| {
+            let values = started.iter().filter_map(|outcome| measure.of(outcome));
+            Some((measure, Spread::new(values.collect())?))
+        };
+        Findings {
+            endings: endings.filter(|(_, count)| *count > 0).collect(),
+            groups: groups(outcomes),
+            measures: Measure::ALL.into_iter().filter_map(spread).collect(),
+        }
+    }
+
+    /// Whether a run failed.
+    pub fn has_failures(&self) -> bool {
+        self.endings.iter().any(|(ending, _)| ending.is_failure())
+    }
+}
+
+fn groups(outcomes: &[Outcome]) -> Vec<Group> {
+    let mut alike: BTreeMap<(Ending, &str, &str), (u64, u64)> = BTreeMap::new();
+    for Outcome { ending, place, why, run, .. } in outcomes {
+        let (count, first) = alike.entry((*ending, place, why)).or_insert((0, *run));
+        *count += 1;
+        *first = (*first).min(*run);
+    }
+    let group = |((ending, place, why), (count, run)): ((Ending, &str, &str), _)| {
+        let (place, why) = (place.to_owned(), why.to_owned());
+        Group { ending, place, why, count, run }
+    };
+    let mut groups: Vec<Group> = alike.into_iter().map(group).collect();
+    groups.sort_by_key(|group| {
+        (group.ending.is_failure(), std::cmp::Reverse(group.count), group.run)
+    });
+    groups
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn outcome(run: u64, ending: Ending, why: &str, time_s: f64) -> Outcome {
+        let trace = "0".to_owned();
+        Outcome { time_s, trace, ..Outcome::failed(run, ending, why.to_owned()) }
+    }
+
+    #[test]
+    fn endings_are_counted_and_failures_grouped() {
+        let all = [
+            outcome(3, Ending::Error, "panic", 4.0),
+            outcome(2, Ending::Error, "livelock", 1.0),
+            outcome(1, Ending::Error, "panic", 2.0),
+            outcome(0, Ending::Ok, "go.Done", 8.0),
+        ];
+        let findings = Findings::new(&all);
+        assert_eq!(findings.endings, [(Ending::Ok, 1), (Ending::Error, 3)]);
+        let groups: Vec<_> =
+            findings.groups.iter().map(|it| (it.why.as_str(), it.count, it.run)).collect();
+        assert_eq!(groups, [("go.Done", 1, 0), ("panic", 2, 1), ("livelock", 1, 2)]);
+        assert_eq!(
+            findings.measures[0],
+            (Measure::Time, Spread { min: 1.0, median: 3.0, max: 8.0 })
+        );
+        assert!(findings.has_failures());
+        let mut reversed = all.to_vec();
+        reversed.reverse();
+        assert_eq!(Findings::new(&reversed), findings);
+    }
+
+    #[test]
+    fn what_never_started_is_not_measured() {
+        let none = Findings::new(&[Outcome::failed(0, Ending::NotStarted, "why".to_owned())]);
+        assert!(none.measures.is_empty() && none.has_failures());
+        assert_eq!(Findings::new(&[]), Findings::default());
+    }
+}

@@ -1,0 +1,171 @@
+//! The grid of runs and its numbering.
+
+use std::fmt::Write;
+
+use afp_core::Duration;
+
+use crate::ranges::Seeds;
+
+/// A grid of runs. Seeds change fastest, then the values of the last axis, worlds slowest.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    /// The plan as it is named on the command line.
+    pub plan: String,
+    /// The worlds, as `--world` names them; `None` stands for the plan's own. Never empty.
+    pub worlds: Vec<Option<String>>,
+    /// What is varied.
+    pub axes: Vec<Axis>,
+    /// The seeds.
+    pub seeds: Seeds,
+    /// When each run is stopped.
+    pub until: Duration,
+}
+
+/// Something that is varied.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// An entry of the plan, or `world.` and the way to a value of the world's file.
+    pub name: String,
+    /// Its values.
+    pub points: Vec<Point>,
+}
+
+/// A value of an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// As it is written, with its unit.
+    pub text: String,
+    /// In SI units; `None` for what is no number, or not known yet.
+    pub si: Option<f64>,
+}
+
+/// A run of the grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row<'a> {
+    /// Its number, from 0.
+    pub run: u64,
+    /// The place of its world among those of the sweep.
+    pub world_number: usize,
+    /// Its world.
+    pub world: Option<&'a str>,
+    /// Its seed.
+    pub seed: u64,
+    /// The value of each axis.
+    pub values: Vec<(&'a str, &'a Point)>,
+}
+
+impl Sweep {
+    /// How many runs there are.
+    pub fn len(&self) -> u64 {
+        let points = self.axes.iter().map(|axis| axis.points.len() as u64);
+        let combinations = points.fold(self.worlds.len() as u64, u64::saturating_mul);
+        combinations.saturating_mul(self.seeds.len())
+    }
+
+    /// Whether there is nothing to run.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// A run by its number, which is less than [`Sweep::len`].
+    pub fn row(&self, run: u64) -> Row<'_> {
+        let (mut rest, seeds) = (run, self.seeds.len().max(1));
+        let seed = self.seeds.nth(rest % seeds);
+        rest /= seeds;
+        let mut values = Vec::with_capacity(self.axes.len());
+        for axis in self.axes.iter().rev() {
+            let count = (axis.points.len() as u64).max(1);
+            if let Some(point) = axis.points.get((rest % count) as usize) {
+                values.push((axis.name.as_str(), point));
+            }
+            rest /= count;
+        }
+        values.reverse();
+        let world_number = (rest as usize).min(self.worlds.len().saturating_sub(1));
+        let world = self.worlds.get(world_number).and_then(Option::as_deref);
+        Row { run, world_number, world, seed, values }
+    }
+
+    /// The command that does a run again.
+    pub fn command(&self, row: &Row<'_>) -> String {
+        let mut command = format!("afpc run {}", quoted(&self.plan));
+        // Writing to a string cannot fail.
+        if let Some(world) = row.world {
+            let _ = write!(command, " --world {}", quoted(world));
+        }
+        let _ = write!(command, " --seed {}", row.seed);
+        for (name, point) in &row.values {
+            let _ = write!(command, " --set {}", quoted(&format!("{name}={}", point.text)));
+        }
+        let _ = write!(command, " --until {}", spelled(self.until));
+        command
+    }
+
+    /// The grid as text: two sweeps with the same text have the same runs.
+    pub fn signature(&self) -> String {
+        let mut text = format!("seeds {}, until {}", self.seeds, spelled(self.until));
+        for world in &self.worlds {
+            let _ = write!(text, ", world {}", world.as_deref().unwrap_or("of the plan"));
+        }
+        for axis in &self.axes {
+            let points = axis.points.iter().map(|point| point.text.as_str());
+            let _ = write!(text, ", {} = {}", axis.name, points.collect::<Vec<_>>().join(" "));
+        }
+        text
+    }
+}
+
+/// A time as the command line takes it, exact.
+fn spelled(time: Duration) -> String {
+    let nanos = time.as_nanos();
+    match nanos {
+        nanos if nanos.is_multiple_of(1_000_000_000) => format!("{}s", nanos / 1_000_000_000),
+        nanos if nanos.is_multiple_of(1_000_000) => format!("{}ms", nanos / 1_000_000),
+        nanos => format!("{nanos}ns"),
+    }
+}
+
+/// A word for a shell.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "._-+=:/,@%".contains(c);
+    match !word.is_empty() && word.chars().all(plain) {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', "'\\''")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+    use crate::ranges::{axis, seeds};
+
+    fn sweep() -> Sweep {
+        Sweep {
+            plan: "my plan.afp".to_owned(),
+            worlds: vec![None, Some("random:7".to_owned())],
+            axes: vec![axis("a=1,2,3").unwrap(), axis("b=20cm..30cm:5cm").unwrap()],
+            seeds: seeds("5..9").unwrap(),
+            until: Duration::from_millis(1500),
+        }
+    }
+
+    #[test]
+    fn every_combination_is_one_run() {
+        let sweep = sweep();
+        assert_eq!(sweep.len(), 2 * 3 * 3 * 4);
+        let all: BTreeSet<_> = (0..sweep.len()).map(|run| sweep.command(&sweep.row(run))).collect();
+        assert_eq!(all.len() as u64, sweep.len());
+        assert_eq!(sweep.row(1).seed, 6);
+        assert_eq!(sweep.row(4).values[1].1.text, "25cm");
+        assert_eq!(sweep.row(36).world, Some("random:7"));
+    }
+
+    #[test]
+    fn a_run_is_a_command() {
+        let sweep = sweep();
+        let wanted = "afpc run 'my plan.afp' --world random:7 --seed 8 --set a=3 --set b=30cm --until 1500ms";
+        assert_eq!(sweep.command(&sweep.row(71)), wanted);
+    }
+}

@@ -1,0 +1,215 @@
+//! Outcomes kept as they come, so that a sweep that was killed goes on where it was.
+//!
+//! A journal is a text file: a line that says what sweep it is of, then a line of JSON for each outcome, each
+//! written in one piece. A process that dies leaves at most the last line torn, which is cut off; its run is
+//! done again. A lock keeps a second process out.
+
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use afp_run::RunError;
+use serde::{Deserialize, Serialize};
+
+use crate::outcome::Outcome;
+
+/// What was written reaches the disk this often at least, should the machine fail and not the process.
+const SYNC: Duration = Duration::from_secs(1);
+
+/// What a journal is of. A sweep goes on only with the same.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Header {
+    /// The version of the format, 1.
+    pub sweep_journal: u32,
+    /// The program: its version, and for one with toolboxes of one's own what it was built from.
+    pub program: String,
+    /// The hash of the plan's texts.
+    pub plan: String,
+    /// The hash of the worlds' texts.
+    pub worlds: String,
+    /// The grid, as [`crate::Sweep::signature`] has it.
+    pub grid: String,
+}
+
+impl Header {
+    /// What differs from another header, in words; `None` for the same sweep.
+    fn differs(&self, other: &Header) -> Option<String> {
+        let changes = [
+            (self.program != other.program, "afpc"),
+            (self.plan != other.plan, "the plan"),
+            (self.worlds != other.worlds, "a world"),
+        ];
+        let changed: Vec<_> =
+            changes.iter().filter(|(changed, _)| *changed).map(|(_, what)| *what).collect();
+        if !changed.is_empty() {
+            return Some(format!("{} has changed since", changed.join(" and ")));
+        }
+        let (ours, theirs) = (&self.grid, &other.grid);
+        (self != other).then(|| format!("it was started with {theirs}; this is {ours}"))
+    }
+}
+
+/// A journal open for more.
+#[derive(Debug)]
+pub struct Journal {
+    path: PathBuf,
+    file: File,
+    synced: Instant,
+}
+
+impl Journal {
+    /// Opens a journal, or begins it; gives the outcomes that it has, in the order in which they came. With
+    /// `restart` it begins anew.
+    ///
+    /// # Errors
+    /// The file cannot be read or written, is of another sweep, is broken, or is in use.
+    pub fn open(
+        path: &Path,
+        header: &Header,
+        restart: bool,
+    ) -> Result<(Journal, Vec<Outcome>), RunError> {
+        let wrong = || RunError::file("cannot use the journal", path);
+        let open =
+            OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
+        let mut file = open.map_err(wrong())?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                let message = format!("another sweep is writing '{}'", path.display());
+                return Err(RunError::usage(message, "wait for it, or write elsewhere with '-o'"));
+            }
+            Err(TryLockError::Error(error)) => return Err(wrong()(error)),
+        }
+        let mut bytes = Vec::new();
+        if !restart {
+            file.read_to_end(&mut bytes).map_err(wrong())?;
+        }
+        let (outcomes, whole) = read(path, &bytes, header)?;
+        let mut journal = Journal { path: path.to_owned(), file, synced: Instant::now() };
+        journal.cut(whole).map_err(wrong())?;
+        if whole == 0 {
+            journal.line(header).map_err(wrong())?;
+        }
+        Ok((journal, outcomes))
+    }
+
+    /// Keeps an outcome: it is there when this returns, whatever becomes of the process.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn keep(&mut self, outcome: &Outcome) -> Result<(), RunError> {
+        let path = self.path.clone();
+        self.line(outcome).map_err(RunError::file("cannot write the journal", &path))
+    }
+
+    /// Drops what is behind the last whole line.
+    fn cut(&mut self, whole: usize) -> io::Result<()> {
+        self.file.set_len(whole as u64)?;
+        self.file.seek(SeekFrom::End(0))?;
+        Ok(())
+    }
+
+    fn line(&mut self, what: &impl Serialize) -> io::Result<()> {
+        let mut line = serde_json::to_vec(what)?;
+        line.push(b'\n');
+        self.file.write_all(&line)?;
+        if self.synced.elapsed() >= SYNC {
+            self.file.sync_data()?;
+            self.synced = Instant::now();
+        }
+        Ok(())
+    }
+}
+
+/// The outcomes of a journal and how many bytes of it are whole lines.
+fn read(path: &Path, bytes: &[u8], header: &Header) -> Result<(Vec<Outcome>, usize), RunError> {
+    let end = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
+    let mut lines = bytes.get(..end).unwrap_or_default().split_inclusive(|byte| *byte == b'\n');
+    let Some(first) = lines.next() else { return Ok((Vec::new(), 0)) };
+    let restart = "'--restart' begins anew and drops what is there";
+    let broken = |line: usize| {
+        let message = format!("line {line} of '{}' is no line of a journal", path.display());
+        RunError::usage(message, restart)
+    };
+    let theirs: Header = serde_json::from_slice(first).map_err(|_| broken(1))?;
+    if let Some(difference) = header.differs(&theirs) {
+        let message = format!("'{}' is of another sweep: {difference}", path.display());
+        return Err(RunError::usage(message, restart));
+    }
+    let (mut outcomes, mut whole) = (Vec::new(), first.len());
+    let mut lines = (2..).zip(lines).peekable();
+    while let Some((number, line)) = lines.next() {
+        match serde_json::from_slice::<Outcome>(line) {
+            Ok(outcome) => outcomes.push(outcome),
+            // The disk may have kept the length of the last line and not its bytes.
+            Err(_) if lines.peek().is_none() => break,
+            Err(_) => return Err(broken(number)),
+        }
+        whole += line.len();
+    }
+    Ok((outcomes, whole))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::outcome::Ending;
+
+    fn header() -> Header {
+        let [program, plan, worlds, grid] = ["1", "2", "3", "seeds 0..9"].map(str::to_owned);
+        Header { sweep_journal: 1, program, plan, worlds, grid }
+    }
+
+    fn outcome(run: u64) -> Outcome {
+        Outcome { time_s: 0.1 + 0.2, ..Outcome::failed(run, Ending::Ok, String::new()) }
+    }
+
+    #[test]
+    fn a_torn_line_is_cut_off_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.journal");
+        let (mut journal, none) = Journal::open(&path, &header(), false).unwrap();
+        assert!(none.is_empty());
+        let kept = [outcome(4), outcome(1)];
+        kept.iter().for_each(|outcome| journal.keep(outcome).unwrap());
+        drop(journal);
+        let whole = fs::read(&path).unwrap();
+        let third = serde_json::to_vec(&outcome(2)).unwrap();
+        for torn in [1, 10, third.len()] {
+            fs::write(&path, [&whole[..], &third[..torn]].concat()).unwrap();
+            let (_, read) = Journal::open(&path, &header(), false).unwrap();
+            assert_eq!(read, kept);
+            assert_eq!(fs::read(&path).unwrap(), whole);
+        }
+        fs::write(&path, [&whole[..], &[0, 0, b'\n']].concat()).unwrap();
+        assert_eq!(Journal::open(&path, &header(), false).unwrap().1, kept);
+        // A torn header is no journal yet.
+        fs::write(&path, &whole[..20]).unwrap();
+        assert!(Journal::open(&path, &header(), false).unwrap().1.is_empty());
+    }
+
+    #[test]
+    fn other_sweeps_and_other_files_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.journal");
+        let open = Journal::open(&path, &header(), false).unwrap();
+        let error = Journal::open(&path, &header(), false).unwrap_err().to_string();
+        assert!(error.contains("another sweep is writing"), "{error}");
+        drop(open);
+        let other = Header { plan: "x".to_owned(), ..header() };
+        let error = Journal::open(&path, &other, false).unwrap_err().to_string();
+        assert!(
+            error.contains("the plan has changed since") && error.contains("--restart"),
+            "{error}"
+        );
+        let other = Header { grid: "seeds 0..8".to_owned(), ..header() };
+        let error = Journal::open(&path, &other, false).unwrap_err().to_string();
+        assert!(error.contains("started with seeds 0..9; this is seeds 0..8"), "{error}");
+        fs::write(&path, "run,world\n").unwrap();
+        assert!(Journal::open(&path, &header(), false).is_err());
+        assert!(Journal::open(&path, &header(), true).unwrap().1.is_empty());
+    }
+}

@@ -1,0 +1,31 @@
+//! Many runs of a plan in the simulator: over seeds, worlds and values, on all cores.
+//!
+//! A [`Sweep`] is a numbered grid of runs. Each is a pure function of its [`Row`], so that any of them can
+//! be done again, anywhere, in any order. [`Engine::run`] does them and hands out [`Outcome`]s as they come; a
+//! [`Journal`] keeps them, so that a sweep that was killed goes on where it was; [`Findings`] sums them up,
+//! [`to_csv`] and [`to_parquet`] make tables of them. `afpc sweep` is thin over this.
+//!
+//! The plan need not come from a file: whoever has plans and simulations of his own gives the engine a
+//! function that makes them.
+#![forbid(unsafe_code)]
+
+mod attend;
+mod columns;
+mod engine;
+mod findings;
+mod grid;
+mod journal;
+mod outcome;
+mod panics;
+mod ranges;
+mod setting;
+mod table;
+
+pub use engine::{Engine, Made, Maker};
+pub use findings::{Findings, Group, Measure, Spread};
+pub use grid::{Axis, Point, Row, Sweep};
+pub use journal::{Header, Journal};
+pub use outcome::{Ending, Outcome};
+pub use ranges::{Seeds, axis, seeds, worlds};
+pub use setting::Setting;
+pub use table::{to_csv, to_parquet};

@@ -1,0 +1,197 @@
+//! Seeds, worlds and values as people write them: `0..1000`, `random:7..99`, `walldist=20cm..60cm:5cm`.
+
+use std::fmt;
+use std::ops::Range;
+
+use crate::grid::{Axis, Point};
+
+/// A range whose step nobody gave has so many values.
+const POINTS: u64 = 5;
+/// More values than this are a mistake.
+const MOST: f64 = 1e6;
+
+/// Seeds one after the other.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Seeds(Range<u64>);
+
+impl Seeds {
+    /// Seeds from the first up to, and without, the second.
+    pub fn new(range: Range<u64>) -> Self {
+        Seeds(range)
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> u64 {
+        self.0.end.saturating_sub(self.0.start)
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// One of them, from 0.
+    pub fn nth(&self, number: u64) -> u64 {
+        self.0.start.saturating_add(number)
+    }
+}
+
+impl fmt::Display for Seeds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}..{}", self.0.start, self.0.end)
+    }
+}
+
+/// `0..1000` (the last is 999), `0..=999`, or one seed.
+///
+/// # Errors
+/// Says what was expected.
+pub fn seeds(text: &str) -> Result<Seeds, String> {
+    let wrong = || "expected seeds such as 0..1000 (the last is 999)".to_owned();
+    let number = |text: &str| text.trim().parse::<u64>().map_err(|_| wrong());
+    let range = match text.split_once("..") {
+        None => number(text)?..number(text)?.checked_add(1).ok_or_else(wrong)?,
+        Some((from, to)) => match to.strip_prefix('=') {
+            Some(last) => number(from)?..number(last)?.checked_add(1).ok_or_else(wrong)?,
+            None => number(from)?..number(to)?,
+        },
+    };
+    if range.is_empty() {
+        return Err(format!("there are no seeds in '{text}'"));
+    }
+    Ok(Seeds(range))
+}
+
+/// A world as `--world` takes it, or several: `random:7..99` stands for `random:7` to `random:98`.
+///
+/// # Errors
+/// A range that is none.
+pub fn worlds(text: &str) -> Result<Vec<String>, String> {
+    match text.strip_prefix("random:") {
+        Some(range) if range.contains("..") => {
+            let seeds = seeds(range)?;
+            Ok((0..seeds.len()).map(|n| format!("random:{}", seeds.nth(n))).collect())
+        }
+        _ => Ok(vec![text.to_owned()]),
+    }
+}
+
+/// What is varied and how: `walldist=20cm..60cm`, `walldist=20cm..60cm:5cm`, `walldist=20cm,30cm`.
+///
+/// Both ends belong to a range. Without a step, whole numbers without a unit go one by one, and everything
+/// else in four equal steps.
+///
+/// # Errors
+/// Says what was expected.
+pub fn axis(text: &str) -> Result<Axis, String> {
+    let (name, values) = match text.split_once('=') {
+        Some((name, values)) if !name.trim().is_empty() => (name.trim().to_owned(), values.trim()),
+        _ => return Err("expected what to vary, such as walldist=20cm..60cm".to_owned()),
+    };
+    let texts = match values.split_once("..") {
+        Some((from, to)) => range(from, to)?,
+        None => values.split(',').map(|value| value.trim().to_owned()).collect(),
+    };
+    if texts.iter().any(String::is_empty) {
+        return Err(format!("'{values}' has a place without a value"));
+    }
+    let points = texts.into_iter().map(|text| Point { text, si: None }).collect();
+    Ok(Axis { name, points })
+}
+
+fn range(from: &str, to: &str) -> Result<Vec<String>, String> {
+    let (to, step) = match to.split_once(':') {
+        Some((to, step)) => (to, Some(step)),
+        None => (to, None),
+    };
+    let (first, unit) = number(from)?;
+    let (last, other) = number(to)?;
+    // `20..60cm` says it once for both.
+    let unit = if unit.is_empty() { other } else { unit };
+    if unit != other {
+        return Err(format!("write both ends of '{from}..{to}' in the same unit"));
+    }
+    let step = match step {
+        Some(step) => match number(step)? {
+            (step, own) if own == unit || own.is_empty() => step,
+            _ => return Err(format!("write the step '{step}' in '{unit}', as the range is")),
+        },
+        None if unit.is_empty() && first.fract() == 0.0 && last.fract() == 0.0 => 1.0,
+        None => (last - first) / (POINTS - 1) as f64,
+    };
+    let steps = (last - first) / step;
+    if !(step > 0.0 && (0.0..MOST).contains(&steps)) {
+        return Err(format!("no values lie in '{from}..{to}' in steps of {}", written(step, unit)));
+    }
+    // A step that should end at the last value does, whatever the division lost.
+    let count = (steps + 1e-9).floor() as u64 + 1;
+    Ok((0..count).map(|n| written(first + n as f64 * step, unit)).collect())
+}
+
+/// A number and its unit.
+fn number(text: &str) -> Result<(f64, &str), String> {
+    let text = text.trim();
+    let ends = text.char_indices().map(|(at, c)| at + c.len_utf8()).rev();
+    let mut parsed = ends.filter_map(|end| Some((text.get(..end)?.parse::<f64>().ok()?, end)));
+    match parsed.find(|(number, _)| number.is_finite()) {
+        Some((number, end)) => Ok((number, text.get(end..).unwrap_or("").trim_start())),
+        None => Err(format!("'{text}' is no number; write ranges as 20cm..60cm, others as lists")),
+    }
+}
+
+/// A number of at most twelve digits, with its unit: what arithmetic loses is not shown, and what is shown
+/// is what counts.
+fn written(number: f64, unit: &str) -> String {
+    let rounded = format!("{number:.11e}").parse::<f64>().unwrap_or(number);
+    format!("{rounded}{unit}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texts(text: &str) -> Vec<String> {
+        axis(text).unwrap().points.into_iter().map(|point| point.text).collect()
+    }
+
+    #[test]
+    fn ranges_have_steps_and_units() {
+        assert_eq!(texts("d=20cm..60cm:20cm"), ["20cm", "40cm", "60cm"]);
+        assert_eq!(texts("d=20..60cm:20"), ["20cm", "40cm", "60cm"]);
+        assert_eq!(texts("d = 20cm..60cm"), ["20cm", "30cm", "40cm", "50cm", "60cm"]);
+        assert_eq!(texts("d=0.1m..0.3m:0.1m"), ["0.1m", "0.2m", "0.3m"]);
+        assert_eq!(texts("n=1..4"), ["1", "2", "3", "4"]);
+        assert_eq!(texts("n=-1.5..0.5:1"), ["-1.5", "-0.5", "0.5"]);
+        assert_eq!(texts("side=left, right"), ["left", "right"]);
+        assert_eq!(texts("d=5 m/s"), ["5 m/s"]);
+    }
+
+    #[test]
+    fn what_is_no_range_says_why() {
+        for (text, why) in [
+            ("d", "such as walldist=20cm..60cm"),
+            ("d=20cm..1m", "same unit"),
+            ("d=a..b", "no number"),
+            ("d=60cm..20cm:5cm", "no values lie in"),
+            ("d=0..1:0", "no values lie in"),
+            ("d=0cm..1cm:1m", "write the step '1m' in 'cm'"),
+            ("d=1,,2", "without a value"),
+            ("d=0..1e9", "no values lie in"),
+        ] {
+            let error = axis(text).unwrap_err();
+            assert!(error.contains(why), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn seeds_and_worlds_end_before_their_end() {
+        let all = seeds("3..6").unwrap();
+        assert_eq!((all.len(), all.nth(2)), (3, 5));
+        assert_eq!(seeds("3..=5").unwrap(), all);
+        assert_eq!(seeds("7").unwrap().len(), 1);
+        assert!(seeds("3..3").is_err() && seeds("-1..2").is_err() && seeds("x").is_err());
+        assert_eq!(worlds("random:7..9").unwrap(), ["random:7", "random:8"]);
+        assert_eq!(worlds("random:7").unwrap(), ["random:7"]);
+        assert_eq!(worlds("hall.toml").unwrap(), ["hall.toml"]);
+    }
+}

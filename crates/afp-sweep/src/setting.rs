@@ -1,0 +1,112 @@
+//! Sweeps of a checked plan: its worlds are read once, its values are checked before anything runs.
+
+use std::path::Path;
+
+use afp_core::Value;
+use afp_dsl::graph::Graph;
+use afp_run::world::{self, LoadedWorld, change};
+use afp_run::{RunError, hash, inputs};
+use afp_sim::Simulation;
+use afp_test::Templates;
+
+use crate::engine::Made;
+use crate::grid::{Point, Row, Sweep};
+
+/// A plan and the worlds that it runs in.
+pub struct Setting<'a> {
+    graph: &'a Graph,
+    templates: Templates<'a>,
+    worlds: Vec<LoadedWorld>,
+}
+
+impl<'a> Setting<'a> {
+    /// Reads the worlds, seen from the plan's `file`, tries every value, and fills in what the values of the
+    /// sweep are in SI units.
+    ///
+    /// # Errors
+    /// A world that does not work, a template without Rust, something to vary that is not there, a value
+    /// that does not fit.
+    pub fn new(
+        sweep: &mut Sweep,
+        graph: &'a Graph,
+        file: &Path,
+        templates: Templates<'a>,
+    ) -> Result<Self, RunError> {
+        let worlds = sweep.worlds.iter();
+        let worlds = worlds.map(|asked| world::find(asked.as_deref().map(Path::new), file));
+        let worlds = worlds.collect::<Result<Vec<_>, _>>()?;
+        let setting = Setting { graph, templates, worlds };
+        setting.check(sweep)?;
+        Ok(setting)
+    }
+
+    fn check(&self, sweep: &mut Sweep) -> Result<(), RunError> {
+        let mut plan = afp_test::load(self.graph, self.templates)?;
+        for number in 0..sweep.axes.len() {
+            let (before, rest) = sweep.axes.split_at_mut(number);
+            let Some(axis) = rest.first_mut() else { continue };
+            if before.iter().any(|other| other.name == axis.name) {
+                let message = format!("'{}' is varied twice", axis.name);
+                return Err(RunError::usage(message, "say it once, with all of its values"));
+            }
+            match change::key(&axis.name) {
+                Some(key) => self.check_worlds(key, &mut axis.points)?,
+                None => {
+                    for point in &mut axis.points {
+                        point.si = match inputs::set(&mut plan, &axis.name, &point.text)? {
+                            Value::Float(value) => Some(value),
+                            Value::Int(value) => Some(value as f64),
+                            _ => None,
+                        };
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Values of a world's file: a world may make no sense with some of them, but not with all.
+    fn check_worlds(&self, key: &str, points: &mut [Point]) -> Result<(), RunError> {
+        for world in &self.worlds {
+            for point in &mut *points {
+                point.si = world.si(key, &point.text)?;
+            }
+            let tried = points.iter().map(|point| world.with(key, &point.text));
+            // The first one that works is enough.
+            if let Some(Err(error)) = tried.reduce(|tried, next| tried.or(next)) {
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+
+    /// What a run needs.
+    ///
+    /// # Errors
+    /// The world makes no sense with the values of the row.
+    pub fn make(&self, row: &Row<'_>) -> Result<Made, RunError> {
+        let mut plan = afp_test::load(self.graph, self.templates)?;
+        let world = self.worlds.get(row.world_number);
+        let world = world.ok_or_else(|| RunError::usage("there is no such world", "name one"))?;
+        let mut changed: Option<LoadedWorld> = None;
+        for (name, point) in &row.values {
+            match change::key(name) {
+                Some(key) => {
+                    changed = Some(changed.as_ref().unwrap_or(world).with(key, &point.text)?);
+                }
+                None => {
+                    inputs::set(&mut plan, name, &point.text)?;
+                }
+            }
+        }
+        let world = &changed.as_ref().unwrap_or(world).world;
+        let sim = Simulation::new(world, row.seed)
+            .map_err(|error| RunError::usage(error.message, "look at the world's file"))?;
+        Ok(Made { plan, sim })
+    }
+
+    /// The hash of the texts of all worlds.
+    pub fn hash(&self) -> String {
+        hash(&self.worlds.iter().map(|world| format!("{}\0", world.text)).collect::<String>())
+    }
+}

@@ -1,0 +1,181 @@
+//! `afpc sweep`: many runs of a plan, all cores at once, and what they came to.
+
+mod place;
+mod tell;
+
+use std::num::NonZero;
+use std::path::PathBuf;
+use std::thread;
+
+use afp_core::Duration;
+use afp_run::{EXIT_OK, EXIT_PLAN_ERROR, RunError, StopFlag, hash};
+use afp_sweep::{Axis, Engine, Findings, Header, Journal, Outcome, Seeds, Setting, Sweep};
+use clap::Args;
+
+use crate::cli::PlanArgument;
+use crate::plan_file::{NoPlan, PlanFile};
+use crate::{Linked, register, runner};
+
+use place::Place;
+use tell::Teller;
+
+/// Arguments of `afpc sweep`.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    #[command(flatten)]
+    plan: PlanArgument,
+
+    /// Seeds of the runs; the last of 0..1000 is 999
+    #[arg(long, value_name = "FROM..TO", default_value = "0", value_parser = afp_sweep::seeds)]
+    seeds: Seeds,
+
+    /// Varies an entry or a value of the world: walldist=20cm..60cm, walldist=20cm..60cm:5cm, gain=1,2,5
+    #[arg(long, value_name = "NAME=VALUES", value_parser = afp_sweep::axis)]
+    vary: Vec<Axis>,
+
+    /// World file, map (.yaml) or random:SEED; several times for several, or random:7..99
+    #[arg(long, value_name = "WORLD", value_parser = worlds)]
+    world: Vec<Worlds>,
+
+    /// Stops each run at this time
+    #[arg(long, value_name = "TIME", default_value = "60s", value_parser = afp_project::duration)]
+    until: Duration,
+
+    /// Where the table of outcomes goes: .csv, .parquet, or a folder for both [default:
+    /// target/afp/sweeps/<plan>-<grid>.csv]
+    #[arg(short, long, value_name = "FILE|FOLDER")]
+    output: Option<PathBuf>,
+
+    /// Begins anew where an earlier sweep would go on
+    #[arg(long)]
+    restart: bool,
+
+    /// Prints one JSON object for each run, what they came to last
+    #[arg(long)]
+    json: bool,
+
+    /// How many runs go on at once [default: one for each core]
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZero<usize>>,
+}
+
+pub const EXAMPLES: &str = "\
+Examples:
+  afpc sweep plan.afp --seeds 0..1000
+  afpc sweep plan.afp --seeds 0..20 --vary walldist=20cm..60cm:5cm -o walldist.csv
+  afpc sweep plan.afp --world random:0..100 --until 30s -o rooms.parquet
+  afpc sweep plan.afp --vary world.robot.charge=0.2..1
+
+A sweep that was stopped or killed goes on with the same command.
+Exit codes: 0 done, 1 a file is wrong, 2 wrong usage, 3 a run ended in Error or could not begin,
+130 stopped before all runs were done";
+
+/// The exit code of a sweep that somebody stopped.
+const EXIT_STOPPED: u8 = 130;
+
+/// The worlds of one `--world`.
+#[derive(Clone, Debug)]
+struct Worlds(Vec<String>);
+
+fn worlds(text: &str) -> Result<Worlds, String> {
+    afp_sweep::worlds(text).map(Worlds)
+}
+
+/// Runs a sweep; gives the exit code.
+///
+/// # Errors
+/// The plan is wrong, a file does not work, there is something to vary that is not there.
+pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
+    let file = PlanFile::read(&arguments.plan.plan)?;
+    if let Some(graph) = &file.compiled.graph {
+        let toolboxes = file.own.used_by(graph)?;
+        runner::become_one_with(&toolboxes, linked, &file.own.project)?;
+    }
+    let (file, graph) = file.checked()?;
+    let mut sweep = arguments.sweep();
+    let templates = |registry: &mut _| register(linked, registry);
+    let setting = Setting::new(&mut sweep, &graph, &file.path, &templates)?;
+    let texts = file.compiled.plan_texts();
+    let texts = texts.iter().map(|(path, text)| format!("{path}\0{text}\0"));
+    let header = Header {
+        sweep_journal: 1,
+        program: program(linked)?,
+        plan: hash(&format!("{}\0{}", graph.main().name, texts.collect::<String>())),
+        worlds: setting.hash(),
+        grid: sweep.signature(),
+    };
+    let place = Place::new(arguments.output.as_deref(), &file.path, &header)?;
+    let (mut journal, mut outcomes) = Journal::open(&place.journal, &header, arguments.restart)?;
+    let stop =
+        StopFlag::on_signals().map_err(RunError::file("cannot handle", "signals".as_ref()))?;
+    let engine = Engine {
+        sweep: &sweep,
+        maker: &|row| setting.make(row),
+        jobs: arguments
+            .jobs
+            .or_else(|| thread::available_parallelism().ok())
+            .map_or(1, NonZero::get),
+        stop: stop.flag(),
+    };
+    let teller = Teller::new(&sweep, arguments.json);
+    teller.head(&place, outcomes.len());
+    go_on(&engine, &teller, &mut journal, &mut outcomes)?;
+    outcomes.sort_by_key(|outcome| outcome.run);
+    place.write(&sweep, &outcomes)?;
+    let findings = Findings::new(&outcomes);
+    teller.end(&outcomes, &findings, &place)?;
+    Ok(match (outcomes.len() as u64 == sweep.len(), findings.has_failures()) {
+        (false, _) => EXIT_STOPPED,
+        (true, true) => EXIT_PLAN_ERROR,
+        (true, false) => EXIT_OK,
+    })
+}
+
+impl Arguments {
+    fn sweep(&self) -> Sweep {
+        let worlds: Vec<_> =
+            self.world.iter().flat_map(|worlds| worlds.0.iter().cloned().map(Some)).collect();
+        Sweep {
+            plan: self.plan.plan.clone(),
+            worlds: if worlds.is_empty() { vec![None] } else { worlds },
+            axes: self.vary.clone(),
+            seeds: self.seeds.clone(),
+            until: self.until,
+        }
+    }
+}
+
+/// Does the runs that are not done, and keeps each before the next one is taken.
+fn go_on(
+    engine: &Engine<'_>,
+    teller: &Teller<'_>,
+    journal: &mut Journal,
+    outcomes: &mut Vec<Outcome>,
+) -> Result<(), RunError> {
+    let mut done: Vec<u64> = outcomes.iter().map(|outcome| outcome.run).collect();
+    done.sort_unstable();
+    let left: Vec<u64> =
+        (0..engine.sweep.len()).filter(|run| done.binary_search(run).is_err()).collect();
+    let bar = teller.bar(left.len() as u64);
+    let mut broken = None;
+    engine.run(&left, |outcome| {
+        bar.done(&outcome);
+        match journal.keep(&outcome) {
+            Ok(()) => outcomes.push(outcome),
+            Err(error) => broken = Some(error),
+        }
+        broken.is_none()
+    });
+    broken.map_or(Ok(()), Err)
+}
+
+/// What runs the plans: with toolboxes of one's own, what the program was built from counts too.
+fn program(linked: &[Linked]) -> Result<String, RunError> {
+    let version = env!("CARGO_PKG_VERSION").to_owned();
+    if linked.is_empty() {
+        return Ok(version);
+    }
+    let me = std::env::current_exe().map_err(RunError::file("cannot find", "afpc".as_ref()))?;
+    let bytes = std::fs::read(&me).map_err(RunError::file("cannot read", &me))?;
+    Ok(format!("{version} {}", hash(&String::from_utf8_lossy(&bytes))))
+}

@@ -1,0 +1,81 @@
+//! Where a sweep keeps its outcomes.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use afp_run::{RunError, hash, write_whole};
+use afp_sweep::{Header, Outcome, Sweep, to_csv, to_parquet};
+
+/// Where tables go unless told otherwise.
+const SWEEPS: &str = "target/afp/sweeps";
+
+/// What makes a table.
+type Make = fn(&Sweep, &[Outcome]) -> io::Result<Vec<u8>>;
+
+/// The files of a sweep.
+pub(super) struct Place {
+    /// Outcomes as they come.
+    pub journal: PathBuf,
+    /// Tables, written whole.
+    pub tables: Vec<(PathBuf, Make)>,
+}
+
+impl Place {
+    /// The place that was asked for, or the default for this plan and grid; makes the folder.
+    pub fn new(asked: Option<&Path>, plan: &Path, header: &Header) -> Result<Place, RunError> {
+        let place = match asked {
+            Some(path) => named(path)?,
+            None => {
+                let stem = plan.file_stem().unwrap_or_default().to_string_lossy();
+                let grid = hash(&format!("{} {}", plan.display(), header.grid));
+                let name = format!("{stem}-{}.csv", grid.get(..8).unwrap_or_default());
+                single(&Path::new(SWEEPS).join(name), to_csv)
+            }
+        };
+        let folder = place.journal.parent().unwrap_or(Path::new("."));
+        if asked.is_none_or(|path| folder == path) {
+            fs::create_dir_all(folder).map_err(RunError::file("cannot make the folder", folder))?;
+        }
+        Ok(place)
+    }
+
+    /// Writes the tables.
+    pub fn write(&self, sweep: &Sweep, outcomes: &[Outcome]) -> Result<(), RunError> {
+        const WHAT: &str = "cannot write the table";
+        for (path, make) in &self.tables {
+            let bytes = make(sweep, outcomes).map_err(RunError::file(WHAT, path))?;
+            write_whole(WHAT, path, bytes)?;
+        }
+        Ok(())
+    }
+}
+
+/// The files of `-o`.
+fn named(path: &Path) -> Result<Place, RunError> {
+    let ends = path.to_string_lossy().ends_with(['/', std::path::MAIN_SEPARATOR]);
+    if path.is_dir() || ends {
+        return Ok(Place {
+            journal: path.join("outcomes.journal"),
+            tables: vec![
+                (path.join("outcomes.csv"), to_csv),
+                (path.join("outcomes.parquet"), to_parquet),
+            ],
+        });
+    }
+    match path.extension().and_then(|extension| extension.to_str()) {
+        Some("csv") => Ok(single(path, to_csv)),
+        Some("parquet") => Ok(single(path, to_parquet)),
+        _ => Err(RunError::usage(
+            format!("'{}' says no format", path.display()),
+            "end it in '.csv' or '.parquet'; a folder, with '/' behind its name, gets both",
+        )),
+    }
+}
+
+/// One table, the journal beside it.
+fn single(path: &Path, make: Make) -> Place {
+    let mut journal = path.as_os_str().to_owned();
+    journal.push(".journal");
+    Place { journal: journal.into(), tables: vec![(path.to_owned(), make)] }
+}

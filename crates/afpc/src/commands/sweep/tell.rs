@@ -1,0 +1,210 @@
+//! What `afpc sweep` prints: how far it is, what the runs came to, where and why they failed.
+
+use std::cell::Cell;
+use std::fmt::Write;
+
+use afp_sweep::{Ending, Findings, Group, Measure, Outcome, Spread, Sweep};
+use anstyle::{AnsiColor, Style};
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::{Value, json};
+
+use super::place::Place;
+use crate::commands::print;
+use crate::plan_file::NoPlan;
+
+const GOOD: Style = AnsiColor::Green.on_default().bold();
+const BAD: Style = AnsiColor::BrightRed.on_default().bold();
+const QUIET: Style = Style::new().dimmed();
+
+/// So many ways to end are told; the table has all of them.
+const GROUPS: usize = 12;
+/// The bar with its estimate.
+const BAR: &str = "{bar:32} {pos} of {len} runs, {per_sec}, {eta} left{msg}";
+
+/// Tells how it goes.
+pub(super) struct Teller<'a> {
+    sweep: &'a Sweep,
+    json: bool,
+}
+
+/// How far it is, on standard error, in a terminal alone.
+pub(super) struct Bar {
+    bar: ProgressBar,
+    failed: Cell<u64>,
+}
+
+impl<'a> Teller<'a> {
+    pub fn new(sweep: &'a Sweep, json: bool) -> Self {
+        Teller { sweep, json }
+    }
+
+    /// Says that a sweep goes on, and how to begin anew.
+    pub fn head(&self, place: &Place, done: usize) {
+        let (all, journal) = (self.sweep.len(), place.journal.display());
+        if done as u64 == all {
+            anstream::eprintln!("all {all} runs are done ({journal}); '--restart' does them again");
+        } else if done > 0 {
+            anstream::eprintln!(
+                "going on: {done} of {all} runs are done ({journal}); '--restart' begins anew"
+            );
+        }
+    }
+
+    /// A bar for the runs that are left.
+    pub fn bar(&self, left: u64) -> Bar {
+        let bar = ProgressBar::new(left);
+        // A wrong template would leave the bar as it comes.
+        if let Ok(style) = ProgressStyle::with_template(BAR) {
+            bar.set_style(style);
+        }
+        Bar { bar, failed: Cell::new(0) }
+    }
+
+    /// All there is to tell, or what there is of a sweep that was stopped.
+    pub fn end(
+        &self,
+        outcomes: &[Outcome],
+        findings: &Findings,
+        place: &Place,
+    ) -> Result<(), NoPlan> {
+        match self.json {
+            true => print(&self.lines(outcomes, findings))?,
+            false => print(&self.summary(outcomes, findings, place))?,
+        };
+        Ok(())
+    }
+
+    fn lines(&self, outcomes: &[Outcome], findings: &Findings) -> String {
+        let runs = outcomes.iter().map(|outcome| self.object(outcome));
+        let mut text: String = runs.map(|run| format!("{run}\n")).collect();
+        let endings =
+            findings.endings.iter().map(|(it, count)| (it.name().to_owned(), json!(count)));
+        let measures = findings.measures.iter().map(|(measure, spread)| {
+            let Spread { min, median, max } = spread;
+            (measure.name().to_owned(), json!({ "min": min, "median": median, "max": max }))
+        });
+        let summary = json!({
+            "runs": outcomes.len(), "of": self.sweep.len(),
+            "endings": endings.collect::<serde_json::Map<_, _>>(),
+            "measures": measures.collect::<serde_json::Map<_, _>>(),
+            "groups": findings.groups.iter().map(|group| self.group_object(group)).collect::<Vec<_>>(),
+        });
+        text += &format!("{}\n", json!({ "summary": summary }));
+        text
+    }
+
+    /// A run, without what differs from machine to machine.
+    fn object(&self, outcome: &Outcome) -> Value {
+        let row = self.sweep.row(outcome.run);
+        let mut object = json!(outcome);
+        if let Some(map) = object.as_object_mut() {
+            map.remove("took_s");
+            map.insert("world".to_owned(), json!(row.world));
+            map.insert("seed".to_owned(), json!(row.seed));
+            let values = row.values.iter().map(|(name, point)| {
+                ((*name).to_owned(), json!({ "text": point.text, "si": point.si }))
+            });
+            map.insert("values".to_owned(), values.collect());
+            map.insert("command".to_owned(), json!(self.sweep.command(&row)));
+        }
+        object
+    }
+
+    fn group_object(&self, group: &Group) -> Value {
+        let Group { ending, place, why, count, run } = group;
+        let command = self.sweep.command(&self.sweep.row(*run));
+        json!({
+            "ending": ending, "where": place, "why": why, "count": count, "command": command,
+        })
+    }
+
+    fn summary(&self, outcomes: &[Outcome], findings: &Findings, place: &Place) -> String {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        for group in findings.groups.iter().filter(|it| !it.ending.is_failure()).take(GROUPS) {
+            let _ = writeln!(text, "{}", line(group));
+        }
+        for group in findings.groups.iter().filter(|it| it.ending.is_failure()).take(GROUPS) {
+            let command = self.sweep.command(&self.sweep.row(group.run));
+            let _ = writeln!(text, "{}\n        {QUIET}again:{QUIET:#} {command}", line(group));
+        }
+        if !findings.measures.is_empty() {
+            let _ =
+                writeln!(text, "\n{QUIET}{:>24} {:>10} {:>10}{QUIET:#}", "min", "median", "max");
+        }
+        for (measure, Spread { min, median, max }) in &findings.measures {
+            let (name, digits, scale) = shown(*measure);
+            let values = [min, median, max].map(|value| format!("{:.digits$}", value * scale));
+            let [min, median, max] = values;
+            let _ = writeln!(text, "{name:>13} {min:>10} {median:>10} {max:>10}");
+        }
+        let _ = writeln!(text, "\n{}", self.last_line(outcomes, findings));
+        for (path, _) in &place.tables {
+            let _ = writeln!(text, "{QUIET}table:{QUIET:#} {}", path.display());
+        }
+        text
+    }
+
+    fn last_line(&self, outcomes: &[Outcome], findings: &Findings) -> String {
+        let failed = findings.endings.iter().filter(|(ending, _)| ending.is_failure());
+        let failed: u64 = failed.map(|(_, count)| count).sum();
+        let (done, all) = (outcomes.len(), self.sweep.len());
+        let style = if failed == 0 { GOOD } else { BAD };
+        let simulated: f64 = outcomes.iter().map(|outcome| outcome.time_s).sum();
+        let rest = match done as u64 == all {
+            true => String::new(),
+            false => ", stopped; the same command goes on".to_owned(),
+        };
+        format!(
+            "{style}{done} of {all} runs, {failed} failed{style:#}{rest}  \
+             {QUIET}{simulated:.0} s simulated{QUIET:#}"
+        )
+    }
+}
+
+impl Bar {
+    /// A run is done.
+    pub fn done(&self, outcome: &Outcome) {
+        if outcome.ending.is_failure() {
+            self.failed.set(self.failed.get() + 1);
+            self.bar.set_message(format!(", {} failed", self.failed.get()));
+        }
+        self.bar.inc(1);
+    }
+}
+
+impl Drop for Bar {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// Runs that ended alike.
+fn line(group: &Group) -> String {
+    let Group { ending, place, why, count, .. } = group;
+    let style = if ending.is_failure() { BAD } else { GOOD };
+    let how = match ending {
+        Ending::TimeLimit => "time was up",
+        Ending::NotStarted => "not started",
+        other => other.name(),
+    };
+    let place = if place.is_empty() { String::new() } else { format!(" in {place}") };
+    let why = match ending {
+        Ending::TimeLimit => String::new(),
+        _ => format!(": {why}"),
+    };
+    format!("{count:>7} {style}{how}{style:#}{place}{why}")
+}
+
+/// How a measure is shown: its name, digits, and what it is multiplied with.
+fn shown(measure: Measure) -> (&'static str, usize, f64) {
+    match measure {
+        Measure::Time => ("time, s", 2, 1.0),
+        Measure::Distance => ("distance, m", 2, 1.0),
+        Measure::Collisions => ("collisions", 1, 1.0),
+        Measure::Interruptions => ("interruptions", 1, 1.0),
+        Measure::Misses => ("missed", 1, 1.0),
+        Measure::WallErrorMean => ("wall error, cm", 2, 100.0),
+        Measure::WallErrorMax => ("at most, cm", 2, 100.0),
+    }
+}

@@ -1,0 +1,152 @@
+//! `afpc sweep`: rows that can be done again, tables, sweeps that are killed and go on.
+
+mod common;
+
+use std::process::Stdio;
+use std::thread;
+use std::time::Duration;
+
+use common::{Place, Said};
+use serde_json::Value;
+
+/// The columns of a table, without how long each run took.
+fn rows(place: &Place, name: &str) -> Vec<String> {
+    let text = place.read(name);
+    text.lines().map(|line| line.rsplit_once(',').unwrap().0.to_owned()).collect()
+}
+
+fn objects(said: &Said) -> Vec<Value> {
+    said.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+#[test]
+fn every_row_can_be_done_again() {
+    let place = Place::with_plan();
+    let grid = "--seeds 3..5 --vary walldist=20cm..40cm:20cm --vary world.robot.charge=0.5,1";
+    let sweep = format!("sweep wall_following.afp {grid} --world random:4..6 --until 8s");
+    let said = place.afpc(&format!("{sweep} --json -o all/"));
+    said.succeeds();
+    assert_eq!(said.err, "");
+    let all = objects(&said);
+    let (summary, runs) = all.split_last().unwrap();
+    assert_eq!((runs.len(), &summary["summary"]["runs"]), (16, &16.into()));
+    for run in [0, 5, 15] {
+        let command = runs[run]["command"].as_str().unwrap().strip_prefix("afpc ").unwrap();
+        let again = place.afpc(&format!("{command} --json --log none --svg none"));
+        let summary = &again.last_json()["summary"];
+        for key in ["trace", "time_s", "distance_m"] {
+            assert_eq!(summary[key], runs[run][key], "{command}");
+        }
+    }
+    let table = rows(&place, "all/outcomes.csv");
+    assert!(table[0].starts_with("run,world,seed,walldist,walldist_si,world.robot.charge,"));
+    assert!(table[16].starts_with("15,random:5,4,40cm,0.4,1,1,"), "{}", table[16]);
+    assert!(place.bytes("all/outcomes.parquet").starts_with(b"PAR1"));
+    let alone = place.afpc(&format!("{sweep} --json --jobs 1 -o one.csv"));
+    assert_eq!((alone.out, rows(&place, "one.csv")), (said.out, table));
+}
+
+#[test]
+fn a_sweep_that_is_killed_goes_on() {
+    let place = Place::with_plan();
+    let sweep = "sweep wall_following.afp --seeds 0..40 --vary walldist=20cm,30cm --until 10s -o";
+    place.afpc(&format!("{sweep} whole.csv")).succeeds();
+    let mut kills = 0;
+    for wait in (60..).step_by(40).take(6) {
+        let mut command = place.command();
+        command.args(sweep.split_whitespace()).arg("killed.csv");
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        thread::sleep(Duration::from_millis(wait));
+        kills += u32::from(child.try_wait().unwrap().is_none());
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    assert!(kills > 0, "the machine is too fast for this test");
+    // As if the last line had not reached the file.
+    let journal = place.read("killed.csv.journal");
+    place.write("killed.csv.journal", &journal[..journal.len() - 5]);
+    let said = place.afpc(&format!("{sweep} killed.csv"));
+    said.succeeds();
+    assert_eq!(rows(&place, "killed.csv"), rows(&place, "whole.csv"));
+    let kept = place.read("killed.csv.journal").lines().count();
+    assert_eq!(kept, 81, "a header and every run once");
+    let again = place.afpc(&format!("{sweep} killed.csv"));
+    again.succeeds();
+    assert_eq!(again.out, said.out);
+    assert!(again.err.contains("all 80 runs are done"), "{}", again.err);
+}
+
+#[test]
+#[cfg(unix)]
+fn a_sweep_that_is_stopped_keeps_what_is_done() {
+    let place = Place::with_plan();
+    let sweep = "sweep wall_following.afp --seeds 0..60 --until 10s --jobs 1 -o stopped.csv";
+    let mut command = place.command();
+    command.args(sweep.split_whitespace()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let child = command.spawn().unwrap();
+    while !place.exists("stopped.csv.journal") || rows(&place, "stopped.csv.journal").len() < 3 {
+        thread::sleep(Duration::from_millis(5));
+    }
+    let pid = child.id().to_string();
+    assert!(std::process::Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
+    let said = common::said(child.wait_with_output().unwrap());
+    said.fails(130, &[]);
+    assert!(said.out.contains("of 60 runs, 0 failed, stopped; the same command goes on"));
+    let done = rows(&place, "stopped.csv").len() - 1;
+    assert!((2..60).contains(&done), "{done}");
+    let more = place.afpc(&sweep.replace("--jobs 1", "--json"));
+    more.succeeds();
+    assert!(more.err.contains(&format!("going on: {done} of 60 runs are done")), "{}", more.err);
+    assert_eq!(objects(&more).len(), 61);
+}
+
+#[test]
+fn a_journal_of_another_sweep_is_left_alone() {
+    let place = Place::with_plan();
+    let sweep = "sweep wall_following.afp --until 1s -o a.csv";
+    place.afpc(&format!("{sweep} --seeds 0..2")).succeeds();
+    let told = ["'a.csv.journal' is of another sweep", "started with seeds 0..2", "--restart"];
+    place.afpc(&format!("{sweep} --seeds 0..3")).fails(2, &told);
+    place.afpc(&format!("{sweep} --seeds 0..3 --restart")).succeeds();
+    assert_eq!(rows(&place, "a.csv").len(), 4);
+    place.write("wall_following.afp", &common::WALL_FOLLOWING.replace("30 cm", "31 cm"));
+    let told = ["the plan has changed since"];
+    place.afpc(&format!("{sweep} --seeds 0..3")).fails(2, &told);
+}
+
+#[test]
+fn failures_are_told_with_a_command_each() {
+    let place = Place::with_plan();
+    let said = place.afpc(
+        "sweep wall_following.afp --until 1s --vary world.robot.pose_m_deg.0=2.1m,2.9m,3m -o a.csv",
+    );
+    said.fails(3, &[]);
+    for text in [
+        "1 time was up in searchFirstWall",
+        "2 not started: the robot starts inside of 'low step'",
+        "again: afpc run wall_following.afp --seed 0 --set world.robot.pose_m_deg.0=2.9m --until 1s",
+        "3 of 3 runs, 2 failed",
+        "table: a.csv",
+    ] {
+        assert!(said.out.contains(text), "no {text:?} in {}", said.out);
+    }
+}
+
+#[test]
+fn what_cannot_be_varied_is_said_before_anything_runs() {
+    let place = Place::with_plan();
+    for (arguments, texts) in [
+        ("--vary nope=1", ["no entry 'nope'", "'walldist' (length)"]),
+        ("--vary walldist=20deg..40deg", ["not a length", "a number and a unit"]),
+        ("--vary walldist=1m --vary walldist=2m", ["varied twice", "say it once"]),
+        ("--vary world.robot.charg=1", ["charg", "expected"]),
+        ("--vary walldist=20cm..1m", ["same unit", "--vary"]),
+        ("--seeds 5..5", ["no seeds in '5..5'", "--seeds"]),
+        ("-o a.txt", ["says no format", "'.csv' or '.parquet'"]),
+    ] {
+        let said = place.afpc(&format!("sweep wall_following.afp {arguments}"));
+        assert!(matches!(said.code, 1 | 2), "{said:#?}");
+        said.fails(said.code, &texts);
+    }
+    assert_eq!(place.files(), ["wall_following.afp"]);
+}
