@@ -14,23 +14,55 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use afp_dsl::codegen::{RunnerOptions, runner_files};
+use afp_dsl::graph::Graph;
 use afp_project::ProjectFile;
 use afp_run::{RunError, hash};
 
 use crate::cargo::{self, Blame, Job};
 use crate::plan_file::NoPlan;
-use crate::toolboxes::OwnToolbox;
+use crate::toolboxes::{OwnToolbox, OwnToolboxes};
 use crate::{Linked, crate_folder, origin};
 
 /// Where runners are kept, below the project's folder or the user's cache.
 const HOME: &str = "target/afp";
 
-/// Comes back when this program has all of the toolboxes; otherwise builds, if need be, the runner
-/// that has them, and goes on as that, with the arguments of this process.
+/// Comes back when this program has the toolboxes of all of these plans; otherwise builds, if need be,
+/// the one runner that has them, and goes on as that, with the arguments of this process.
 ///
 /// # Errors
-/// There is no cargo, a crate does not build, a file cannot be written.
-pub fn become_one_with(
+/// A toolbox without a crate, two toolboxes of one name, no cargo, a crate that does not build, a file
+/// that cannot be written.
+pub fn become_one_for<'a>(
+    plans: impl IntoIterator<Item = (&'a OwnToolboxes, &'a Graph)>,
+    linked: &[Linked],
+) -> Result<(), NoPlan> {
+    let mut all: Vec<OwnToolbox> = Vec::new();
+    let mut project = None;
+    for (own, graph) in plans {
+        for toolbox in own.used_by(graph)? {
+            project = project.or(Some(&own.project));
+            match all.iter().find(|known| known.name == toolbox.name) {
+                None => all.push(toolbox),
+                Some(known) if known.krate == toolbox.krate => {}
+                Some(known) => return Err(two_of_one_name(known, &toolbox).into()),
+            }
+        }
+    }
+    // The same runner whatever the order of the plans.
+    all.sort_by(|one, other| one.name.cmp(&other.name));
+    project.map_or(Ok(()), |project| become_one_with(&all, linked, project))
+}
+
+fn two_of_one_name(one: &OwnToolbox, other: &OwnToolbox) -> RunError {
+    let (path, another) = (&one.source.name, &other.source.name);
+    RunError::usage(
+        format!("'{path}' and '{another}' are two toolboxes called '{}'", one.name),
+        "one program cannot have both: run what uses them apart",
+    )
+}
+
+/// Comes back when this program has all of the toolboxes; otherwise goes on as one that has.
+fn become_one_with(
     toolboxes: &[OwnToolbox],
     linked: &[Linked],
     project: &ProjectFile,

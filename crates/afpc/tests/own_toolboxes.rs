@@ -98,6 +98,60 @@ fn without_cargo_a_run_says_how_to_get_it() {
     assert!(said.out.is_empty());
 }
 
+/// A second toolbox beside the first, with a crate of its own.
+fn with_waves(place: &Place) {
+    let named = |text: &str| text.replace("gestures", "waves").replace("Dance", "Wave");
+    place.write("waves/waves.afp", &named(TOOLBOX));
+    place.write("waves/src/lib.rs", &named(RUST));
+    place.write("waves/Cargo.toml", &manifest("robot-waves", &["afp", "afp-carbot"], ""));
+    place.write("plans/wave.afp", &named(PLAN));
+    place.write("plans/plain.afp", common::WALL_FOLLOWING);
+    place.write(
+        "afp.toml",
+        "[toolboxes]\ngestures = { path = \"gestures/gestures.afp\" }\n\
+         waves = { path = \"waves/waves.afp\" }\n",
+    );
+    let scenario = |name: &str, plan: &str| {
+        format!("scenario \"{name}\" for {plan} {{ never collision until 3 s }}\n")
+    };
+    let both = "use \"../plain.afp\"\nuse \"../dance.afp\"\n\n";
+    let plain = scenario("plain", "WallFollowing");
+    place.write("plans/tests/a.afp", &format!("{both}{plain}{}", scenario("danced", "Dance")));
+    let wave = scenario("waved", "Wave");
+    place.write("plans/tests/b.afp", &format!("use \"../wave.afp\"\n\n{wave}"));
+}
+
+#[test]
+fn one_runner_has_the_toolboxes_of_all_scenarios() {
+    let place = project();
+    with_waves(&place);
+    let without_cargo = |arguments: &[&str]| {
+        let mut command = place.command();
+        command.args(arguments).env("PATH", "").env("CARGO", "no-such-cargo");
+        said(command.output().unwrap())
+    };
+    let both = ["the toolboxes 'gestures' and 'waves'", "there is no cargo"];
+    without_cargo(&["test"]).fails(1, &both);
+    without_cargo(&["test", "plans/tests/b.afp", "plans/tests/a.afp"]).fails(1, &both);
+    without_cargo(&["test", "--generate", "plans/wave.afp", "plans/dance.afp"]).fails(1, &both);
+    without_cargo(&["test", "plans/tests/b.afp"]).fails(1, &["the toolbox 'waves'"]);
+    without_cargo(&["sweep", "plans/wave.afp"]).fails(1, &["the toolbox 'waves'"]);
+    without_cargo(&["run", "plans/plain.afp", "--until", "1s"]).succeeds();
+}
+
+#[test]
+fn two_toolboxes_of_one_name_do_not_go_into_one_runner() {
+    let place = project();
+    for file in ["afp.toml", "plans/dance.afp", "gestures/gestures.afp", "gestures/Cargo.toml"] {
+        place.write(&format!("other/{file}"), &place.read(file));
+    }
+    let scenario = "use \"dance.afp\"\n\nscenario \"x\" for Dance { never collision until 1 s }\n";
+    place.write("plans/a.afp", scenario);
+    place.write("other/plans/a.afp", scenario);
+    let said = place.afpc("test plans/a.afp other/plans/a.afp");
+    said.fails(2, &["are two toolboxes called 'gestures'", "run what uses them apart"]);
+}
+
 /// A call in the project, built in the folder that all slow tests share, without long optimisation.
 fn build_with(mut command: Command, arguments: &str) -> Said {
     let target = concat!(env!("CARGO_TARGET_TMPDIR"), "/built-plans");

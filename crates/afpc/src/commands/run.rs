@@ -24,10 +24,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
     arguments.options.check()?;
     let file = PlanFile::read(&arguments.plan.plan)?;
-    if let Some(graph) = &file.compiled.graph {
-        let toolboxes = file.own.used_by(graph)?;
-        runner::become_one_with(&toolboxes, linked, &file.own.project)?;
-    }
+    runner::become_one_for(file.compiled.graph.iter().map(|graph| (&file.own, graph)), linked)?;
     let (file, graph) = file.checked()?;
     let plan = afp_test::load(&graph, &|registry| register(linked, registry))?;
     let path = file.path.display().to_string();

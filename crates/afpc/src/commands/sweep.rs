@@ -87,10 +87,7 @@ fn worlds(text: &str) -> Result<Worlds, String> {
 /// The plan is wrong, a file does not work, there is something to vary that is not there.
 pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
     let file = PlanFile::read(&arguments.plan.plan)?;
-    if let Some(graph) = &file.compiled.graph {
-        let toolboxes = file.own.used_by(graph)?;
-        runner::become_one_with(&toolboxes, linked, &file.own.project)?;
-    }
+    runner::become_one_for(file.compiled.graph.iter().map(|graph| (&file.own, graph)), linked)?;
     let (file, graph) = file.checked()?;
     let mut sweep = arguments.sweep();
     let templates = |registry: &mut _| register(linked, registry);

@@ -102,16 +102,12 @@ pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
     Ok(if failed { EXIT_PLAN_ERROR } else { code })
 }
 
-/// Becomes a program with the toolboxes that the plans use, if some are not linked in.
+/// Becomes a program with the toolboxes that the plans of all scenarios use, if some are not linked in.
 fn link(files: &[PlanFile], linked: &[Linked]) -> Result<(), NoPlan> {
-    for file in files {
-        let Some(graph) = file.compiled.scenarios.first().map(|first| &first.graph) else {
-            continue;
-        };
-        let toolboxes = file.own.used_by(graph)?;
-        runner::become_one_with(&toolboxes, linked, &file.own.project)?;
-    }
-    Ok(())
+    let plans = files.iter().flat_map(|file| {
+        file.compiled.scenarios.iter().map(|scenario| (&file.own, &*scenario.graph))
+    });
+    runner::become_one_for(plans, linked)
 }
 
 fn cases(file: &PlanFile) -> impl Iterator<Item = Case<'_>> {

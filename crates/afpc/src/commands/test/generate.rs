@@ -29,9 +29,12 @@ pub(super) fn run(
         let help = "afpc test --generate plans/patrol.afp";
         return Err(RunError::usage("'--generate' needs the file of a plan", help).into());
     }
-    for file in files {
-        let (file, graph) = PlanFile::graph(&file.display().to_string())?;
-        runner::become_one_with(&file.own.used_by(&graph)?, linked, &file.own.project)?;
+    let read = files.iter().map(|file| PlanFile::read(&file.display().to_string()));
+    let read = read.collect::<Result<Vec<_>, _>>()?;
+    let plans = read.iter().filter_map(|file| Some((&file.own, file.compiled.graph.as_ref()?)));
+    runner::become_one_for(plans, linked)?;
+    for file in read {
+        let (file, graph) = file.checked()?;
         let made = generate(&file.path, graph, templates)?;
         let path = place(&file.path)?;
         let text = afp_dsl::format(&made.text).unwrap_or(made.text);
