@@ -188,8 +188,8 @@ impl<P: NamedPlan + Plan<Simulation>> Rig<P> {
         self.ended.map_or(Instant::MAX, |ended| ended + self.rest)
     }
 
-    /// When the plan's next step is due.
-    fn due(&self) -> Instant {
+    /// When the plan's next step is due: [`Instant::MAX`] once it has ended.
+    pub fn due(&self) -> Instant {
         match self.wake {
             Some(Wake::At(due)) => due.max(self.clock.free()),
             Some(Wake::Ended(_)) => Instant::MAX,
@@ -234,6 +234,13 @@ impl<P: NamedPlan + Plan<Simulation>> Rig<P> {
         company.happen(self, now);
         self.scheduler.request_stop();
         self.step(now, company);
+    }
+
+    /// Ends the plan here and now because nothing of it can be trusted any more.
+    pub fn abort(&mut self, company: &mut impl Company<P>) {
+        let now = self.sim.now();
+        let wake = self.panicked();
+        self.woke(wake, now, company);
     }
 
     /// Closes the log; `None` where there is none.

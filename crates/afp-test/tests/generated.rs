@@ -100,7 +100,7 @@ fn every_event_in_the_sub_plans_of_the_example_does_too() {
 }
 
 /// Interrupts `Forward` as `A` has it; what breaks.
-fn interrupted<A: Actor<templates::Forward, Simulation> + 'static>() -> Vec<String> {
+fn interrupted<A: Actor<templates::Forward, Simulation> + Send + 'static>() -> Vec<String> {
     let sound = Made::new(&root().join("plans/wall_following.afp"), &|_| {});
     let mutant = |registry: &mut Registry<Simulation>| {
         registry.actor::<templates::Forward, A>("carbot", "Forward");

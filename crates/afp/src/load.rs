@@ -18,3 +18,4 @@ pub use inject::{Injection, NotActive};
 pub use names::PlanNames;
 pub use plan::{InputError, LoadError, LoadedPlan};
 pub use registry::Registry;
+pub use slots::{ActorSlot, ComputationSlot, See, SupervisorSlot};

@@ -82,13 +82,15 @@ pub trait Outcome {
 
 /// Collects the components that implement a toolbox on platform `E`.
 ///
+/// Components and objects can be sent to another thread, since a loaded plan may be driven from any.
+///
 /// `toolbox!` makes a function `register` that names all of them.
 pub trait Registry<E: ?Sized> {
     /// Adds an actor.
     fn actor<T, A>(&mut self, toolbox: &'static str, template: &'static str)
     where
         T: ActorTemplate + 'static,
-        A: Actor<T, E> + 'static,
+        A: Actor<T, E> + Send + 'static,
         for<'a> T::Inputs<'a>: FromArgs<'a>,
         for<'a> T::Live<'a>: FromArgs<'a>,
         T::State: Outcome;
@@ -97,7 +99,7 @@ pub trait Registry<E: ?Sized> {
     fn supervisor<T, A>(&mut self, toolbox: &'static str, template: &'static str)
     where
         T: SupervisorTemplate + 'static,
-        A: Supervisor<T, E> + 'static,
+        A: Supervisor<T, E> + Send + 'static,
         for<'a> T::Inputs<'a>: FromArgs<'a>,
         for<'a> T::Live<'a>: FromArgs<'a>,
         T::Event: Outcome;
@@ -106,10 +108,10 @@ pub trait Registry<E: ?Sized> {
     fn computation<T, A>(&mut self, toolbox: &'static str, template: &'static str)
     where
         T: ComputationTemplate + 'static,
-        A: Computation<T> + 'static,
+        A: Computation<T> + Send + 'static,
         for<'a> T::Inputs<'a>: FromArgs<'a>,
         T::State: Outcome;
 
     /// Adds an object type.
-    fn object<T: Clone + 'static>(&mut self, toolbox: &'static str, name: &'static str);
+    fn object<T: Clone + Send + 'static>(&mut self, toolbox: &'static str, name: &'static str);
 }

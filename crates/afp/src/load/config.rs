@@ -9,7 +9,7 @@ use afp_dsl::graph::Entry;
 use afp_dsl::types::Type;
 
 /// An object of some Rust type that only its templates know.
-pub trait ObjectCell {
+pub trait ObjectCell: Send {
     /// The object, while there is one.
     fn get(&self) -> Option<&dyn Any>;
     /// Takes the object out of an `Option` of the same Rust type.
@@ -24,7 +24,7 @@ pub trait ObjectCell {
     fn inner(&mut self) -> &mut dyn Any;
 }
 
-impl<T: Clone + 'static> ObjectCell for Option<T> {
+impl<T: Clone + Send + 'static> ObjectCell for Option<T> {
     fn get(&self) -> Option<&dyn Any> {
         self.as_ref().map(|object| object as &dyn Any)
     }

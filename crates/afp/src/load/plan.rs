@@ -557,3 +557,17 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
         self.supervisors.iter_mut().for_each(WatchSlot::clear);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use afp_core::Scheduler;
+
+    use super::LoadedPlan;
+
+    #[test]
+    fn a_running_plan_can_be_sent_to_another_thread() {
+        fn sent<T: Send>() {}
+        sent::<LoadedPlan<std::rc::Rc<()>>>();
+        sent::<Scheduler<LoadedPlan<()>>>();
+    }
+}

@@ -10,10 +10,12 @@ use afp_core::{
 use super::config::{NewCell, ObjectCell};
 use super::slots::{ActorSlot, ComputationSlot, Home, SupervisorSlot};
 
-type Key = (&'static str, &'static str);
-type NewActor<E> = fn() -> Box<dyn ActorSlot<E>>;
-type NewSupervisor<E> = fn() -> Box<dyn SupervisorSlot<E>>;
-type NewComputation = fn() -> Box<dyn ComputationSlot>;
+type NewActor<E> = Box<dyn Fn() -> Box<dyn ActorSlot<E>> + Send + Sync>;
+type NewSupervisor<E> = Box<dyn Fn() -> Box<dyn SupervisorSlot<E>> + Send + Sync>;
+type NewComputation = Box<dyn Fn() -> Box<dyn ComputationSlot> + Send + Sync>;
+
+/// What there is of one sort, by toolbox and name.
+type Map<T> = BTreeMap<String, BTreeMap<String, T>>;
 
 /// The components of some toolboxes on platform `E`, by toolbox and template.
 ///
@@ -25,10 +27,10 @@ type NewComputation = fn() -> Box<dyn ComputationSlot>;
 /// afp_carbot::templates::register(&mut registry);
 /// ```
 pub struct Registry<E: ?Sized + 'static> {
-    actors: BTreeMap<Key, NewActor<E>>,
-    supervisors: BTreeMap<Key, NewSupervisor<E>>,
-    computations: BTreeMap<Key, NewComputation>,
-    objects: BTreeMap<Key, NewCell>,
+    actors: Map<NewActor<E>>,
+    supervisors: Map<NewSupervisor<E>>,
+    computations: Map<NewComputation>,
+    objects: Map<NewCell>,
 }
 
 impl<E: ?Sized> Registry<E> {
@@ -40,6 +42,44 @@ impl<E: ?Sized> Registry<E> {
             computations: BTreeMap::new(),
             objects: BTreeMap::new(),
         }
+    }
+
+    /// Adds an actor of another language, which `new` makes a home for.
+    ///
+    /// What is added under names that are there already takes the place of what was.
+    pub fn add_actor(
+        &mut self,
+        toolbox: &str,
+        template: &str,
+        new: impl Fn() -> Box<dyn ActorSlot<E>> + Send + Sync + 'static,
+    ) {
+        add(&mut self.actors, toolbox, template, Box::new(new));
+    }
+
+    /// Adds a supervisor of another language, as [`Registry::add_actor`] does an actor.
+    pub fn add_supervisor(
+        &mut self,
+        toolbox: &str,
+        template: &str,
+        new: impl Fn() -> Box<dyn SupervisorSlot<E>> + Send + Sync + 'static,
+    ) {
+        add(&mut self.supervisors, toolbox, template, Box::new(new));
+    }
+
+    /// Adds a computation of another language, as [`Registry::add_actor`] does an actor.
+    pub fn add_computation(
+        &mut self,
+        toolbox: &str,
+        template: &str,
+        new: impl Fn() -> Box<dyn ComputationSlot> + Send + Sync + 'static,
+    ) {
+        add(&mut self.computations, toolbox, template, Box::new(new));
+    }
+
+    /// Adds an object type, whose values are of the Rust type `T`.
+    pub fn add_object<T: Clone + Send + 'static>(&mut self, toolbox: &str, name: &str) {
+        let new: NewCell = || Box::new(None::<T>) as Box<dyn ObjectCell>;
+        add(&mut self.objects, toolbox, name, new);
     }
 
     pub(super) fn new_actor(&self, toolbox: &str, name: &str) -> Option<Box<dyn ActorSlot<E>>> {
@@ -63,13 +103,16 @@ impl<E: ?Sized> Registry<E> {
     }
 
     pub(super) fn object_cell(&self, toolbox: &str, name: &str) -> Option<NewCell> {
-        find(&self.objects, toolbox, name)
+        find(&self.objects, toolbox, name).copied()
     }
 }
 
-/// The keys are static, a graph's names are not: compare them as plain texts.
-fn find<T: Copy>(map: &BTreeMap<Key, T>, toolbox: &str, name: &str) -> Option<T> {
-    map.iter().find(|(key, _)| **key == (toolbox, name)).map(|(_, new)| *new)
+fn add<T>(map: &mut Map<T>, toolbox: &str, name: &str, new: T) {
+    map.entry(toolbox.to_owned()).or_default().insert(name.to_owned(), new);
+}
+
+fn find<'a, T>(map: &'a Map<T>, toolbox: &str, name: &str) -> Option<&'a T> {
+    map.get(toolbox)?.get(name)
 }
 
 impl<E: ?Sized> Default for Registry<E> {
@@ -82,36 +125,36 @@ impl<E: ?Sized + 'static> rt::Registry<E> for Registry<E> {
     fn actor<T, A>(&mut self, toolbox: &'static str, template: &'static str)
     where
         T: ActorTemplate + 'static,
-        A: Actor<T, E> + 'static,
+        A: Actor<T, E> + Send + 'static,
         for<'a> T::Inputs<'a>: FromArgs<'a>,
         for<'a> T::Live<'a>: FromArgs<'a>,
         T::State: Outcome,
     {
-        self.actors.insert((toolbox, template), || Box::new(Home::<T, A>::new()));
+        self.add_actor(toolbox, template, || Box::new(Home::<T, A>::new()));
     }
 
     fn supervisor<T, A>(&mut self, toolbox: &'static str, template: &'static str)
     where
         T: SupervisorTemplate + 'static,
-        A: Supervisor<T, E> + 'static,
+        A: Supervisor<T, E> + Send + 'static,
         for<'a> T::Inputs<'a>: FromArgs<'a>,
         for<'a> T::Live<'a>: FromArgs<'a>,
         T::Event: Outcome,
     {
-        self.supervisors.insert((toolbox, template), || Box::new(Home::<T, A>::new()));
+        self.add_supervisor(toolbox, template, || Box::new(Home::<T, A>::new()));
     }
 
     fn computation<T, A>(&mut self, toolbox: &'static str, template: &'static str)
     where
         T: ComputationTemplate + 'static,
-        A: Computation<T> + 'static,
+        A: Computation<T> + Send + 'static,
         for<'a> T::Inputs<'a>: FromArgs<'a>,
         T::State: Outcome,
     {
-        self.computations.insert((toolbox, template), || Box::new(Home::<T, A>::new()));
+        self.add_computation(toolbox, template, || Box::new(Home::<T, A>::new()));
     }
 
-    fn object<T: Clone + 'static>(&mut self, toolbox: &'static str, name: &'static str) {
-        self.objects.insert((toolbox, name), || Box::new(None::<T>) as Box<dyn ObjectCell>);
+    fn object<T: Clone + Send + 'static>(&mut self, toolbox: &'static str, name: &'static str) {
+        self.add_object::<T>(toolbox, name);
     }
 }

@@ -8,11 +8,18 @@ use afp_core::{
     Supervisor, SupervisorTemplate, ValueRef,
 };
 
-/// Shows the inputs of a component to the trace.
+/// Shows the inputs of a component, by port, to the trace; none when nobody listens.
 pub type See<'a> = Option<&'a mut dyn FnMut(u16, ValueRef<'_>)>;
 
-/// The home of an actor.
-pub trait ActorSlot<E: ?Sized> {
+/// The home of an actor: what [`Actor`] says, for a template known at run time only.
+///
+/// At `start` all inputs are pulled, shown and checked against their ports' ranges, at `poll` those that
+/// are live.
+pub trait ActorSlot<E: ?Sized>: Send {
+    /// Makes the actor and begins to act.
+    ///
+    /// # Errors
+    /// As [`Actor::start`].
     fn start(
         &mut self,
         args: &dyn Args,
@@ -21,6 +28,9 @@ pub trait ActorSlot<E: ?Sized> {
         now: Instant,
     ) -> Result<(), Fault>;
     /// The state reached, its outputs handed over.
+    ///
+    /// # Errors
+    /// As [`Actor::poll`].
     fn poll(
         &mut self,
         args: &dyn Args,
@@ -28,12 +38,21 @@ pub trait ActorSlot<E: ?Sized> {
         env: &mut E,
         now: Instant,
     ) -> Result<Option<u16>, Fault>;
+    /// Gives the stop command.
+    ///
+    /// # Errors
+    /// As [`Actor::interrupt`].
     fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault>;
+    /// Drops what runs.
     fn clear(&mut self);
 }
 
-/// The home of a supervisor.
-pub trait SupervisorSlot<E: ?Sized> {
+/// The home of a supervisor, as [`ActorSlot`] is of an actor.
+pub trait SupervisorSlot<E: ?Sized>: Send {
+    /// Makes the supervisor and begins to watch for the wanted events.
+    ///
+    /// # Errors
+    /// As [`Supervisor::start`].
     fn start(
         &mut self,
         args: &dyn Args,
@@ -43,6 +62,9 @@ pub trait SupervisorSlot<E: ?Sized> {
         now: Instant,
     ) -> Result<(), Fault>;
     /// The event seen, its outputs handed over.
+    ///
+    /// # Errors
+    /// As [`Supervisor::poll`].
     fn poll(
         &mut self,
         args: &dyn Args,
@@ -50,18 +72,23 @@ pub trait SupervisorSlot<E: ?Sized> {
         env: &mut E,
         now: Instant,
     ) -> Result<Option<u16>, Fault>;
+    /// Drops what watches.
     fn clear(&mut self);
 }
 
 /// A computation, which needs no home.
-pub trait ComputationSlot {
+pub trait ComputationSlot: Send {
+    /// The state reached, its outputs handed over.
+    ///
+    /// # Errors
+    /// As [`Computation::compute`].
     fn compute(&self, args: &dyn Args, see: See<'_>, to: &mut dyn Outputs) -> Result<u16, Fault>;
 }
 
 /// The home of a component of type `A` and template `T`.
 pub struct Home<T, A> {
     running: Option<A>,
-    template: PhantomData<T>,
+    template: PhantomData<fn() -> T>,
 }
 
 impl<T, A> Home<T, A> {
@@ -89,7 +116,7 @@ fn give(outcome: impl Outcome, to: &mut dyn Outputs) -> u16 {
 impl<T, A, E: ?Sized> ActorSlot<E> for Home<T, A>
 where
     T: ActorTemplate,
-    A: Actor<T, E>,
+    A: Actor<T, E> + Send,
     for<'a> T::Inputs<'a>: FromArgs<'a>,
     for<'a> T::Live<'a>: FromArgs<'a>,
     T::State: Outcome,
@@ -131,7 +158,7 @@ where
 impl<T, A, E: ?Sized> SupervisorSlot<E> for Home<T, A>
 where
     T: SupervisorTemplate,
-    A: Supervisor<T, E>,
+    A: Supervisor<T, E> + Send,
     for<'a> T::Inputs<'a>: FromArgs<'a>,
     for<'a> T::Live<'a>: FromArgs<'a>,
     T::Event: Outcome,
@@ -169,7 +196,7 @@ where
 impl<T, A> ComputationSlot for Home<T, A>
 where
     T: ComputationTemplate,
-    A: Computation<T>,
+    A: Computation<T> + Send,
     for<'a> T::Inputs<'a>: FromArgs<'a>,
     T::State: Outcome,
 {

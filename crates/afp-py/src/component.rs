@@ -1,0 +1,65 @@
+//! Components in Python: the homes that a loaded plan polls, and what they share.
+//!
+//! What implements a template is an object with a `poll` and, for an actor, an `interrupt`; the package makes it of
+//! classes, functions and coroutines. The simulation is lent to the [`Robot`] for the time of a call.
+
+mod actor;
+mod call;
+mod computation;
+mod host;
+mod supervisor;
+
+use std::sync::Arc;
+
+use afp::load::Registry;
+use afp_dsl::toolbox::TemplateKind;
+use afp_sim::Simulation;
+use pyo3::prelude::*;
+
+use crate::toolbox::Toolbox;
+use actor::PyActor;
+use call::Callee;
+use computation::PyComputation;
+pub use host::Host;
+use supervisor::PySupervisor;
+
+/// An object of a plan: whatever Python put there.
+pub type Object = Arc<Py<PyAny>>;
+
+/// Adds the implementations of a toolbox to a registry.
+///
+/// # Errors
+/// The toolbox can no longer be read.
+pub fn register(
+    py: Python<'_>,
+    toolbox: &Toolbox,
+    host: &Arc<Host>,
+    registry: &mut Registry<Simulation>,
+) -> PyResult<()> {
+    let declared = toolbox.declared()?;
+    let home = declared.name.as_str();
+    for object in &declared.objects {
+        registry.add_object::<Object>(home, &object.name);
+    }
+    for (name, maker) in toolbox.makers(py) {
+        let index = declared.templates.iter().position(|template| template.name == name);
+        let Some(index) = index else { continue };
+        let kind = declared.templates[index].kind;
+        let callee = Callee::new(host, &declared, index, maker);
+        match kind {
+            TemplateKind::Actor => {
+                let new = move || Box::new(PyActor::new(callee.clone())) as _;
+                registry.add_actor(home, &name, new);
+            }
+            TemplateKind::Supervisor => {
+                let new = move || Box::new(PySupervisor::new(callee.clone())) as _;
+                registry.add_supervisor(home, &name, new);
+            }
+            TemplateKind::Computation => {
+                let new = move || Box::new(PyComputation::new(callee.clone())) as _;
+                registry.add_computation(home, &name, new);
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,245 @@
+//! Ports across the border: inputs to keyword dictionaries, what comes back to outcomes with outputs.
+
+use std::sync::Arc;
+
+use afp::load::See;
+use afp_core::rt::{Args, Outputs};
+use afp_core::{Fault, Value, ValueRef};
+use afp_dsl::toolbox::{InPort, Template, Toolbox};
+use afp_dsl::types::Type;
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyString, PyTuple};
+
+use super::{Host, Object};
+use crate::value::{to_port, to_python};
+
+/// A template and what implements it.
+#[derive(Clone)]
+pub struct Callee {
+    pub host: Arc<Host>,
+    toolbox: Arc<Toolbox>,
+    index: usize,
+    maker: Arc<Py<PyAny>>,
+    has_live: bool,
+}
+
+/// The value of a port.
+enum Pulled {
+    Value(Value),
+    Object(Object),
+}
+
+/// A state or event with its outputs, by port.
+pub struct Told {
+    pub outcome: u16,
+    outputs: Vec<(u16, Pulled)>,
+}
+
+impl Callee {
+    pub fn new(host: &Arc<Host>, toolbox: &Arc<Toolbox>, index: usize, maker: Py<PyAny>) -> Self {
+        let live = |template: &Template| template.inputs.iter().any(|port| port.live);
+        Callee {
+            host: Arc::clone(host),
+            toolbox: Arc::clone(toolbox),
+            index,
+            maker: Arc::new(maker),
+            has_live: toolbox.templates.get(index).is_some_and(live),
+        }
+    }
+
+    /// The template.
+    ///
+    /// # Errors
+    /// Never: the index was found in the toolbox.
+    pub fn template(&self) -> Result<&Template, Fault> {
+        self.toolbox.templates.get(self.index).ok_or(Fault::INTERNAL)
+    }
+
+    /// What makes components.
+    pub fn maker<'py>(&self, py: Python<'py>) -> &Bound<'py, PyAny> {
+        self.maker.bind(py)
+    }
+
+    /// Pulls the inputs that are read once, shows and checks them.
+    ///
+    /// # Errors
+    /// The fault of a formula; a number that is not finite or outside of its port's range.
+    pub fn inputs(&self, args: &dyn Args, see: See<'_>) -> Result<Inputs<'_>, Fault> {
+        let inputs = self.pull(args, false)?;
+        if let Some(see) = see {
+            for (port, _, value) in &inputs.0 {
+                if let Pulled::Value(value) = value {
+                    see(*port, value.borrow());
+                }
+            }
+        }
+        inputs.check()?;
+        Ok(inputs)
+    }
+
+    /// Pulls and checks the inputs that are read at each poll.
+    ///
+    /// # Errors
+    /// As [`Callee::inputs`].
+    pub fn live(&self, args: &dyn Args) -> Result<Inputs<'_>, Fault> {
+        if !self.has_live {
+            return Ok(Inputs(Vec::new()));
+        }
+        let inputs = self.pull(args, true)?;
+        inputs.check()?;
+        Ok(inputs)
+    }
+
+    fn pull(&self, args: &dyn Args, live: bool) -> Result<Inputs<'_>, Fault> {
+        let ports = (0..).zip(&self.template()?.inputs).filter(|(_, port)| port.live == live);
+        let pulled = ports.map(|(number, port)| Ok((number, port, pull(args, number, port)?)));
+        pulled.collect::<Result<_, _>>().map(Inputs)
+    }
+
+    /// Takes what a component returned: `None`, `"State"` or `("State", {"output": value})`.
+    ///
+    /// # Errors
+    /// A state that is not there, outputs that do not fit.
+    pub fn told(&self, said: &Bound<'_, PyAny>) -> PyResult<Option<Told>> {
+        if said.is_none() {
+            return Ok(None);
+        }
+        let template = self.template().map_err(|why| PyTypeError::new_err(why.to_string()))?;
+        let none = PyDict::new(said.py());
+        let (name, outputs) = match said.cast::<PyTuple>() {
+            Ok(pair) => pair.extract::<(Bound<'_, PyString>, Bound<'_, PyDict>)>()?,
+            Err(_) => (said.cast::<PyString>().map_err(|_| unknown(template, said))?.clone(), none),
+        };
+        let name = name.to_cow()?;
+        let outcome = (0..).zip(&template.outcomes).find(|(_, outcome)| outcome.name == *name);
+        let (outcome, _) = outcome.ok_or_else(|| unknown(template, said))?;
+        let outputs = outputs_of(template, outcome, &outputs)?;
+        Ok(Some(Told { outcome, outputs }))
+    }
+}
+
+/// The values of ports.
+pub struct Inputs<'a>(Vec<(u16, &'a InPort, Pulled)>);
+
+impl Inputs<'_> {
+    fn check(&self) -> Result<(), Fault> {
+        for (_, port, value) in &self.0 {
+            let Pulled::Value(value) = value else { continue };
+            let number = match value {
+                Value::Int(int) => *int as f64,
+                Value::Float(float) if !float.is_finite() => return Err(Fault::ARITHMETIC),
+                Value::Float(float) => *float,
+                _ => continue,
+            };
+            if port.range.is_some_and(|(least, most)| number < least || number > most) {
+                return Err(Fault::RANGE);
+            }
+        }
+        Ok(())
+    }
+
+    /// The values by name.
+    pub fn dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let dict = PyDict::new(py);
+        for (_, port, value) in &self.0 {
+            let value = match value {
+                Pulled::Value(value) => shown(py, &port.ty, value.borrow())?,
+                Pulled::Object(object) => object.bind(py).clone(),
+            };
+            dict.set_item(&port.name, value)?;
+        }
+        Ok(dict)
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl Told {
+    /// Hands over the outputs.
+    pub fn give(self, to: &mut dyn Outputs) {
+        for (port, value) in self.outputs {
+            match value {
+                Pulled::Value(Value::Bool(value)) => to.bool(port, value),
+                Pulled::Value(Value::Int(value)) => to.int(port, value),
+                Pulled::Value(Value::Float(value)) => to.float(port, value),
+                Pulled::Value(Value::Text(value)) => to.text(port, &value),
+                Pulled::Value(Value::Choice(value)) => to.choice(port, value),
+                Pulled::Value(other) => to.value(port, other),
+                Pulled::Object(object) => to.object(port, &mut Some(object)),
+            }
+        }
+    }
+}
+
+fn pull(args: &dyn Args, number: u16, port: &InPort) -> Result<Pulled, Fault> {
+    Ok(Pulled::Value(match port.ty {
+        Type::Bool => Value::Bool(args.bool(number)?),
+        Type::Int => Value::Int(args.int(number)?),
+        Type::Quantity(_) => Value::Float(args.float(number)?),
+        Type::Text => ValueRef::Text(args.text(number)?).to_owned(),
+        Type::Enum(_) => Value::Choice(args.choice(number)?),
+        Type::Any | Type::Number => args.value(number)?,
+        Type::Object(_) => {
+            let object = args.object(number)?.downcast_ref::<Object>();
+            return object.cloned().map(Pulled::Object).ok_or(Fault::INTERNAL);
+        }
+    }))
+}
+
+fn shown<'py>(py: Python<'py>, ty: &Type, value: ValueRef<'_>) -> PyResult<Bound<'py, PyAny>> {
+    to_python(py, value, |choice| match ty {
+        Type::Enum(choices) => {
+            choices.variants.get(usize::from(choice)).cloned().unwrap_or_default()
+        }
+        _ => format!("#{choice}"),
+    })
+}
+
+/// The outputs that an outcome carries; all of them must be there, and no others.
+fn outputs_of(
+    template: &Template,
+    outcome: u16,
+    given: &Bound<'_, PyDict>,
+) -> PyResult<Vec<(u16, Pulled)>> {
+    let carried = || (0..).zip(&template.outputs).filter(|(_, port)| port.on.contains(&outcome));
+    let mut outputs = Vec::new();
+    for (number, port) in carried() {
+        let value = given.get_item(&port.name)?.ok_or_else(|| {
+            let state = &template.outcomes[usize::from(outcome)].name;
+            let name = &port.name;
+            PyValueError::new_err(format!(
+                "'{}' ends in '{state}' without its output '{name}': return (\"{state}\", {{\"{name}\": ...}})",
+                template.name
+            ))
+        })?;
+        let value = match &port.ty {
+            Type::Object(_) => Pulled::Object(Arc::new(value.unbind())),
+            ty => Pulled::Value(to_port(ty, &value)?),
+        };
+        outputs.push((number, value));
+    }
+    for key in given.keys() {
+        let key: String = key.extract()?;
+        if !carried().any(|(_, port)| port.name == key) {
+            let (name, state) = (&template.name, &template.outcomes[usize::from(outcome)].name);
+            return Err(PyValueError::new_err(format!(
+                "'{state}' of '{name}' carries no output '{key}'"
+            )));
+        }
+    }
+    Ok(outputs)
+}
+
+fn unknown(template: &Template, said: &Bound<'_, PyAny>) -> PyErr {
+    let known: Vec<_> = template.outcomes.iter().map(|outcome| &*outcome.name).collect();
+    let said = said.repr().map_or_else(|_| "?".to_owned(), |text| text.to_string());
+    PyTypeError::new_err(format!(
+        "'{}' returned {said}; return None, one of {}, or a pair of it and its outputs",
+        template.name,
+        known.join(", ")
+    ))
+}

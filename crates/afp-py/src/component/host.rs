@@ -1,0 +1,100 @@
+//! What all components of a run share: the robot that they are lent, and what they raised.
+
+use std::mem;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use afp_core::{Fault, Instant, Reason};
+use afp_sim::Simulation;
+use pyo3::exceptions::PyException;
+use pyo3::prelude::*;
+
+use crate::robot::Robot;
+
+/// What a plan sees of an exception.
+const RAISED: Fault = Fault::new(&Reason {
+    code: "python-exception",
+    text: "a component written in Python raised an exception",
+});
+
+/// An exception of a component.
+pub struct Failure {
+    pub at: Instant,
+    pub template: String,
+    pub error: PyErr,
+}
+
+/// What the components of a run share.
+pub struct Host {
+    pub robot: Py<Robot>,
+    failures: Mutex<Vec<Failure>>,
+    /// What ends the whole run: Ctrl-C and the like, which no `Error` edge shall catch.
+    abort: Mutex<Option<PyErr>>,
+}
+
+impl Host {
+    /// For a run whose components get this robot.
+    pub fn new(robot: Py<Robot>) -> Host {
+        Host { robot, failures: Mutex::default(), abort: Mutex::default() }
+    }
+
+    /// Calls Python while the robot is lent to it.
+    ///
+    /// # Errors
+    /// [`RAISED`] for an exception, which is kept.
+    pub fn lend<T>(
+        &self,
+        env: &mut Simulation,
+        template: &str,
+        call: impl FnOnce(Python<'_>) -> PyResult<T>,
+    ) -> Result<T, Fault> {
+        let now = env.now();
+        Python::attach(|py| {
+            let robot = self.robot.get();
+            robot.exchange(env, true);
+            let done = call(py);
+            robot.exchange(env, false);
+            done.map_err(|error| self.fail(py, now, template, error))
+        })
+    }
+
+    /// Calls Python without a robot.
+    ///
+    /// # Errors
+    /// As [`Host::lend`].
+    pub fn ask<T>(
+        &self,
+        template: &str,
+        call: impl FnOnce(Python<'_>) -> PyResult<T>,
+    ) -> Result<T, Fault> {
+        Python::attach(|py| call(py).map_err(|error| self.fail(py, Instant::ZERO, template, error)))
+    }
+
+    fn fail(&self, py: Python<'_>, at: Instant, template: &str, error: PyErr) -> Fault {
+        if error.is_instance_of::<PyException>(py) {
+            lock(&self.failures).push(Failure { at, template: template.to_owned(), error });
+        } else {
+            lock(&self.abort).get_or_insert(error);
+        }
+        RAISED
+    }
+
+    /// Whether something was raised that ends the run.
+    pub fn is_aborted(&self) -> bool {
+        lock(&self.abort).is_some()
+    }
+
+    /// What was raised that ends the run.
+    pub fn aborted(&self) -> Option<PyErr> {
+        lock(&self.abort).take()
+    }
+
+    /// What was raised since this was last asked.
+    pub fn failures(&self) -> Vec<Failure> {
+        mem::take(&mut *lock(&self.failures))
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    // Lists are pushed to as a whole: a panic leaves nothing half done.
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,73 @@
+//! A supervisor in Python.
+
+use afp::load::{See, SupervisorSlot};
+use afp_core::rt::{Args, Outputs};
+use afp_core::{Events, Fault, Instant};
+use afp_sim::Simulation;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use super::actor::call;
+use super::call::Callee;
+
+/// The home of a supervisor in Python.
+pub struct PySupervisor {
+    callee: Callee,
+    /// Its method.
+    poll: Option<Py<PyAny>>,
+}
+
+impl PySupervisor {
+    pub fn new(callee: Callee) -> Self {
+        PySupervisor { callee, poll: None }
+    }
+}
+
+impl SupervisorSlot<Simulation> for PySupervisor {
+    fn start(
+        &mut self,
+        args: &dyn Args,
+        wanted: Events,
+        see: See<'_>,
+        env: &mut Simulation,
+        _: Instant,
+    ) -> Result<(), Fault> {
+        let callee = &self.callee;
+        let inputs = callee.inputs(args, see)?;
+        let template = callee.template()?;
+        let events = (0..).zip(&template.outcomes).filter(|(event, _)| wanted.contains(*event));
+        let events: Vec<_> = events.map(|(_, event)| event.name.as_str()).collect();
+        let poll = callee.host.lend(env, &template.name, |py| {
+            let robot = callee.host.robot.clone_ref(py);
+            let wanted = PyTuple::new(py, &events)?;
+            let supervisor = callee.maker(py).call1((robot, inputs.dict(py)?, wanted))?;
+            supervisor.getattr("poll").map(Bound::unbind)
+        })?;
+        self.poll = Some(poll);
+        Ok(())
+    }
+
+    fn poll(
+        &mut self,
+        args: &dyn Args,
+        to: &mut dyn Outputs,
+        env: &mut Simulation,
+        _: Instant,
+    ) -> Result<Option<u16>, Fault> {
+        let callee = &self.callee;
+        let poll = self.poll.as_ref().ok_or(Fault::INTERNAL)?;
+        let live = callee.live(args)?;
+        let told = callee
+            .host
+            .lend(env, &callee.template()?.name, |py| callee.told(&call(py, poll, &live)?))?;
+        Ok(told.map(|told| {
+            let event = told.outcome;
+            told.give(to);
+            event
+        }))
+    }
+
+    fn clear(&mut self) {
+        self.poll = None;
+    }
+}

@@ -1,0 +1,50 @@
+//! `read_log`: what an MCAP log holds.
+
+use std::path::PathBuf;
+
+use afp_log::instant;
+use afp_log::robot::Pose2;
+use pyo3::exceptions::PyFileNotFoundError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+use crate::errors::error;
+use crate::simulation::{Event, value};
+use crate::world::table;
+
+/// Reads a log, as far as it goes, into a dictionary.
+#[pyfunction]
+pub fn read_log<'py>(py: Python<'py>, path: PathBuf) -> PyResult<Bound<'py, PyDict>> {
+    if !path.is_file() {
+        return Err(PyFileNotFoundError::new_err(format!("there is no log '{}'", path.display())));
+    }
+    let log = py.detach(|| afp_log::read(&path)).map_err(error)?;
+    let dict = PyDict::new(py);
+    dict.set_item("facts", log.facts)?;
+    dict.set_item("attachments", log.attachments)?;
+    let poses: Vec<_> = log
+        .poses
+        .iter()
+        .map(|(at, Pose2 { x, y, heading })| [at.as_secs_f64(), *x, *y, *heading])
+        .collect();
+    dict.set_item("path", table(py, &poses)?)?;
+    let channels = PyDict::new(py);
+    for (topic, info) in &log.topics {
+        channels.set_item(topic, (&info.schema, info.messages))?;
+    }
+    dict.set_item("channels", channels)?;
+    let entries = PyList::empty(py);
+    for configuration in &log.configurations {
+        let time = instant(&configuration.time).as_secs_f64();
+        let values = PyDict::new(py);
+        for entry in &configuration.entries {
+            values.set_item(&entry.name, value(py, entry.value.as_ref())?)?;
+        }
+        entries.append((time, values))?;
+    }
+    dict.set_item("entries", entries)?;
+    let events: Vec<_> = log.events.into_iter().map(Event::logged).collect();
+    dict.set_item("events", events)?;
+    dict.set_item("cut_short", log.cut_short)?;
+    Ok(dict)
+}

@@ -1,0 +1,221 @@
+//! `Plan`: a text, what the compiler says of it, its drawings, and changes of it.
+
+mod change;
+mod compile;
+mod diagnostic;
+
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use afp_dsl::Compiled;
+use afp_dsl::draw::{self, Options, Theme};
+use afp_dsl::edit::{self, Change};
+use afp_dsl::source::Source;
+use afp_dsl::toolbox::Toolbox as Declared;
+use pyo3::exceptions::{PyOSError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::errors::{error, plan_error, run_error};
+use crate::toolbox::Toolbox;
+
+use compile::Desk;
+pub use diagnostic::{Diagnostic, diagnostics};
+
+/// A plan: its text, what the compiler says of it, its drawings, and changes of it.
+#[pyclass(module = "afp", frozen, subclass)]
+pub struct Plan {
+    desk: Mutex<Desk>,
+}
+
+#[pymethods]
+impl Plan {
+    #[new]
+    #[pyo3(signature = (text, path=None, *, name=None, toolboxes=Vec::new()))]
+    fn new(
+        text: String,
+        path: Option<PathBuf>,
+        name: Option<String>,
+        toolboxes: Vec<Py<Toolbox>>,
+    ) -> PyResult<Self> {
+        let desk = Desk::new(text, path, name, toolboxes).map_err(|why| run_error(&why))?;
+        Ok(Plan { desk: Mutex::new(desk) })
+    }
+
+    /// The text.
+    #[getter]
+    fn text(&self) -> String {
+        self.lock().text().to_owned()
+    }
+
+    /// The file that it came from and is saved to.
+    #[getter]
+    fn path(&self) -> Option<PathBuf> {
+        self.lock().path().cloned()
+    }
+
+    /// The name of the plan that runs.
+    #[getter]
+    fn name(&self, py: Python<'_>) -> PyResult<String> {
+        let compiled = self.compiled(py);
+        let graph = compiled.graph.as_ref().ok_or_else(|| plan_error(py, &compiled))?;
+        Ok(graph.main().name.clone())
+    }
+
+    /// The toolboxes that were given with it.
+    #[getter]
+    fn toolboxes(&self, py: Python<'_>) -> Vec<Py<Toolbox>> {
+        self.python_toolboxes(py)
+    }
+
+    /// Everything the compiler has to say, in the order of the text.
+    #[getter]
+    fn diagnostics(&self, py: Python<'_>) -> Vec<Diagnostic> {
+        diagnostics(&self.compiled(py))
+    }
+
+    /// Whether there are no errors; warnings do not count.
+    #[getter]
+    fn ok(&self, py: Python<'_>) -> bool {
+        self.compiled(py).graph.is_some()
+    }
+
+    /// Raises `PlanError` if the plan has errors.
+    fn check(&self, py: Python<'_>) -> PyResult<()> {
+        let compiled = self.compiled(py);
+        match compiled.graph {
+            Some(_) => Ok(()),
+            None => Err(plan_error(py, &compiled)),
+        }
+    }
+
+    /// The diagnostics as `afpc check` prints them.
+    #[pyo3(signature = (*, color=false))]
+    fn report(&self, py: Python<'_>, color: bool) -> String {
+        self.compiled(py).render(color)
+    }
+
+    /// The text in canonical form; the plan stays as it is.
+    fn formatted(&self, py: Python<'_>) -> PyResult<String> {
+        let text = self.text();
+        afp_dsl::format(&text).map_err(|_| plan_error(py, &self.compiled(py)))
+    }
+
+    /// Brings the text into canonical form.
+    fn format(&self, py: Python<'_>) -> PyResult<()> {
+        let text = self.formatted(py)?;
+        self.lock().set_text(text);
+        Ok(())
+    }
+
+    /// Writes the text, and those of other files that a change has reached, to their files.
+    #[pyo3(signature = (path=None))]
+    fn save(&self, path: Option<PathBuf>) -> PyResult<()> {
+        self.lock().save(path)
+    }
+
+    /// The drawing in the notation of the paper, as SVG.
+    #[pyo3(signature = (*, theme="auto", fold=false, data=true))]
+    fn svg(&self, py: Python<'_>, theme: &str, fold: bool, data: bool) -> PyResult<String> {
+        let theme = match theme {
+            "auto" => Theme::Auto,
+            "light" => Theme::Light,
+            "dark" => Theme::Dark,
+            other => {
+                let text = format!("no theme '{other}'; there are: auto, light, dark");
+                return Err(PyValueError::new_err(text));
+            }
+        };
+        self.draw(py, |graph, options| {
+            draw::svg(graph, &Options { theme, sub_plans: !fold, data, ..*options })
+        })
+    }
+
+    /// The drawing for GraphViz.
+    fn dot(&self, py: Python<'_>) -> PyResult<String> {
+        self.draw(py, draw::dot)
+    }
+
+    /// The checked graph as JSON.
+    fn json(&self, py: Python<'_>) -> PyResult<String> {
+        self.draw(py, draw::json)
+    }
+
+    /// The flow of action as State Chart XML.
+    fn scxml(&self, py: Python<'_>) -> PyResult<String> {
+        self.draw(py, draw::scxml)
+    }
+
+    /// The names of the plans of the file.
+    #[getter]
+    fn plans(&self) -> Vec<String> {
+        change::plans(self.lock().text())
+    }
+
+    /// Makes a change of meaning: its kind and its parts by name, see the methods of `afp.Plan`.
+    fn _change(&self, kind: &str, parts: &Bound<'_, pyo3::types::PyDict>) -> PyResult<()> {
+        let change = change::read(kind, parts, self.lock().text())?;
+        self.change(&change)
+    }
+
+    fn _repr_svg_(&self, py: Python<'_>) -> Option<String> {
+        self.svg(py, "auto", false, true).ok()
+    }
+
+    fn __reduce__(&self) -> PyResult<()> {
+        Err(crate::value::no_pickle("Plan", "pickle its text and path"))
+    }
+}
+
+impl Plan {
+    fn lock(&self) -> MutexGuard<'_, Desk> {
+        // A text is replaced as a whole: a panic leaves nothing half done.
+        self.desk.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// What became of the text, compiled anew only after a change.
+    pub fn compiled(&self, py: Python<'_>) -> Arc<Compiled> {
+        py.detach(|| self.lock().compiled())
+    }
+
+    /// The toolboxes that were given with it.
+    pub fn python_toolboxes(&self, py: Python<'_>) -> Vec<Py<Toolbox>> {
+        self.lock().toolboxes().iter().map(|toolbox| toolbox.clone_ref(py)).collect()
+    }
+
+    /// Where the plan stands, for logs and for the world beside it.
+    pub fn file(&self) -> PathBuf {
+        self.lock().file()
+    }
+
+    fn draw(
+        &self,
+        py: Python<'_>,
+        draw: impl FnOnce(&afp_dsl::graph::Graph, &Options<'_>) -> String,
+    ) -> PyResult<String> {
+        let compiled = self.compiled(py);
+        let graph = compiled.graph.as_ref().ok_or_else(|| plan_error(py, &compiled))?;
+        let icons = |_: &Declared, name: &str| afp_toolboxes::icon(name).map(str::to_owned);
+        let options =
+            Options { sources: Some(&compiled.sources), icons: Some(&icons), ..Options::default() };
+        Ok(draw(graph, &options))
+    }
+
+    fn change(&self, change: &Change) -> PyResult<()> {
+        let mut desk = self.lock();
+        let files: Vec<Source> = desk.compiled().plan_sources().cloned().collect();
+        let edits = edit::edit(&files, 0, change).map_err(error)?;
+        for (number, source) in (0..=u16::MAX).zip(&files) {
+            let own: Vec<_> =
+                edits.iter().filter(|edit| edit.span.file == number).cloned().collect();
+            if !own.is_empty() {
+                desk.replace(&source.name, edit::apply(&source.text, &own));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The exception of a file that cannot be written.
+fn unwritten(path: &std::path::Path, why: &std::io::Error) -> PyErr {
+    PyOSError::new_err(format!("cannot write the plan '{}': {why}", path.display()))
+}

@@ -1,0 +1,140 @@
+//! The texts of a plan while it is changed, and what the compiler says of them.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use afp_dsl::source::Source;
+use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::{Compiled, compile_plan};
+use afp_project::{CrateLink, ProjectFile, shown};
+use afp_run::{RunError, write_whole};
+use pyo3::prelude::*;
+
+use super::unwritten;
+use crate::errors::{error, run_error};
+use crate::toolbox::Toolbox;
+
+/// What a plan without a file is called in diagnostics.
+const NAMELESS: &str = "plan.afp";
+
+/// A plan's texts and toolboxes.
+pub struct Desk {
+    text: String,
+    path: Option<PathBuf>,
+    /// Which plan of the file runs.
+    name: Option<String>,
+    toolboxes: Vec<Py<Toolbox>>,
+    known: Toolboxes,
+    /// Texts of other files that a change has reached, by path.
+    others: BTreeMap<String, String>,
+    compiled: Option<Arc<Compiled>>,
+}
+
+impl Desk {
+    /// A plan that has been changed by nobody.
+    pub fn new(
+        text: String,
+        path: Option<PathBuf>,
+        name: Option<String>,
+        toolboxes: Vec<Py<Toolbox>>,
+    ) -> Result<Desk, RunError> {
+        let mut known: Toolboxes = afp_toolboxes::sources().collect();
+        if let Some(path) = &path {
+            for file in ProjectFile::of_plan(path)?.toolboxes()? {
+                let name = &file.toolbox.name;
+                let krate = file.krate.as_ref().map_or_else(|_| name.clone(), CrateLink::rust_path);
+                known.add(Source::new(shown(&file.path).display().to_string(), &file.text), &krate);
+            }
+        }
+        for toolbox in &toolboxes {
+            let source = toolbox.get().source();
+            known.add(source, "python");
+        }
+        let others = BTreeMap::new();
+        Ok(Desk { text, path, name, toolboxes, known, others, compiled: None })
+    }
+
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    pub fn path(&self) -> Option<&PathBuf> {
+        self.path.as_ref()
+    }
+
+    pub fn toolboxes(&self) -> &[Py<Toolbox>] {
+        &self.toolboxes
+    }
+
+    /// The plan's file, or what stands for it.
+    pub fn file(&self) -> PathBuf {
+        self.path.clone().unwrap_or_else(|| NAMELESS.into())
+    }
+
+    pub fn set_text(&mut self, text: String) {
+        self.text = text;
+        self.compiled = None;
+    }
+
+    /// Puts a text in the place of that of a file.
+    pub fn replace(&mut self, file: &str, text: String) {
+        if file == self.file().display().to_string() {
+            self.set_text(text);
+        } else {
+            self.others.insert(file.to_owned(), text);
+            self.compiled = None;
+        }
+    }
+
+    /// What became of the texts.
+    pub fn compiled(&mut self) -> Arc<Compiled> {
+        if let Some(compiled) = &self.compiled {
+            return Arc::clone(compiled);
+        }
+        let source = Source::new(self.file().display().to_string(), &self.text);
+        let read = |path: &str| match self.others.get(path) {
+            Some(text) => Ok(text.clone()),
+            None => read(path),
+        };
+        let compiled = compile_plan(&source, &self.known, &read, self.name.as_deref());
+        let compiled = Arc::new(compiled);
+        self.compiled = Some(Arc::clone(&compiled));
+        compiled
+    }
+
+    /// Writes what has changed.
+    pub fn save(&mut self, path: Option<PathBuf>) -> PyResult<()> {
+        let path = path.or_else(|| self.path.clone());
+        let path = path.ok_or_else(|| error("the plan has no file yet; give save() a path"))?;
+        write(&path, &self.text)?;
+        while let Some((other, text)) = self.others.pop_first() {
+            if let Err(why) = write(Path::new(&other), &text) {
+                self.others.insert(other, text);
+                return Err(why);
+            }
+        }
+        if self.path.as_ref() != Some(&path) {
+            self.path = Some(path);
+            self.compiled = None;
+        }
+        Ok(())
+    }
+}
+
+fn write(path: &Path, text: &str) -> PyResult<()> {
+    write_whole("cannot write the plan", path, text).map_err(|why| match &why {
+        RunError::File { path, error, .. } => unwritten(path, error),
+        other => run_error(other),
+    })
+}
+
+/// The text of a file that a plan file uses.
+fn read(path: &str) -> Result<String, String> {
+    fs::read_to_string(path).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => "there is no such file".to_owned(),
+        _ => error.to_string().to_lowercase(),
+    })
+}

@@ -1,0 +1,57 @@
+//! `Diagnostic`: one thing the compiler has to say.
+
+use afp_dsl::Compiled;
+use pyo3::prelude::*;
+
+/// One thing the compiler has to say, as `afpc check` says it.
+#[pyclass(module = "afp", frozen, get_all, eq, hash)]
+#[derive(Clone, PartialEq, Eq, Hash)]
+pub struct Diagnostic {
+    /// Which rule it is about: `E0203`.
+    code: String,
+    /// `error`, `warning` or `note`.
+    severity: &'static str,
+    /// What is wrong.
+    message: String,
+    /// What to do, perhaps empty.
+    help: String,
+    /// The file, as it was named.
+    file: String,
+    /// The line, from 1.
+    line: usize,
+    /// The column, from 1.
+    column: usize,
+    /// The text that mends it in place of what is wrong, where there is one.
+    fix: Option<String>,
+}
+
+#[pymethods]
+impl Diagnostic {
+    fn __str__(&self) -> String {
+        let Diagnostic { code, severity, message, file, line, column, .. } = self;
+        format!("{file}:{line}:{column}: {severity}[{code}]: {message}")
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Diagnostic {self}>", self = self.__str__())
+    }
+}
+
+/// All that the compiler has to say.
+pub fn diagnostics(compiled: &Compiled) -> Vec<Diagnostic> {
+    let one = |each: &afp_dsl::diagnostics::Diagnostic| {
+        let source = compiled.sources.get(each.span.file);
+        let (line, column) = source.map_or((1, 1), |source| source.line_column(each.span.start));
+        Diagnostic {
+            code: each.code.as_str().to_owned(),
+            severity: each.severity.as_str(),
+            message: each.message.clone(),
+            help: each.help.clone(),
+            file: source.map_or(String::new(), |source| source.name.clone()),
+            line,
+            column,
+            fix: each.fix.as_ref().map(|fix| fix.text.clone()),
+        }
+    };
+    compiled.diags.iter().map(one).collect()
+}

@@ -1,0 +1,383 @@
+//! `Runner`: a plan in a simulated world, driven from Python.
+
+mod event;
+mod pause;
+mod session;
+mod stimuli;
+mod visitor;
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+
+use afp::load::{LoadedPlan, Registry};
+use afp_core::rt::NamedPlan;
+use afp_core::trace::{Names, TraceEntryId};
+use afp_core::{Duration, Instant};
+use afp_sim::{Fault, Simulation};
+use numpy::PyArray2;
+use pyo3::exceptions::{PyKeyError, PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::component::{Host, register};
+use crate::errors::{error, plan_error};
+use crate::plan::Plan;
+use crate::robot::{Robot, sense};
+use crate::value::{no_pickle, to_entry, to_python};
+use crate::world::{World, table};
+
+pub use event::{Event, value};
+use pause::Pause;
+use session::{Session, Setting};
+use stimuli::{Control, Deed, fault};
+
+/// A plan in a simulated world. `afp.Simulation` is made of it.
+#[pyclass(module = "afp", frozen)]
+pub struct Runner {
+    session: Mutex<Session>,
+    host: Option<Arc<Host>>,
+    stop: Arc<AtomicBool>,
+    process: u32,
+}
+
+#[pymethods]
+impl Runner {
+    #[new]
+    #[pyo3(signature = (plan, world, seed, set, log))]
+    fn new(
+        py: Python<'_>,
+        plan: &Plan,
+        world: &World,
+        seed: u64,
+        set: &Bound<'_, PyDict>,
+        log: Option<PathBuf>,
+    ) -> PyResult<Self> {
+        let compiled = plan.compiled(py);
+        let graph = compiled.graph.as_ref().ok_or_else(|| plan_error(py, &compiled))?;
+        let mut registry = Registry::<Simulation>::new();
+        afp_std::templates::register(&mut registry);
+        afp_carbot::templates::register(&mut registry);
+        let host = host(py, plan, &mut registry)?;
+        let mut loaded = LoadedPlan::new(graph, &registry).map_err(|why| {
+            error(format!("{why}\n  help: implement it in Python (see Toolbox), or run the plan with afpc, which links Rust"))
+        })?;
+        for (name, value) in set {
+            let name: String = name.extract()?;
+            let entry = entry(&loaded, &name)?;
+            let value = to_entry(&loaded, entry, &value)?;
+            NamedPlan::set_input(&mut loaded, entry, &value)
+                .map_err(|why| error(format!("'{name}': {why}")))?;
+        }
+        let file = plan.file();
+        let setting =
+            Setting { graph, world: &world.loaded, seed, file: &file, log: log.as_deref() };
+        let stop = Arc::new(AtomicBool::new(false));
+        let pause = Pause::new(host.clone(), Arc::clone(&stop));
+        let session = Mutex::new(Session::new(loaded, &setting, pause)?);
+        Ok(Runner { session, host, stop, process: std::process::id() })
+    }
+
+    /// Runs the plan until it ends or until a time, when it is stopped if `stop` is set; whether it still runs.
+    fn run(&self, py: Python<'_>, until: Option<f64>, stop: bool) -> PyResult<bool> {
+        let until = until.map(instant).transpose()?;
+        self.drive(py, |session| session.run(until.unwrap_or(Instant::MAX), stop))
+    }
+
+    /// Makes one step of the plan; whether it still runs.
+    fn step(&self, py: Python<'_>) -> PyResult<bool> {
+        let mut session = self.lock()?;
+        // Components get hold of the interpreter by themselves; without any, letting it go costs more than a step.
+        let stepped = match &self.host {
+            None => session.step(),
+            Some(_) => {
+                let session = &mut *session;
+                py.detach(|| session.step())
+            }
+        };
+        self.after(stepped)
+    }
+
+    /// Goes on until something has happened after the first `seen` events, or until a time; whether the plan still
+    /// runs.
+    fn listen(&self, py: Python<'_>, seen: usize, until: Option<f64>) -> PyResult<bool> {
+        let until = until.map(instant).transpose()?.unwrap_or(Instant::MAX);
+        self.drive(py, |session| session.listen(seen, until))
+    }
+
+    /// Asks the plan to stop at its next step; from any thread.
+    fn request_stop(&self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+
+    /// The time, seconds.
+    #[getter]
+    fn time(&self) -> PyResult<f64> {
+        Ok(self.lock()?.rig.sim.now().as_secs_f64())
+    }
+
+    /// How the plan ended: `ok`, `interrupted`, `error`; `running` before.
+    #[getter]
+    fn ending(&self) -> PyResult<&'static str> {
+        Ok(self.lock()?.ending())
+    }
+
+    /// The code and the text of the fault that ended the plan.
+    #[getter]
+    fn fault(&self) -> PyResult<Option<(&'static str, String)>> {
+        Ok(self.lock()?.fault().map(|fault| (fault.code(), fault.to_string())))
+    }
+
+    /// Why the plan stopped though it did not end by itself: `until` or `stop`.
+    #[getter]
+    fn stopped_by(&self) -> PyResult<Option<&'static str>> {
+        Ok(self.lock()?.stopped_by)
+    }
+
+    /// The hash of the trace so far, as `afpc run` tells it.
+    #[getter]
+    fn trace_hash(&self) -> PyResult<String> {
+        Ok(self.lock()?.rig.trace().to_string())
+    }
+
+    /// Deadlines missed so far.
+    #[getter]
+    fn deadline_misses(&self) -> PyResult<u64> {
+        Ok(self.lock()?.rig.scheduler.misses())
+    }
+
+    /// The path of the active element, sub-plans left out.
+    #[getter]
+    fn active(&self) -> PyResult<Option<String>> {
+        Ok(self.lock()?.active())
+    }
+
+    /// How many events there are.
+    #[getter]
+    fn event_count(&self) -> PyResult<usize> {
+        Ok(self.lock()?.visitor.records.len())
+    }
+
+    /// The events from the `first`-th on.
+    fn events(&self, first: usize) -> PyResult<Vec<Event>> {
+        let session = self.lock()?;
+        let news = session.visitor.records.get(first..).unwrap_or_default();
+        Ok(news.iter().map(|record| Event::new(record, session.rig.names())).collect())
+    }
+
+    /// The timeline as `afpc run` prints it.
+    #[getter]
+    fn timeline(&self) -> PyResult<Vec<String>> {
+        let session = self.lock()?;
+        let lines = session.visitor.records.iter();
+        Ok(lines
+            .filter_map(|each| afp_run::line(each.at, &each.get(), session.rig.names()))
+            .collect())
+    }
+
+    /// Where the robot was every 20 ms: time, x, y, heading.
+    fn path<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let path = self.lock()?.visitor.path.clone();
+        table(py, &path)
+    }
+
+    /// Where the robot is: x, y, heading.
+    #[getter]
+    fn pose(&self) -> PyResult<(f64, f64, f64)> {
+        let pose = self.lock()?.rig.sim.truth().pose();
+        Ok((pose.x, pose.y, pose.heading))
+    }
+
+    /// What the robot touched: obstacle, first and last time.
+    #[getter]
+    fn collisions(&self) -> PyResult<Vec<(String, f64, f64)>> {
+        Ok(self.lock()?.collisions())
+    }
+
+    /// What a sensor says.
+    fn sense<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let sensed = sense(&self.lock()?.rig.sim, name)?;
+        sensed.into_bound(py)
+    }
+
+    /// The entries by name.
+    fn entries<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let session = self.lock()?;
+        let names = session.own_entries();
+        drop(session);
+        let dict = PyDict::new(py);
+        for name in names {
+            dict.set_item(&name, self.get(py, &name)?)?;
+        }
+        Ok(dict)
+    }
+
+    /// The value of an entry.
+    fn get<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let session = self.lock()?;
+        let number = entry(session.rig.scheduler.plan(), name)?;
+        let value = session.rig.scheduler.plan().get(name).map(|value| value.to_owned());
+        let id = TraceEntryId(number.into());
+        let names = session.rig.names().clone();
+        drop(session);
+        let value = value.unwrap_or_default();
+        to_python(py, value.borrow(), |choice| names.choice(id, choice).to_owned())
+    }
+
+    /// Writes an entry: before the start an `in` entry, later an `in` or `var` entry at the next step.
+    #[pyo3(signature = (name, value, at=None))]
+    fn set(&self, name: &str, value: &Bound<'_, PyAny>, at: Option<f64>) -> PyResult<()> {
+        // Reading a value may run Python, which must find the simulation free.
+        let (number, value) = {
+            let session = self.lock()?;
+            let plan = session.rig.scheduler.plan();
+            let number = entry(plan, name)?;
+            (number, to_entry(plan, number, value)?)
+        };
+        let mut session = self.lock()?;
+        let set = match at {
+            None => session.write(number, &value).map_err(|why| why.to_string()),
+            Some(at) => session.plan(instant(at)?, Deed::Write(number, value)),
+        };
+        set.map_err(|why| error(format!("'{name}': {why}")))
+    }
+
+    /// Holds a control down for a while.
+    fn hold(&self, control: &str, at: Option<f64>, time: f64) -> PyResult<()> {
+        let control = Control::named(control)?;
+        let time = duration(time)?;
+        let mut session = self.lock()?;
+        let from = session.moment(at.map(instant).transpose()?)?;
+        session.plan(from, Deed::Hold(control, true)).map_err(error)?;
+        session.plan(from + time, Deed::Hold(control, false)).map_err(error)
+    }
+
+    /// Breaks something.
+    #[pyo3(signature = (device, kind, at, lasting, delay, share))]
+    fn fail(
+        &self,
+        device: &str,
+        kind: &str,
+        at: Option<f64>,
+        lasting: Option<f64>,
+        delay: Option<f64>,
+        share: Option<f64>,
+    ) -> PyResult<()> {
+        let fault = fault(device, kind, delay.map(duration).transpose()?, share)?;
+        let lasting = lasting.map(duration).transpose()?.unwrap_or(Duration::MAX);
+        let mut session = self.lock()?;
+        let from = session.moment(at.map(instant).transpose()?)?;
+        session.plan(from, Deed::Break(fault, lasting)).map_err(error)
+    }
+
+    /// Lets a component report an outcome that it did not see.
+    fn fire(&self, component: &str, outcome: &str, at: Option<f64>) -> PyResult<()> {
+        let mut session = self.lock()?;
+        let injection = session.injection(component, outcome)?;
+        let from = session.moment(at.map(instant).transpose()?)?;
+        session.plan(from, Deed::Inject(injection)).map_err(error)
+    }
+
+    /// Ends the log, where there is one; its path.
+    fn close(&self) -> PyResult<Option<PathBuf>> {
+        self.lock()?.close()
+    }
+
+    /// The exceptions of components: time, template, exception.
+    fn failures<'py>(&self, py: Python<'py>) -> Vec<(f64, String, Bound<'py, PyAny>)> {
+        let failures = self.host.as_ref().map(|host| host.failures()).unwrap_or_default();
+        let told = failures.into_iter().map(|failure| {
+            let error = failure.error.into_value(py).into_bound(py).into_any();
+            (failure.at.as_secs_f64(), failure.template, error)
+        });
+        told.collect()
+    }
+
+    fn __reduce__(&self) -> PyResult<()> {
+        Err(no_pickle("Simulation", "make it anew from its plan, world and seed"))
+    }
+}
+
+impl Runner {
+    /// The session, unless it is in use.
+    fn lock(&self) -> PyResult<MutexGuard<'_, Session>> {
+        if self.process != std::process::id() {
+            let text =
+                "this simulation belongs to the process that was forked; make a new one here";
+            return Err(PyRuntimeError::new_err(text));
+        }
+        match self.session.try_lock() {
+            Ok(session) => Ok(session),
+            Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(
+                "the simulation is running: another thread drives it, or one of its own components called",
+            )),
+            Err(TryLockError::Poisoned(_)) => Err(PyRuntimeError::new_err(
+                "the simulation broke in an earlier call; make a new one",
+            )),
+        }
+    }
+
+    /// Drives the session with the interpreter free for others.
+    fn drive(
+        &self,
+        py: Python<'_>,
+        drive: impl FnOnce(&mut Session) -> PyResult<bool> + Send,
+    ) -> PyResult<bool> {
+        let mut session = self.lock()?;
+        let session = &mut *session;
+        let driven = py.detach(|| drive(session));
+        self.after(driven)
+    }
+
+    /// What a component raised to end everything counts more than how the run went.
+    fn after(&self, driven: PyResult<bool>) -> PyResult<bool> {
+        match self.host.as_ref().and_then(|host| host.aborted()) {
+            Some(raised) => Err(raised),
+            None => driven,
+        }
+    }
+}
+
+/// Registers the components of the plan's toolboxes; none without any.
+fn host(
+    py: Python<'_>,
+    plan: &Plan,
+    registry: &mut Registry<Simulation>,
+) -> PyResult<Option<Arc<Host>>> {
+    let toolboxes = plan.python_toolboxes(py);
+    if toolboxes.is_empty() {
+        return Ok(None);
+    }
+    let host = Arc::new(Host::new(Py::new(py, Robot::new()?)?));
+    for toolbox in toolboxes {
+        register(py, toolbox.get(), &host, registry)?;
+    }
+    Ok(Some(host))
+}
+
+fn entry(plan: &LoadedPlan<Simulation>, name: &str) -> PyResult<u16> {
+    plan.entry_number(name).ok_or_else(|| {
+        let known: Vec<_> = plan.entry_names().collect();
+        let text = format!("the plan has no entry '{name}'; there are: {}", known.join(", "));
+        PyKeyError::new_err(text)
+    })
+}
+
+/// An instant from seconds.
+fn instant(seconds: f64) -> PyResult<Instant> {
+    Ok(Instant::ZERO + duration(seconds)?)
+}
+
+/// A time from seconds.
+fn duration(seconds: f64) -> PyResult<Duration> {
+    match seconds.is_finite() && seconds >= 0.0 {
+        true => Ok(Duration::from_secs_f64(seconds)),
+        false => Err(PyValueError::new_err(format!("{seconds} is no time from 0 on, in seconds"))),
+    }
+}
+
+/// Every fault that `fail` knows: device and kind.
+#[pyfunction]
+pub fn faults() -> Vec<(&'static str, &'static str)> {
+    Fault::names().collect()
+}

@@ -1,0 +1,58 @@
+//! What happens to the robot and the plan from outside.
+
+use afp::load::Injection;
+use afp_core::{Duration, Value};
+use afp_sim::{Amount, Fault};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+/// Something to be done at an instant.
+#[derive(Clone, Debug)]
+pub enum Deed {
+    /// An entry is written.
+    Write(u16, Value),
+    /// A control is held down or let go.
+    Hold(Control, bool),
+    /// Something breaks for a while.
+    Break(Fault, Duration),
+    /// A component reports what it does not see.
+    Inject(Injection),
+}
+
+/// What people hold down.
+#[derive(Clone, Copy, Debug)]
+pub enum Control {
+    Escape,
+    Bumper,
+}
+
+impl Control {
+    /// A control by name.
+    pub fn named(name: &str) -> PyResult<Control> {
+        match name {
+            "escape" => Ok(Control::Escape),
+            "bumper" => Ok(Control::Bumper),
+            _ => Err(PyValueError::new_err(format!(
+                "nothing called '{name}' can be pressed; there are: escape, bumper"
+            ))),
+        }
+    }
+}
+
+/// A fault by its names.
+pub fn fault(
+    device: &str,
+    kind: &str,
+    time: Option<Duration>,
+    share: Option<f64>,
+) -> PyResult<Fault> {
+    Fault::named(device, kind, Amount { time, share }).ok_or_else(|| {
+        let of = Fault::names().filter(|(name, _)| *name == device);
+        let kinds: Vec<_> = of.map(|(_, kind)| kind).collect();
+        let text = match kinds.is_empty() {
+            true => format!("nothing called '{device}' can break; afp.faults() has all"),
+            false => format!("'{device}' cannot be '{kind}', but: {}", kinds.join(", ")),
+        };
+        PyValueError::new_err(text)
+    })
+}

@@ -1,0 +1,150 @@
+//! `Toolbox`: a toolbox file whose templates are implemented in Python.
+
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use afp_dsl::source::Source;
+use afp_dsl::toolbox::{Template, TemplateKind, Toolbox as Declared, Toolboxes};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::errors::error;
+
+/// A toolbox file and the Python classes that implement its templates.
+#[pyclass(module = "afp", frozen, subclass)]
+pub struct Toolbox {
+    inner: Mutex<Inner>,
+}
+
+struct Inner {
+    file: String,
+    text: String,
+    makers: Vec<(String, Py<PyAny>)>,
+}
+
+#[pymethods]
+impl Toolbox {
+    #[new]
+    #[pyo3(signature = (text, path=None))]
+    fn new(text: String, path: Option<PathBuf>) -> PyResult<Self> {
+        let file = path.map_or("toolbox".to_owned(), |path| path.display().to_string());
+        parse(&file, &text)?;
+        Ok(Toolbox { inner: Mutex::new(Inner { file, text, makers: Vec::new() }) })
+    }
+
+    /// The text of the toolbox file.
+    #[getter]
+    fn text(&self) -> String {
+        self.lock().text.clone()
+    }
+
+    /// The name behind `use`.
+    #[getter]
+    fn name(&self) -> PyResult<String> {
+        Ok(self.declared()?.name.clone())
+    }
+
+    /// The names of the templates.
+    #[getter]
+    fn templates(&self) -> PyResult<Vec<String>> {
+        Ok(self.declared()?.templates.iter().map(|template| template.name.clone()).collect())
+    }
+
+    /// The names of the templates that have an implementation.
+    #[getter]
+    fn implemented(&self) -> Vec<String> {
+        self.lock().makers.iter().map(|(name, _)| name.clone()).collect()
+    }
+
+    /// Adds the text of a template.
+    fn _declare(&self, text: &str) -> PyResult<()> {
+        let mut inner = self.lock();
+        let longer = format!("{}\n{text}", inner.text);
+        parse(&inner.file, &longer)?;
+        inner.text = longer;
+        Ok(())
+    }
+
+    /// Names what makes a component of a template; a later one takes the place of an earlier one.
+    fn _implement(&self, template: String, maker: Py<PyAny>) -> PyResult<()> {
+        let declared = self.declared()?;
+        if !declared.templates.iter().any(|known| known.name == template) {
+            let known: Vec<_> = declared.templates.iter().map(|known| &*known.name).collect();
+            let text = format!(
+                "the toolbox '{}' has no template '{template}'; there are: {}",
+                declared.name,
+                known.join(", ")
+            );
+            return Err(PyValueError::new_err(text));
+        }
+        let mut inner = self.lock();
+        inner.makers.retain(|(name, _)| *name != template);
+        inner.makers.push((template, maker));
+        Ok(())
+    }
+
+    /// What a template declares: kind, inputs (with `live`), outputs, outcomes.
+    fn _template<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
+        let declared = self.declared()?;
+        let template = declared.templates.iter().find(|template| template.name == name);
+        let template = template
+            .ok_or_else(|| PyValueError::new_err(format!("no template '{name}' in the toolbox")))?;
+        describe(py, template)
+    }
+}
+
+impl Toolbox {
+    fn lock(&self) -> MutexGuard<'_, Inner> {
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Its text for the compiler.
+    pub fn source(&self) -> Source {
+        let inner = self.lock();
+        Source::new(&*inner.file, &*inner.text)
+    }
+
+    /// What its text declares.
+    pub fn declared(&self) -> PyResult<Arc<Declared>> {
+        let inner = self.lock();
+        parse(&inner.file, &inner.text)
+    }
+
+    /// What makes the components, by template.
+    pub fn makers(&self, py: Python<'_>) -> Vec<(String, Py<PyAny>)> {
+        let inner = self.lock();
+        inner.makers.iter().map(|(name, maker)| (name.clone(), maker.clone_ref(py))).collect()
+    }
+}
+
+fn parse(file: &str, text: &str) -> PyResult<Arc<Declared>> {
+    let mut set = Toolboxes::default();
+    set.add(Source::new(file, text), "python");
+    if set.diagnostics().has_errors() {
+        return Err(error(set.diagnostics().render(set.sources(), false).trim_end()));
+    }
+    let toolbox = set.iter().next().cloned();
+    toolbox.ok_or_else(|| PyValueError::new_err("the text declares no toolbox"))
+}
+
+fn describe<'py>(py: Python<'py>, template: &Template) -> PyResult<Bound<'py, PyDict>> {
+    let about = PyDict::new(py);
+    let kind = match template.kind {
+        TemplateKind::Actor => "actor",
+        TemplateKind::Supervisor => "supervisor",
+        TemplateKind::Computation => "computation",
+    };
+    about.set_item("kind", kind)?;
+    let names = |live: bool| -> Vec<&str> {
+        let ports = template.inputs.iter().filter(|port| port.live == live);
+        ports.map(|port| port.name.as_str()).collect()
+    };
+    about.set_item("inputs", names(false))?;
+    about.set_item("live", names(true))?;
+    let outputs: Vec<_> = template.outputs.iter().map(|port| port.name.as_str()).collect();
+    about.set_item("outputs", outputs)?;
+    let outcomes: Vec<_> = template.outcomes.iter().map(|each| each.name.as_str()).collect();
+    about.set_item("outcomes", outcomes)?;
+    Ok(about)
+}

@@ -1,0 +1,124 @@
+//! Values between plans and Python: quantities are floats in SI units.
+
+use afp_core::rt::NamedPlan;
+use afp_core::trace::{Names, TraceEntryId};
+use afp_core::{Text, Value, ValueRef};
+use afp_dsl::types::Type;
+use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyFloat, PyInt, PyString};
+
+/// The exception for what cannot be pickled, with what to do instead.
+pub fn no_pickle(what: &str, instead: &str) -> PyErr {
+    PyTypeError::new_err(format!("a {what} cannot be pickled; {instead}"))
+}
+
+/// A value of an entry as Python has it: enums by name, unset as `None`.
+pub fn to_python<'py>(
+    py: Python<'py>,
+    value: ValueRef<'_>,
+    choice: impl FnOnce(u16) -> String,
+) -> PyResult<Bound<'py, PyAny>> {
+    match value {
+        ValueRef::Unset => Ok(py.None().into_bound(py)),
+        ValueRef::Bool(value) => value.into_bound_py_any(py),
+        ValueRef::Int(value) => value.into_bound_py_any(py),
+        ValueRef::Float(value) => value.into_bound_py_any(py),
+        ValueRef::Text(value) => value.into_bound_py_any(py),
+        ValueRef::Choice(value) => choice(value).into_bound_py_any(py),
+        ValueRef::Object(number) => format!("object#{number}").into_bound_py_any(py),
+    }
+}
+
+/// The unit that a value brings along (`afp.cm(30)` has `m`), none for plain numbers.
+fn unit(value: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
+    match value.is_exact_instance_of::<PyFloat>() || value.is_exact_instance_of::<PyInt>() {
+        true => Ok(None),
+        false => value.getattr_opt("unit")?.map(|unit| unit.extract()).transpose(),
+    }
+}
+
+/// A value from Python for an entry of a plan. A text is read as `--set` reads it, unless the entry
+/// is a text itself.
+pub fn to_entry(plan: &impl NamedPlan, entry: u16, value: &Bound<'_, PyAny>) -> PyResult<Value> {
+    let names = plan.names();
+    let about = names.entry(TraceEntryId(entry.into()));
+    let wrong = |what: String| {
+        let (path, ty, unit) = (about.path, about.ty, about.unit);
+        let link = if unit.is_empty() { "" } else { " in " };
+        PyTypeError::new_err(format!("'{path}' is a {ty}{link}{unit}, not {what}"))
+    };
+    if value.is_instance_of::<PyBool>() {
+        return Ok(Value::Bool(value.extract()?));
+    }
+    if let Ok(text) = value.cast::<PyString>() {
+        let text = text.to_cow()?;
+        let read = plan.read(entry, &text);
+        return read.map_err(|_| wrong(format!("{:?}", &*text)));
+    }
+    if let Some(given) = unit(value)?
+        && given != about.unit
+    {
+        return Err(wrong(format!("a quantity in {given}")));
+    }
+    if value.is_instance_of::<PyInt>() {
+        return Ok(Value::Int(value.extract()?));
+    }
+    match value.extract::<f64>() {
+        Ok(number) => Ok(Value::Float(number)),
+        Err(_) => Err(wrong(format!("a {}", value.get_type().name()?))),
+    }
+}
+
+/// A value from Python for a port of that type.
+pub fn to_port(ty: &Type, value: &Bound<'_, PyAny>) -> PyResult<Value> {
+    let wrong = || {
+        let name = value.get_type().name().map(|name| name.to_string()).unwrap_or_default();
+        PyTypeError::new_err(format!("expected a {ty}, not a {name}"))
+    };
+    match ty {
+        Type::Bool => value.extract().map(Value::Bool).map_err(|_| wrong()),
+        Type::Int => value.extract().map(Value::Int).map_err(|_| wrong()),
+        Type::Quantity(dimension) => {
+            if let Some(given) = unit(value)?
+                && given != dimension.si_unit()
+            {
+                return Err(PyTypeError::new_err(format!(
+                    "expected a {ty}, not a quantity in {given}"
+                )));
+            }
+            value.extract().map(Value::Float).map_err(|_| wrong())
+        }
+        Type::Text => {
+            let text: String = value.extract().map_err(|_| wrong())?;
+            let text = Text::try_from(text.as_str());
+            text.map(Value::Text).map_err(|why| PyValueError::new_err(why.to_string()))
+        }
+        Type::Enum(choices) => {
+            let name: String = value.extract().map_err(|_| wrong())?;
+            let index = choices.variants.iter().position(|variant| *variant == name);
+            let index = index.and_then(|index| u16::try_from(index).ok());
+            index.map(Value::Choice).ok_or_else(|| {
+                let known = choices.variants.join(", ");
+                PyValueError::new_err(format!("no {ty} '{name}'; there are: {known}"))
+            })
+        }
+        Type::Any | Type::Number => any(value).ok_or_else(wrong),
+        Type::Object(_) => Err(wrong()),
+    }
+}
+
+/// A value of whatever type Python gives.
+fn any(value: &Bound<'_, PyAny>) -> Option<Value> {
+    if value.is_instance_of::<PyBool>() {
+        return value.extract().ok().map(Value::Bool);
+    }
+    if value.is_instance_of::<PyInt>() {
+        return value.extract().ok().map(Value::Int);
+    }
+    if let Ok(text) = value.extract::<String>() {
+        return Text::try_from(text.as_str()).ok().map(Value::Text);
+    }
+    value.extract().ok().map(Value::Float)
+}

@@ -1,0 +1,106 @@
+//! `World`: a room with its robot's start.
+
+use std::path::{Path, PathBuf};
+
+use afp_run::world::{LoadedWorld, find};
+use afp_sim::World as Room;
+use numpy::{PyArray2, ToPyArray};
+use pyo3::prelude::*;
+
+use crate::errors::{error, run_error};
+use crate::value::no_pickle;
+
+/// A room: where the robot starts and what stands, lies, shines and moves around it.
+#[pyclass(module = "afp", frozen)]
+pub struct World {
+    pub loaded: LoadedWorld,
+}
+
+#[pymethods]
+impl World {
+    /// Reads a world file, or a map of map_server (`.yaml`).
+    #[staticmethod]
+    fn load(path: PathBuf) -> PyResult<World> {
+        let loaded = find(Some(&path), &path).map_err(|why| run_error(&why))?;
+        Ok(World { loaded })
+    }
+
+    /// A room made up from a seed, as `--world random:7` is.
+    #[staticmethod]
+    fn random(seed: u64) -> PyResult<World> {
+        let name = PathBuf::from(format!("random:{seed}"));
+        let loaded = find(Some(&name), &name).map_err(|why| run_error(&why))?;
+        Ok(World { loaded })
+    }
+
+    /// Reads a world from the text of its file.
+    #[staticmethod]
+    fn parse(text: String) -> PyResult<World> {
+        let world = Room::parse(&text).map_err(|why| match why.place {
+            Some((line, column)) => error(format!("{line}:{column}: {}", why.message)),
+            None => error(why.message),
+        })?;
+        Ok(World { loaded: LoadedWorld { world, text, path: None } })
+    }
+
+    /// The world that `afpc run` would take for the plan of this file.
+    #[staticmethod]
+    fn of_plan(path: PathBuf) -> PyResult<World> {
+        Ok(World { loaded: find(None, &path).map_err(|why| run_error(&why))? })
+    }
+
+    /// What it is called.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.loaded.world.name
+    }
+
+    /// The text of its file.
+    #[getter]
+    fn text(&self) -> &str {
+        &self.loaded.text
+    }
+
+    /// Its file, or `random:SEED`.
+    #[getter]
+    fn path(&self) -> Option<&Path> {
+        self.loaded.path.as_deref()
+    }
+
+    /// Where the robot starts: x and y in metres, heading in radians.
+    #[getter]
+    fn start(&self) -> (f64, f64, f64) {
+        let start = self.loaded.world.start;
+        (start.x, start.y, start.heading)
+    }
+
+    /// The names of what stands in it.
+    #[getter]
+    fn obstacles(&self) -> Vec<&str> {
+        self.loaded.world.obstacles.iter().map(|obstacle| obstacle.name.as_str()).collect()
+    }
+
+    /// The corners of everything that stands in it, metres, each an array of n x 2.
+    fn outlines<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
+        let corners = self.loaded.world.obstacles.iter().map(|each| each.outline.corners());
+        corners.map(|corners| table(py, &corners)).collect()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<World '{}', {} obstacles>", self.name(), self.loaded.world.obstacles.len())
+    }
+
+    fn __reduce__(&self) -> PyResult<()> {
+        Err(no_pickle("World", "pickle its text and parse it again"))
+    }
+}
+
+/// Rows of equal length as an array that owns its numbers.
+pub fn table<'py, const N: usize>(
+    py: Python<'py>,
+    rows: &[[f64; N]],
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    use numpy::PyArrayMethods;
+    let flat: Vec<f64> = rows.iter().flatten().copied().collect();
+    flat.to_pyarray(py).reshape([rows.len(), N])
+}

@@ -1,0 +1,357 @@
+"""Components in Python: actors, supervisors and computations for plans.
+
+A `Toolbox` is read from a toolbox file, whose templates are then implemented, or is made here, where decorators and
+type hints declare the templates.
+
+>>> tools = Toolbox("tools")
+>>> @tools.computation(states=["Odd", "Even"])
+... def Parity(value: int):
+...     return "Odd" if value % 2 else "Even"
+>>> print(tools.text)
+toolbox tools
+<BLANKLINE>
+computation Parity {
+    in value: int
+    state Odd
+    state Even
+}
+<BLANKLINE>
+"""
+
+from __future__ import annotations
+
+import inspect
+import os
+import re
+import types
+from collections.abc import Awaitable, Callable, Generator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypeVar, get_type_hints
+
+from . import _afp
+from ._afp import Robot
+
+__all__ = ["Toolbox", "tick"]
+
+Component = TypeVar("Component", bound=Callable[..., Any])
+Outcomes = Sequence[str] | Mapping[str, Mapping[str, Any]]
+
+# What a component may ask for by name besides its ports.
+_GIVEN = ("robot", "wanted")
+
+
+class _Tick:
+    def __await__(self) -> Generator[None, None, None]:
+        yield
+
+
+def tick() -> Awaitable[None]:
+    """To be awaited by an `async def` actor: until its next poll."""
+    return _Tick()
+
+
+class Toolbox(_afp.Toolbox):
+    """A toolbox whose templates are implemented in Python: a new one by name, or `Toolbox.load(path)`."""
+
+    def __new__(cls, name: str, *, version: str | None = None, doc: str = "") -> Toolbox:
+        lines = "".join(f"/// {line}\n" for line in doc.splitlines())
+        head = f'{lines}toolbox {name}{f" version {_text(version)}" if version else ""}\n'
+        return super().__new__(cls, head)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Toolbox:
+        """Reads a toolbox file; `implement` says what its templates do."""
+        return cls.parse(Path(path).read_text(encoding="utf-8"), path)
+
+    @classmethod
+    def parse(cls, text: str, path: str | os.PathLike[str] | None = None) -> Toolbox:
+        """Reads the text of a toolbox file."""
+        return _afp.Toolbox.__new__(cls, text, path)
+
+    def implement(self, component: Component, template: str | None = None) -> Component:
+        """Names the class or function that implements a template, by its own name unless told otherwise.
+
+        It may be used as a decorator. Parameters are the template's inputs by name, and `robot`; `poll` takes those
+        that are live.
+        """
+        name = template or component.__name__
+        about = self._template(name)
+        self._implement(name, _maker(about["kind"], component, about["inputs"], about["live"]))
+        return component
+
+    def actor(
+        self,
+        *,
+        states: Outcomes,
+        name: str | None = None,
+        uses: Sequence[str] = (),
+        every: str = "10 ms",
+        stop: str | None = None,
+        icon: str | None = None,
+    ) -> Callable[[Component], Component]:
+        """Declares and implements an actor: a class with `poll`, or an `async def` function."""
+        timing = f"every {every}" + (f" stop {stop}" if stop else "")
+        return self._declarer("actor", states, name, uses, timing, icon)
+
+    def supervisor(
+        self,
+        *,
+        events: Outcomes,
+        name: str | None = None,
+        uses: Sequence[str] = (),
+        every: str = "10 ms",
+        deadline: str | None = None,
+        budget: str | None = None,
+        icon: str | None = None,
+    ) -> Callable[[Component], Component]:
+        """Declares and implements a supervisor: a class with `poll`, or a function that is called at each poll."""
+        timing = f"every {every} deadline {deadline or every}" + (f" budget {budget}" if budget else "")
+        return self._declarer("supervisor", events, name, uses, timing, icon)
+
+    def computation(
+        self, *, states: Outcomes, name: str | None = None, icon: str | None = None
+    ) -> Callable[[Component], Component]:
+        """Declares and implements a computation: a function."""
+        return self._declarer("computation", states, name, (), "", icon)
+
+    def _declarer(
+        self, kind: str, outcomes: Outcomes, name: str | None, uses: Sequence[str], timing: str, icon: str | None
+    ) -> Callable[[Component], Component]:
+        def declare(component: Component) -> Component:
+            template = name or component.__name__
+            text = _declaration(kind, template, component, outcomes, uses, timing, icon)
+            self._declare(text)
+            return self.implement(component, template)
+
+        return declare
+
+    def __repr__(self) -> str:
+        return f"<Toolbox {self.name}: {', '.join(self.templates)}>"
+
+
+def _text(value: str) -> str:
+    return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+# Declarations from signatures
+
+_TYPES = {bool: "bool", int: "int", float: "float", str: "string"}
+
+
+def _type(hint: Any, where: str) -> str:
+    """The type of the language that a hint stands for."""
+    for extra in getattr(hint, "__metadata__", ()):
+        if isinstance(extra, str):
+            return extra
+    if hint in _TYPES:
+        return _TYPES[hint]
+    if isinstance(hint, str):
+        return hint
+    known = "bool, int, float, str, afp.Length, afp.Angle, afp.Duration, afp.Speed, afp.AngularSpeed"
+    raise TypeError(f"{where} needs a type hint: one of {known}, or Annotated[float, 'force'] and the like")
+
+
+def _constant(value: Any, type: str) -> str:
+    """A default as it stands in a toolbox file."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return _text(value) if type == "string" else value
+    if type in {"int", "float"}:
+        return repr(value)
+    units = {"length": "m", "angle": "rad", "duration": "s", "speed": "m/s", "angular_speed": "rad/s"}
+    units |= {"acceleration": "m/s^2", "mass": "kg", "force": "N", "voltage": "V", "temperature": "K"}
+    units |= {"frequency": "Hz"}
+    return f"{float(value)!r} {units.get(type, '')}".rstrip()
+
+
+def _ports(function: Callable[..., Any], live: bool) -> list[str]:
+    hints = get_type_hints(function, include_extras=True)
+    lines = []
+    for name, parameter in inspect.signature(function).parameters.items():
+        if name in _GIVEN or name == "self":
+            continue
+        if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD):
+            raise TypeError(f"'{function.__qualname__}' takes *{name}; its parameters are ports and need names")
+        type = _type(hints.get(name), f"the parameter '{name}' of '{function.__qualname__}'")
+        default = parameter.default
+        end = "" if default is parameter.empty else f" = {_constant(default, type)}"
+        lines.append(f"in {'live ' if live else ''}{name}: {type}{end}")
+    return lines
+
+
+def _declaration(
+    kind: str,
+    name: str,
+    component: Callable[..., Any],
+    outcomes: Outcomes,
+    uses: Sequence[str],
+    timing: str,
+    icon: str | None,
+) -> str:
+    """The text of a template."""
+    if isinstance(component, type):
+        start = _start(component)
+        ports = _ports(start, False) if start else []
+        ports += _ports(_method(component, "poll"), True)
+    else:
+        ports = _ports(component, kind == "supervisor")
+    by_state: Mapping[str, Mapping[str, Any]]
+    by_state = outcomes if isinstance(outcomes, Mapping) else {outcome: {} for outcome in outcomes}
+    carried: dict[str, tuple[str, list[str]]] = {}
+    for state, outputs in by_state.items():
+        for port, hint in outputs.items():
+            type_ = _type(hint, f"the output '{port}' of '{name}'")
+            carried.setdefault(port, (type_, []))[1].append(state)
+    lines = [f"icon {_text(icon)}"] if icon else []
+    lines += [f"uses {', '.join(uses)}"] if uses else []
+    lines += ports
+    lines += [f"out {port}: {type_} on {' | '.join(states)}" for port, (type_, states) in carried.items()]
+    lines += [timing] if timing else []
+    word = "event" if kind == "supervisor" else "state"
+    lines += [f"{word} {state}" for state in by_state]
+    doc = "".join(f"/// {line.strip()}\n" for line in (inspect.getdoc(component) or "").splitlines() if line.strip())
+    body = "".join(f"    {line}\n" for line in lines)
+    return f"{doc}{kind} {name} {{\n{body}}}\n"
+
+
+def _start(component: type) -> Callable[..., Any] | None:
+    """What makes an instance, if the class says so itself."""
+    start: Callable[..., Any] = getattr(component, "__init__")
+    return None if start is object.__init__ else start
+
+
+def _method(component: type, name: str) -> Callable[..., Any]:
+    method = getattr(component, name, None)
+    if not callable(method):
+        raise TypeError(f"'{component.__qualname__}' has no method '{name}'")
+    return method  # type: ignore[no-any-return]
+
+
+# Making components run
+
+
+def _maker(kind: str, component: Callable[..., Any], inputs: Sequence[str], live: Sequence[str]) -> Callable[..., Any]:
+    """What the native half calls to make a component."""
+    if kind == "computation":
+        takes = _takes(component, inputs, ())
+        return lambda values: component(**{name: values[name] for name in takes})
+    if isinstance(component, type):
+        return _class_maker(kind, component, inputs, live)
+    if kind == "supervisor":
+        return _function_maker(component, inputs, live)
+    if not inspect.iscoroutinefunction(component):
+        raise TypeError(f"the actor '{component.__qualname__}' must be a class with 'poll', or 'async def'")
+    return _coroutine_maker(component, inputs)
+
+
+def _takes(function: Callable[..., Any], ports: Sequence[str], given: Sequence[str]) -> list[str]:
+    """The parameters of a function, each of which must be a port or given."""
+    names = [name for name in inspect.signature(function).parameters if name != "self"]
+    unknown = [name for name in names if name not in ports and name not in given]
+    if unknown:
+        known = ", ".join([*given, *ports])
+        raise TypeError(f"'{function.__qualname__}' takes '{unknown[0]}', but there are only: {known}")
+    return names
+
+
+class _Running:
+    """A component that runs, as the native half polls it."""
+
+    __slots__ = ("interrupt", "poll")
+
+    def __init__(self, poll: Callable[..., Any], interrupt: Callable[[], Any]) -> None:
+        self.poll = poll
+        self.interrupt = interrupt
+
+
+def _poll(method: Callable[..., Any], takes: Sequence[str], robot: Robot, has_live: bool) -> Callable[..., Any]:
+    """A poll that takes the live inputs, if there are any, and passes on what the method wants."""
+    if not has_live:
+        if not takes:
+            return method
+        return lambda: method(robot)
+    wanted = [name for name in takes if name != "robot"]
+    if "robot" in takes:
+        return lambda values: method(robot=robot, **{name: values[name] for name in wanted})
+    return lambda values: method(**{name: values[name] for name in wanted})
+
+
+def _class_maker(kind: str, component: type, inputs: Sequence[str], live: Sequence[str]) -> Callable[..., Any]:
+    begins = _start(component)
+    start = _takes(begins, inputs, _GIVEN) if begins else []
+    poll = _takes(_method(component, "poll"), live, ("robot",))
+
+    def make(robot: Robot, values: dict[str, Any], wanted: tuple[str, ...] = ()) -> _Running:
+        all = {"robot": robot, "wanted": wanted, **values}
+        instance = component(**{name: all[name] for name in start})
+        stop = getattr(instance, "interrupt", None)
+        interrupt = (lambda: _interrupt(stop, robot)) if kind == "actor" else _nothing
+        return _Running(_poll(instance.poll, poll, robot, bool(live)), interrupt)
+
+    return make
+
+
+def _interrupt(stop: Callable[..., Any] | None, robot: Robot) -> None:
+    """What the actor does when it is interrupted; the robot is told to stop in any case."""
+    try:
+        if stop is not None:
+            stop(robot) if inspect.signature(stop).parameters else stop()
+    finally:
+        robot.stop()
+
+
+def _nothing() -> None:
+    pass
+
+
+def _function_maker(function: Callable[..., Any], inputs: Sequence[str], live: Sequence[str]) -> Callable[..., Any]:
+    takes = _takes(function, [*inputs, *live], _GIVEN)
+
+    def make(robot: Robot, values: dict[str, Any], wanted: tuple[str, ...] = ()) -> _Running:
+        all = {"robot": robot, "wanted": wanted, **values}
+        fixed = {name: all[name] for name in takes if name in all}
+        read = [name for name in takes if name in live]
+        if not live:
+            return _Running(lambda: function(**fixed), _nothing)
+        return _Running(lambda news: function(**fixed, **{name: news[name] for name in read}), _nothing)
+
+    return make
+
+
+def _coroutine_maker(function: Callable[..., Any], inputs: Sequence[str]) -> Callable[..., Any]:
+    takes = _takes(function, inputs, ("robot",))
+
+    def make(robot: Robot, values: dict[str, Any]) -> _Running:
+        all = {"robot": robot, **values}
+        coroutine = function(**{name: all[name] for name in takes})
+        end = _advance(coroutine)
+        done = [] if end is None else [end]
+
+        def poll(news: dict[str, Any] | None = None) -> Any:
+            said = done.pop() if done else _advance(coroutine)
+            return None if said is None else said[0]
+
+        def interrupt() -> None:
+            try:
+                coroutine.close()
+            finally:
+                robot.stop()
+
+        return _Running(poll, interrupt)
+
+    return make
+
+
+def _advance(coroutine: types.CoroutineType[Any, Any, Any]) -> tuple[Any] | None:
+    """Runs a coroutine up to its next `tick`; what it returned in a tuple, if it did."""
+    try:
+        waits = coroutine.send(None)
+    except StopIteration as end:
+        if end.value is None:
+            name = re.sub(r".*<locals>\.", "", coroutine.__qualname__)
+            raise TypeError(f"the actor '{name}' returned None, not a state") from None
+        return (end.value,)
+    if waits is not None:
+        raise TypeError(f"an actor can await afp.tick() only, not {waits!r}")
+    return None

@@ -1,0 +1,80 @@
+"""Logs: what an MCAP file of a run holds."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import plots, tables
+from ._afp import Event, read_log
+
+__all__ = ["Log"]
+
+
+class Log:
+    """A log, read whole; one that was cut short yields what it holds."""
+
+    facts: dict[str, str]
+    """What the log says of the run: plan, world, seed, ..."""
+    attachments: dict[str, str]
+    """The texts that it carries: the world, perhaps the plan."""
+    events: list[Event]
+    """What happened, polls that saw nothing included."""
+    entries: list[tuple[float, dict[str, Any]]]
+    """The configuration at the start and after each commit, with its time."""
+    channels: dict[str, tuple[str, int]]
+    """Schema and number of messages of each topic."""
+    path: NDArray[np.float64]
+    """Where the robot was: rows of time, x, y, heading."""
+    cut_short: str | None
+    """Why the log ends before its end, when it does."""
+
+    def __init__(self, file: str | os.PathLike[str]) -> None:
+        self.file = os.fspath(file)
+        told = read_log(file)
+        self.facts = told["facts"]
+        self.attachments = told["attachments"]
+        self.events = told["events"]
+        self.entries = told["entries"]
+        self.channels = told["channels"]
+        self.path = told["path"]
+        self.cut_short = told["cut_short"]
+
+    def entry(self, name: str) -> tuple[NDArray[np.float64], list[Any]]:
+        """The times and values of an entry: when it got its first value, and whenever it changed."""
+        known = sorted({name for _, values in self.entries for name in values})
+        if name not in known:
+            raise KeyError(f"the log has no entry '{name}'; there are: {', '.join(known)}")
+        rows: list[tuple[float, Any]] = []
+        for time, values in self.entries:
+            value = values.get(name)
+            if value is not None and (not rows or rows[-1][1] != value):
+                rows.append((time, value))
+        return np.array([time for time, _ in rows]), [value for _, value in rows]
+
+    def to_pandas(self) -> Any:
+        """The events as a pandas data frame; needs `afp[pandas]`."""
+        return tables.to_pandas(self.events)
+
+    def to_polars(self) -> Any:
+        """The events as a polars data frame; needs `afp[polars]`."""
+        return tables.to_polars(self.events)
+
+    def to_arrow(self) -> Any:
+        """The events as an Arrow table; needs `afp[arrow]`."""
+        return tables.to_arrow(self.events)
+
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
+        """The events for whatever reads Arrow; needs `afp[arrow]`."""
+        return self.to_arrow().__arrow_c_stream__(requested_schema)
+
+    def plot_timeline(self, ax: Any = None) -> Any:
+        """Draws what was active when; needs `afp[plot]`."""
+        end = max((event.time for event in self.events), default=0.0)
+        return plots.timeline(self.events, end, self.facts.get("plan", self.file), ax)
+
+    def __repr__(self) -> str:
+        return f"<Log {self.file}, {len(self.events)} events>"

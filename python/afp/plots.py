@@ -1,0 +1,75 @@
+"""Pictures of runs; they need `afp[plot]`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._afp import Event
+from .tables import need
+
+# Told apart also by those who see few colours; the same as in the pictures of `afpc run`.
+PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#6a3d9a", "#56b4e9", "#7f7f7f")
+
+
+def spans(events: Sequence[Event], end: float) -> list[tuple[str, float, float]]:
+    """When each element was active: component, begin, end. Supervisors are left out."""
+    left = {"finished", "interrupted", "faulted"}
+    done: list[tuple[str, float, float]] = []
+    begun: dict[str, float] = {}
+    elements = {event.component for event in events if event.kind in {"finished", "interrupted", "diverted"}}
+    watching = {event.component for event in events if event.kind in {"event", "already_there", "missed"}}
+    started = [event.component for event in events if event.kind == "started"]
+    last = next((name for name in reversed(started) if name not in watching), None)
+    for event in events:
+        if event.kind == "started" and (event.component in elements or event.component == last):
+            begun[event.component] = event.time
+        elif event.kind in left and event.component in begun:
+            done.append((event.component, begun.pop(event.component), event.time))
+    return done + [(component, begin, end) for component, begin in begun.items()]
+
+
+def path(
+    path: NDArray[np.float64],
+    outlines: Sequence[NDArray[np.float64]],
+    events: Sequence[Event],
+    title: str,
+    ax: Any = None,
+) -> Any:
+    """The robot's path in its world, with the events that were taken."""
+    pyplot = need("matplotlib.pyplot", "plot")
+    ax = ax if ax is not None else pyplot.subplots(figsize=(6, 5), layout="constrained")[1]
+    for corners in outlines:
+        closed = np.vstack([corners, corners[:1]])
+        ax.fill(closed[:, 0], closed[:, 1], facecolor="#dddddd", edgecolor="#555555", linewidth=0.8)
+    ax.plot(path[:, 1], path[:, 2], color=PALETTE[0], linewidth=1.5, label="path")
+    if len(path):
+        ax.plot(path[0, 1], path[0, 2], "o", color=PALETTE[2], label="start")
+    taken = [event.time for event in events if event.kind == "event"]
+    if taken and len(path):
+        at = np.clip(np.searchsorted(path[:, 0], taken), 0, len(path) - 1)
+        ax.plot(path[at, 1], path[at, 2], "x", color=PALETTE[1], label="event")
+    ax.set(aspect="equal", xlabel="x [m]", ylabel="y [m]", title=title)
+    ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+    return ax
+
+
+def timeline(events: Sequence[Event], end: float, title: str, ax: Any = None) -> Any:
+    """What was active when, one row an element, with the events that were taken."""
+    pyplot = need("matplotlib.pyplot", "plot")
+    active = spans(events, end)
+    rows = list(dict.fromkeys(component for component, _, _ in active))
+    if ax is None:
+        ax = pyplot.subplots(figsize=(8, 0.6 + 0.35 * max(len(rows), 2)), layout="constrained")[1]
+    for component, begin, stop in active:
+        row = rows.index(component)
+        ax.barh(row, stop - begin, left=begin, height=0.6, color=PALETTE[row % len(PALETTE)])
+    for event in events:
+        if event.kind == "event":
+            ax.axvline(event.time, color="#555555", linewidth=0.6, linestyle=":")
+    ax.set(yticks=range(len(rows)), yticklabels=rows, xlabel="time [s]", title=title, xlim=(0, max(end, 1e-9)))
+    ax.invert_yaxis()
+    return ax

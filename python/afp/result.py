@@ -1,0 +1,158 @@
+"""What came of a run: figures, events, path, tables, plots."""
+
+from __future__ import annotations
+
+import html
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import plots, tables
+from ._afp import Event
+
+if TYPE_CHECKING:
+    from .simulation import Simulation
+
+__all__ = ["ComponentError", "Collision", "Result"]
+
+
+@dataclass(frozen=True)
+class ComponentError:
+    """An exception of a component written in Python."""
+
+    time: float
+    template: str
+    error: BaseException
+    traceback: str
+
+
+@dataclass(frozen=True)
+class Collision:
+    """A stretch of time in which the robot touched something."""
+
+    obstacle: str
+    begin: float
+    end: float
+
+
+class Result:
+    """What came of a run; it does not change when the simulation goes on."""
+
+    plan: str
+    """The name of the plan."""
+    world: str
+    """The name of the world."""
+    seed: int
+    """The seed."""
+    ending: str
+    """`ok`, `interrupted`, `error`, or `running`."""
+    fault: str | None
+    """The code of the fault that ended the plan."""
+    fault_text: str | None
+    """The fault in words."""
+    stopped_by: str | None
+    """`until` or `stop` when the plan did not end by itself."""
+    time: float
+    """How long it ran, seconds."""
+    trace_hash: str
+    """The same for two runs that did the same, here and with `afpc run`."""
+    deadline_misses: int
+    """Deadlines missed, skipped releases included."""
+    collisions: list[Collision]
+    """What the robot touched."""
+    entries: dict[str, Any]
+    """The values of the plan's entries at the end."""
+    events: list[Event]
+    """What happened."""
+    path: NDArray[np.float64]
+    """Where the robot was every 20 ms: rows of time, x, y, heading."""
+    errors: list[ComponentError]
+    """The exceptions of components written in Python."""
+    timeline: list[str]
+    """The timeline as `afpc run` prints it."""
+
+    def __init__(self, simulation: Simulation) -> None:
+        runner = simulation._runner
+        self._world = simulation.world
+        self.plan = simulation.plan.name
+        self.world = simulation.world.name
+        self.seed = simulation.seed
+        self.ending = runner.ending
+        self.fault, self.fault_text = runner.fault or (None, None)
+        self.stopped_by = runner.stopped_by
+        self.time = runner.time
+        self.trace_hash = runner.trace_hash
+        self.deadline_misses = runner.deadline_misses
+        self.collisions = [Collision(*collision) for collision in runner.collisions]
+        self.entries = runner.entries()
+        self.events = runner.events(0)
+        self.path = runner.path()
+        self.errors = simulation.errors
+        self.timeline = runner.timeline
+
+    @property
+    def ok(self) -> bool:
+        """Whether the plan did not end in `Error`."""
+        return self.ending != "error"
+
+    @property
+    def distance(self) -> float:
+        """How far the robot drove, metres."""
+        steps = np.diff(self.path[:, 1:3], axis=0)
+        return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
+
+    def check(self) -> Result:
+        """Raises the exception of the component that ended the plan, if one did; gives the result otherwise."""
+        if self.fault == "python-exception" and self.errors:
+            raise self.errors[-1].error
+        return self
+
+    def columns(self) -> dict[str, list[Any]]:
+        """The events as lists by column."""
+        return tables.columns(self.events)
+
+    def to_pandas(self) -> Any:
+        """The events as a pandas data frame; needs `afp[pandas]`."""
+        return tables.to_pandas(self.events)
+
+    def to_polars(self) -> Any:
+        """The events as a polars data frame; needs `afp[polars]`."""
+        return tables.to_polars(self.events)
+
+    def to_arrow(self) -> Any:
+        """The events as an Arrow table; needs `afp[arrow]`."""
+        return tables.to_arrow(self.events)
+
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
+        """The events for whatever reads Arrow: `polars.from_arrow(result)`; needs `afp[arrow]`."""
+        return self.to_arrow().__arrow_c_stream__(requested_schema)
+
+    def plot_path(self, ax: Any = None) -> Any:
+        """Draws the robot's path in its world; needs `afp[plot]`."""
+        return plots.path(self.path, self._world.outlines(), self.events, self._title(), ax)
+
+    def plot_timeline(self, ax: Any = None) -> Any:
+        """Draws what was active when; needs `afp[plot]`."""
+        return plots.timeline(self.events, self.time, self._title(), ax)
+
+    def _title(self) -> str:
+        return f"{self.plan} in {self.world}, seed {self.seed}"
+
+    def __repr__(self) -> str:
+        why = f" ({self.fault})" if self.fault else ""
+        return f"<Result {self.ending}{why} after {self.time:.3f} s, {len(self.events)} events>"
+
+    def _repr_html_(self) -> str:
+        rows = {
+            "plan": self.plan,
+            "world": f"{self.world}, seed {self.seed}",
+            "ended": self.ending + (f" ({self.fault})" if self.fault else ""),
+            "time": f"{self.time:.3f} s",
+            "distance": f"{self.distance:.2f} m",
+            "collisions": str(len(self.collisions)),
+            "deadline misses": str(self.deadline_misses),
+        }
+        cells = "".join(f"<tr><th>{key}</th><td>{html.escape(value)}</td></tr>" for key, value in rows.items())
+        return f"<table>{cells}</table>"

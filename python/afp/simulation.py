@@ -1,0 +1,206 @@
+"""Simulations: a plan in a world, run in virtual time."""
+
+from __future__ import annotations
+
+import os
+import traceback
+from collections.abc import Iterator, Mapping
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._afp import Event, Plan, Runner, World
+from .result import ComponentError, Result
+
+__all__ = ["Simulation"]
+
+
+class Simulation:
+    """A plan in a world. The same plan, world, seed and stimuli give the same run, bit for bit.
+
+    `world` is a `World`, the path of its file, or `None` for the one that `afpc run` would take. `set` gives `in`
+    entries their values: `afp.cm(30)`, plain floats in SI units, texts as on the command line (`"30cm"`), names of
+    enum values. `log` is the MCAP file to be written.
+
+    While it runs, other threads of Python run too; a simulation itself belongs to one caller at a time.
+    """
+
+    def __init__(
+        self,
+        plan: Plan,
+        world: World | str | os.PathLike[str] | None = None,
+        *,
+        seed: int = 0,
+        set: Mapping[str, Any] | None = None,
+        log: str | os.PathLike[str] | None = None,
+    ) -> None:
+        if world is None:
+            world = World.of_plan(plan.path or "plan.afp")
+        elif not isinstance(world, World):
+            world = World.load(world)
+        self.plan = plan
+        self.world = world
+        self.seed = seed
+        self._failures: list[ComponentError] = []
+        self._runner = Runner(plan, world, seed, dict(set or {}), log)
+
+    # Driving
+
+    def run(self, until: float = 60.0) -> Result:
+        """Runs the plan to its end, or to `until` (seconds since the start), where it is stopped.
+
+        Ctrl-C interrupts it; the simulation can be driven on afterwards.
+        """
+        self._runner.run(until, True)
+        return self.result()
+
+    def run_to(self, time: float) -> bool:
+        """Lets time pass up to `time` (seconds since the start) and leaves the plan running; whether it still runs."""
+        return self._runner.run(time, False)
+
+    def step(self) -> bool:
+        """Makes the next step of the plan, which may be a while later; whether the plan still runs."""
+        return self._runner.step()
+
+    def stream(self, until: float | None = None) -> Iterator[Event]:
+        """Drives the plan and yields its events as they happen, up to `until` (seconds since the start)."""
+        seen = self._runner.event_count
+        while True:
+            running = self._runner.listen(seen, until)
+            news = self._runner.events(seen)
+            seen += len(news)
+            yield from news
+            if not running or not news:
+                return
+
+    def __iter__(self) -> Iterator[Event]:
+        return self.stream()
+
+    def request_stop(self) -> None:
+        """Asks the plan to stop, from any thread."""
+        self._runner.request_stop()
+
+    def result(self) -> Result:
+        """What has come of it so far."""
+        return Result(self)
+
+    def close(self) -> None:
+        """Ends the log, where there is one."""
+        self._runner.close()
+
+    def __enter__(self) -> Simulation:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    # Looking
+
+    @property
+    def time(self) -> float:
+        """The time, seconds since the start."""
+        return self._runner.time
+
+    @property
+    def ending(self) -> str:
+        """How the plan ended: `ok`, `interrupted`, `error`; `running` before."""
+        return self._runner.ending
+
+    @property
+    def active(self) -> str | None:
+        """The active element of the outermost plan."""
+        return self._runner.active
+
+    @property
+    def pose(self) -> tuple[float, float, float]:
+        """Where the robot truly is: x, y in metres, heading in radians."""
+        return self._runner.pose
+
+    @property
+    def events(self) -> list[Event]:
+        """What has happened so far."""
+        return self._runner.events(0)
+
+    @property
+    def path(self) -> NDArray[np.float64]:
+        """Where the robot was every 20 ms: rows of time, x, y, heading."""
+        return self._runner.path()
+
+    @property
+    def trace_hash(self) -> str:
+        """The hash of the trace so far; `afpc run` tells the same one for the same run."""
+        return self._runner.trace_hash
+
+    def sense(self, sensor: str) -> Any:
+        """What a sensor says: see `afp.Robot`. Arrays are copies."""
+        return self._runner.sense(sensor)
+
+    @property
+    def camera(self) -> NDArray[np.uint8] | None:
+        """The latest picture, rows x columns x 3, a copy; `None` before the first one."""
+        picture: NDArray[np.uint8] | None = self._runner.sense("camera")
+        return picture
+
+    # Entries
+
+    def __getitem__(self, entry: str) -> Any:
+        return self._runner.get(entry)
+
+    def __setitem__(self, entry: str, value: Any) -> None:
+        self._runner.set(entry, value)
+
+    @property
+    def entries(self) -> dict[str, Any]:
+        """The values of all entries of the plan; `None` for those that nobody has written."""
+        return self._runner.entries()
+
+    def set(self, entry: str, value: Any, *, at: float | None = None) -> None:
+        """Writes an entry, now (at the next step) or at a time to come."""
+        self._runner.set(entry, value, at)
+
+    # Stimuli
+
+    def press(self, button: str = "escape", *, at: float | None = None, hold: float = 0.2) -> None:
+        """Presses a button, now or at a time to come."""
+        if button != "escape":
+            raise ValueError(f"the robot has no button '{button}'; there is: escape")
+        self._runner.hold("escape", at, hold)
+
+    def bump(self, *, at: float | None = None, hold: float = 0.2) -> None:
+        """Presses the bumper, now or at a time to come."""
+        self._runner.hold("bumper", at, hold)
+
+    def fire(self, component: str, outcome: str, *, at: float | None = None) -> None:
+        """Lets an active actor or supervisor report an outcome that it did not see; outputs keep their values."""
+        self._runner.fire(component, outcome, at)
+
+    def fail(
+        self,
+        device: str,
+        kind: str,
+        *,
+        at: float | None = None,
+        lasting: float | None = None,
+        delay: float | None = None,
+        share: float | None = None,
+    ) -> None:
+        """Breaks something, for good or for `lasting` seconds: `fail("ultrasonic", "frozen")`.
+
+        `delay` is for `delayed` and `slow`, `share` for `slip` and `low`; `afp.faults()` has all pairs.
+        """
+        self._runner.fail(device, kind, at, lasting, delay, share)
+
+    @property
+    def errors(self) -> list[ComponentError]:
+        """The exceptions of components written in Python, in the order in which they were raised."""
+        for time, template, error in self._runner.failures():
+            lines = "".join(traceback.format_exception(type(error), error, error.__traceback__))
+            self._failures.append(ComponentError(time, template, error, lines))
+        return list(self._failures)
+
+    def __repr__(self) -> str:
+        return f"<Simulation of {self.plan.name} in '{self.world.name}', {self.time:.3f} s, {self.ending}>"

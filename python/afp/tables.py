@@ -1,0 +1,64 @@
+"""Events as tables: lists by column, Arrow, pandas, polars."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Sequence
+from typing import Any
+
+from ._afp import Event
+
+COLUMNS = (
+    "time",
+    "kind",
+    "component",
+    "outcome",
+    "target",
+    "supervisor",
+    "entry",
+    "port",
+    "unit",
+    "ending",
+    "fault",
+    "lateness",
+    "cause",
+)
+
+
+def need(module: str, extra: str) -> Any:
+    """A module that comes with an extra of the package."""
+    try:
+        return importlib.import_module(module)
+    except ImportError as error:
+        raise ImportError(f"this needs {module}; install it with: pip install 'afp[{extra}]'") from error
+
+
+def columns(events: Sequence[Event]) -> dict[str, list[Any]]:
+    """The events as lists by column; values of entries and inputs as numbers and as texts, where they are such."""
+    table: dict[str, list[Any]] = {name: [getattr(event, name) for event in events] for name in COLUMNS}
+    values = [event.value for event in events]
+    table["value"] = [float(value) if isinstance(value, (bool, int, float)) else None for value in values]
+    table["text"] = [value if isinstance(value, str) else None for value in values]
+    return table
+
+
+def to_pandas(events: Sequence[Event]) -> Any:
+    """The events as a pandas data frame."""
+    return need("pandas", "pandas").DataFrame(columns(events))
+
+
+def to_polars(events: Sequence[Event]) -> Any:
+    """The events as a polars data frame."""
+    polars = need("polars", "polars")
+    numbers = {"time", "lateness", "value"}
+    table = columns(events)
+    return polars.DataFrame(table, schema={name: polars.Float64 if name in numbers else polars.String for name in table})
+
+
+def to_arrow(events: Sequence[Event]) -> Any:
+    """The events as an Arrow table."""
+    arrow = need("pyarrow", "arrow")
+    numbers = {"time", "lateness", "value"}
+    table = columns(events)
+    types = {name: arrow.float64() if name in numbers else arrow.string() for name in table}
+    return arrow.table(table, schema=arrow.schema(list(types.items())))

@@ -1,0 +1,101 @@
+"""Quantities: floats in SI units that remember their unit.
+
+>>> cm(30)
+Quantity(0.3, 'm')
+>>> cm(30) + 0.1
+0.4
+
+Entries and ports take a quantity only of their own dimension; a plain float is one in SI units.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Callable
+
+__all__ = [
+    "Angle",
+    "AngularSpeed",
+    "Duration",
+    "Length",
+    "Quantity",
+    "Speed",
+    "cm",
+    "deg",
+    "deg_per_s",
+    "kmh",
+    "m",
+    "m_per_s",
+    "minutes",
+    "mm",
+    "ms",
+    "rad",
+    "rad_per_s",
+    "s",
+]
+
+
+class Quantity(float):
+    """A number in an SI unit; arithmetic with it gives plain floats."""
+
+    __slots__ = ("unit",)
+    unit: str
+
+    def __new__(cls, value: float, unit: str) -> Quantity:
+        self = super().__new__(cls, value)
+        self.unit = unit
+        return self
+
+    def __getnewargs__(self) -> tuple[float, str]:  # type: ignore[override]
+        return (float(self), self.unit)
+
+    def __repr__(self) -> str:
+        return f"Quantity({float(self)!r}, {self.unit!r})"
+
+
+def _unit(name: str, unit: str, scale: float, what: str) -> Callable[[float], Quantity]:
+    def make(value: float) -> Quantity:
+        return Quantity(value * scale if scale >= 1 else value / round(1 / scale), unit)
+
+    make.__name__ = make.__qualname__ = name
+    make.__doc__ = what
+    return make
+
+
+m = _unit("m", "m", 1.0, "So many metres.")
+cm = _unit("cm", "m", 0.01, "So many centimetres, in metres.")
+mm = _unit("mm", "m", 0.001, "So many millimetres, in metres.")
+s = _unit("s", "s", 1.0, "So many seconds.")
+ms = _unit("ms", "s", 0.001, "So many milliseconds, in seconds.")
+minutes = _unit("minutes", "s", 60.0, "So many minutes, in seconds.")
+rad = _unit("rad", "rad", 1.0, "So many radians.")
+m_per_s = _unit("m_per_s", "m/s", 1.0, "So many metres a second.")
+rad_per_s = _unit("rad_per_s", "rad/s", 1.0, "So many radians a second.")
+
+
+def deg(value: float) -> Quantity:
+    """So many degrees, in radians."""
+    return Quantity(math.radians(value), "rad")
+
+
+def deg_per_s(value: float) -> Quantity:
+    """So many degrees a second, in radians a second."""
+    return Quantity(math.radians(value), "rad/s")
+
+
+def kmh(value: float) -> Quantity:
+    """So many kilometres an hour, in metres a second."""
+    return Quantity(value / 3.6, "m/s")
+
+
+# Type hints for ports of components: the types of the language.
+Length = Annotated[float, "length"]
+"""A port of type `length`, metres."""
+Duration = Annotated[float, "duration"]
+"""A port of type `duration`, seconds."""
+Angle = Annotated[float, "angle"]
+"""A port of type `angle`, radians."""
+Speed = Annotated[float, "speed"]
+"""A port of type `speed`, metres a second."""
+AngularSpeed = Annotated[float, "angular_speed"]
+"""A port of type `angular_speed`, radians a second."""

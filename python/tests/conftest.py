@@ -1,0 +1,28 @@
+"""What the tests share."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+import afp
+
+ROOT = Path(__file__).resolve().parents[2]
+PLANS = sorted((ROOT / "plans").glob("*.afp"))
+
+
+@pytest.fixture
+def wall_following() -> afp.Plan:
+    """The plan of the paper."""
+    return afp.load(ROOT / "plans/wall_following.afp")
+
+
+@pytest.fixture
+def afpc() -> str:
+    """The command line to compare with."""
+    path = os.environ.get("AFPC")
+    if path is None:
+        pytest.skip("AFPC does not name an afpc; 'cargo xtask test python' sets it")
+    return path

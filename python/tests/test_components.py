@@ -1,0 +1,312 @@
+"""Components in Python: classes, functions, coroutines; exceptions; interruption."""
+
+from __future__ import annotations
+
+import gc
+import weakref
+from typing import Any
+
+import pytest
+
+import afp
+
+
+def run(tools: afp.Toolbox, body: str, until: float = 2.0, **options: Any) -> afp.Result:
+    plan = afp.Plan(f"use std\nuse carbot\nuse {tools.name}\nplan P {{ {body} }}", toolboxes=[tools])
+    plan.check()
+    return afp.Simulation(plan, **options).run(until=until)
+
+
+def test_a_class_for_a_declared_template() -> None:
+    tools = afp.Toolbox.parse(
+        """toolbox hand version "1.0"
+        enum Side { left, right }
+        actor Creep {
+            in far: length
+            in side: Side = Side.left
+            in live speed: speed = 0.2 m/s
+            out went: length on There
+            every 20 ms
+            state There
+            state Blocked
+        }
+        """
+    )
+    seen: list[Any] = []
+
+    @tools.implement
+    class Creep:
+        def __init__(self, robot: afp.Robot, far: float, side: str) -> None:
+            self.far, self.robot = far, robot
+            seen.append((far, side))
+
+        def poll(self, robot: afp.Robot, speed: float) -> object:
+            assert robot is self.robot and robot.time > 0.0
+            robot.drive(speed)
+            went = float(robot.odometry[0])
+            return ("There", {"went": went}) if went >= self.far else None
+
+    result = run(
+        tools,
+        "var went: length start go actor go: Creep(far = 20 cm, side = Side.right, speed = 30 cm/s, went => went)"
+        "{ There -> terminate, Blocked -> terminate }",
+    )
+    assert result.ending == "ok" and seen == [(0.2, "right")]
+    assert 0.2 <= result.entries["went"] < 0.25
+    assert tools.implemented == ["Creep"]
+
+
+def test_decorators_declare_templates() -> None:
+    tools = afp.Toolbox("tools", doc="Made in Python.")
+
+    @tools.actor(states={"There": {"went": afp.Length}, "Blocked": {}}, every="20 ms")
+    async def Creep(robot: afp.Robot, far: afp.Length, speed: afp.Speed = 0.2) -> object:
+        """Creeps ahead."""
+        while robot.odometry[0] < far:
+            if robot.touched:
+                return "Blocked"
+            robot.drive(speed)
+            await afp.tick()
+        return "There", {"went": float(robot.odometry[0])}
+
+    @tools.supervisor(events=["Near"], every="10 ms", deadline="10 ms")
+    def CheckNear(robot: afp.Robot, distance: afp.Length) -> str | None:
+        return "Near" if (robot.distance or 9.0) < distance else None
+
+    @tools.computation(states={"Less": {"half": float}, "More": {"half": float}})
+    def Halve(value: float, limit: float = 1.0) -> object:
+        return "Less" if value / 2 < limit else "More", {"half": value / 2}
+
+    assert "/// Creeps ahead." in tools.text and "in speed: speed = 0.2 m/s" in tools.text
+    body = """
+        var value: float = 8.0
+        start halve
+        computation halve: Halve(value = value, half => value) { Less -> go, More -> halve }
+        actor go: Creep(far = 10 cm) {
+            supervise near: CheckNear(distance = 1 mm) { Near -> terminate }
+            There -> terminate
+            Blocked -> terminate
+        }"""
+    result = run(tools, body)
+    assert result.errors == [] and result.ending == "ok" and result.entries["value"] == 0.5
+
+
+def test_an_exception_becomes_error_with_its_traceback() -> None:
+    tools = afp.Toolbox("tools")
+
+    @tools.actor(states=["Done"])
+    class Breaks:
+        def poll(self, robot: afp.Robot) -> str:
+            if robot.time > 0.1:
+                raise ZeroDivisionError("on purpose")
+            return None  # type: ignore[return-value]
+
+    result = run(tools, "start go actor go: Breaks { Done -> terminate }")
+    assert (result.ending, result.fault) == ("error", "python-exception")
+    [error] = result.errors
+    assert error.template == "Breaks" and 0.1 < error.time < 0.12
+    assert "on purpose" in error.traceback and "test_components.py" in error.traceback
+    with pytest.raises(ZeroDivisionError):
+        result.check()
+    caught = run(tools, "start go actor go: Breaks { Done -> terminate Error -> terminate }")
+    assert caught.ending == "ok" and len(caught.errors) == 1
+
+
+@pytest.mark.parametrize(
+    ("said", "why"),
+    [
+        ("'Nothing'", "one of Done, Told"),
+        ("3", "one of Done, Told"),
+        ("'Told'", "without its output"),
+        ("('Told', {'value': 'x'})", "expected a float, not a str"),
+        ("('Told', {'value': afp.deg(3)})", "not a quantity in rad"),
+        ("('Done', {'value': 1.0})", "carries no output 'value'"),
+        ("('Done',)", "length"),
+        ("robot.smell", "no attribute 'smell'"),
+        ("robot.drive(float('inf'))", "finite"),
+    ],
+)
+def test_what_a_component_says_wrong(said: str, why: str) -> None:
+    tools = afp.Toolbox("tools")
+
+    @tools.actor(states={"Done": {}, "Told": {"value": float}})
+    class Says:
+        def poll(self, robot: afp.Robot) -> object:
+            return eval(said, {"robot": robot, "afp": afp})
+
+    result = run(tools, "start go actor go: Says { Done -> terminate Told -> terminate }")
+    assert result.fault == "python-exception" and why in result.errors[0].traceback
+
+
+def test_interruption_cancels_a_coroutine() -> None:
+    tools = afp.Toolbox("tools")
+    ends: list[str] = []
+
+    @tools.actor(states=["Done"])
+    async def Forever(robot: afp.Robot) -> str:
+        try:
+            while True:
+                robot.drive(0.2)
+                await afp.tick()
+        finally:
+            ends.append("cancelled")
+
+    body = "start go actor go: Forever { supervise t: CheckTimeout(duration = 0.5 s) { TimedOut -> rest } Done -> rest }"
+    result = run(tools, body + "actor rest: Wait { Elapsed -> terminate }")
+    assert ends == ["cancelled"] and result.ending == "ok"
+    still = result.path[result.path[:, 0] > 1.2][:, 1:3]
+    assert abs(still - still[0]).max() < 1e-3
+
+
+def test_interrupt_of_a_class_is_called_once() -> None:
+    tools = afp.Toolbox("tools")
+    calls: list[str] = []
+
+    @tools.actor(states=["Done"])
+    class Forever:
+        def poll(self) -> None:
+            return None
+
+        def interrupt(self, robot: afp.Robot) -> None:
+            calls.append(f"interrupted at {robot.time}")
+
+    body = "start go actor go: Forever { supervise t: CheckTimeout(duration = 0.5 s) { TimedOut -> terminate } Done -> terminate }"
+    run(tools, body)
+    assert len(calls) == 1
+
+
+def test_supervisors_know_what_is_wanted() -> None:
+    tools = afp.Toolbox("tools")
+    told: list[tuple[str, ...]] = []
+
+    @tools.supervisor(events=["High", "Low"])
+    class CheckLevel:
+        def __init__(self, wanted: tuple[str, ...]) -> None:
+            told.append(wanted)
+
+        def poll(self, level: float) -> str | None:
+            return "High" if level > 5 else None
+
+    body = """
+        var level: float = 1.0
+        start go
+        actor go: Wait(duration = 1 s) {
+            supervise level: CheckLevel(level = level) { High -> terminate, Low -> ignore }
+            Elapsed -> terminate
+        }"""
+    plan = afp.Plan(f"use std\nuse tools\nplan P {{ {body.replace('supervise level', 'supervise check')} }}", toolboxes=[tools])
+    simulation = afp.Simulation(plan)
+    simulation.run_to(0.3)
+    simulation["level"] = 6.0
+    result = simulation.run(until=2.0)
+    assert told == [("High",)] and result.ending == "interrupted" and result.time < 0.4
+
+
+def test_objects_go_from_component_to_component() -> None:
+    tools = afp.Toolbox.parse(
+        """toolbox tools
+        object Map
+        computation Make { out map: Map state Made }
+        computation Use { in map: Map out size: int state Used }
+        """
+    )
+
+    @tools.implement
+    def Make() -> object:
+        return "Made", {"map": {"a": 1, "b": 2}}
+
+    @tools.implement
+    def Use(map: dict[str, int]) -> object:
+        return "Used", {"size": len(map)}
+
+    body = """
+        var map: Map
+        var size: int
+        start make
+        computation make: Make(map => map) { Made -> use }
+        computation use: Use(map = map, size => size) { Used -> terminate }"""
+    result = run(tools, body.replace("make: Make", "making: Make").replace("start make", "start making").replace("use: Use", "using: Use").replace("-> use", "-> using"))
+    assert result.errors == [] and result.entries["size"] == 2
+
+
+def test_a_component_cannot_drive_its_own_simulation() -> None:
+    tools = afp.Toolbox("tools")
+    kept: list[Any] = []
+
+    @tools.actor(states=["Done"])
+    class Meddles:
+        def __init__(self, robot: afp.Robot) -> None:
+            kept.append(robot)
+
+        def poll(self) -> str:
+            with pytest.raises(RuntimeError, match="is running"):
+                kept[1].step()
+            with pytest.raises(RuntimeError, match="is running"):
+                kept[1].time
+            return "Done"
+
+    plan = afp.Plan("use tools\nplan P { start go actor go: Meddles { Done -> terminate } }", toolboxes=[tools])
+    simulation = afp.Simulation(plan)
+    simulation.step()
+    kept.append(simulation)
+    assert simulation.run(until=1.0).check().ending == "ok"
+    with pytest.raises(RuntimeError, match="only while a component is being called"):
+        kept[0].time
+
+
+def test_ctrl_c_in_a_component_ends_the_run() -> None:
+    tools = afp.Toolbox("tools")
+
+    @tools.actor(states=["Done"])
+    class Stops:
+        def poll(self) -> str:
+            raise KeyboardInterrupt
+
+    plan = afp.Plan("use tools\nplan P { start go actor go: Stops { Done -> terminate Error -> go } }", toolboxes=[tools])
+    simulation = afp.Simulation(plan)
+    with pytest.raises(KeyboardInterrupt):
+        simulation.run(until=5.0)
+    assert simulation.ending == "error"
+
+
+def test_mistakes_of_declarations() -> None:
+    tools = afp.Toolbox("tools")
+    with pytest.raises(TypeError, match="'far' of '.*Go' needs a type hint"):
+
+        @tools.actor(states=["Done"])
+        async def Go(far) -> str:  # type: ignore[no-untyped-def]
+            return "Done"
+
+    with pytest.raises(TypeError, match="must be a class with 'poll', or 'async def'"):
+
+        @tools.actor(states=["Done"])
+        def Sit() -> str:
+            return "Done"
+
+    with pytest.raises(ValueError, match="no template 'Fly' in the toolbox"):
+        tools.implement(lambda: "Done", "Fly")
+    with pytest.raises(afp.AfpError, match="E0"):
+        afp.Toolbox.parse("toolbox t actor A {")
+    plan = afp.Plan(
+        "use hand\nplan P { start go actor go: Wave { Done -> terminate } }",
+        toolboxes=[afp.Toolbox.parse("toolbox hand actor Wave { state Done }")],
+    )
+    with pytest.raises(afp.AfpError, match=r"no implementation of 'hand.Wave' is registered\n  help: implement it"):
+        afp.Simulation(plan)
+
+
+def test_components_go_with_their_simulation() -> None:
+    tools = afp.Toolbox("tools")
+    kept: list[weakref.ref[Any]] = []
+
+    @tools.actor(states=["Done"])
+    class Waits:
+        def __init__(self) -> None:
+            kept.append(weakref.ref(self))
+
+        def poll(self) -> None:
+            return None
+
+    run(tools, "start go actor go: Waits { Done -> terminate }", until=0.1)
+    gc.collect()
+    assert kept[0]() is None

@@ -1,0 +1,42 @@
+"""Logs: what is written is what is read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import afp
+
+
+def test_a_log_holds_the_run(wall_following: afp.Plan, tmp_path: Path) -> None:
+    file = tmp_path / "run.mcap"
+    with afp.Simulation(wall_following, seed=5, set={"walldist": 0.35}, log=file) as simulation:
+        result = simulation.run(until=6.0)
+    log = afp.Log(file)
+    assert log.facts["plan"] == "WallFollowing" and log.facts["seed"] == "5"
+    told = [event for event in log.events if event.kind != "polled" or event.outcome]
+    assert [(e.time, e.kind, e.component) for e in told] == [(e.time, e.kind, e.component) for e in result.events]
+    times, values = log.entry("walldist")
+    assert times[0] == 0.0 and values[0] == 0.35
+    assert log.channels["/plan/events"][1] == len(log.events)
+    assert log.path.shape[1] == 4 and log.cut_short is None
+    assert afp.World.parse(log.attachments["world.toml"]).name == "Furnished room"
+    with pytest.raises(KeyError, match="there are:"):
+        log.entry("nothing")
+
+
+def test_a_log_cut_short_yields_what_it_holds(wall_following: afp.Plan, tmp_path: Path) -> None:
+    file = tmp_path / "run.mcap"
+    with afp.Simulation(wall_following, log=file) as simulation:
+        simulation.run(until=3.0)
+    (tmp_path / "cut.mcap").write_bytes(file.read_bytes()[:-2000])
+    assert afp.Log(tmp_path / "cut.mcap").cut_short
+
+
+def test_what_is_no_log(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match="there is no log"):
+        afp.Log(tmp_path / "none.mcap")
+    (tmp_path / "text.mcap").write_text("hello")
+    with pytest.raises(afp.AfpError):
+        afp.Log(tmp_path / "text.mcap")

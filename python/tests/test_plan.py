@@ -1,0 +1,145 @@
+"""Plans: diagnostics, drawings, changes, files."""
+
+from __future__ import annotations
+
+import pickle
+import subprocess
+from pathlib import Path
+
+import pytest
+
+import afp
+from conftest import ROOT
+
+WRONG = "use carbot\nplan P { start go actor go: Forward(distance = 30) { ForwardSuccessful -> terminate } }\n"
+COMMENTED = """use carbot
+
+// A comment above.
+plan P {
+    start go
+
+    // Goes.
+    actor go: Forward(distance = 1 m) {
+        ForwardSuccessful -> terminate // the end
+    }
+}
+"""
+
+
+def test_diagnostics_say_what_where_and_what_to_do() -> None:
+    plan = afp.Plan(WRONG, "p.afp")
+    unit = next(each for each in plan.diagnostics if each.code == "E0203")
+    assert (unit.severity, unit.file, unit.line, unit.column) == ("error", "p.afp", 2, 48)
+    assert unit.help and "found a bare number" in unit.message
+    assert str(unit) == f"p.afp:2:48: error[E0203]: {unit.message}"
+    assert not plan.ok and unit in plan.diagnostics and len({unit, unit}) == 1
+
+
+def test_an_exception_carries_what_afpc_says(afpc: str, tmp_path: Path) -> None:
+    file = tmp_path / "p.afp"
+    file.write_text(WRONG)
+    with pytest.raises(afp.PlanError) as raised:
+        afp.Simulation(afp.load(file))
+    assert [each.code for each in raised.value.diagnostics] == [each.code for each in afp.load(file).diagnostics]
+    told = subprocess.run([afpc, "check", str(file)], capture_output=True, text=True, check=False)
+    assert str(raised.value) in told.stderr
+
+
+def test_a_plan_shows_itself(wall_following: afp.Plan) -> None:
+    assert wall_following.name == "WallFollowing" and wall_following.ok
+    svg = wall_following._repr_svg_()
+    assert svg is not None and svg.startswith("<svg") and "searchFirstWall" in svg
+    assert "<svg" in wall_following._repr_html_()
+    assert "E0203" in afp.Plan(WRONG)._repr_html_() and afp.Plan(WRONG)._repr_svg_() is None
+    assert "digraph" in wall_following.dot() and "<scxml" in wall_following.scxml()
+    assert '"WallFollowing"' in wall_following.json()
+    with pytest.raises(ValueError, match="there are: auto, light, dark"):
+        wall_following.svg(theme="blue")
+
+
+def test_changes_keep_comments(tmp_path: Path) -> None:
+    file = tmp_path / "p.afp"
+    file.write_text(COMMENTED)
+    plan = afp.load(file)
+    plan.rename("go", "ahead")
+    plan.bind("ahead", "distance", "2 m")
+    plan.add("actor turn: Turn(angle = 90 deg) { TurnSuccessful -> terminate }")
+    plan.connect("ahead", "ForwardSuccessful", "turn")
+    plan.set_doc("ahead", "Two metres.")
+    plan.add("supervise touch: CheckTouchSensor { TouchSensorPressed -> turn }", owner="ahead")
+    plan.set_every("ahead.touch", "5 ms")
+    plan.rename("P", "Q")
+    assert plan.ok, plan.report()
+    plan.save()
+    text = file.read_text()
+    for kept in ("// A comment above.", "// Goes.", "// the end", "/// Two metres.", "start ahead", "plan Q {"):
+        assert kept in text
+    assert "distance = 2 m" in text and "every 5 ms" in text and "ForwardSuccessful -> turn" in text
+
+
+def test_a_refused_change_changes_nothing(wall_following: afp.Plan) -> None:
+    before = wall_following.text
+    with pytest.raises(afp.AfpError, match="nowhere"):
+        wall_following.rename("nowhere", "somewhere")
+    with pytest.raises(afp.AfpError):
+        wall_following.add("actor broken: (")
+    with pytest.raises(ValueError, match="names nothing of a plan"):
+        wall_following.remove("a.b.c")
+    assert wall_following.text == before
+
+
+def test_a_plan_can_be_built(tmp_path: Path) -> None:
+    plan = afp.new_plan("Square", use=["carbot"])
+    plan.add("in side: length = 50 cm")
+    plan.add("actor ahead: Forward(distance = side) { ForwardSuccessful -> corner }")
+    plan.add("actor corner: Turn(angle = 90 deg) { TurnSuccessful -> ahead }")
+    plan.set_start("ahead")
+    plan.check()
+    plan.format()
+    assert plan.formatted() == plan.text
+    with pytest.raises(afp.AfpError, match="give save"):
+        plan.save()
+    plan.save(tmp_path / "square.afp")
+    assert afp.load(tmp_path / "square.afp").text == plan.text
+    result = afp.Simulation(plan, set={"side": afp.cm(20)}).run(until=3.0)
+    assert result.ending == "interrupted" and result.distance > 0.2
+
+
+def test_extract_and_inline(wall_following: afp.Plan) -> None:
+    wall_following.extract(["parallelToWall"], "Align", "align")
+    assert sorted(wall_following.plans) == ["Align", "WallFollowing"] and wall_following.ok
+    assert "subplan align: Align" in wall_following.text
+    wall_following.inline("align")
+    assert "subplan" not in wall_following.text
+    assert wall_following.ok, wall_following.report()
+
+
+def test_changes_reach_other_files(tmp_path: Path) -> None:
+    (tmp_path / "other.afp").write_text(
+        "use carbot\nplan Inner { start go actor go: Forward(distance = 1 m) { ForwardSuccessful -> terminate } }\n"
+    )
+    main = tmp_path / "main.afp"
+    main.write_text('use "other.afp"\nplan Main { start inner subplan inner: Inner { OK -> terminate } }\n')
+    plan = afp.load(main)
+    assert plan.ok, plan.report()
+    plan.rename("inner", "part")
+    plan.save()
+    assert "start part" in main.read_text()
+
+
+def test_files_that_are_not_there() -> None:
+    with pytest.raises(FileNotFoundError):
+        afp.load("nowhere.afp")
+    with pytest.raises(FileNotFoundError, match="cannot read the world"):
+        afp.World.load("nowhere.toml")
+
+
+def test_plans_are_not_pickled(wall_following: afp.Plan) -> None:
+    for thing in (wall_following, afp.World.random(1), afp.Simulation(wall_following)._runner):
+        with pytest.raises(TypeError, match="cannot be pickled"):
+            pickle.dumps(thing)
+
+
+def test_every_shipped_plan_is_in_order() -> None:
+    for file in (ROOT / "plans").glob("*.afp"):
+        assert afp.load(file).diagnostics == []
