@@ -1,4 +1,4 @@
-//! Reads a log of ours with the public Python reader, none of our code in between.
+//! Reads a log and a table of ours with public Python readers, none of our code in between.
 
 use std::fs;
 use std::path::PathBuf;
@@ -6,12 +6,12 @@ use std::path::PathBuf;
 use crate::shell::{Failure, cargo, output, program, root, run as run_command, target};
 
 /// What the readers need, as pip names it.
-const PACKAGES: [&str; 2] = ["mcap==1.6.0", "mcap-protobuf-support==0.6.0"];
+const PACKAGES: [&str; 3] = ["mcap==1.6.0", "mcap-protobuf-support==0.6.0", "pyarrow==26.0.1"];
 
-/// Records a run and reads its log.
+/// Records a run and reads its log; runs a sweep and reads its table.
 ///
 /// # Errors
-/// No Python, no network for the packages, or a log that does not read.
+/// No Python, no network for the packages, or something that does not read.
 pub fn run() -> Result<(), Failure> {
     let python = environment()?;
     let folder = target().join("xtask");
@@ -20,7 +20,15 @@ pub fn run() -> Result<(), Failure> {
     let drive = ["run", "--quiet", "--package", "afpc", "--", "run", "plans/wall_following.afp"];
     let options = ["--until", "20s", "--svg", "none", "--json", "--log"];
     output(cargo().args(drive).args(options).arg(&log))?;
-    run_command(program(python).arg(root().join("tests/python/read_log.py")).arg(log))
+    run_command(program(&python).arg(root().join("tests/python/read_log.py")).arg(log))?;
+    let table = folder.join("sweep");
+    let sweep = ["run", "--quiet", "--package", "afpc", "--", "sweep", "plans/wall_following.afp"];
+    let worlds = ["--world", "worlds/wall_following.toml", "--world", "random:0..3"];
+    let grid = ["--vary", "walldist=30cm,40cm", "--until", "21s", "--restart", "-o"];
+    // The '/' makes it a folder, with a table of each kind.
+    let there = format!("{}/", table.display());
+    output(cargo().args(sweep).args(worlds).args(grid).arg(there))?;
+    run_command(program(&python).arg(root().join("tests/python/read_sweep.py")).arg(table))
 }
 
 /// A Python with the packages, made once under target/.
