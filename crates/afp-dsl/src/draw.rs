@@ -9,10 +9,12 @@ mod dot;
 pub mod formula;
 mod json;
 mod layout;
+mod legend;
 mod metrics;
 mod scxml;
 mod sketch;
 mod svg;
+mod usage;
 mod view;
 
 #[cfg(test)]
@@ -30,6 +32,7 @@ pub use dot::dot;
 pub use json::json;
 pub use scxml::scxml;
 pub use svg::svg;
+pub use usage::{Count, PlanUsage, Usage};
 
 /// Finds the SVG text of an icon that a template of a toolbox names.
 pub type Icons<'a> = &'a dyn Fn(&Toolbox, &str) -> Option<String>;
@@ -55,6 +58,8 @@ pub struct Options<'a> {
     pub positions: &'a [Layout],
     /// Whether entries, formulas and what they are bound to are shown; JSON always has them.
     pub data: bool,
+    /// How often each part was used: an SVG then shows that by colours and numbers, with a legend.
+    pub usage: Option<&'a Usage>,
 }
 
 /// The colours of a drawing.
@@ -78,6 +83,7 @@ impl Default for Options<'_> {
             theme: Theme::Auto,
             sub_plans: true,
             data: true,
+            usage: None,
         }
     }
 }
@@ -91,6 +97,7 @@ impl fmt::Debug for Options<'_> {
             .field("theme", &self.theme)
             .field("sub_plans", &self.sub_plans)
             .field("data", &self.data)
+            .field("usage", &self.usage.is_some())
             .finish()
     }
 }

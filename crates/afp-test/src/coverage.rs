@@ -2,9 +2,12 @@
 
 use std::fmt::Write;
 
+use afp_dsl::draw::Usage;
 use afp_dsl::graph::{EntryKind, Graph};
 use afp_dsl::unfold::{ComponentNames, EntryNames, Goal, Kind, Place, places, unfold};
+use afp_log::LogData;
 
+use crate::parts::Parts;
 use crate::watch::hits::{Hits, Touched};
 
 /// How often the parts of a plan were used.
@@ -14,6 +17,8 @@ pub struct Coverage {
     pub plan: String,
     /// Its parts: elements, then what can come of each component, then entries.
     pub parts: Vec<Part>,
+    /// The same for drawings, plan by plan: parts of a plan that is used twice are added up.
+    pub usage: Usage,
 }
 
 /// A part of a plan.
@@ -80,7 +85,13 @@ impl Coverage {
         }
         let entries = names.entries.iter().zip(&hits.entries);
         parts.extend(entries.filter_map(|(entry, count)| of_entry(entry, *count)));
-        Coverage { plan: graph.main().name.clone(), parts }
+        Coverage { plan: graph.main().name.clone(), parts, usage: Parts::new(graph).usage(hits) }
+    }
+
+    /// What a logged run used of its plan; `None` when the log is of another plan.
+    pub fn of_log(graph: &Graph, log: &LogData) -> Option<Coverage> {
+        let mut hits = Hits::new(graph);
+        hits.add_log(log).then(|| Coverage::new(graph, &hits))
     }
 
     /// How many parts of a kind there are and how many of them were used.

@@ -5,7 +5,6 @@
 //! of them reaches has no scenario, and the text says so.
 
 mod pair;
-mod parts;
 mod reach;
 
 use std::fmt::Write;
@@ -15,9 +14,9 @@ use afp_dsl::graph::{Component, Graph};
 use afp_dsl::scenario::Scenario;
 use afp_run::RunError;
 
+use crate::parts::Parts;
 use crate::verdict::Verdict;
 use pair::Pair;
-use parts::Parts;
 use reach::Reach;
 
 /// The text of a file of scenarios.

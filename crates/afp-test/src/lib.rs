@@ -9,6 +9,7 @@ mod coverage;
 mod drive;
 mod generate;
 mod macros;
+mod parts;
 mod setting;
 mod stimuli;
 mod verdict;

@@ -83,7 +83,7 @@ impl<'a> Watch<'a> {
                 halted: true,
                 standing: true,
             },
-            hits: Hits::new(&places, entries),
+            hits: Hits::new(&scenario.graph),
             looks: scenario.expectations.iter().map(Look::new).collect(),
             scenario,
             since: vec![None; places.len()],

@@ -48,7 +48,6 @@ fn print(text: &str) -> Result<u8, NoPlan> {
 }
 
 /// Prints bytes that are no text on standard output, as [`print`] does.
-#[cfg(feature = "png")]
 fn print_bytes(bytes: &[u8]) -> Result<u8, NoPlan> {
     print_to(std::io::stdout().lock(), bytes)
 }

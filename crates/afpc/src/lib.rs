@@ -8,6 +8,7 @@ mod cli;
 mod commands;
 mod crate_folder;
 mod origin;
+mod picture;
 mod plan_file;
 mod runner;
 mod toolboxes;

@@ -4,9 +4,11 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use afp_dsl::files::Files;
 use afp_dsl::graph::Graph;
 use afp_dsl::source::Source;
 use afp_dsl::{Compiled, compile_plan};
+use afp_log::LogData;
 use afp_project::{ProjectError, ProjectFile};
 use afp_run::RunError;
 
@@ -51,10 +53,39 @@ impl PlanFile {
         let (path, plan) = split(argument);
         let text =
             fs::read_to_string(&path).map_err(RunError::file("cannot read the plan", &path))?;
+        PlanFile::compile(path, text, &read_used, plan)
+    }
+
+    /// The plan of a log, from the texts that the log holds, or else from its file.
+    ///
+    /// # Errors
+    /// The log names no plan, or its file cannot be read.
+    pub fn of_log(log: &LogData) -> Result<PlanFile, RunError> {
+        let fact = |key: &str| log.facts.get(key).map_or("", String::as_str);
+        let (file, plan) = (fact("plan_file"), fact("plan"));
+        if file.is_empty() {
+            return Err(RunError::usage("the log does not say which plan ran", "name a whole log"));
+        }
+        let Some(text) = log.attachments.get(file) else {
+            return PlanFile::read(&format!("{file}:{plan}"));
+        };
+        let read = |path: &str| {
+            let text = log.attachments.get(path).cloned();
+            text.ok_or_else(|| "it is not in the log".to_owned())
+        };
+        PlanFile::compile(file.into(), text.clone(), &read, Some(plan))
+    }
+
+    fn compile(
+        path: PathBuf,
+        text: String,
+        files: &dyn Files,
+        plan: Option<&str>,
+    ) -> Result<PlanFile, RunError> {
         let own = OwnToolboxes::read(ProjectFile::of_plan(&path)?)?;
         let toolboxes = own.with_built_in()?;
         let source = Source::new(path.display().to_string(), text);
-        let compiled = compile_plan(&source, &toolboxes, &read_used, plan);
+        let compiled = compile_plan(&source, &toolboxes, files, plan);
         Ok(PlanFile { path, compiled, own })
     }
 

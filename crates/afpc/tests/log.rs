@@ -34,6 +34,16 @@ fn a_log_tells_what_the_run_told() {
 }
 
 #[test]
+fn the_plan_of_a_log_is_drawn_with_what_was_used() {
+    let place = place();
+    place.afpc("log a.mcap --coverage cover.svg --svg path.png").succeeds();
+    let drawing = place.read("cover.svg");
+    assert!(drawing.contains("TouchSensorPressed  ×1"), "{drawing}");
+    assert!(place.bytes("path.png").starts_with(b"\x89PNG"));
+    place.afpc("log a.mcap --coverage cover.gif").fails(2, &["neither an SVG nor a PNG"]);
+}
+
+#[test]
 fn facts_are_enough_to_run_again() {
     let place = place();
     let said = place.afpc("log a.mcap info");

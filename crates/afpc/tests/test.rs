@@ -63,6 +63,12 @@ fn words_and_files_choose() {
     let parts = more["parts"].as_array().unwrap();
     let follow = parts.iter().find(|part| part["name"] == "followWall").unwrap();
     assert!(follow["count"].as_u64().unwrap() > 0, "{follow}");
+    place.afpc("test bump --coverage -o cover").succeeds();
+    let drawing = place.read("cover/WallFollowing.svg");
+    assert!(drawing.contains("TouchSensorPressed  ×1"), "{drawing}");
+    assert!(drawing.contains("WallForward · never"), "{drawing}");
+    let gif = place.afpc("test bump --coverage -o cover.gif");
+    gif.fails(2, &["'cover.gif' is neither an SVG nor a PNG"]);
     place.afpc("test tests/room.afp bump").succeeds();
     place.afpc("test nonsense").fails(2, &["no scenario has 'nonsense' in its name"]);
     place.afpc("test wall_following.afp").fails(2, &["has no scenarios"]);

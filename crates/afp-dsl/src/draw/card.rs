@@ -12,6 +12,7 @@ mod supervisors;
 use super::layout;
 use super::metrics::width;
 use super::sketch::{Anchor, Frame, Glyph, Label, Picture, Rect, Shape, Sketch};
+use super::usage::{Class, Use, times};
 use super::view::{Exit, Input, View};
 use crate::graph::{Component, Element};
 use parts::{ROW, Tag, chip_width, exit_below, inflow, outflow, pill_width, tag_width};
@@ -33,7 +34,7 @@ pub(super) struct Leaving {
     pub(super) at: layout::Exit,
     /// The element's index.
     pub(super) to: usize,
-    pub(super) class: &'static str,
+    pub(super) class: Class,
 }
 
 /// Sizes of texts in pixels.
@@ -57,7 +58,7 @@ pub(super) fn element<'a>(view: &View<'a>, element: &'a Element) -> Card<'a> {
     let data = data.chain(outputs.iter().map(|(_, entry)| pill_width(entry)));
     let data = data.fold(0.0, f64::max);
     let left = if data > 0.0 { data + REACH } else { 0.0 };
-    let template = view.template_name(element);
+    let template = &template(view, element);
     let head = 44.0 + width(&element.name, NAME, true).max(width(template, TEMPLATE, false)) + 16.0;
     let states = view.states(element);
     let exits = states.iter().map(|exit| exit_width(exit) + EXIT_GAP).sum::<f64>() + 16.0;
@@ -65,7 +66,7 @@ pub(super) fn element<'a>(view: &View<'a>, element: &'a Element) -> Card<'a> {
     let own = HEAD + rows * ROW + 16.0;
     let stack = supervisors::Stack::new(view, &view.supervisors(Some(element)));
     let rect = Rect { x: left, y: 0.0, width: head.max(exits), height: own.max(stack.height) };
-    let (shape, class) = look(element);
+    let (shape, class) = look(view, element);
     card.sketch.frames.push(Frame { rect, shape, class, title: title(element, template) });
     heading(view, &mut card, element, template, rect);
     let mut y = HEAD + ROW / 2.0;
@@ -109,14 +110,28 @@ fn bound(inputs: Vec<Input>) -> Vec<Input> {
 
 /// The room that an exit needs below a box: its own or that of the tag it leads to.
 fn exit_width(exit: &Exit) -> f64 {
-    chip_width(exit.name).max(Tag::of(exit.target).map_or(0.0, tag_width))
+    chip_width(&exit.text()).max(Tag::of(exit.target).map_or(0.0, tag_width))
 }
 
-fn look(element: &Element) -> (Shape, &'static str) {
-    match element.component {
+fn look(view: &View, element: &Element) -> (Shape, Class) {
+    let (shape, name) = match element.component {
         Component::Actor(_) => (Shape::Round(9.0), "actor"),
         Component::Computation(_) => (Shape::Cut(12.0), "computation"),
         Component::SubPlan(_) => (Shape::Double(9.0), "subplan"),
+    };
+    let usage = view.element_count(element).map(|count| {
+        let states = view.states(element);
+        Use::with_exits(count.starts, states.iter().filter_map(|exit| exit.count))
+    });
+    (shape, Class { name, usage })
+}
+
+/// The name of an element's template; where use is shown, with how often it started.
+fn template(view: &View, element: &Element) -> String {
+    let name = view.template_name(element);
+    match view.element_count(element) {
+        None => name.to_owned(),
+        Some(count) => format!("{name} · {}", times(count.starts)),
     }
 }
 
@@ -137,7 +152,7 @@ fn heading<'a>(
         Component::Computation(id) => (view.icon(id), Glyph::Computation),
         Component::SubPlan(_) => (None, Glyph::SubPlan),
     };
-    let (_, class) = look(element);
+    let (_, class) = look(view, element);
     card.sketch.pictures.push(Picture {
         x: rect.x + 12.0,
         y: 12.0,
@@ -153,7 +168,7 @@ fn heading<'a>(
         size,
         bold,
         anchor: Anchor::Start,
-        class,
+        class: Class::from(class),
     };
     card.sketch.labels.push(label(&element.name, 22.0, NAME, true, "name"));
     card.sketch.labels.push(label(template, 37.0, TEMPLATE, false, "template"));

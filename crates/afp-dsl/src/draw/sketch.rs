@@ -3,6 +3,7 @@
 //! Tests measure overlaps here, with the same numbers that are drawn.
 
 use super::metrics;
+use super::usage::Class;
 use crate::toolbox::Toolbox;
 
 /// A rectangle in pixels, y downwards.
@@ -32,7 +33,7 @@ pub(super) enum Shape {
 pub(super) struct Frame {
     pub(super) rect: Rect,
     pub(super) shape: Shape,
-    pub(super) class: &'static str,
+    pub(super) class: Class,
     /// Its tooltip; empty for none.
     pub(super) title: String,
 }
@@ -55,7 +56,7 @@ pub(super) struct Label {
     pub(super) size: f64,
     pub(super) bold: bool,
     pub(super) anchor: Anchor,
-    pub(super) class: &'static str,
+    pub(super) class: Class,
 }
 
 /// A square picture.
@@ -64,7 +65,7 @@ pub(super) struct Picture<'a> {
     pub(super) x: f64,
     pub(super) y: f64,
     pub(super) size: f64,
-    pub(super) class: &'static str,
+    pub(super) class: Class,
     /// The icon of a toolbox.
     pub(super) icon: Option<(&'a Toolbox, &'a str)>,
     /// What to draw where that icon is missing.
@@ -85,7 +86,7 @@ pub(super) enum Glyph {
 #[derive(Clone, Debug)]
 pub(super) struct Arrow {
     pub(super) points: Vec<(f64, f64)>,
-    pub(super) class: &'static str,
+    pub(super) class: Class,
     /// Flow of action is thick, flow of data is thin.
     pub(super) thick: bool,
 }
@@ -151,11 +152,13 @@ impl<'a> Sketch<'a> {
 
     /// Adds a frame without tooltip.
     pub(super) fn frame(&mut self, rect: Rect, shape: Shape, class: &'static str) {
+        let class = class.into();
         self.frames.push(Frame { rect, shape, class, title: String::new() });
     }
 
     /// Adds a frame that is as high as a line of text and the text in it.
-    pub(super) fn pill(&mut self, rect: Rect, class: &'static str, text: &str, size: f64) {
+    pub(super) fn pill(&mut self, rect: Rect, class: impl Into<Class>, text: &str, size: f64) {
+        let class = class.into();
         let title = if metrics::shorten(text) == text { String::new() } else { text.to_owned() };
         self.frames.push(Frame { rect, shape: Shape::Round(rect.height / 2.0), class, title });
         self.labels.push(Label {

@@ -10,6 +10,7 @@ mod style;
 use super::Options;
 use super::card::{self, Card};
 use super::layout::{Link, Node, layout_around};
+use super::legend::legend;
 use super::sketch::{Arrow, Sketch};
 use super::view::View;
 use crate::graph::Graph;
@@ -20,6 +21,9 @@ const MARGIN: f64 = 24.0;
 
 /// Distance between the drawings of two plans.
 const BETWEEN: f64 = 64.0;
+
+/// Distance between the drawings and the legend.
+const LEGEND: f64 = 32.0;
 
 /// The main plan as an SVG picture, its sub-plans below it unless the options say otherwise.
 ///
@@ -38,6 +42,12 @@ pub(super) fn sketch<'a>(graph: &'a Graph, options: &'a Options<'a>) -> (Sketch<
         let top = if size.1 > 0.0 { size.1 + BETWEEN } else { MARGIN };
         let (sketch, width, height) = plan(&view);
         all.add(sketch, (MARGIN, top));
+        size = (size.0.max(width), top + height);
+    }
+    if options.usage.is_some() {
+        let (legend, width, height) = legend();
+        let top = size.1 + LEGEND;
+        all.add(legend, (MARGIN, top));
         size = (size.0.max(width), top + height);
     }
     (all, (size.0 + 2.0 * MARGIN, size.1 + MARGIN))

@@ -3,7 +3,7 @@
 use super::sample::{EVERY_PART, WALL_FOLLOWING, compiled, compiled_with, generated};
 use super::sketch::{Arrow, Rect, Shape, Sketch};
 use super::svg::sketch;
-use super::{Options, Theme, svg};
+use super::{Count, Options, PlanUsage, Theme, Usage, svg};
 use crate::Compiled;
 use crate::layout_file::Layout;
 use crate::source::Source;
@@ -119,6 +119,35 @@ fn edges_find_their_ways_between_boxes_that_stand_anywhere() {
     }
 }
 
+#[test]
+fn what_was_used_is_told_by_classes_and_numbers() {
+    let compiled = compiled(EVERY_PART);
+    let graph = compiled.graph.as_ref().unwrap();
+    let count = |outcomes: usize, times: u64| Count {
+        starts: times,
+        outcomes: (0..outcomes as u64).map(|place| times.min(place * 12)).collect(),
+        special: 0,
+    };
+    let plans = graph.plans.iter().map(|plan| PlanUsage {
+        elements: (0..).zip(&plan.elements).map(|(n, each)| count(each.states.len(), n)).collect(),
+        supervisors: plan.supervisors.iter().map(|each| count(each.events.len(), 7)).collect(),
+        entries: (0..plan.entries.len() as u64).collect(),
+    });
+    let usage = Usage { plans: plans.collect() };
+    let options = Options { usage: Some(&usage), ..Options::default() };
+    check(&compiled, &options);
+    let picture = svg(graph, &options);
+    for class in ["actor unused", "partly", "flow state unused", "error unused", "missed unused"] {
+        assert!(picture.contains(class), "no {class}");
+    }
+    for text in ["· never", "×1", "used, but some way out never was", "prefers-color-scheme:dark"]
+    {
+        assert!(picture.contains(text), "no {text}");
+    }
+    let plain = svg(graph, &Options::default());
+    assert!(!plain.contains("unused") && !plain.contains('×'), "a plain drawing counts nothing");
+}
+
 fn in_every_file(compiled: &Compiled, positions: Layout) -> Vec<Layout> {
     vec![positions; compiled.sources.len()]
 }
@@ -148,8 +177,8 @@ fn boxes_are_apart(sketch: &Sketch, (width, height): (f64, f64)) {
         assert!(one.rect.x > 0.0 && one.rect.right() < inside.right(), "{one:?} leaves the page");
         assert!(one.rect.y > 0.0 && one.rect.bottom() < inside.bottom(), "{one:?} leaves the page");
         for two in &sketch.frames[..place] {
-            let nested = two.class == "configuration" && one.class == "entry";
-            let attached = is_exit(one.class) != is_exit(two.class);
+            let nested = two.class.name == "configuration" && one.class.name == "entry";
+            let attached = is_exit(one.class.name) != is_exit(two.class.name);
             let apart = nested || attached || !overlap(&one.rect, &two.rect);
             assert!(apart, "{one:?} lies on {two:?}");
         }
@@ -254,10 +283,10 @@ fn every_kind_of_part_has_its_symbol() {
         "terminate",
         "ignore",
     ] {
-        assert!(sketch.frames.iter().any(|frame| frame.class == class), "no {class}");
+        assert!(sketch.frames.iter().any(|frame| frame.class.name == class), "no {class}");
     }
     let shape =
-        |class: &str| sketch.frames.iter().find(|frame| frame.class == class).unwrap().shape;
+        |class: &str| sketch.frames.iter().find(|frame| frame.class.name == class).unwrap().shape;
     assert!(matches!(shape("actor"), Shape::Round(_)));
     assert!(matches!(shape("computation"), Shape::Cut(_)));
     assert!(matches!(shape("subplan"), Shape::Double(_)));

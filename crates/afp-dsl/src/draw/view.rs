@@ -2,6 +2,9 @@
 //!
 //! The three drawings agree on what an element shows, since all of them ask here.
 
+use std::borrow::Cow;
+
+use super::usage::{Count, PlanUsage, times};
 use super::{Options, formula};
 use crate::edit::Item;
 use crate::graph::{
@@ -36,6 +39,18 @@ pub(super) struct Exit<'a> {
     pub(super) name: &'a str,
     pub(super) target: Target,
     pub(super) kind: ExitKind,
+    /// How often it was taken, where that is shown.
+    pub(super) count: Option<u64>,
+}
+
+impl Exit<'_> {
+    /// Its name, with how often it was taken.
+    pub(super) fn text(&self) -> Cow<'_, str> {
+        match self.count {
+            None => self.name.into(),
+            Some(count) => format!("{}  {}", self.name, times(count)).into(),
+        }
+    }
 }
 
 /// What makes control leave.
@@ -168,28 +183,68 @@ impl<'a> View<'a> {
             }
             Component::SubPlan(_) => vec!["OK", "Interrupted"],
         };
-        let states = names.into_iter().zip(&element.states).filter_map(|(name, target)| {
-            target.map(|target| Exit { name, target, kind: ExitKind::State })
+        let counts = self.element_count(element);
+        let count = |place: usize| counts?.outcomes.get(place).copied();
+        let states = names.into_iter().zip(&element.states).enumerate();
+        let states = states.filter_map(|(place, (name, target))| {
+            let count = count(place);
+            target.map(|target| Exit { name, target, kind: ExitKind::State, count })
         });
-        let error = element.on_error;
-        let error = error.map(|target| Exit { name: "Error", target, kind: ExitKind::Error });
+        let error = element.on_error.map(|target| Exit {
+            name: "Error",
+            target,
+            kind: ExitKind::Error,
+            count: counts.map(|counts| counts.special),
+        });
         states.chain(error).collect()
     }
 
     /// The events, `DeadlineMissed` last where it is connected.
     pub(super) fn events(&self, supervisor: &Supervisor) -> Vec<Exit<'a>> {
         let names = outcome_names(self.graph.template(supervisor.template));
-        let event = |(name, target): (&'a str, &Target)| Exit {
+        let counts = self.supervisor_count(supervisor);
+        let event = |(place, (name, target)): (usize, (&'a str, &Target))| Exit {
             name,
             target: *target,
             kind: ExitKind::Event,
+            // What is ignored is never taken, so that counting it would say nothing.
+            count: counts
+                .and_then(|counts| counts.outcomes.get(place).copied())
+                .filter(|_| *target != Target::Ignore),
         };
         let missed = supervisor.on_miss.map(|target| Exit {
             name: "DeadlineMissed",
             target,
             kind: ExitKind::Missed,
+            count: counts.map(|counts| counts.special),
         });
-        names.into_iter().zip(&supervisor.events).map(event).chain(missed).collect()
+        names.into_iter().zip(&supervisor.events).enumerate().map(event).chain(missed).collect()
+    }
+
+    /// How often the parts of the plan were used, where that is shown.
+    fn usage(&self) -> Option<&'a PlanUsage> {
+        let usage = self.options.usage?;
+        let place = self.graph.plans.iter().position(|plan| std::ptr::eq(plan, self.plan))?;
+        usage.plans.get(place)
+    }
+
+    /// How often an element of the plan was used.
+    pub(super) fn element_count(&self, element: &Element) -> Option<&'a Count> {
+        let elements = &self.plan.elements;
+        let place = elements.iter().position(|each| std::ptr::eq(each, element))?;
+        self.usage()?.elements.get(place)
+    }
+
+    /// How often a supervisor of the plan was used.
+    pub(super) fn supervisor_count(&self, supervisor: &Supervisor) -> Option<&'a Count> {
+        let supervisors = &self.plan.supervisors;
+        let place = supervisors.iter().position(|each| std::ptr::eq(each, supervisor))?;
+        self.usage()?.supervisors.get(place)
+    }
+
+    /// How often an entry of the plan was written.
+    pub(super) fn writes(&self, entry: usize) -> Option<u64> {
+        self.usage()?.entries.get(entry).copied()
     }
 
     /// Where an exit leads, in the words of the language.

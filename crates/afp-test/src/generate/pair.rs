@@ -6,9 +6,9 @@ use afp_core::Instant;
 use afp_dsl::graph::Component;
 use afp_dsl::unfold::Goal;
 
-use super::parts::Parts;
 use super::reach::Way;
 use super::{Generated, spell};
+use crate::parts::Parts;
 use crate::watch::Activation;
 
 /// The points of an element's run, in percent.

@@ -6,8 +6,8 @@ use afp_dsl::scenario::{Action, Scenario, Stimulus};
 use afp_dsl::unfold::Goal;
 use afp_run::RunError;
 
-use super::parts::Parts;
 use super::spell;
+use crate::parts::Parts;
 use crate::verdict::Verdict;
 use crate::watch::Activation;
 

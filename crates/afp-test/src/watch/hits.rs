@@ -2,10 +2,13 @@
 
 use afp_core::trace::{Author, ComponentId, DEADLINE_MISSED, ERROR, Record, TraceEntryId};
 use afp_core::{Fault, ValueRef};
-use afp_dsl::unfold::Place;
+use afp_dsl::graph::Graph;
+use afp_dsl::unfold::{Place, places};
 use afp_log::LogData;
 use afp_log::proto::afp::PlanEvent;
 use afp_log::proto::afp::plan_event::Kind;
+
+use crate::parts::Parts;
 
 /// How often each component and entry was used, by number.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -18,6 +21,10 @@ pub struct Hits {
     pub(crate) ended: Option<u64>,
     /// The element of each local supervisor.
     owners: Vec<Option<u32>>,
+    /// The plan of each entry, by number.
+    homes: Vec<u32>,
+    /// Which components have started to take time; computations never do.
+    lasting: Vec<bool>,
 }
 
 /// How often a component was used.
@@ -61,25 +68,34 @@ fn record(event: &PlanEvent) -> Option<Record<'static>> {
 }
 
 impl Hits {
-    pub(crate) fn new(places: &[Place], entries: usize) -> Self {
+    /// Nothing was used of a plan yet.
+    pub(crate) fn new(graph: &Graph) -> Self {
+        let (places, homes) = (places(graph), Parts::new(graph).entry_homes());
         let touched = |place: &Place| {
             let outcomes = vec![0; place.outcomes.len()];
             Touched { starts: 0, outcomes, special: 0 }
         };
         Hits {
             components: places.iter().map(touched).collect(),
-            entries: vec![0; entries],
+            entries: vec![0; homes.len()],
+            homes,
             ended: None,
             owners: places.iter().map(|place| place.owner).collect(),
+            lasting: vec![false; places.len()],
         }
     }
 
     pub(crate) fn hear(&mut self, record: &Record<'_>) {
         match *record {
-            Record::Started { component } => self.start(component),
+            Record::Started { component } => {
+                if let Some(lasting) = self.lasting.get_mut(component.0 as usize) {
+                    *lasting = true;
+                }
+                self.start(component);
+            }
             Record::Finished { element, state } => {
                 // A computation is over when it starts.
-                if self.touched(element).is_some_and(|touched| touched.starts == 0) {
+                if self.lasting.get(element.0 as usize) == Some(&false) {
                     self.start(element);
                 }
                 self.reach(element, state);
@@ -89,10 +105,11 @@ impl Hits {
                 let owner = self.owners.get(component.0 as usize).copied().flatten();
                 self.reach(owner.map_or(component, ComponentId), ERROR);
             }
-            Record::Committed { author, entry, .. }
-                if author != Author::Component(ComponentId(0)) =>
-            {
-                if let Some(count) = self.entries.get_mut(entry.0 as usize) {
+            Record::Committed { author, entry, .. } => {
+                let place = entry.0 as usize;
+                // A plan gives its own entries their first values.
+                let home = self.homes.get(place).map(|home| Author::Component(ComponentId(*home)));
+                if let Some(count) = self.entries.get_mut(place).filter(|_| home != Some(author)) {
                     *count += 1;
                 }
             }
@@ -123,7 +140,9 @@ impl Hits {
             components: self.components.iter().map(Touched::none).collect(),
             entries: vec![0; self.entries.len()],
             ended: None,
+            homes: self.homes.clone(),
             owners: self.owners.clone(),
+            lasting: vec![false; self.components.len()],
         };
         log.events.iter().filter_map(record).for_each(|record| other.hear(&record));
         self.add(&other);

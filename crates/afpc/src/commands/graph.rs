@@ -1,13 +1,10 @@
 //! `afpc graph`: the drawing of a plan.
 
-#[cfg(feature = "png")]
-mod png;
-
 use std::fs;
-use std::io::ErrorKind;
+use std::io::{ErrorKind, IsTerminal};
 use std::path::{Path, PathBuf};
 
-use afp_dsl::draw::{self, Options};
+use afp_dsl::draw::{self, Options, Usage};
 use afp_dsl::graph::Graph;
 use afp_dsl::layout_file::Layout;
 use afp_dsl::source::{Source, Sources};
@@ -17,6 +14,7 @@ use clap::{Args, ValueEnum};
 
 use super::print;
 use crate::cli::PlanArgument;
+use crate::picture;
 use crate::plan_file::{NoPlan, PlanFile};
 
 /// Arguments of `afpc graph`.
@@ -102,6 +100,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
         theme: arguments.theme(format),
         sub_plans: !arguments.fold,
         data: !arguments.no_data,
+        usage: None,
     };
     let text = match format {
         Format::Png => return pixels(arguments, &graph, &options),
@@ -114,6 +113,28 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
         Some(path) => write(path, text.as_bytes()),
         None => print(&text),
     }
+}
+
+/// A drawing of a plan with what was used of it, in the colours for the file that it goes to.
+///
+/// # Errors
+/// The name of the file is not that of a picture.
+pub(super) fn with_usage(
+    graph: &Graph,
+    sources: &Sources,
+    usage: &Usage,
+    path: &Path,
+) -> Result<String, RunError> {
+    let icons = |toolbox: &Toolbox, name: &str| icon(toolbox, name);
+    let options = Options {
+        sources: Some(sources),
+        icons: Some(&icons),
+        positions: &positions(sources, graph),
+        theme: picture::format(path)?.theme(),
+        usage: Some(usage),
+        ..Options::default()
+    };
+    Ok(draw::svg(graph, &options))
 }
 
 /// The positions of the plans' side files, by file.
@@ -152,40 +173,18 @@ fn write(path: &Path, drawing: &[u8]) -> Result<u8, NoPlan> {
     Ok(EXIT_OK)
 }
 
-#[cfg(feature = "png")]
 fn pixels(arguments: &Arguments, graph: &Graph, options: &Options) -> Result<u8, NoPlan> {
-    use std::io::IsTerminal;
-
     if arguments.output.is_none() && std::io::stdout().is_terminal() {
         let error = "a picture cannot be shown in a terminal";
         return Err(RunError::usage(error, "name a file: -o plan.png").into());
     }
-    let scale = arguments.scale.unwrap_or(DEFAULT_SCALE);
-    let picture = png::png(&draw::svg(graph, options), scale).map_err(|why| match why {
-        png::Failure::TooLarge(width, height) => RunError::usage(
-            format!("the picture would be {width} x {height} pixels"),
-            "choose a smaller '--scale', or draw SVG",
-        ),
-        png::Failure::Renderer(why) => RunError::usage(
-            format!("the drawing cannot be painted: {why}"),
-            "draw SVG; and please report this",
-        ),
-    })?;
+    let scale = arguments.scale.unwrap_or(picture::DEFAULT_SCALE);
+    let picture = picture::pixels(&draw::svg(graph, options), scale)?;
     match &arguments.output {
         Some(path) => write(path, &picture),
         None => super::print_bytes(&picture),
     }
 }
-
-#[cfg(not(feature = "png"))]
-fn pixels(_: &Arguments, _: &Graph, _: &Options) -> Result<u8, NoPlan> {
-    let help = "draw SVG and convert it, or install afpc with its feature 'png'";
-    Err(RunError::usage("this afpc was built without '--format png'", help).into())
-}
-
-/// Pixels of a PNG for each one of the SVG, where nothing is said: sharp on today's screens.
-#[cfg(feature = "png")]
-const DEFAULT_SCALE: f32 = 2.0;
 
 fn scale(text: &str) -> Result<f32, String> {
     let scale = text.parse::<f32>().ok().filter(|scale| (0.1..=10.0).contains(scale));

@@ -1,12 +1,13 @@
 //! `afpc log`: what happened in a run, and whether its log is sound.
 
 mod info;
+mod pictures;
 mod timeline;
 
 use std::path::PathBuf;
 
 use afp_log::{doctor, read, recover, recovered_name};
-use afp_run::{EXIT_FAILED, EXIT_OK, RunError, write_whole};
+use afp_run::{EXIT_FAILED, EXIT_OK, RunError};
 use clap::{Args, ValueEnum};
 
 use super::print;
@@ -22,9 +23,13 @@ pub struct Arguments {
     #[arg(default_value = "timeline")]
     action: Action,
 
-    /// Also draws the path over the world into this file
+    /// Also draws the path over the world into this file, an SVG or a PNG
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+
+    /// Also draws the plan with what the run used of it into this file, an SVG or a PNG
+    #[arg(long, value_name = "FILE")]
+    coverage: Option<PathBuf>,
 
     /// Where 'recover' writes to [default: <log>.recovered.mcap]
     #[arg(short, long, value_name = "FILE")]
@@ -49,6 +54,7 @@ Examples:
   afpc log target/afp/runs/wall_following.mcap
   afpc log run.mcap info
   afpc log run.mcap --svg path.svg
+  afpc log run.mcap --coverage cover.png
   afpc log run.mcap.part recover
 
 Exit codes: 0 done or sound, 1 the file cannot be read or is not sound, 2 wrong usage";
@@ -58,11 +64,7 @@ Exit codes: 0 done or sound, 1 the file cannot be read or is not sound, 2 wrong 
 /// # Errors
 /// A file cannot be read or written.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
-    if let Some(path) = &arguments.svg {
-        let log = read(&arguments.file).map_err(RunError::from)?;
-        let picture = afp_run::draw_log(&log)?;
-        write_whole("cannot write the picture", path, &picture)?;
-    }
+    pictures::draw(arguments)?;
     match arguments.action {
         Action::Timeline => {
             let log = read(&arguments.file).map_err(RunError::from)?;

@@ -1,5 +1,6 @@
 //! `afpc test`: runs scenarios, all cores at once, and says what they came to.
 
+mod cover;
 mod find;
 mod generate;
 mod tell;
@@ -9,6 +10,7 @@ use std::time::Instant as Wall;
 
 use afp::load::Registry;
 use afp_dsl::scenario::Scenario;
+use afp_dsl::source::Sources;
 use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, RunError};
 use afp_sim::Simulation;
 use afp_test::{Coverage, Hits, Setting, Verdict};
@@ -40,6 +42,11 @@ pub struct Arguments {
     #[arg(long, value_name = "LOG", requires = "coverage")]
     add_log: Vec<PathBuf>,
 
+    /// Draws the plan with what was used into this file, an SVG or a PNG; several plans into this
+    /// folder
+    #[arg(short, long, value_name = "FILE|FOLDER", requires = "coverage")]
+    output: Option<PathBuf>,
+
     /// Writes scenarios for plans: every event at five points of each actor's run
     #[arg(long)]
     generate: bool,
@@ -51,6 +58,7 @@ Examples:
   afpc test bump                  those with 'bump' in their names
   afpc test plans/tests/room.afp  those of a file
   afpc test --coverage            and what none of them made use of
+  afpc test --coverage -o cover   the same as drawings, one for each plan
   afpc test --generate plans/wall_following.afp
 
 A failed scenario is run again with a log: target/afp/tests/<name>.mcap.
@@ -58,6 +66,8 @@ Exit codes: 0 all passed, 1 a file is wrong, 2 nothing to run, 3 a scenario fail
 
 /// A scenario to run.
 struct Case<'a> {
+    /// The texts that the graph's places point into.
+    sources: &'a Sources,
     /// The file as it was named.
     file: &'a Path,
     /// The line of its name.
@@ -116,7 +126,12 @@ fn cases(file: &PlanFile) -> impl Iterator<Item = Case<'_>> {
         source.map_or(0, |source| source.line_column(scenario.span.start).0)
     };
     let scenarios = file.compiled.scenarios.iter();
-    scenarios.map(move |scenario| Case { file: &file.path, line: line(scenario), scenario })
+    scenarios.map(move |scenario| Case {
+        sources: &file.compiled.sources,
+        file: &file.path,
+        line: line(scenario),
+        scenario,
+    })
 }
 
 fn matches(case: &Case<'_>, filters: &[String]) -> bool {
@@ -140,33 +155,37 @@ fn run_all(cases: &[Case<'_>], arguments: &Arguments, linked: &[Linked]) -> Resu
         .collect();
     teller.end(cases, &done, begun.elapsed().as_secs_f64())?;
     if arguments.coverage {
-        tell::coverage(&coverage(cases, &done, &arguments.add_log)?, arguments.json)?;
+        let plans = coverage(cases, &done, &arguments.add_log)?;
+        tell::coverage(&plans.iter().map(|(_, used)| used).collect::<Vec<_>>(), arguments.json)?;
+        if let Some(output) = &arguments.output {
+            cover::draw_all(&plans, output)?;
+        }
     }
     Ok(done.iter().any(|done| !done.passed()))
 }
 
-/// What the runs used, for each plan.
-fn coverage(
-    cases: &[Case<'_>],
+/// What the runs used, for each plan with a case that is for it.
+fn coverage<'a>(
+    cases: &'a [Case<'a>],
     done: &[Done],
     logs: &[PathBuf],
-) -> Result<Vec<Coverage>, RunError> {
-    let mut plans: Vec<(&Scenario, Hits)> = Vec::new();
+) -> Result<Vec<(&'a Case<'a>, Coverage)>, RunError> {
+    let mut plans: Vec<(&Case<'_>, Hits)> = Vec::new();
     for (case, done) in cases.iter().zip(done) {
         let Ok(verdict) = &done.verdict else { continue };
         let key = |scenario: &Scenario| {
             let plan = scenario.graph.main();
             (scenario.plan_file.clone(), plan.name.clone())
         };
-        match plans.iter_mut().find(|(known, _)| key(known) == key(case.scenario)) {
+        match plans.iter_mut().find(|(known, _)| key(known.scenario) == key(case.scenario)) {
             Some((_, hits)) => hits.add(&verdict.hits),
-            None => plans.push((case.scenario, verdict.hits.clone())),
+            None => plans.push((case, verdict.hits.clone())),
         }
     }
     for path in logs {
         let log = afp_log::read(path)?;
         let name = log.facts.get("plan").map_or("", String::as_str);
-        let known = plans.iter_mut().find(|(scenario, _)| scenario.graph.main().name == name);
+        let known = plans.iter_mut().find(|(case, _)| case.scenario.graph.main().name == name);
         if !known.is_some_and(|(_, hits)| hits.add_log(&log)) {
             let message = format!("'{}' is no log of a plan with scenarios here", path.display());
             return Err(RunError::usage(
@@ -175,7 +194,9 @@ fn coverage(
             ));
         }
     }
-    Ok(plans.iter().map(|(scenario, hits)| Coverage::new(&scenario.graph, hits)).collect())
+    let cover =
+        |(case, hits): (&'a Case<'a>, Hits)| (case, Coverage::new(&case.scenario.graph, &hits));
+    Ok(plans.into_iter().map(cover).collect())
 }
 
 impl Done {

@@ -3,6 +3,7 @@
 use super::super::layout;
 use super::super::metrics::{shorten, width};
 use super::super::sketch::{Anchor, Arrow, Label, Rect, Sketch};
+use super::super::usage::{Class, Use};
 use super::super::view::{Exit, ExitKind, Input};
 use super::{Card, Leaving};
 use crate::graph::Target;
@@ -75,7 +76,7 @@ pub(super) fn reach_right(exit: &Exit) -> f64 {
 pub(super) fn inflow(sketch: &mut Sketch, at: (f64, f64), input: &Input, reach: f64, side: Anchor) {
     let class = if input.plain { "entry" } else { "formula" };
     let edge = data(sketch, at, &input.text, class, reach, side);
-    sketch.arrows.push(Arrow { points: vec![edge, at], class: "data", thick: false });
+    sketch.arrows.push(Arrow { points: vec![edge, at], class: "data".into(), thick: false });
     port(sketch, at, input.port, side);
 }
 
@@ -89,7 +90,7 @@ pub(super) fn outflow(
     side: Anchor,
 ) {
     let edge = data(sketch, at, entry, "entry", reach, side);
-    sketch.arrows.push(Arrow { points: vec![at, edge], class: "data", thick: false });
+    sketch.arrows.push(Arrow { points: vec![at, edge], class: "data".into(), thick: false });
     port(sketch, at, name, side);
 }
 
@@ -121,15 +122,16 @@ fn port(sketch: &mut Sketch, (x, y): (f64, f64), name: &str, side: Anchor) {
         size: PORT_SIZE,
         bold: false,
         anchor: side,
-        class: "port",
+        class: "port".into(),
     });
 }
 
 /// A state on the lower border of a box, centred at `at`, with its tag.
 pub(super) fn exit_below(card: &mut Card, (x, y): (f64, f64), exit: &Exit) {
-    let width = chip_width(exit.name);
+    let text = exit.text();
+    let width = chip_width(&text);
     let rect = Rect { x: x - width / 2.0, y: y - PILL + STAND_OUT, width, height: PILL };
-    card.sketch.pill(rect, exit_class(exit.kind), exit.name, CHIP_SIZE);
+    card.sketch.pill(rect, exit_class(exit), &text, CHIP_SIZE);
     let bottom = rect.bottom();
     card.height = card.height.max(bottom);
     let Some(tag) = Tag::of(exit.target) else {
@@ -137,7 +139,7 @@ pub(super) fn exit_below(card: &mut Card, (x, y): (f64, f64), exit: &Exit) {
         return;
     };
     let points = vec![(x, bottom), (x, bottom + STUB)];
-    card.sketch.arrows.push(Arrow { points, class: exit_class(exit.kind), thick: true });
+    card.sketch.arrows.push(Arrow { points, class: exit_class(exit), thick: true });
     let width = tag_width(tag);
     let rect = Rect { x: x - width / 2.0, y: bottom + STUB, width, height: PILL };
     card.sketch.pill(rect, tag.class(), tag.text(), CHIP_SIZE);
@@ -146,31 +148,33 @@ pub(super) fn exit_below(card: &mut Card, (x, y): (f64, f64), exit: &Exit) {
 
 /// An event on the right border of a box at `at`, with its tag.
 pub(super) fn exit_right(card: &mut Card, (x, y): (f64, f64), exit: &Exit) {
-    let width = chip_width(exit.name);
+    let text = exit.text();
+    let width = chip_width(&text);
     let right = x + STAND_OUT;
     let rect = Rect { x: right - width, y: y - PILL / 2.0, width, height: PILL };
-    card.sketch.pill(rect, exit_class(exit.kind), exit.name, CHIP_SIZE);
+    card.sketch.pill(rect, exit_class(exit), &text, CHIP_SIZE);
     let Some(tag) = Tag::of(exit.target) else {
         leave(card, layout::Exit::Right(right, y), exit);
         return;
     };
     let points = vec![(right, y), (right + STUB, y)];
-    card.sketch.arrows.push(Arrow { points, class: exit_class(exit.kind), thick: true });
+    card.sketch.arrows.push(Arrow { points, class: exit_class(exit), thick: true });
     let rect = Rect { x: right + STUB, y: y - PILL / 2.0, width: tag_width(tag), height: PILL };
     card.sketch.pill(rect, tag.class(), tag.text(), CHIP_SIZE);
 }
 
 fn leave(card: &mut Card, at: layout::Exit, exit: &Exit) {
     if let Target::Element(id) = exit.target {
-        card.exits.push(Leaving { at, to: id.index(), class: exit_class(exit.kind) });
+        card.exits.push(Leaving { at, to: id.index(), class: exit_class(exit) });
     }
 }
 
-fn exit_class(kind: ExitKind) -> &'static str {
-    match kind {
+fn exit_class(exit: &Exit) -> Class {
+    let name = match exit.kind {
         ExitKind::State => "state",
         ExitKind::Error => "error",
         ExitKind::Event => "event",
         ExitKind::Missed => "missed",
-    }
+    };
+    Class { name, usage: exit.count.map(Use::of) }
 }

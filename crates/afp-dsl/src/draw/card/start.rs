@@ -4,11 +4,12 @@ use super::super::formula;
 use super::super::layout;
 use super::super::metrics::{shorten, width};
 use super::super::sketch::{Anchor, Frame, Glyph, Label, Picture, Rect, Shape, Sketch};
+use super::super::usage::{Class, Use, times};
 use super::super::view::{View, entry_kind_name};
 use super::parts::{PORT_SIZE, ROW, pill_width};
 use super::supervisors::Stack;
 use super::{Card, Leaving};
-use crate::graph::Entry;
+use crate::graph::{Entry, EntryKind};
 
 /// Size of the plan's name in pixels.
 const NAME: f64 = 15.0;
@@ -30,13 +31,13 @@ pub(in super::super) fn start<'a>(view: &View<'a>) -> Card<'a> {
     let rect = Rect { x: left, y: 0.0, width: name + 66.0, height: stack.height.max(46.0) };
     let shape = if stack.height > 0.0 { Shape::Round(9.0) } else { Shape::Round(23.0) };
     let title = if plan.doc.is_empty() { plan.name.clone() } else { plan.doc.clone() };
-    card.sketch.frames.push(Frame { rect, shape, class: "start", title });
+    card.sketch.frames.push(Frame { rect, shape, class: "start".into(), title });
     let middle = rect.height / 2.0;
     card.sketch.pictures.push(Picture {
         x: rect.x + 16.0,
         y: middle - 10.0,
         size: 20.0,
-        class: "start",
+        class: "start".into(),
         icon: None,
         fallback: Glyph::Start,
     });
@@ -47,10 +48,10 @@ pub(in super::super) fn start<'a>(view: &View<'a>) -> Card<'a> {
         size: NAME,
         bold: true,
         anchor: Anchor::Start,
-        class: "start",
+        class: "start".into(),
     });
     let at = layout::Exit::Below(rect.x + rect.width / 2.0, rect.bottom());
-    card.exits.push(Leaving { at, to: plan.start.index(), class: "start" });
+    card.exits.push(Leaving { at, to: plan.start.index(), class: "start".into() });
     card.width = rect.right();
     card.height = rect.bottom().max(table.height);
     card.entry = (rect.x, rect.right());
@@ -64,7 +65,8 @@ fn configuration(view: &View, sketch: &mut Sketch) -> Rect {
     if entries.is_empty() {
         return Rect { x: 0.0, y: 0.0, width: 0.0, height: 0.0 };
     }
-    let names = entries.iter().map(|entry| pill_width(&entry.name)).fold(0.0, f64::max);
+    let pills: Vec<_> = (0..).zip(entries).map(|(id, entry)| pill(view, id, entry)).collect();
+    let names = pills.iter().map(|(text, _)| pill_width(text)).fold(0.0, f64::max);
     let texts: Vec<_> = entries.iter().map(|entry| declaration(view, entry)).collect();
     let right = texts.iter().map(|text| width(text, PORT_SIZE, false)).fold(0.0, f64::max);
     let inner = KIND + names + 10.0 + right;
@@ -80,12 +82,24 @@ fn configuration(view: &View, sketch: &mut Sketch) -> Rect {
         let y = 30.0 + (place as f64 + 0.5) * ROW;
         let base = y + 0.36 * PORT_SIZE;
         sketch.labels.push(label((12.0, base), entry_kind_name(entry.kind), PORT_SIZE, "port"));
-        let width = pill_width(&entry.name);
+        let (text_in_pill, class) = &pills[place];
+        let width = pill_width(text_in_pill);
         let pill = Rect { x: 12.0 + KIND, y: y - 9.0, width, height: 18.0 };
-        sketch.pill(pill, "entry", &entry.name, PORT_SIZE);
+        sketch.pill(pill, *class, text_in_pill, PORT_SIZE);
         sketch.labels.push(label((22.0 + KIND + names, base), text, PORT_SIZE, "port"));
     }
     rect
+}
+
+/// The name of an entry; where use is shown and the plan can write it, with how often it did.
+fn pill(view: &View, id: usize, entry: &Entry) -> (String, Class) {
+    match view.writes(id).filter(|_| matches!(entry.kind, EntryKind::Var | EntryKind::Out)) {
+        None => (entry.name.clone(), "entry".into()),
+        Some(count) => {
+            let class = Class { name: "entry", usage: Some(Use::of(count)) };
+            (format!("{}  {}", entry.name, times(count)), class)
+        }
+    }
 }
 
 /// Type and initial value.
@@ -101,5 +115,13 @@ fn declaration(view: &View, entry: &Entry) -> String {
 }
 
 fn label((x, y): (f64, f64), text: &str, size: f64, class: &'static str) -> Label {
-    Label { x, y, text: text.to_owned(), size, bold: false, anchor: Anchor::Start, class }
+    Label {
+        x,
+        y,
+        text: text.to_owned(),
+        size,
+        bold: false,
+        anchor: Anchor::Start,
+        class: class.into(),
+    }
 }

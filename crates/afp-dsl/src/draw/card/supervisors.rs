@@ -3,12 +3,13 @@
 use super::super::formula::duration;
 use super::super::metrics::width;
 use super::super::sketch::{Anchor, Frame, Glyph, Label, Picture, Rect, Shape, Sketch};
+use super::super::usage::{Class, Use, times};
 use super::super::view::{Exit, Input, View};
 use super::parts::{
     PORT_SIZE, ROW, STAND_OUT, chip_width, exit_right, inflow, outflow, pill_width, reach_right,
 };
 use super::{Card, REACH, bound};
-use crate::graph::Supervisor;
+use crate::graph::{Supervisor, Target};
 
 /// Sizes of texts in pixels.
 const NAME: f64 = 12.0;
@@ -34,6 +35,7 @@ pub(super) struct Stack<'a> {
 struct Row<'a> {
     supervisor: &'a Supervisor,
     template: String,
+    usage: Option<Use>,
     events: Vec<Exit<'a>>,
     inputs: Vec<Input<'a>>,
     outputs: Vec<(&'a str, &'a str)>,
@@ -70,10 +72,19 @@ impl<'a> Row<'a> {
         if template.every != supervisor.every {
             name += &format!(" · every {}", duration(supervisor.every));
         }
+        let events = view.events(supervisor);
+        let counts = || events.iter().filter(|exit| exit.target != Target::Ignore);
+        let counts = || counts().filter_map(|exit| exit.count);
+        let usage = view.supervisor_count(supervisor).map(|_| {
+            let sum: u64 = counts().sum();
+            name += &format!(" · {}", times(sum));
+            Use::with_exits(sum, counts())
+        });
         Row {
             supervisor,
             template: name,
-            events: view.events(supervisor),
+            usage,
+            events,
             inputs: bound(view.supervisor_inputs(supervisor)),
             outputs: view.supervisor_outputs(supervisor),
         }
@@ -85,7 +96,7 @@ impl<'a> Row<'a> {
     }
 
     fn ports(&self) -> f64 {
-        let events = self.events.iter().map(|event| chip_width(event.name) - STAND_OUT);
+        let events = self.events.iter().map(|event| chip_width(&event.text()) - STAND_OUT);
         let inputs = self.inputs.iter().map(|input| input.port);
         let names = inputs.chain(self.outputs.iter().map(|(port, _)| *port));
         events.chain(names.map(|name| width(name, PORT_SIZE, false) + 10.0)).fold(0.0, f64::max)
@@ -107,7 +118,8 @@ impl<'a> Row<'a> {
     fn draw(&self, view: &View<'a>, card: &mut Card<'a>, rect: Rect) {
         let title = self.title();
         let shape = Shape::Leaning(8.0);
-        card.sketch.frames.push(Frame { rect, shape, class: "supervisor", title });
+        let class = Class { name: "supervisor", usage: self.usage };
+        card.sketch.frames.push(Frame { rect, shape, class, title });
         self.heading(view, &mut card.sketch, rect);
         let single = self.events.len() == 1 && self.inputs.is_empty() && self.outputs.is_empty();
         let mut y = if single { rect.y + rect.height / 2.0 } else { rect.y + 4.0 + ROW / 2.0 };
@@ -137,7 +149,7 @@ impl<'a> Row<'a> {
             x: rect.x + 10.0,
             y: rect.y + 12.0,
             size: 20.0,
-            class: "supervisor",
+            class: Class { name: "supervisor", usage: self.usage },
             icon: view.icon(self.supervisor.template),
             fallback: Glyph::Supervisor,
         });
@@ -148,7 +160,7 @@ impl<'a> Row<'a> {
             size,
             bold,
             anchor: Anchor::Start,
-            class,
+            class: Class::from(class),
         };
         sketch.labels.push(label(&self.supervisor.name, 20.0, NAME, true, "name"));
         sketch.labels.push(label(&self.template, 34.0, TEMPLATE, false, "template"));

@@ -31,7 +31,10 @@ pub(super) fn picture(
     if !plan.doc.is_empty() {
         line(&mut out, &format!("<desc>{}</desc>", escaped(&plan.doc)));
     }
-    line(&mut out, &format!("<style>\n{}</style>", style::sheet(options.theme)));
+    line(
+        &mut out,
+        &format!("<style>\n{}</style>", style::sheet(options.theme, options.usage.is_some())),
+    );
     line(&mut out, "<rect class=\"page\" width=\"100%\" height=\"100%\"/>");
     for arrow in &sketch.arrows {
         paint_arrow(&mut out, arrow);

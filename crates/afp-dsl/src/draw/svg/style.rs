@@ -19,7 +19,7 @@ const COMMON: &str = "\
 ";
 
 /// Selector below `.afp-plan`, declarations on light, declarations on dark.
-const RULES: &[(&str, &str, &str)] = &[
+const RULES: &[Rule] = &[
     (".page", "fill:#ffffff;stroke:none", "fill:#12161d;stroke:none"),
     (".halo", "stroke:#ffffff", "stroke:#12161d"),
     ("text", "fill:#1c2430", "fill:#e6ebf2"),
@@ -63,10 +63,59 @@ const RULES: &[(&str, &str, &str)] = &[
     ("text.ignore", "fill:#5b6675", "fill:#9aa7b8"),
 ];
 
-/// The style sheet of a theme.
-pub(super) fn sheet(theme: Theme) -> String {
-    let light = || rules(|rule| rule.1);
-    let dark = || rules(|rule| rule.2);
+/// What a drawing by use adds: blue is used, orange with dashes is not, so that people who see few
+/// colours can tell them apart too; what is not counted is grey.
+const USAGE_COMMON: &str = "\
+.afp-plan .box.unused{stroke-dasharray:4 3}
+.afp-plan .box.partly{stroke-width:2.4}
+.afp-plan .flow.used{stroke-dasharray:none}
+.afp-plan .flow.unused{stroke-dasharray:6 4;stroke-width:1.7}
+";
+
+const USAGE_RULES: &[Rule] = &[
+    (".box.entry,.box.formula", "fill:#f2f4f6;stroke:#a5aeb8", "fill:#1d232c;stroke:#5c6774"),
+    ("text.entry,text.formula", "fill:#4c5764", "fill:#aeb9c5"),
+    (".box.configuration", "fill:#fafbfc;stroke:#ccd3da", "fill:#161b22;stroke:#39424d"),
+    (".thin.data", "stroke:#a5aeb8", "stroke:#5c6774"),
+    (".tip.data", "fill:#a5aeb8", "fill:#5c6774"),
+    (".box.ignore", "fill:#ffffff;stroke:#a5aeb8", "fill:#12161d;stroke:#5c6774"),
+    (".box.event,.box.state", "fill:#9aa4af;stroke:#9aa4af", "fill:#4a545f;stroke:#4a545f"),
+    (".flow.event,.flow.state", "stroke:#9aa4af", "stroke:#6b7681"),
+    (".tip.event,.tip.state", "fill:#9aa4af", "fill:#6b7681"),
+    (".box.used", "fill:#dceefa;stroke:#0072b2", "fill:#0f2c40;stroke:#56b4e9"),
+    (".box.partly", "fill:#fbf0c0;stroke:#0072b2", "fill:#3d3512;stroke:#56b4e9"),
+    (".box.unused", "fill:#ffffff;stroke:#d55e00", "fill:#12161d;stroke:#f0924a"),
+    (".inner.used,.inner.partly", "stroke:#0072b2", "stroke:#56b4e9"),
+    (".inner.unused", "stroke:#d55e00", "stroke:#f0924a"),
+    (".icon.used,.icon.partly", "color:#0072b2", "color:#56b4e9"),
+    (".icon.unused", "color:#d55e00", "color:#f0924a"),
+    (
+        ".box.state.used,.box.event.used,.box.error.used,.box.missed.used",
+        "fill:#0072b2;stroke:#0072b2",
+        "fill:#1d6fa5;stroke:#1d6fa5",
+    ),
+    (
+        "text.state.unused,text.event.unused,text.error.unused,text.missed.unused,text.entry.unused",
+        "fill:#a84300",
+        "fill:#f7b27d",
+    ),
+    (
+        ".box.state.unused,.box.event.unused,.box.error.unused,.box.missed.unused",
+        "fill:#ffffff;stroke:#d55e00",
+        "fill:#12161d;stroke:#f0924a",
+    ),
+    ("text.entry.used", "fill:#00476f", "fill:#bfe2f8"),
+    (".flow.used", "stroke:#0072b2", "stroke:#56b4e9"),
+    (".tip.used", "fill:#0072b2", "fill:#56b4e9"),
+    (".flow.unused", "stroke:#d55e00", "stroke:#f0924a"),
+    (".tip.unused", "fill:#d55e00", "fill:#f0924a"),
+];
+
+/// The style sheet of a theme, for a drawing by kind or by use.
+pub(super) fn sheet(theme: Theme, usage: bool) -> String {
+    let sets = if usage { &[RULES, USAGE_RULES][..] } else { &[RULES] };
+    let light = || sets.iter().map(|set| rules(set, |rule| rule.1)).collect::<String>();
+    let dark = || sets.iter().map(|set| rules(set, |rule| rule.2)).collect::<String>();
     let colours = match theme {
         Theme::Light => light(),
         Theme::Dark => dark(),
@@ -74,15 +123,16 @@ pub(super) fn sheet(theme: Theme) -> String {
             format!("{}@media (prefers-color-scheme:dark){{\n{}}}\n", light(), dark())
         }
     };
-    format!("{COMMON}{colours}")
+    let more = if usage { USAGE_COMMON } else { "" };
+    format!("{COMMON}{colours}{more}")
 }
 
 type Rule = (&'static str, &'static str, &'static str);
 
-fn rules(declarations: impl Fn(&Rule) -> &'static str) -> String {
+fn rules(rules: &[Rule], declarations: impl Fn(&Rule) -> &'static str) -> String {
     let scoped = |selectors: &str| {
         let scoped = selectors.split(',').map(|selector| format!(".afp-plan {selector}"));
         scoped.collect::<Vec<_>>().join(",")
     };
-    RULES.iter().map(|rule| format!("{}{{{}}}\n", scoped(rule.0), declarations(rule))).collect()
+    rules.iter().map(|rule| format!("{}{{{}}}\n", scoped(rule.0), declarations(rule))).collect()
 }

@@ -72,7 +72,7 @@ impl Teller {
 }
 
 /// What the runs of each plan used.
-pub(super) fn coverage(plans: &[Coverage], json: bool) -> Result<(), NoPlan> {
+pub(super) fn coverage(plans: &[&Coverage], json: bool) -> Result<(), NoPlan> {
     for plan in plans {
         if !json {
             print(&format!("\n{}", plan.text()))?;
@@ -88,7 +88,7 @@ pub(super) fn coverage(plans: &[Coverage], json: bool) -> Result<(), NoPlan> {
 }
 
 fn line(case: &Case<'_>, done: &Done) -> String {
-    let Case { file, line, scenario } = case;
+    let Case { file, line, scenario, .. } = case;
     let (style, word) = if done.passed() { (GOOD, "ok") } else { (BAD, "FAILED") };
     let length = done.verdict.as_ref().map_or(0.0, |verdict| verdict.length().as_secs_f64());
     format!(
@@ -99,7 +99,7 @@ fn line(case: &Case<'_>, done: &Done) -> String {
 }
 
 fn broken(case: &Case<'_>, done: &Done) -> String {
-    let Case { file, line, scenario } = case;
+    let Case { file, line, scenario, .. } = case;
     let mut text = format!("{BAD}{}{BAD:#}\n  --> {}:{line}\n", scenario.name, file.display());
     match &done.verdict {
         Ok(verdict) => text += &verdict.report(),
@@ -112,7 +112,7 @@ fn broken(case: &Case<'_>, done: &Done) -> String {
 }
 
 fn object(case: &Case<'_>, done: &Done) -> serde_json::Value {
-    let Case { file, line, scenario } = case;
+    let Case { file, line, scenario, .. } = case;
     let (name, plan) = (&scenario.name, &scenario.graph.main().name);
     let head = json!({
         "file": file.display().to_string(), "line": line, "scenario": name, "plan": plan,

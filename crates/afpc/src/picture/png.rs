@@ -6,8 +6,8 @@ use resvg::usvg;
 
 /// DejaVu Sans, cut down to European scripts, arrows and mathematical signs.
 const FONTS: [&[u8]; 2] = [
-    include_bytes!("../../../fonts/DejaVuSans.ttf"),
-    include_bytes!("../../../fonts/DejaVuSans-Bold.ttf"),
+    include_bytes!("../../fonts/DejaVuSans.ttf"),
+    include_bytes!("../../fonts/DejaVuSans-Bold.ttf"),
 ];
 
 /// The name inside of both fonts.

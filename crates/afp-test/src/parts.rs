@@ -1,5 +1,6 @@
 //! The components of a plan by their numbers, each with what the graph says of it.
 
+use afp_dsl::draw::{Count, PlanUsage, Usage};
 use afp_dsl::graph::{
     Component, Element, ElementId, Graph, Output, Plan, PlanId, Supervisor, SupervisorId,
     TemplateId,
@@ -9,12 +10,16 @@ use afp_dsl::toolbox::{Constant, OutPort};
 use afp_dsl::types::Type;
 use afp_dsl::unfold::{Goal, Place, Unfolded, blocks, places, unfold};
 
+use crate::watch::hits::Hits;
+
 /// A plan by the numbers of its components.
-pub(super) struct Parts<'a> {
+pub(crate) struct Parts<'a> {
     graph: &'a Graph,
     names: Unfolded,
     places: Vec<Place>,
     parts: Vec<Part>,
+    /// The plan and its sub-plans.
+    homes: Vec<Part>,
 }
 
 /// Where a component stands in the graph.
@@ -24,6 +29,8 @@ struct Part {
     what: What,
     /// The number of its plan's first entry.
     entries: u32,
+    /// The number of its plan.
+    home: u32,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -34,15 +41,26 @@ enum What {
 }
 
 impl<'a> Parts<'a> {
-    pub fn new(graph: &'a Graph) -> Self {
-        let main = Part { plan: graph.main, what: What::Plan, entries: 0 };
+    pub(crate) fn new(graph: &'a Graph) -> Self {
+        let main = Part { plan: graph.main, what: What::Plan, entries: 0, home: 0 };
         let mut parts = vec![main];
-        add(graph, main, &mut parts);
-        Parts { graph, names: unfold(graph), places: places(graph), parts }
+        let mut homes = Vec::new();
+        add(graph, main, &mut parts, &mut homes);
+        Parts { graph, names: unfold(graph), places: places(graph), parts, homes }
+    }
+
+    /// The number of the plan that each entry belongs to.
+    pub(crate) fn entry_homes(&self) -> Vec<u32> {
+        let mut all = Vec::new();
+        for home in &self.homes {
+            let count = self.graph.plan(home.plan).entries.len();
+            all.extend(std::iter::repeat_n(home.home, count));
+        }
+        all
     }
 
     /// The elements of the plan and of its sub-plans.
-    pub fn elements(&self) -> impl Iterator<Item = u32> {
+    pub(crate) fn elements(&self) -> impl Iterator<Item = u32> {
         let parts = (0..).zip(&self.parts);
         parts.filter(|(_, part)| matches!(part.what, What::Element(_))).map(|(number, _)| number)
     }
@@ -60,7 +78,7 @@ impl<'a> Parts<'a> {
     }
 
     /// A supervisor.
-    pub fn supervisor(&self, number: u32) -> Option<&Supervisor> {
+    pub(crate) fn supervisor(&self, number: u32) -> Option<&Supervisor> {
         match self.part(number)? {
             (plan, Part { what: What::Supervisor(id), .. }) => plan.supervisors.get(id.index()),
             _ => None,
@@ -68,12 +86,12 @@ impl<'a> Parts<'a> {
     }
 
     /// What an element is made from.
-    pub fn component(&self, number: u32) -> Option<Component> {
+    pub(crate) fn component(&self, number: u32) -> Option<Component> {
         self.element(number).map(|element| element.component)
     }
 
     /// The time from the interruption of an actor to standstill, where its template says so.
-    pub fn stop(&self, number: u32) -> Option<u64> {
+    pub(crate) fn stop(&self, number: u32) -> Option<u64> {
         match self.component(number)? {
             Component::Actor(id) => self.graph.template(id).stop,
             Component::Computation(_) | Component::SubPlan(_) => None,
@@ -81,39 +99,39 @@ impl<'a> Parts<'a> {
     }
 
     /// Its dotted name.
-    pub fn path(&self, number: u32) -> &str {
+    pub(crate) fn path(&self, number: u32) -> &str {
         self.names.components.get(number as usize).map_or("", |names| &names.path)
     }
 
     /// The name behind the last dot.
-    pub fn name(&self, number: u32) -> &str {
+    pub(crate) fn name(&self, number: u32) -> &str {
         self.path(number).rsplit('.').next().unwrap_or("")
     }
 
     /// The name of a state or event.
-    pub fn outcome(&self, number: u32, outcome: u16) -> &str {
+    pub(crate) fn outcome(&self, number: u32, outcome: u16) -> &str {
         let names = self.names.components.get(number as usize);
         let outcome = names.and_then(|names| names.outcomes.get(usize::from(outcome)));
         outcome.map_or("", |(name, _)| name)
     }
 
     /// The dotted name of an entry.
-    pub fn entry(&self, number: u32) -> &str {
+    pub(crate) fn entry(&self, number: u32) -> &str {
         self.names.entries.get(number as usize).map_or("", |entry| &entry.path)
     }
 
     /// How a component hangs together with the others.
-    pub fn place(&self, number: u32) -> Option<&Place> {
+    pub(crate) fn place(&self, number: u32) -> Option<&Place> {
         self.places.get(number as usize)
     }
 
     /// Where an outcome leads.
-    pub fn goal(&self, number: u32, outcome: u16) -> Option<Goal> {
+    pub(crate) fn goal(&self, number: u32, outcome: u16) -> Option<Goal> {
         *self.place(number)?.outcomes.get(usize::from(outcome))?
     }
 
     /// The supervisors that can end an element, those of its own plan and its own.
-    pub fn supervisors_over(&self, element: u32) -> Vec<u32> {
+    pub(crate) fn supervisors_over(&self, element: u32) -> Vec<u32> {
         let Some(home) = self.place(element).map(|place| place.plan) else { return Vec::new() };
         let over = |(number, place): (u32, &Place)| {
             let here = place.plan == home && place.owner.is_none_or(|owner| owner == element);
@@ -123,7 +141,7 @@ impl<'a> Parts<'a> {
     }
 
     /// Whether `inner` is `outer` or a part of it.
-    pub fn is_within(&self, inner: u32, outer: u32) -> bool {
+    pub(crate) fn is_within(&self, inner: u32, outer: u32) -> bool {
         let mut number = inner;
         loop {
             match self.place(number) {
@@ -142,15 +160,45 @@ impl<'a> Parts<'a> {
         }
     }
 
+    /// Adds up what was used, plan by plan, over all places at which a plan is used.
+    pub(crate) fn usage(&self, hits: &Hits) -> Usage {
+        let plans = self.graph.plans.iter().map(|plan| PlanUsage {
+            elements: plan.elements.iter().map(|each| none(each.states.len())).collect(),
+            supervisors: plan.supervisors.iter().map(|each| none(each.events.len())).collect(),
+            entries: vec![0; plan.entries.len()],
+        });
+        let mut usage = Usage { plans: plans.collect() };
+        for (part, touched) in self.parts.iter().zip(&hits.components) {
+            let Some(plan) = usage.plans.get_mut(part.plan.index()) else { continue };
+            let count = match part.what {
+                What::Element(id) => plan.elements.get_mut(id.index()),
+                What::Supervisor(id) => plan.supervisors.get_mut(id.index()),
+                What::Plan => None,
+            };
+            if let Some(count) = count {
+                count.starts += touched.starts;
+                count.special += touched.special;
+                let outcomes = count.outcomes.iter_mut().zip(&touched.outcomes);
+                outcomes.for_each(|(sum, count)| *sum += count);
+            }
+        }
+        for home in &self.homes {
+            let Some(plan) = usage.plans.get_mut(home.plan.index()) else { continue };
+            let written = hits.entries.iter().skip(home.entries as usize);
+            plan.entries.iter_mut().zip(written).for_each(|(sum, count)| *sum += count);
+        }
+        usage
+    }
+
     /// The entries that a component writes at all, by number.
-    pub fn written(&self, number: u32) -> Vec<u32> {
+    pub(crate) fn written(&self, number: u32) -> Vec<u32> {
         let first = self.part(number).map_or(0, |(_, part)| part.entries);
         self.outputs(number).iter().map(|out| first + u32::from(out.entry.0)).collect()
     }
 
     /// The outputs of an actor or supervisor that an outcome brings and that are connected: the entry
     /// and the port with the type of its value.
-    pub fn brought(&self, number: u32, outcome: u16) -> Vec<(u32, u16, &OutPort, Type)> {
+    pub(crate) fn brought(&self, number: u32, outcome: u16) -> Vec<(u32, u16, &OutPort, Type)> {
         let Some((template, generic)) = self.template(number) else { return Vec::new() };
         let ports = &self.graph.template(template).outputs;
         let first = self.part(number).map_or(0, |(_, part)| part.entries);
@@ -179,7 +227,7 @@ impl<'a> Parts<'a> {
 
     /// An outcome to be put there, with zeros for all that it brings, and how a scenario writes it;
     /// `None` when it brings an object.
-    pub fn injection(&self, number: u32, outcome: u16) -> Option<(Injection, String)> {
+    pub(crate) fn injection(&self, number: u32, outcome: u16) -> Option<(Injection, String)> {
         let (mut outputs, mut texts) = (Vec::new(), Vec::new());
         for (_, place, port, ty) in self.brought(number, outcome) {
             let (value, text) = zero(&ty)?;
@@ -195,18 +243,26 @@ impl<'a> Parts<'a> {
     }
 }
 
-fn add(graph: &Graph, home: Part, parts: &mut Vec<Part>) {
+fn none(outcomes: usize) -> Count {
+    Count { starts: 0, outcomes: vec![0; outcomes], special: 0 }
+}
+
+fn add(graph: &Graph, home: Part, parts: &mut Vec<Part>, homes: &mut Vec<Part>) {
+    homes.push(home);
     let plan = graph.plan(home.plan);
     let part = |what| Part { what, ..home };
+    let first = parts.len() as u32;
     parts.extend((0..plan.elements.len()).map(|id| part(What::Element(ElementId(id as u16)))));
     parts.extend(
         (0..plan.supervisors.len()).map(|id| part(What::Supervisor(SupervisorId(id as u16)))),
     );
     let block = &blocks(graph)[home.plan.index()];
-    for (element, (_, entries)) in plan.elements.iter().zip(&block.children) {
+    for ((element, (_, entries)), number) in plan.elements.iter().zip(&block.children).zip(first..)
+    {
         if let Component::SubPlan(child) = element.component {
-            let inner = Part { plan: child, what: What::Plan, entries: home.entries + entries };
-            add(graph, inner, parts);
+            let entries = home.entries + entries;
+            let inner = Part { plan: child, what: What::Plan, entries, home: number };
+            add(graph, inner, parts, homes);
         }
     }
 }

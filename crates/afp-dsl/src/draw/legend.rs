@@ -1,0 +1,43 @@
+//! What the colours of a drawing by use mean.
+
+use super::metrics::width;
+use super::sketch::{Anchor, Frame, Label, Rect, Shape, Sketch};
+use super::usage::{Class, Use};
+
+/// Size of texts in pixels.
+const SIZE: f64 = 12.0;
+/// A sample box.
+const SAMPLE: (f64, f64) = (44.0, 20.0);
+/// Between a sample and its text, and between two of them.
+const GAP: (f64, f64) = (8.0, 28.0);
+
+const LINES: [(Use, &str, &str); 3] = [
+    (Use::Whole, "×3", "used, and so was every way out"),
+    (Use::Partly, "×3", "used, but some way out never was"),
+    (Use::Never, "never", "never used"),
+];
+
+/// The legend at the origin, with its size.
+pub(super) fn legend<'a>() -> (Sketch<'a>, f64, f64) {
+    let mut sketch = Sketch::default();
+    let mut x = 0.0;
+    for (usage, sample, text) in LINES {
+        let class = Class { name: "sample", usage: Some(usage) };
+        let rect = Rect { x, y: 0.0, width: SAMPLE.0, height: SAMPLE.1 };
+        sketch.frames.push(Frame { rect, shape: Shape::Round(5.0), class, title: String::new() });
+        let label = |x, text: &str, anchor| Label {
+            x,
+            y: SAMPLE.1 / 2.0 + 0.36 * SIZE,
+            text: text.to_owned(),
+            size: SIZE,
+            bold: false,
+            anchor,
+            class: "name".into(),
+        };
+        sketch.labels.push(label(x + SAMPLE.0 / 2.0, sample, Anchor::Middle));
+        x += SAMPLE.0 + GAP.0;
+        sketch.labels.push(label(x, text, Anchor::Start));
+        x += width(text, SIZE, false) + GAP.1;
+    }
+    (sketch, x - GAP.1, SAMPLE.1)
+}

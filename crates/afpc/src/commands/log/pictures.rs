@@ -1,0 +1,41 @@
+//! The pictures that a log is good for.
+
+use std::path::Path;
+
+use afp_log::{LogData, read};
+use afp_run::RunError;
+use afp_test::Coverage;
+
+use super::Arguments;
+use crate::commands::graph;
+use crate::picture;
+use crate::plan_file::{NoPlan, PlanFile};
+
+/// Draws the pictures that are asked for, each into its file.
+///
+/// # Errors
+/// The log cannot be read or does not hold what a picture shows; a file cannot be written.
+pub(super) fn draw(arguments: &Arguments) -> Result<(), NoPlan> {
+    let Arguments { svg, coverage, .. } = arguments;
+    if [svg, coverage].iter().all(|picture| picture.is_none()) {
+        return Ok(());
+    }
+    let log = read(&arguments.file).map_err(RunError::from)?;
+    if let Some(path) = svg {
+        picture::write(path, &afp_run::draw_log(&log)?)?;
+    }
+    if let Some(path) = coverage {
+        draw_coverage(&log, path)?;
+    }
+    Ok(())
+}
+
+fn draw_coverage(log: &LogData, path: &Path) -> Result<(), NoPlan> {
+    let (file, graph) = PlanFile::of_log(log)?.checked()?;
+    let Some(used) = Coverage::of_log(&graph, log) else {
+        let message = format!("the log does not fit '{}' as it is now", file.path.display());
+        return Err(RunError::usage(message, "run the plan again").into());
+    };
+    let svg = graph::with_usage(&graph, &file.compiled.sources, &used.usage, path)?;
+    Ok(picture::write(path, &svg)?)
+}
