@@ -65,12 +65,18 @@ impl Made {
         afp_test::run(scenario, &self.setting, templates, None).unwrap()
     }
 
-    #[track_caller]
     fn all_pass(&self, templates: Templates<'_>) {
-        for scenario in &self.scenarios {
-            let verdict = self.run(scenario, templates);
-            assert!(verdict.passed(), "{}\n{}", scenario.name, verdict.report());
-        }
+        let cores = std::thread::available_parallelism().map_or(1, |cores| cores.get());
+        std::thread::scope(|threads| {
+            for share in self.scenarios.chunks(self.scenarios.len().div_ceil(cores)) {
+                threads.spawn(move || {
+                    for scenario in share {
+                        let verdict = self.run(scenario, templates);
+                        assert!(verdict.passed(), "{}\n{}", scenario.name, verdict.report());
+                    }
+                });
+            }
+        });
     }
 }
 
@@ -82,7 +88,8 @@ fn every_event_of_the_shipped_plans_interrupts_as_it_should() {
     for file in files {
         let made = Made::new(&file, &|_| {});
         let name = file.display();
-        assert_eq!(made.generated.left_out, [""; 0], "{name}");
+        let out = made.generated.left_out.iter().filter(|why| why.starts_with("no run reached"));
+        assert_eq!(out.collect::<Vec<_>>(), [""; 0], "{name} has actors that nobody can test");
         assert!(made.generated.scenarios >= 5, "{name}");
         made.all_pass(&|_| {});
     }
