@@ -180,6 +180,12 @@ fn own_toolboxes_run_everywhere_and_their_errors_are_shown_at_home() {
     compiled_in(&place, &interpreted);
     errors_of_the_toolbox_crate(&place);
     errors_of_the_generated_crate(&place);
+    let place = project();
+    with_waves(&place);
+    let tested = afpc(&place, "test");
+    tested.succeeds();
+    assert!(tested.err.contains("the toolboxes 'gestures' and 'waves' (once)"), "{}", tested.err);
+    assert!(tested.out.contains("3 passed, 0 failed"), "{}", tested.out);
 }
 
 /// The runner is built once, reused, without cargo too, and renewed when its source changes.
@@ -201,6 +207,10 @@ fn through_a_runner(place: &Place) -> String {
     let tested = afpc(place, "test");
     tested.succeeds();
     assert!(tested.out.contains("1 passed, 0 failed"), "{}{}", tested.out, tested.err);
+    let swept = afpc(place, "sweep plans/dance.afp --seeds 0..2 --json");
+    swept.succeeds();
+    let trace = first.last_json()["summary"]["trace"].to_string();
+    assert!(swept.out.lines().next().unwrap().contains(&trace), "{}", swept.out);
 
     // Exit codes and messages are those of the runner.
     afpc(place, &format!("{run} --set spent=1s")).fails(2, &["cannot be set from outside"]);

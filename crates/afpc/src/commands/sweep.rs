@@ -73,6 +73,9 @@ Exit codes: 0 done, 1 a file is wrong, 2 wrong usage, 3 a run ended in Error or 
 /// The exit code of a sweep that somebody stopped.
 const EXIT_STOPPED: u8 = 130;
 
+/// A sweep keeps its outcomes in memory too, some hundred bytes each.
+const MOST_RUNS: u64 = 20_000_000;
+
 /// The worlds of one `--world`.
 #[derive(Clone, Debug)]
 struct Worlds(Vec<String>);
@@ -89,7 +92,7 @@ pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
     let file = PlanFile::read(&arguments.plan.plan)?;
     runner::become_one_for(file.compiled.graph.iter().map(|graph| (&file.own, graph)), linked)?;
     let (file, graph) = file.checked()?;
-    let mut sweep = arguments.sweep();
+    let mut sweep = arguments.sweep()?;
     let templates = |registry: &mut _| register(linked, registry);
     let setting = Setting::new(&mut sweep, &graph, &file.path, &templates)?;
     let texts = file.compiled.plan_texts();
@@ -129,15 +132,22 @@ pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
 }
 
 impl Arguments {
-    fn sweep(&self) -> Sweep {
+    fn sweep(&self) -> Result<Sweep, RunError> {
         let worlds: Vec<_> =
             self.world.iter().flat_map(|worlds| worlds.0.iter().cloned().map(Some)).collect();
-        Sweep {
+        let sweep = Sweep {
             plan: self.plan.plan.clone(),
             worlds: if worlds.is_empty() { vec![None] } else { worlds },
             axes: self.vary.clone(),
             seeds: self.seeds.clone(),
             until: self.until,
+        };
+        match sweep.len() {
+            runs if runs > MOST_RUNS => Err(RunError::usage(
+                format!("these are {runs} runs, more than {MOST_RUNS}"),
+                "vary less at once, or take several sweeps, each with seeds of its own",
+            )),
+            _ => Ok(sweep),
         }
     }
 }

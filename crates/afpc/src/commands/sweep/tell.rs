@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use afp_sweep::{Ending, Findings, Group, Measure, Outcome, Spread, Sweep};
 use anstyle::{AnsiColor, Style};
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use serde_json::{Value, json};
 
 use super::place::Place;
@@ -19,7 +19,7 @@ const QUIET: Style = Style::new().dimmed();
 /// So many ways to end are told; the table has all of them.
 const GROUPS: usize = 12;
 /// The bar with its estimate.
-const BAR: &str = "{bar:32} {pos} of {len} runs, {per_sec}, {eta} left{msg}";
+const BAR: &str = "{bar:32} {pos} of {len} runs, {rate}, {eta} left{msg}";
 
 /// Tells how it goes.
 pub(super) struct Teller<'a> {
@@ -55,7 +55,10 @@ impl<'a> Teller<'a> {
         let bar = ProgressBar::new(left);
         // A wrong template would leave the bar as it comes.
         if let Ok(style) = ProgressStyle::with_template(BAR) {
-            bar.set_style(style);
+            let rate = |state: &ProgressState, to: &mut dyn Write| {
+                let _ = write!(to, "{:.1} a second", state.per_sec());
+            };
+            bar.set_style(style.with_key("rate", rate));
         }
         Bar { bar, failed: Cell::new(0) }
     }
@@ -130,13 +133,13 @@ impl<'a> Teller<'a> {
         }
         if !findings.measures.is_empty() {
             let _ =
-                writeln!(text, "\n{QUIET}{:>24} {:>10} {:>10}{QUIET:#}", "min", "median", "max");
+                writeln!(text, "\n{QUIET}{:>25} {:>10} {:>10}{QUIET:#}", "min", "median", "max");
         }
         for (measure, Spread { min, median, max }) in &findings.measures {
             let (name, digits, scale) = shown(*measure);
             let values = [min, median, max].map(|value| format!("{:.digits$}", value * scale));
             let [min, median, max] = values;
-            let _ = writeln!(text, "{name:>13} {min:>10} {median:>10} {max:>10}");
+            let _ = writeln!(text, "{name:>14} {min:>10} {median:>10} {max:>10}");
         }
         let _ = writeln!(text, "\n{}", self.last_line(outcomes, findings));
         for (path, _) in &place.tables {
