@@ -86,6 +86,8 @@ impl<P: NamedPlan + Plan<Simulation>> Company<P> for Attendants {
             match stimulus {
                 Stimulus::Press(Button::Escape) => rig.sim.press_escape(),
                 Stimulus::Release(Button::Escape) => rig.sim.release_escape(),
+                Stimulus::Press(Button::Touch) => rig.sim.press_bumper(),
+                Stimulus::Release(Button::Touch) => rig.sim.release_bumper(),
             }
         }
     }

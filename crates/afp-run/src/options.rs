@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 
 use crate::error::RunError;
 
-pub use parse::{Button, Destination, Press, Speed};
+pub use parse::{Button, Destination, Failure, Press, Speed};
 
 /// How a run goes.
 #[derive(Args, Clone, Debug)]
@@ -38,9 +38,13 @@ pub struct RunOptions {
     #[arg(long, value_name = "SPEED", default_value = "max", value_parser = parse::speed)]
     pub speed: Speed,
 
-    /// Presses a button of the robot: --press escape@20s
+    /// Presses the robot's button or its bumper: --press escape@20s, --press touch@3s
     #[arg(long, value_name = "BUTTON@TIME", value_parser = parse::press)]
     pub press: Vec<Press>,
+
+    /// Breaks something, for a while or for good: --fail ultrasonic.frozen@5s..7s, --fail wheels.slip=0.2@3s
+    #[arg(long, value_name = "DEVICE.KIND[=AMOUNT]@TIME[..TIME]", value_parser = parse::failure)]
+    pub fail: Vec<Failure>,
 
     /// Where the log goes; 'none' for no log [default: target/afp/runs/<plan>.mcap]
     #[arg(long, value_name = "FILE", value_parser = parse::destination)]

@@ -37,12 +37,16 @@ where
     options.check()?;
     let mut world = world::find(options.world.as_deref(), Path::new(program.file))?;
     inputs::set_all(&mut plan, &mut world, &options.set)?;
-    let sim = Simulation::new(&world.world, options.seed).map_err(|error| RunError::Content {
-        path: world.path.clone().unwrap_or_default(),
-        place: error.place,
-        text: world.text.clone(),
-        message: error.message,
-    })?;
+    let mut sim =
+        Simulation::new(&world.world, options.seed).map_err(|error| RunError::Content {
+            path: world.path.clone().unwrap_or_default(),
+            place: error.place,
+            text: world.text.clone(),
+            message: error.message,
+        })?;
+    for failure in &options.fail {
+        sim.inject(failure.fault, failure.from, failure.lasting);
+    }
     let names = plan.names();
     let paths = Paths::new(program, options)?;
     let log = match &paths.log {

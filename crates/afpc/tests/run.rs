@@ -83,6 +83,21 @@ fn the_escape_button_ends_the_plan() {
 }
 
 #[test]
+fn what_fails_and_bumps_is_asked_for() {
+    let place = Place::with_plan();
+    let said =
+        place.afpc(&format!("run wall_following.afp --fail odometry.lost@1s --json {QUIET}"));
+    said.fails(3, &[]);
+    assert_eq!(said.last_json()["summary"]["ending"], "error");
+    let said = place.afpc(&format!(
+        "run wall_following.afp --fail odometry.lost@1s..1.2s --press touch@2s --until 3s --json {QUIET}"
+    ));
+    said.succeeds();
+    let outcomes = &said.last_json()["summary"]["outcomes"];
+    assert_eq!(outcomes["searchFirstWall.touch.TouchSensorPressed"], 1, "{outcomes}");
+}
+
+#[test]
 fn entries_are_set_with_their_units() {
     let place = Place::with_plan();
     let run =
@@ -120,6 +135,7 @@ fn options_that_wait_for_something_say_for_what() {
         place.afpc(&format!("run wall_following.afp {option}")).fails(2, &[text, "help: "]);
     }
     place.afpc("run wall_following.afp --press start@1s").fails(2, &["no button 'start'"]);
+    place.afpc("run wall_following.afp --fail sonar.lost@1s").fails(2, &["there are battery, "]);
     place.afpc("run wall_following.afp --until 5").fails(2, &["20s or 500ms"]);
     assert_eq!(place.files(), ["wall_following.afp"]);
 }

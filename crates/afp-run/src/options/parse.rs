@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
-use afp_core::Instant;
+use afp_core::{Duration, Instant};
 use afp_project::duration;
+use afp_sim::{Amount, Fault};
 
 /// How fast simulated time passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,11 +24,24 @@ pub struct Press {
     pub at: Instant,
 }
 
-/// A button of the robot.
+/// What can be pressed on the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Button {
     /// The escape button.
     Escape,
+    /// The bumper.
+    Touch,
+}
+
+/// Something that breaks at an instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Failure {
+    /// What breaks, and how.
+    pub fault: Fault,
+    /// From when on.
+    pub from: Instant,
+    /// For how long; [`Duration::MAX`] for good.
+    pub lasting: Duration,
 }
 
 /// Where output goes.
@@ -55,9 +69,59 @@ pub(super) fn press(text: &str) -> Result<Press, String> {
         text.split_once('@').ok_or("expected a button and a time, such as escape@20s")?;
     let button = match button {
         "escape" => Button::Escape,
-        other => return Err(format!("the robot has no button '{other}'; it has 'escape'")),
+        "touch" => Button::Touch,
+        other => {
+            return Err(format!("the robot has no button '{other}'; it has 'escape' and 'touch'"));
+        }
     };
-    Ok(Press { button, at: Instant::ZERO + duration(time)? })
+    Ok(Press { button, at: instant(time)? })
+}
+
+pub(super) fn failure(text: &str) -> Result<Failure, String> {
+    let (what, when) = text
+        .split_once('@')
+        .ok_or("expected what fails, how and when, such as ultrasonic.frozen@5s..7s")?;
+    let (what, amount) = match what.split_once('=') {
+        Some((what, amount)) => (what, some(amount)?),
+        None => (what, Amount::default()),
+    };
+    let (device, kind) = what.split_once('.').unwrap_or((what, ""));
+    let fault = Fault::named(device, kind, amount).ok_or_else(|| no_fault(device, kind))?;
+    let (from, to) = match when.split_once("..") {
+        Some((from, to)) => (instant(from)?, instant(to)?),
+        None => (instant(when)?, Instant::MAX),
+    };
+    if to <= from {
+        return Err("it ends before it begins".to_owned());
+    }
+    let lasting = if to == Instant::MAX { Duration::MAX } else { to.since(from) };
+    Ok(Failure { fault, from, lasting })
+}
+
+fn instant(text: &str) -> Result<Instant, String> {
+    Ok(Instant::ZERO + duration(text)?)
+}
+
+/// How much of a fault: a time or a share.
+fn some(text: &str) -> Result<Amount, String> {
+    match text.parse::<f64>() {
+        Ok(share) if (0.0..=1.0).contains(&share) => Ok(Amount { share: Some(share), time: None }),
+        Ok(_) => Err(format!("'{text}' is neither a share from 0 to 1 nor a time such as 300ms")),
+        Err(_) => Ok(Amount { time: Some(duration(text)?), share: None }),
+    }
+}
+
+fn no_fault(device: &str, kind: &str) -> String {
+    let kinds: Vec<_> =
+        Fault::names().filter(|(name, _)| *name == device).map(|(_, kind)| kind).collect();
+    if !kinds.is_empty() {
+        let what = format!("'{device}' cannot be '{kind}'");
+        return format!("{what}; it can be {}", kinds.join(", "));
+    }
+    let mut devices: Vec<_> = Fault::names().map(|(name, _)| name).collect();
+    devices.sort_unstable();
+    devices.dedup();
+    format!("nothing called '{device}' can fail; there are {}", devices.join(", "))
 }
 
 pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
@@ -79,7 +143,6 @@ pub(super) fn destination(text: &str) -> Result<Destination, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use afp_core::Duration;
 
     #[test]
     fn buttons_have_names() {
@@ -87,6 +150,36 @@ mod tests {
         assert_eq!(press("escape@20s"), Ok(Press { button: Button::Escape, at }));
         assert!(press("escape").is_err());
         assert!(press("start@1s").unwrap_err().contains("no button 'start'"));
+    }
+
+    #[test]
+    fn what_fails_has_a_kind_an_amount_and_a_time() {
+        use afp_sim::{Defect, Sensor};
+        let secs = |s: u64| Instant::ZERO + Duration::from_secs(s);
+        let frozen = Fault::Sensor(Sensor::Ultrasonic, Defect::Frozen);
+        let lasting = Duration::from_secs(2);
+        let told = failure("ultrasonic.frozen@5s..7s");
+        assert_eq!(told, Ok(Failure { fault: frozen, from: secs(5), lasting }));
+        let late = Defect::Delayed(Duration::from_millis(300));
+        let told = failure("odometry.delayed=300ms@1s").unwrap();
+        assert_eq!(told.fault, Fault::Sensor(Sensor::Odometry, late));
+        assert_eq!(told.lasting, Duration::MAX);
+        assert_eq!(failure("wheels.slip=0.3@0s").unwrap().fault, Fault::Slip(0.3));
+    }
+
+    #[test]
+    fn what_cannot_fail_so_is_told_what_can() {
+        for (text, says) in [
+            ("ultrasonic.frozen", "such as ultrasonic.frozen@5s..7s"),
+            ("battery.stuck@1s", "'battery' cannot be 'stuck'; it can be frozen, lost"),
+            ("sonar.lost@1s", "nothing called 'sonar' can fail; there are battery, buttons"),
+            ("wheels.slip=3@1s", "neither a share from 0 to 1"),
+            ("touch.lost@3s..2s", "it ends before it begins"),
+            ("touch.lost@3", "20s or 500ms"),
+        ] {
+            let error = failure(text).unwrap_err();
+            assert!(error.contains(says), "{text}: {error}");
+        }
     }
 
     #[test]
