@@ -1,43 +1,134 @@
-//! Reads a log and a table of ours with public Python readers, none of our code in between.
+//! The Python package: its wheel and its tests; a log and a table of ours, read with public readers.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use crate::shell::{Failure, cargo, output, program, root, run as run_command, target};
 
-/// What the readers need, as pip names it.
-const PACKAGES: [&str; 3] = ["mcap==1.6.0", "mcap-protobuf-support==0.6.0", "pyarrow==26.0.1"];
+/// What builds, tests and reads, as pip names it.
+const PACKAGES: [&str; 11] = [
+    "matplotlib==3.11.2",
+    "maturin==1.16.0",
+    "mcap-protobuf-support==0.6.0",
+    "mcap==1.6.0",
+    "mypy==2.4.1",
+    "numpy==2.4.6",
+    "pandas==3.1.1",
+    "polars==2.1.0",
+    "pyarrow==26.0.1",
+    "pytest==9.2.0",
+    "typing-extensions>=4.13",
+];
 
-/// Records a run and reads its log; runs a sweep and reads its table.
+/// What the notebooks need beside.
+const NOTEBOOKS: [&str; 2] = ["ipykernel==7.4.0", "nbclient==0.11.0"];
+
+/// Builds the package as users get it, installs it, and runs its tests: pytest with the documentation's
+/// examples, the types, and the stubs against what is there.
 ///
 /// # Errors
-/// No Python, no network for the packages, or something that does not read.
+/// No Python, no network for the packages, or a test that fails.
 pub fn run() -> Result<(), Failure> {
-    let python = environment()?;
-    let folder = target().join("xtask");
+    let python = environment(&PACKAGES)?;
+    run_command(cargo().args(["build", "--quiet", "--package", "afpc"]))?;
+    let afpc = target().join("debug").join(format!("afpc{}", std::env::consts::EXE_SUFFIX));
+    read_a_log(&python, &afpc)?;
+    read_a_sweep(&python, &afpc)?;
+    install(&python, "dev")?;
+    let tests = ["-m", "pytest", "--quiet", "--doctest-modules", "--pyargs", "tests", "afp"];
+    run_command(at_package(&python, &tests).env("AFPC", afpc))?;
+    run_command(&mut at_package(&python, &["-m", "mypy"]))?;
+    run_command(&mut at_package(&python, &["-m", "mypy.stubtest", "afp._afp"]))?;
+    let sdist = ["-m", "maturin", "sdist", "--quiet", "--out"];
+    run_command(at_package(&python, &sdist).arg(wheels("sdist")?))
+}
+
+/// What takes longer: the bars of the optimised package, the notebooks, and a build from the source
+/// distribution alone.
+///
+/// # Errors
+/// A bar that is not kept, a notebook that does not run, a source distribution that lacks something.
+pub fn long() -> Result<(), Failure> {
+    let packages: Vec<_> = PACKAGES.into_iter().chain(NOTEBOOKS).collect();
+    let python = environment(&packages)?;
+    run_command(cargo().args(["build", "--quiet", "--release", "--package", "afpc"]))?;
+    let afpc = target().join("release").join(format!("afpc{}", std::env::consts::EXE_SUFFIX));
+    install(&python, "release")?;
+    run_command(at_package(&python, &["bench.py", "--check"]).env("AFPC", afpc))?;
+    run_command(&mut at_package(&python, &["notebooks/execute.py"]))?;
+    let folder = wheels("sdist")?;
+    let sdist = ["-m", "maturin", "sdist", "--quiet", "--out"];
+    run_command(at_package(&python, &sdist).arg(&folder))?;
+    let pip = ["-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir"];
+    let mut built = at_package(&python, &pip);
+    built.arg(wheels("from-sdist")?).arg(only(&folder, "gz")?);
+    run_command(built.env("CARGO_TARGET_DIR", target().join("xtask/sdist-target")))
+}
+
+/// A command in the package's folder.
+fn at_package(python: &Path, arguments: &[&str]) -> Command {
+    let mut command = program(python);
+    command.args(arguments).current_dir(root().join("python")).env("CARGO_TARGET_DIR", target());
+    command
+}
+
+/// Builds the wheel and installs it.
+fn install(python: &Path, profile: &str) -> Result<(), Failure> {
+    let folder = wheels(profile)?;
+    let build = ["-m", "maturin", "build", "--quiet", "--profile", profile, "--out"];
+    run_command(at_package(python, &build).arg(&folder))?;
+    let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps"];
+    let wheel = only(&folder, "whl")?;
+    run_command(program(python).args(pip).arg("--force-reinstall").arg(wheel))
+}
+
+/// An empty folder for what is built.
+fn wheels(name: &str) -> Result<PathBuf, Failure> {
+    let folder = target().join("xtask/wheels").join(name);
+    if folder.exists() {
+        fs::remove_dir_all(&folder)?;
+    }
     fs::create_dir_all(&folder)?;
-    let log = folder.join("wall_following.mcap");
-    let drive = ["run", "--quiet", "--package", "afpc", "--", "run", "plans/wall_following.afp"];
-    let options = ["--until", "20s", "--svg", "none", "--json", "--log"];
-    output(cargo().args(drive).args(options).arg(&log))?;
-    run_command(program(&python).arg(root().join("tests/python/read_log.py")).arg(log))?;
-    let table = folder.join("sweep");
-    let sweep = ["run", "--quiet", "--package", "afpc", "--", "sweep", "plans/wall_following.afp"];
+    Ok(folder)
+}
+
+/// The one file of that ending in a folder.
+fn only(folder: &Path, ending: &str) -> Result<PathBuf, Failure> {
+    let files = fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path()));
+    let files: Vec<PathBuf> = files.collect::<Result<_, _>>()?;
+    let found = files.into_iter().find(|file| file.extension().is_some_and(|has| has == ending));
+    found.ok_or_else(|| format!("nothing was built in {}", folder.display()).into())
+}
+
+/// Records a run and reads its log, none of our code in between.
+fn read_a_log(python: &Path, afpc: &Path) -> Result<(), Failure> {
+    let log = target().join("xtask/wall_following.mcap");
+    let drive = ["run", "plans/wall_following.afp", "--until", "20s", "--svg", "none", "--json"];
+    output(program(afpc).args(drive).arg("--log").arg(&log))?;
+    run_command(program(python).arg(root().join("tests/python/read_log.py")).arg(log))
+}
+
+/// Runs a sweep and reads its table.
+fn read_a_sweep(python: &Path, afpc: &Path) -> Result<(), Failure> {
+    let table = target().join("xtask/sweep");
+    let sweep = ["sweep", "plans/wall_following.afp"];
     let worlds = ["--world", "worlds/wall_following.toml", "--world", "random:0..3"];
     let grid = ["--vary", "walldist=30cm,40cm", "--until", "21s", "--restart", "-o"];
     // The '/' makes it a folder, with a table of each kind.
     let there = format!("{}/", table.display());
-    output(cargo().args(sweep).args(worlds).args(grid).arg(there))?;
-    run_command(program(&python).arg(root().join("tests/python/read_sweep.py")).arg(table))
+    output(program(afpc).args(sweep).args(worlds).args(grid).arg(there))?;
+    run_command(program(python).arg(root().join("tests/python/read_sweep.py")).arg(table))
 }
 
 /// A Python with the packages, made once under target/.
-fn environment() -> Result<PathBuf, Failure> {
+fn environment(packages: &[&str]) -> Result<PathBuf, Failure> {
     let folder = target().join("xtask/python");
     let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
     let done = folder.join("packages.txt");
-    let wanted = PACKAGES.join("\n");
-    if fs::read_to_string(&done).is_ok_and(|installed| installed == wanted) {
+    let installed = fs::read_to_string(&done).unwrap_or_default();
+    let installed: Vec<_> = installed.lines().collect();
+    if packages.iter().all(|package| installed.contains(package)) {
         return Ok(python);
     }
     let system = if cfg!(windows) { "python" } else { "python3" };
@@ -45,7 +136,7 @@ fn environment() -> Result<PathBuf, Failure> {
         Failure(format!("{}\nhelp: install Python 3 with its venv module (python3-venv)", why.0))
     })?;
     let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
-    run_command(program(&python).args(pip).args(PACKAGES))?;
-    fs::write(done, wanted)?;
+    run_command(program(&python).args(pip).args(packages))?;
+    fs::write(done, packages.join("\n"))?;
     Ok(python)
 }

@@ -25,6 +25,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("random plans", random_plans),
     ("random worlds", random_worlds),
     ("python", python::run),
+    ("python long", python::long),
     ("scxml", || scxml::run(2000)),
     ("gate", gate::run),
     ("install", || install::run(Profile::Release)),
@@ -107,6 +108,7 @@ fn again(name: &str) -> String {
         "random worlds" => {
             format!("    AFP_WORLDS={RANDOM_WORLDS} cargo test --release -p afp-worlds")
         }
+        "python long" => "    cargo xtask nightly 'python long'".to_owned(),
         "long run" => {
             format!("    AFP_STEPS={STEPS} cargo test --release -p afp-tests --test no_allocation")
         }
@@ -118,10 +120,11 @@ fn again(name: &str) -> String {
 
 /// All tests of the crates and of the examples.
 fn workspace() -> Result<(), Failure> {
-    let all =
-        ["test", "--workspace", "--no-fail-fast", "--exclude", "afp-bench", "--exclude", "xtask"];
+    let all = ["test", "--workspace", "--no-fail-fast"];
+    // They have suites of their own.
+    let but = ["--exclude", "afp-bench", "--exclude", "afp-py", "--exclude", "xtask"];
     // Property tests search anew at each run by hand; here the same commit gives the same answer.
-    run_command(cargo().args(all).env("PROPTEST_RNG_SEED", "20"))
+    run_command(cargo().args(all).args(but).env("PROPTEST_RNG_SEED", "20"))
 }
 
 /// The interpreter against generated code on many random plans.
