@@ -27,6 +27,7 @@ use crate::robot::{Robot, sense};
 use crate::value::{no_pickle, to_entry, to_python};
 use crate::world::{World, table};
 
+use event::line;
 pub use event::{Event, value};
 use pause::Pause;
 use session::{Session, Setting};
@@ -169,10 +170,8 @@ impl Runner {
     #[getter]
     fn timeline(&self) -> PyResult<Vec<String>> {
         let session = self.lock()?;
-        let lines = session.visitor.records.iter();
-        Ok(lines
-            .filter_map(|each| afp_run::line(each.at, &each.get(), session.rig.names()))
-            .collect())
+        let records = session.visitor.records.iter();
+        Ok(records.filter_map(|record| line(record, session.rig.names())).collect())
     }
 
     /// Where the robot was every 20 ms: time, x, y, heading.

@@ -126,7 +126,7 @@ class Result:
         return tables.to_arrow(self.events)
 
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
-        """The events for whatever reads Arrow: `polars.from_arrow(result)`; needs `afp[arrow]`."""
+        """The events for whatever reads Arrow: `polars.DataFrame(result)`; needs `afp[arrow]`."""
         return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     def plot_path(self, ax: Any = None) -> Any:

@@ -21,7 +21,7 @@ impl Event {
     /// From a record of a run.
     pub fn new(record: &OwnedRecord, names: &PlanNames) -> Event {
         let (at, what) = (record.at, record.get());
-        Event { event: describe(at, &what, names), line: afp_run::line(at, &what, names) }
+        Event { event: describe(at, &what, names), line: line(record, names) }
     }
 
     /// From a log.
@@ -171,6 +171,12 @@ impl Event {
     fn __repr__(&self) -> String {
         format!("<Event {}>", self.__str__().trim())
     }
+}
+
+/// The line of a timeline, without colours; none for what is not worth one.
+pub fn line(record: &OwnedRecord, names: &PlanNames) -> Option<String> {
+    let styled = afp_run::line(record.at, &record.get(), names)?;
+    Some(anstream::adapter::strip_str(&styled).to_string())
 }
 
 /// A text that is there or not.

@@ -1,0 +1,162 @@
+"""What the package costs, as ratios within one run: `python bench.py [--check]`; AFPC names an afpc, optimised.
+
+Each figure is the best of several, so that a busy machine blurs it less.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+
+import afp
+
+ROOT = Path(__file__).resolve().parents[1]
+PLAN = ROOT / "plans/wall_following.afp"
+UNTIL = 300.0
+ROUNDS = 5
+
+
+def best(measure: Callable[[], float]) -> float:
+    """The least of several."""
+    return min(measure() for _ in range(ROUNDS))
+
+
+def seconds(work: Callable[[], object]) -> float:
+    """How long it takes."""
+    begin = time.perf_counter()
+    work()
+    return time.perf_counter() - begin
+
+
+def rust_run() -> float:
+    """Seconds that `afpc run` spends in its loop, as it tells itself."""
+    options = ["--until", f"{UNTIL}s", "--log", "none", "--svg", "none"]
+    afpc = os.environ.get("AFPC", "afpc")
+    told = subprocess.run([afpc, "run", str(PLAN), *options], capture_output=True, text=True, check=True, cwd=ROOT)
+    speed = re.search(r'"speed":([0-9.e+]+)', told.stdout)
+    assert speed is not None, told.stdout
+    return UNTIL / float(speed[1])
+
+
+def run_cost() -> float:
+    """`run` against the loop of `afpc run`."""
+    plan = afp.load(PLAN)
+
+    def python_run() -> float:
+        simulation = afp.Simulation(plan)
+        return seconds(lambda: simulation._runner.run(UNTIL, True))
+
+    pairs = [(python_run(), rust_run()) for _ in range(ROUNDS)]
+    return min(ours for ours, _ in pairs) / min(theirs for _, theirs in pairs)
+
+
+def step_cost() -> float:
+    """Microseconds that a call of `step` takes beyond the step itself."""
+    plan = afp.load(PLAN)
+
+    def stepped() -> float:
+        simulation, steps = afp.Simulation(plan), 20_000
+        step = simulation.step
+        begin = time.perf_counter()
+        for _ in range(steps):
+            step()
+        by_step = time.perf_counter() - begin
+        whole = afp.Simulation(plan)
+        end = simulation.time
+        return (by_step - seconds(lambda: whole.run_to(end))) / steps * 1e6
+
+    return best(stepped)
+
+
+def simulate(seed: int) -> None:
+    """A run that a thread makes."""
+    afp.Simulation(afp.load(PLAN), seed=seed).run_to(UNTIL)
+
+
+def count(_: int) -> None:
+    """Arithmetic that a process makes."""
+    total = 0
+    for number in range(4_000_000):
+        total += number * number
+
+
+def gain(pool: ThreadPoolExecutor | ProcessPoolExecutor, work: Callable[[int], None]) -> float:
+    """How much faster two workers are than one, per piece of work."""
+    list(pool.map(work, range(2)))
+    alone = seconds(lambda: list(pool.map(work, [0]))) * 2
+    return alone / seconds(lambda: list(pool.map(work, range(2))))
+
+
+def threads_gain() -> float:
+    """What two threads gain on runs, against what two processes gain on arithmetic."""
+    with ThreadPoolExecutor(2) as threads, ProcessPoolExecutor(2, mp_context=get_context("spawn")) as processes:
+        pairs = [(gain(threads, simulate), gain(processes, count)) for _ in range(ROUNDS)]
+    return max(ours for ours, _ in pairs) / max(theirs for _, theirs in pairs)
+
+
+def interrupted() -> float:
+    """Milliseconds from Ctrl-C to its exception."""
+
+    def once() -> float:
+        simulation, sent = afp.Simulation(afp.load(PLAN)), [0.0]
+
+        def send() -> None:
+            sent[0] = time.perf_counter()
+            os.kill(os.getpid(), signal.SIGINT)
+
+        threading.Timer(0.2, send).start()
+        try:
+            simulation.run_to(1e6)
+        except KeyboardInterrupt:
+            return (time.perf_counter() - sent[0]) * 1e3
+        return float("inf")
+
+    return max(once() for _ in range(ROUNDS))
+
+
+def supervised() -> float:
+    """How many times as fast as real time a plan is with a supervisor in Python polled every millisecond."""
+    tools = afp.Toolbox("tools")
+
+    @tools.supervisor(events=["Near"], every="1 ms")
+    def CheckNear(robot: afp.Robot, distance: afp.Length) -> str | None:
+        return "Near" if robot.time > 1e9 and robot.touched else None
+
+    text = PLAN.read_text().replace("use carbot", "use carbot\nuse tools", 1)
+    plan = afp.Plan(text, toolboxes=[tools])
+    plan.add("supervise near: CheckNear(distance = 1 cm) { Near -> terminate }")
+    plan.check()
+    return 20.0 / best(lambda: seconds(lambda: afp.Simulation(plan).run_to(20.0)))
+
+
+BARS: list[tuple[str, Callable[[], float], str, float]] = [
+    ("run, against the loop of afpc run", run_cost, "<=", 1.2),
+    ("step() beyond the step, us", step_cost, "<=", 3.0),
+    ("two threads' gain, against two processes'", threads_gain, ">=", 0.9),
+    ("Ctrl-C to its exception, ms", interrupted, "<=", 100.0),
+    ("supervisor at 1 kHz, times real time", supervised, ">=", 20.0),
+]
+
+
+def main() -> int:
+    """Prints the figures; fails with `--check` where one misses its bar."""
+    failed = 0
+    for name, measure, relation, bar in BARS:
+        value = measure()
+        kept = value <= bar if relation == "<=" else value >= bar
+        failed += not kept
+        print(f"{name:<42} {value:8.2f}  {relation} {bar:<6g} {'ok' if kept else 'MISSED'}", flush=True)
+    return 1 if failed and "--check" in sys.argv[1:] else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
