@@ -15,6 +15,7 @@ mod report;
 mod simulation;
 mod step;
 mod steps;
+mod sweep;
 mod transition;
 
 use std::process::ExitCode;
@@ -37,10 +38,17 @@ struct Options {
     /// Turns per group; more are steadier.
     #[arg(long, default_value_t = 500)]
     rounds: u32,
+    /// Do arithmetic for a while and nothing else: what the sweep is measured against.
+    #[arg(long, hide = true)]
+    arithmetic: bool,
 }
 
 fn main() -> ExitCode {
     let options = Options::parse();
+    if options.arithmetic {
+        sweep::work();
+        return ExitCode::SUCCESS;
+    }
     let mut report = Report::default();
     for (name, run) in GROUPS {
         if options.filter.as_ref().is_none_or(|filter| name.contains(filter.as_str())) {
@@ -64,6 +72,7 @@ const GROUPS: &[(&str, Group)] = &[
     ("copper", copper::run),
     ("transition", transition::run),
     ("simulation", simulation::run),
+    ("sweep", sweep::run),
     ("check", check::run),
     ("allocations", allocations::run),
 ];
