@@ -12,6 +12,7 @@
 //! finished actor is as safe as an interrupted one.
 #![no_std]
 #![forbid(unsafe_code)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 #[cfg(test)]
 extern crate std;

@@ -4,6 +4,7 @@
 //! standard library, allocates nothing, and never panics.
 #![no_std]
 #![forbid(unsafe_code)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod clock;
 mod component;

@@ -2,6 +2,7 @@
 //!
 //! A plan known when a program is built is best compiled in, by [`plan!`]; a plan that comes as a
 //! file at run time is loaded by the `load` module. Both drive the scheduler of `afp-core`.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub use afp_core as core;
 pub use afp_core::{
