@@ -2,6 +2,7 @@
 //!
 //! Each says what it runs, how long it took, and how to run just what failed.
 
+mod arm;
 mod book;
 mod fuzz;
 mod gate;

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::install::Profile;
 use crate::shell::{Failure, cargo, run as run_command};
-use crate::{bench, fuzz, gate, install, python, scxml};
+use crate::{arm, bench, fuzz, gate, install, python, scxml};
 
 /// A suite by its name.
 type Suite = (&'static str, fn() -> Result<(), Failure>);
@@ -24,6 +24,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("workspace", workspace),
     ("random plans", random_plans),
     ("random worlds", random_worlds),
+    ("arm", arm::run),
     ("python", python::run),
     ("python long", python::long),
     ("scxml", || scxml::run(2000)),
@@ -112,6 +113,7 @@ fn again(name: &str) -> String {
         "long run" => {
             format!("    AFP_STEPS={STEPS} cargo test --release -p afp-tests --test no_allocation")
         }
+        "arm" => "    cargo xtask nightly arm".to_owned(),
         "fuzz" => format!("    cargo xtask fuzz --seconds {FUZZED}"),
         "benchmarks" => "    cargo xtask bench --check".to_owned(),
         other => format!("    cargo xtask test {other}"),
