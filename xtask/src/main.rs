@@ -8,6 +8,7 @@ mod fuzz;
 mod gate;
 mod image;
 mod install;
+mod opencv;
 mod python;
 mod scxml;
 mod shell;

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::install::Profile;
 use crate::shell::{Failure, cargo, run as run_command};
-use crate::{arm, bench, fuzz, gate, install, python, scxml};
+use crate::{arm, bench, fuzz, gate, install, opencv, python, scxml};
 
 /// A suite by its name.
 type Suite = (&'static str, fn() -> Result<(), Failure>);
@@ -31,6 +31,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("gate", gate::run),
     ("install", || install::run(Profile::Release)),
     ("long run", long_run),
+    ("opencv", opencv::run),
     ("fuzz", || fuzz::run(&[], FUZZED)),
     ("benchmarks", || bench(&["--check".to_owned()])),
 ];
@@ -116,6 +117,7 @@ fn again(name: &str) -> String {
         "arm" => "    cargo xtask nightly arm".to_owned(),
         "fuzz" => format!("    cargo xtask fuzz --seconds {FUZZED}"),
         "benchmarks" => "    cargo xtask bench --check".to_owned(),
+        "opencv" => "    cargo xtask nightly opencv".to_owned(),
         other => format!("    cargo xtask test {other}"),
     }
 }

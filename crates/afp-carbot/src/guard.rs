@@ -39,6 +39,11 @@ pub const NO_BATTERY: Fault = Fault::new(&Reason {
     code: "no-battery",
     text: "the battery's gauge gave no valid reading for 500 ms",
 });
+/// The camera shows nothing usable.
+pub const NO_FLOW: Fault = Fault::new(&Reason {
+    code: "no-flow",
+    text: "the camera gave no new picture in which motion could be seen for 500 ms",
+});
 /// The rotator does not get where it should.
 pub const STUCK_ROTATOR: Fault = Fault::new(&Reason {
     code: "stuck-rotator",

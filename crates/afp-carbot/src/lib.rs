@@ -23,6 +23,7 @@ mod check_color;
 mod check_driving_lane;
 mod check_escape_button;
 mod check_infrared;
+mod check_motion;
 mod check_touch_sensor;
 mod curve;
 pub mod devices;
@@ -30,6 +31,7 @@ mod forward;
 pub mod guard;
 mod line_fit;
 mod motion;
+mod own_motion;
 mod search_wall;
 pub mod templates {
     //! The templates of the toolbox as types: ports, states and events.
@@ -48,6 +50,7 @@ pub use check_color::CheckColor;
 pub use check_driving_lane::CheckDrivingLane;
 pub use check_escape_button::CheckEscapeButton;
 pub use check_infrared::CheckInfrared;
+pub use check_motion::CheckMotion;
 pub use check_touch_sensor::CheckTouchSensor;
 pub use curve::Curve;
 pub use forward::Forward;

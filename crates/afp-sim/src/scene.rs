@@ -68,8 +68,24 @@ impl Scene {
         origin: [f64; 2],
         direction: [f64; 2],
     ) -> impl Iterator<Item = (&Solid, Crossing)> {
-        let solids = self.fixed.iter().chain(&self.moving);
-        solids.filter_map(move |solid| Some((solid, solid.cross(origin, direction)?)))
+        self.solids().filter_map(move |solid| Some((solid, solid.cross(origin, direction)?)))
+    }
+
+    /// Every solid, those that stand still first.
+    pub(crate) fn solids(&self) -> impl Iterator<Item = &Solid> {
+        self.fixed.iter().chain(&self.moving)
+    }
+
+    /// Where a place fixed to the `n`-th solid is in the same scene at another time.
+    pub(crate) fn carried(&self, later: &Scene, n: usize, at: [f64; 2]) -> Option<[f64; 2]> {
+        let ([from, along], [to, along_to]) = (self.solid(n)?.frame(), later.solid(n)?.frame());
+        let off = [at[0] - from[0], at[1] - from[1]];
+        let (a, b) = (dot(along, off), along[0] * off[1] - along[1] * off[0]);
+        Some([to[0] + a * along_to[0] - b * along_to[1], to[1] + a * along_to[1] + b * along_to[0]])
+    }
+
+    fn solid(&self, n: usize) -> Option<&Solid> {
+        self.solids().nth(n)
     }
 
     /// Whether something stands between two places, each with a height.
@@ -115,8 +131,16 @@ impl Solid {
         self.radius = self.corners.iter().map(far).fold(0.0, f64::max);
     }
 
+    /// Its first corner, and the direction from there to the second, of length 1.
+    fn frame(&self) -> [[f64; 2]; 2] {
+        let [from, to] = [0, 1].map(|n| self.corners.get(n).copied().unwrap_or(self.centre));
+        let side = [to[0] - from[0], to[1] - from[1]];
+        let length = libm::hypot(side[0], side[1]).max(f64::MIN_POSITIVE);
+        [from, side.map(|part| part / length)]
+    }
+
     /// Where a ray enters and leaves; none if it passes by or the solid lies behind.
-    fn cross(&self, origin: [f64; 2], direction: [f64; 2]) -> Option<Crossing> {
+    pub(crate) fn cross(&self, origin: [f64; 2], direction: [f64; 2]) -> Option<Crossing> {
         let to = [self.centre[0] - origin[0], self.centre[1] - origin[1]];
         let aside = direction[0] * to[1] - direction[1] * to[0];
         let ahead = direction[0] * to[0] + direction[1] * to[1];

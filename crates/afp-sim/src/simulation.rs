@@ -31,6 +31,8 @@ use crate::vehicle::wheel::Twist;
 use crate::world::{Light, Obstacle, World, WorldError};
 use afp_carbot::devices::{Color, Echo, Glow, Invalid, Reading};
 use afp_core::{Duration, Instant};
+use afp_flow::{FlowJob, FlowSensor, LucasKanade};
+use afp_worker::VirtualWorker;
 use build::{Built, build};
 use faults::Lines;
 use movers::Mover;
@@ -46,6 +48,9 @@ pub const STEP: Duration = Duration::from_millis(5);
 const DT: f64 = 0.005;
 /// Physics steps between two pings.
 const PING_STEPS: u64 = sonar::PERIOD.as_nanos() / STEP.as_nanos();
+
+/// How the flow of the pictures is computed.
+type SimulatedFlow = FlowSensor<LucasKanade, VirtualWorker<FlowJob<LucasKanade>>>;
 
 /// A robot in a world. It implements every device trait of the Carbot.
 pub struct Simulation {
@@ -73,6 +78,10 @@ pub struct Simulation {
     color_sensor: ColorSensor,
     color: Reading<Color>,
     exposure: Reading<Arc<Exposure>>,
+    /// The one before, for the truth about how pictures move.
+    exposed_before: Option<Arc<Exposure>>,
+    /// Made for whoever asks for the flow first.
+    flow: Option<Box<SimulatedFlow>>,
     seed: u64,
     /// Whether somebody holds the bumper in.
     held: bool,
@@ -120,6 +129,8 @@ impl Simulation {
             color_sensor: ColorSensor::new(seed),
             color: Reading::invalid(Invalid::NotYet, Instant::ZERO),
             exposure: Reading { time: Instant::ZERO, value: Err(Invalid::NotYet) },
+            exposed_before: None,
+            flow: None,
             seed,
             held: false,
             escape: false,
@@ -207,6 +218,8 @@ impl Simulation {
             obstacles: &self.obstacles,
             shapes: &self.shapes,
             collisions: &self.collisions,
+            pictures: [self.exposed_before.as_ref(), self.exposure.value.as_ref().ok()]
+                .map(|picture| picture.map(Arc::as_ref)),
         }
     }
 

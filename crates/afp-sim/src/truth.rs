@@ -2,6 +2,7 @@
 //!
 //! Nothing here is reachable through a device trait, so no template can use it.
 
+use crate::devices::camera::{self, Exposure};
 use crate::devices::sonar;
 use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
 use crate::world::Obstacle;
@@ -60,6 +61,8 @@ pub struct Truth<'a> {
     pub(crate) motion: (f64, f64),
     /// What the drive was told last, metres and radians a second.
     pub(crate) asked: (f64, f64),
+    /// The last but one and the last picture of the camera.
+    pub(crate) pictures: [Option<&'a Exposure>; 2],
 }
 
 /// A robot slower than this stands, metres and radians a second: castors creep as they come to rest.
@@ -85,6 +88,15 @@ impl<'a> Truth<'a> {
     /// Whether the last command to the drive was to stand still, or there was none.
     pub fn is_halted(&self) -> bool {
         self.asked == (0.0, 0.0)
+    }
+
+    /// How far what the camera showed at a place of its last but one picture, by column and row, has moved
+    /// in its last one: to the right and down, pixels. None for the sky, for what is hidden or out of the
+    /// picture by then, and before there are two pictures.
+    pub fn flow(&self, x: f64, y: f64) -> Option<[f64; 2]> {
+        let [Some(before), Some(after)] = self.pictures else { return None };
+        let [column, row] = camera::track(before, after, x, y)?;
+        Some([column - x, row - y])
     }
 
     /// Every collision so far, in the order of their beginnings.

@@ -55,6 +55,7 @@ icons! {
     "check_driving_lane",
     "check_escape_button",
     "check_infrared",
+    "check_motion",
     "check_timeout",
     "check_touch_sensor",
     "check_value",

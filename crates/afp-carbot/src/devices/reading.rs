@@ -13,6 +13,8 @@ pub enum Invalid {
     OutOfRange,
     /// The sensor does not answer.
     NoAnswer,
+    /// The sensor says exactly the same over and over, which what it measures cannot do.
+    Frozen,
 }
 
 /// What a sensor says: a value or why there is none, and when that was measured.

@@ -1,13 +1,18 @@
 //! The camera: pictures of the scene, taken at its own rate and drawn only for whoever looks.
 
 mod render;
+mod track;
 
 use crate::scene::Scene;
 use crate::vehicle::Place;
 use afp_carbot::devices::{Frame, Lens};
 use afp_core::Duration;
 use afp_core::quantity::{Angle, Length};
+use afp_flow::{FlowJob, FlowSensor, LucasKanade};
+use afp_worker::VirtualWorker;
 use std::sync::OnceLock;
+
+pub(crate) use track::track;
 
 /// It takes a picture every so often.
 pub(crate) const PERIOD: Duration = Duration::from_millis(50);
@@ -29,6 +34,12 @@ pub(crate) fn lens() -> Lens {
         columns: COLUMNS,
         rows: ROWS,
     }
+}
+
+/// Compares its pictures, in virtual time.
+pub(crate) fn flow_sensor() -> FlowSensor<LucasKanade, VirtualWorker<FlowJob<LucasKanade>>> {
+    let job = FlowJob::new(COLUMNS, ROWS, LucasKanade::new(COLUMNS, ROWS));
+    FlowSensor::new(COLUMNS, ROWS, VirtualWorker::new([job]))
 }
 
 /// A picture that was taken; it is drawn when it is first looked at.

@@ -5,12 +5,12 @@ use crate::devices::line::Line;
 use crate::devices::{camera, infrared, sonar};
 use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
 use afp_carbot::devices::{
-    Battery, Beam, Body, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo, Frame, Glow,
-    InfraredSensor, Lens, Motion, Navigator, Odometry, Reading, RotatingTelemetry, Rotator,
-    TouchSensor, Ultrasonic,
+    Battery, Beam, Body, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo, Flow,
+    FlowCamera, Frame, Glow, InfraredSensor, Lens, Motion, Navigator, Odometry, Reading,
+    RotatingTelemetry, Rotator, TouchSensor, Ultrasonic,
 };
 use afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
-use afp_core::{Environment, Instant};
+use afp_core::{Environment, Fault, Instant};
 
 impl Environment for Simulation {
     fn stop(&mut self, now: Instant) {
@@ -161,6 +161,16 @@ impl Camera for Simulation {
 
     fn lens(&self) -> Lens {
         camera::lens()
+    }
+}
+
+impl FlowCamera for Simulation {
+    fn flow(&mut self, now: Instant) -> Result<Reading<Flow<'_>>, Fault> {
+        self.charge_for(&self.lines.camera);
+        let Reading { time, value } = self.lines.camera.look(&self.exposure);
+        let frame = Reading { time, value: value.map(|exposure| exposure.frame()) };
+        let sensor = self.flow.get_or_insert_with(|| Box::new(camera::flow_sensor()));
+        sensor.look(frame, now)
     }
 }
 

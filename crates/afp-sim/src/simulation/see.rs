@@ -6,6 +6,7 @@ use crate::devices::{color, infrared};
 use crate::vehicle::Place;
 use afp_carbot::devices::Reading;
 use afp_core::{Duration, Instant};
+use std::mem;
 use std::sync::Arc;
 
 impl Simulation {
@@ -26,7 +27,8 @@ impl Simulation {
         }
         if let Some(number) = nth(camera::PERIOD) {
             let exposure = Exposure::new(self.scene.clone(), robot, self.seed, number);
-            self.exposure = Reading { time: now, value: Ok(Arc::new(exposure)) };
+            let latest = Reading { time: now, value: Ok(Arc::new(exposure)) };
+            self.exposed_before = mem::replace(&mut self.exposure, latest).value.ok();
         }
     }
 }

@@ -13,7 +13,7 @@ use crate::world::Rgb;
 /// Above everything, where there is no ceiling.
 const SKY: Rgb = [205, 216, 228];
 /// What is nearer than this is not seen, metres.
-const NEAR: f64 = 0.02;
+pub(super) const NEAR: f64 = 0.02;
 /// Where the light comes from, seen from above, and how much the sides that it misses are darker.
 const SUN: [f64; 2] = [0.6, 0.8];
 const SHADE: f64 = 0.25;
@@ -24,7 +24,7 @@ const GRAIN: u32 = 3;
 pub(super) fn render(scene: &Scene, robot: Place, seed: u64) -> Vec<u8> {
     let mut picture =
         Picture { rgb: vec![0; COLUMNS * ROWS * 3], grain: Noise::new(seed, Source::Camera) };
-    let focus = COLUMNS as f64 / 2.0 / libm::tan(OPENING / 2.0);
+    let focus = focus();
     let eye = robot.beyond(FORWARD, 0.0);
     let mut met: Vec<(&Solid, Crossing)> = Vec::new();
     for x in 0..COLUMNS {
@@ -42,6 +42,11 @@ pub(super) fn render(scene: &Scene, robot: Place, seed: u64) -> Vec<u8> {
     }
     picture.grain();
     picture.rgb
+}
+
+/// The lens's focal length in pixels.
+pub(super) fn focus() -> f64 {
+    COLUMNS as f64 / 2.0 / libm::tan(OPENING / 2.0)
 }
 
 struct Picture {

@@ -1,0 +1,85 @@
+//! Watch for motion in the camera's picture.
+
+use crate::devices::{Flow, FlowCamera, Invalid, Odometry};
+use crate::guard::{Guard, NO_FLOW};
+use crate::own_motion::Track;
+use crate::templates;
+use crate::templates::check_motion::{Event, Inputs, Live};
+use afp_core::quantity::Angle;
+use afp_core::{Events, Fault, Instant, Supervisor};
+use moving::View;
+
+mod moving;
+
+/// A picture in which fewer places can be followed shows nothing: a covered lens, the dark.
+const SEEN: usize = 4;
+/// Seen in so many pictures in a row, about in the same direction, it is no mistake.
+const IN_A_ROW: u32 = 2;
+/// What has gone farther than this from one picture to the next is something else, radians.
+const SAME: f64 = 0.2;
+
+/// Sees what moves by itself: more than the robot's own motion explains, by odometry.
+///
+/// What moves exactly along a line of sight is not seen, nor what comes straight towards a robot that
+/// drives towards it.
+#[derive(Debug)]
+pub struct CheckMotion {
+    wanted: bool,
+    /// Radians a second.
+    speed: f64,
+    track: Track,
+    guard: Guard,
+    last: Instant,
+    /// What moved in the last picture, and in how many before without a break.
+    before: Option<(f64, u32)>,
+}
+
+impl<E: FlowCamera + Odometry + ?Sized> Supervisor<templates::CheckMotion, E> for CheckMotion {
+    fn start(inputs: Inputs, wanted: Events, env: &mut E, now: Instant) -> Result<Self, Fault> {
+        let mut track = Track::new();
+        track.note(env.motion());
+        env.flow(now)?;
+        Ok(CheckMotion {
+            wanted: wanted.contains(0),
+            speed: inputs.speed.si(),
+            track,
+            guard: Guard::new(NO_FLOW, now),
+            last: now,
+            before: None,
+        })
+    }
+
+    fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Option<Event>, Fault> {
+        self.track.note(env.motion());
+        let lens = env.lens();
+        let mut reading = env.flow(now)?;
+        let step = reading.value.ok().and_then(|flow| {
+            let before = reading.time.as_nanos().saturating_sub(flow.span.as_nanos());
+            self.track.between(&lens, Instant::from_nanos(before), reading.time)
+        });
+        let shows = |flow: &Flow<'_>| flow.shifts.iter().flatten().take(SEEN).count() == SEEN;
+        if step.is_none() || !reading.value.is_ok_and(|flow| shows(&flow)) {
+            reading.value = reading.value.and(Err(Invalid::NoAnswer));
+        }
+        let Some((flow, step)) = self.guard.next(reading, self.last, now)?.zip(step) else {
+            return Ok(None);
+        };
+        self.last = reading.time;
+        let view = View { lens, step, flow, speed: self.speed };
+        let something = view.largest();
+        self.before = something.map(|it| match self.before {
+            Some((bearing, times)) if (it.bearing - bearing).abs() < SAME => {
+                (it.bearing, times + 1)
+            }
+            _ => (it.bearing, 1),
+        });
+        let lasts = self.before.is_some_and(|(_, times)| times >= IN_A_ROW);
+        Ok(something.filter(|_| lasts && self.wanted).map(|it| Event::MotionSeen {
+            bearing: Angle::from_si(it.bearing),
+            strength: it.strength,
+        }))
+    }
+}
+
+#[cfg(test)]
+mod tests;

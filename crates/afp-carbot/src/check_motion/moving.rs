@@ -1,0 +1,105 @@
+//! What moves by itself in one flow.
+
+use crate::devices::{Flow, Lens};
+use crate::own_motion::Step;
+
+/// This many places that move side by side are something.
+const SOMETHING: usize = 4;
+/// The robot's own motion is known to this share.
+const DOUBT: f64 = 0.1;
+/// What the flow may be wrong by at any place, pixels.
+const BLUR: f64 = 0.25;
+/// Places of a grid beyond this are not looked at.
+const PLACES: usize = 512;
+
+/// A flow and what the robot did meanwhile.
+pub(super) struct View<'a> {
+    pub(super) lens: Lens,
+    pub(super) step: Step,
+    pub(super) flow: Flow<'a>,
+    /// What is slower than this across the line of sight does not count, radians a second.
+    pub(super) speed: f64,
+}
+
+/// Something that moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Something {
+    /// Radians to the left of the robot's heading.
+    pub(super) bearing: f64,
+    /// The share of the picture's places that it covers.
+    pub(super) strength: f64,
+}
+
+impl View<'_> {
+    /// The largest of the things that move, none if there is none.
+    pub(super) fn largest(&self) -> Option<Something> {
+        let mut open = [false; PLACES];
+        for (place, open) in open.iter_mut().enumerate().take(self.flow.grid.len()) {
+            *open = self.moves(place);
+        }
+        let (mut most, mut largest) = (SOMETHING - 1, None);
+        for place in 0..PLACES {
+            if open[place] {
+                let (size, columns) = self.gather(place, &mut open);
+                if size > most {
+                    (most, largest) = (size, Some(columns / size as f64));
+                }
+            }
+        }
+        largest.map(|column| Something {
+            bearing: libm::atan2(-column, self.focus()),
+            strength: most as f64 / self.flow.grid.len().clamp(1, PLACES) as f64,
+        })
+    }
+
+    /// The lens's focal length in pixels.
+    fn focus(&self) -> f64 {
+        self.lens.columns as f64 / 2.0 / libm::tan(self.lens.opening.si() / 2.0)
+    }
+
+    /// Where the `n`-th place is against the middle of the picture, pixels to the right and down.
+    fn middle(&self, n: usize) -> [f64; 2] {
+        let (x, y) = self.flow.grid.pixel(n);
+        let off = |at: usize, size: usize| at as f64 + 0.5 - size as f64 / 2.0;
+        [off(x, self.lens.columns), off(y, self.lens.rows)]
+    }
+
+    /// Whether the `n`-th place moves by itself.
+    fn moves(&self, n: usize) -> bool {
+        let Some(Some(shift)) = self.flow.shifts.get(n) else { return false };
+        let place = self.middle(n);
+        let found = [place[0] + f64::from(shift.right), place[1] + f64::from(shift.down)];
+        let focus = self.focus();
+        let least = self.speed * self.flow.span.as_secs_f64() * focus;
+        self.step
+            .unexplained(&self.lens, focus, place, found)
+            .is_some_and(|it| it.pixels > BLUR + least + DOUBT * it.explained)
+    }
+
+    /// Takes the open places that hang together with `first`: how many, and the sum of their columns
+    /// against the middle.
+    fn gather(&self, first: usize, open: &mut [bool; PLACES]) -> (usize, f64) {
+        let columns = self.flow.grid.columns.max(1);
+        let (mut todo, mut left) = ([0_u16; PLACES], 1);
+        todo[0] = first as u16;
+        open[first] = false;
+        let (mut size, mut sum) = (0, 0.0);
+        while left > 0 {
+            left -= 1;
+            let place = usize::from(todo[left]);
+            (size, sum) = (size + 1, sum + self.middle(place)[0]);
+            let (row, column) = (place / columns, place % columns);
+            for row in row.saturating_sub(1)..=row + 1 {
+                for column in column.saturating_sub(1)..=(column + 1).min(columns - 1) {
+                    let next = row * columns + column;
+                    if open.get(next).copied().unwrap_or(false) {
+                        open[next] = false;
+                        todo[left] = next as u16;
+                        left += 1;
+                    }
+                }
+            }
+        }
+        (size, sum)
+    }
+}

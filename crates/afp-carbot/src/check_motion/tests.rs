@@ -1,0 +1,134 @@
+use super::*;
+use crate::devices::{Camera, Flow, Frame, Grid, Lens, Motion, Reading, Shift};
+use afp_core::Duration;
+use afp_core::quantity::{AngularSpeed, Length};
+use std::vec::Vec;
+
+type Template = templates::CheckMotion;
+
+const GRID: Grid = Grid::new(160, 120, 8, 9);
+
+/// A robot that stands, with a camera that gives a flow every 50 ms.
+struct Eyes {
+    now: Instant,
+    shifts: Vec<Option<Shift>>,
+    /// When the latest picture was taken.
+    taken: Instant,
+    frozen: bool,
+    heading: f64,
+}
+
+impl Eyes {
+    /// Everything is seen to stand still.
+    fn new() -> Self {
+        let shifts = std::vec![Some(Shift::default()); GRID.len()];
+        Eyes { now: Instant::ZERO, shifts, taken: Instant::ZERO, frozen: false, heading: 0.0 }
+    }
+
+    /// Everything in these columns and rows of places moves.
+    fn move_places(&mut self, columns: &[usize], rows: &[usize], right: f32) {
+        for place in rows.iter().flat_map(|row| columns.iter().map(move |c| row * GRID.columns + c))
+        {
+            self.shifts[place] = Some(Shift { right, down: 0.0 });
+        }
+    }
+
+    /// Watches for a while: how often something was seen, and what at last.
+    fn watch(&mut self, millis: u64) -> Result<(u32, Option<Event>), Fault> {
+        let inputs = Inputs { speed: AngularSpeed::from_si(0.1) };
+        let wanted = Events::from_bits(1);
+        let mut watch: CheckMotion =
+            Supervisor::<Template, Self>::start(inputs, wanted, self, self.now)?;
+        let (mut seen, mut last) = (0, None);
+        for _ in 0..millis / 10 {
+            self.now = self.now + Duration::from_millis(10);
+            if self.now.as_nanos().is_multiple_of(50_000_000) && !self.frozen {
+                self.taken = self.now;
+            }
+            let now = self.now;
+            let event = Supervisor::<Template, Self>::poll(&mut watch, Live {}, self, now)?;
+            seen += u32::from(event.is_some());
+            last = event.or(last);
+        }
+        Ok((seen, last))
+    }
+}
+
+impl Camera for Eyes {
+    fn frame(&self) -> Reading<Frame<'_>> {
+        Reading { time: self.now, value: Err(Invalid::NoAnswer) }
+    }
+
+    fn lens(&self) -> Lens {
+        Lens {
+            forward: Length::from_si(0.18),
+            height: Length::from_si(0.2),
+            opening: Angle::from_deg(70.0),
+            columns: 160,
+            rows: 120,
+        }
+    }
+}
+
+impl FlowCamera for Eyes {
+    fn flow(&mut self, now: Instant) -> Result<Reading<Flow<'_>>, Fault> {
+        if now.since(self.taken) > Duration::from_millis(200) {
+            return Ok(Reading::invalid(Invalid::Frozen, now));
+        }
+        let span = Duration::from_millis(50);
+        Ok(Reading::valid(Flow { grid: GRID, shifts: &self.shifts, span }, self.taken))
+    }
+}
+
+impl Odometry for Eyes {
+    fn motion(&self) -> Reading<Motion> {
+        Reading::valid(
+            Motion { heading: Angle::from_si(self.heading), ..Motion::default() },
+            self.now,
+        )
+    }
+}
+
+#[test]
+fn what_moves_is_reported_with_its_bearing_and_its_share_from_the_second_picture_on() {
+    let mut eyes = Eyes::new();
+    eyes.move_places(&[2, 3, 4], &[4, 5, 6], 2.0);
+    let (seen, last) = eyes.watch(200).unwrap();
+    assert_eq!(seen, 3, "of the pictures at 50, 100, 150 and 200 ms all but the first");
+    let Some(Event::MotionSeen { bearing, strength }) = last else { panic!("{last:?}") };
+    // The middle column is 44.5 pixels left of the middle of the picture.
+    assert!((bearing.si().to_degrees() - 21.2).abs() < 1.5, "{bearing:?}");
+    assert!((strength - 9.0 / GRID.len() as f64).abs() < 1e-9, "{strength}");
+}
+
+#[test]
+fn nothing_is_reported_where_nothing_moves_or_slowly_or_too_little_of_it() {
+    assert_eq!(Eyes::new().watch(500), Ok((0, None)));
+    let mut eyes = Eyes::new();
+    eyes.move_places(&[2, 3, 4], &[4, 5, 6], 0.5);
+    assert_eq!(eyes.watch(500), Ok((0, None)), "0.5 pixels are 5 deg/s");
+    let mut eyes = Eyes::new();
+    eyes.move_places(&[2, 3, 4], &[4], 3.0);
+    eyes.move_places(&[9, 10, 11], &[4], 3.0);
+    assert_eq!(eyes.watch(500), Ok((0, None)), "two threes are not a four");
+}
+
+#[test]
+fn of_two_things_the_larger_counts() {
+    let mut eyes = Eyes::new();
+    eyes.move_places(&[2, 3], &[4, 5], 3.0);
+    eyes.move_places(&[12, 13, 14], &[4, 5], -3.0);
+    let Ok((_, Some(Event::MotionSeen { bearing, .. }))) = eyes.watch(200) else { panic!() };
+    assert!(bearing.si() < 0.0, "on the right: {bearing:?}");
+}
+
+#[test]
+fn a_camera_that_is_frozen_or_covered_is_a_fault_and_not_a_room_without_motion() {
+    let mut frozen = Eyes::new();
+    frozen.frozen = true;
+    assert_eq!(frozen.watch(800), Err(NO_FLOW));
+    let mut covered = Eyes::new();
+    covered.shifts.fill(None);
+    assert_eq!(covered.watch(500), Ok((0, None)), "it is patient");
+    assert_eq!(covered.watch(800), Err(NO_FLOW));
+}

@@ -1,0 +1,21 @@
+//! Optical flow by OpenCV, beside that which every platform has.
+
+use crate::shell::{Failure, cargo, output, program, run as run_command};
+
+/// What Debian and Ubuntu call OpenCV for programmers, and the compiler whose library reads its headers.
+const PACKAGES: [&str; 3] = ["libopencv-dev", "clang", "libclang-dev"];
+
+/// Builds the feature `opencv` and compares both ways with the true flow. Installs OpenCV where it is
+/// missing, which takes a Debian and its administrator.
+///
+/// # Errors
+/// OpenCV is missing and cannot be installed, or a test fails.
+pub fn run() -> Result<(), Failure> {
+    if output(program("pkg-config").args(["--modversion", "opencv4"])).is_err() {
+        run_command(program("apt-get").arg("update"))?;
+        let install = ["install", "--yes", "--no-install-recommends"];
+        run_command(program("apt-get").args(install).args(PACKAGES))?;
+    }
+    let test = ["test", "--package", "afp-flow", "--features", "opencv", "--", "--nocapture"];
+    run_command(cargo().args(test))
+}
