@@ -24,7 +24,7 @@ UNTIL = 15.0
 def hash_of(afpc: str, plan: Path, seed: int) -> str:
     options = ["--seed", str(seed), "--until", f"{UNTIL}s", "--json", "--log", "none", "--svg", "none"]
     told = subprocess.run([afpc, "run", str(plan), *options], capture_output=True, text=True, check=True, cwd=ROOT)
-    return str(json.loads(told.stdout.splitlines()[-1])["summary"]["trace_hash"])
+    return str(json.loads(told.stdout.splitlines()[-1])["summary"]["trace"])
 
 
 @pytest.mark.parametrize("plan", PLANS, ids=lambda plan: plan.stem)
