@@ -5,7 +5,7 @@ use crate::grid::{Row, Sweep};
 use crate::outcome::Outcome;
 
 /// A column.
-pub(crate) struct Column {
+pub struct Column {
     /// Its name, with its unit.
     pub name: String,
     /// What stands in it.
@@ -13,7 +13,7 @@ pub(crate) struct Column {
 }
 
 /// The cells of a column.
-pub(crate) enum Cells {
+pub enum Cells {
     /// Counts.
     Counts(Vec<u64>),
     /// Numbers, where there is one.
@@ -34,8 +34,8 @@ impl Column {
     }
 }
 
-/// The columns of outcomes.
-pub(crate) fn columns(sweep: &Sweep, outcomes: &[Outcome]) -> Vec<Column> {
+/// The columns of outcomes: numbers, world, seed, values, what came of it, the command, what it took.
+pub fn columns(sweep: &Sweep, outcomes: &[Outcome]) -> Vec<Column> {
     let rows: Vec<Row<'_>> = outcomes.iter().map(|outcome| sweep.row(outcome.run)).collect();
     let counts = |name: &str, count: fn(&Outcome) -> u64| {
         column(name, Cells::Counts(outcomes.iter().map(count).collect()))

@@ -9,10 +9,14 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use afp_run::RunError;
+use afp_dsl::Compiled;
+use afp_dsl::graph::Graph;
+use afp_run::{RunError, hash};
 use serde::{Deserialize, Serialize};
 
+use crate::grid::Sweep;
 use crate::outcome::Outcome;
+use crate::setting::Setting;
 
 /// What was written reaches the disk this often at least, should the machine fail and not the process.
 const SYNC: Duration = Duration::from_secs(1);
@@ -33,6 +37,24 @@ pub struct Header {
 }
 
 impl Header {
+    /// For a sweep of a plan by a program.
+    pub fn new(
+        program: String,
+        (compiled, graph): (&Compiled, &Graph),
+        setting: &Setting<'_>,
+        sweep: &Sweep,
+    ) -> Header {
+        let texts = compiled.plan_texts();
+        let texts = texts.iter().map(|(path, text)| format!("{path}\0{text}\0"));
+        Header {
+            sweep_journal: 1,
+            program,
+            plan: hash(&format!("{}\0{}", graph.main().name, texts.collect::<String>())),
+            worlds: setting.hash(),
+            grid: sweep.signature(),
+        }
+    }
+
     /// What differs from another header, in words; `None` for the same sweep.
     fn differs(&self, other: &Header) -> Option<String> {
         let changes = [

@@ -17,15 +17,18 @@ mod grid;
 mod journal;
 mod outcome;
 mod panics;
+mod place;
 mod ranges;
 mod setting;
 mod table;
 
+pub use columns::{Cells, Column, columns};
 pub use engine::{Engine, Made, Maker};
 pub use findings::{Findings, Group, Measure, Spread};
 pub use grid::{Axis, Point, Row, Sweep};
 pub use journal::{Header, Journal};
 pub use outcome::{Ending, Outcome};
+pub use place::{Make, Place};
 pub use ranges::{Seeds, axis, seeds, worlds};
 pub use setting::Setting;
 pub use table::{to_csv, to_parquet};

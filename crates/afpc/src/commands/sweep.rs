@@ -1,6 +1,5 @@
 //! `afpc sweep`: many runs of a plan, all cores at once, and what they came to.
 
-mod place;
 mod tell;
 
 use std::num::NonZero;
@@ -9,14 +8,13 @@ use std::thread;
 
 use afp_core::Duration;
 use afp_run::{EXIT_OK, EXIT_PLAN_ERROR, RunError, StopFlag, hash};
-use afp_sweep::{Axis, Engine, Findings, Header, Journal, Outcome, Seeds, Setting, Sweep};
+use afp_sweep::{Axis, Engine, Findings, Header, Journal, Outcome, Place, Seeds, Setting, Sweep};
 use clap::Args;
 
 use crate::cli::PlanArgument;
 use crate::plan_file::{NoPlan, PlanFile};
 use crate::{Linked, register, runner};
 
-use place::Place;
 use tell::Teller;
 
 /// Arguments of `afpc sweep`.
@@ -95,15 +93,7 @@ pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
     let mut sweep = arguments.sweep()?;
     let templates = |registry: &mut _| register(linked, registry);
     let setting = Setting::new(&mut sweep, &graph, &file.path, &templates)?;
-    let texts = file.compiled.plan_texts();
-    let texts = texts.iter().map(|(path, text)| format!("{path}\0{text}\0"));
-    let header = Header {
-        sweep_journal: 1,
-        program: program(linked)?,
-        plan: hash(&format!("{}\0{}", graph.main().name, texts.collect::<String>())),
-        worlds: setting.hash(),
-        grid: sweep.signature(),
-    };
+    let header = Header::new(program(linked)?, (&file.compiled, &graph), &setting, &sweep);
     let place = Place::new(arguments.output.as_deref(), &file.path, &header)?;
     let (mut journal, mut outcomes) = Journal::open(&place.journal, &header, arguments.restart)?;
     let stop =

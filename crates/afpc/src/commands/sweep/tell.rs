@@ -3,12 +3,11 @@
 use std::cell::Cell;
 use std::fmt::Write;
 
-use afp_sweep::{Ending, Findings, Group, Measure, Outcome, Spread, Sweep};
+use afp_sweep::{Ending, Findings, Group, Measure, Outcome, Place, Spread, Sweep};
 use anstyle::{AnsiColor, Style};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use serde_json::{Value, json};
 
-use super::place::Place;
 use crate::commands::print;
 use crate::plan_file::NoPlan;
 

@@ -4,17 +4,20 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::grid::Sweep;
+use crate::journal::Header;
+use crate::outcome::Outcome;
+use crate::table::{to_csv, to_parquet};
 use afp_run::{RunError, hash, write_whole};
-use afp_sweep::{Header, Outcome, Sweep, to_csv, to_parquet};
 
 /// Where tables go unless told otherwise.
 const SWEEPS: &str = "target/afp/sweeps";
 
 /// What makes a table.
-type Make = fn(&Sweep, &[Outcome]) -> io::Result<Vec<u8>>;
+pub type Make = fn(&Sweep, &[Outcome]) -> io::Result<Vec<u8>>;
 
 /// The files of a sweep.
-pub(super) struct Place {
+pub struct Place {
     /// Outcomes as they come.
     pub journal: PathBuf,
     /// Tables, written whole.
@@ -23,6 +26,9 @@ pub(super) struct Place {
 
 impl Place {
     /// The place that was asked for, or the default for this plan and grid; makes the folder.
+    ///
+    /// # Errors
+    /// A name that says no format, a folder that cannot be made.
     pub fn new(asked: Option<&Path>, plan: &Path, header: &Header) -> Result<Place, RunError> {
         let place = match asked {
             Some(path) => named(path)?,
@@ -41,6 +47,9 @@ impl Place {
     }
 
     /// Writes the tables.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
     pub fn write(&self, sweep: &Sweep, outcomes: &[Outcome]) -> Result<(), RunError> {
         const WHAT: &str = "cannot write the table";
         for (path, make) in &self.tables {
