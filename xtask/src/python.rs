@@ -7,7 +7,8 @@ use std::process::Command;
 use crate::shell::{Failure, cargo, output, program, root, run as run_command, target};
 
 /// What builds, tests and reads, as pip names it.
-const PACKAGES: [&str; 11] = [
+const PACKAGES: [&str; 13] = [
+    "gymnasium==1.4.0",
     "matplotlib==3.11.2",
     "maturin==1.16.0",
     "mcap-protobuf-support==0.6.0",
@@ -17,12 +18,13 @@ const PACKAGES: [&str; 11] = [
     "pandas==3.1.1",
     "polars==2.1.0",
     "pyarrow==26.0.1",
+    "pytest-xdist==3.8.0",
     "pytest==9.2.0",
     "typing-extensions>=4.13",
 ];
 
-/// What the notebooks need beside.
-const NOTEBOOKS: [&str; 2] = ["ipykernel==7.4.0", "nbclient==0.11.0"];
+/// What notebooks and clusters need beside.
+const LONG: [&str; 3] = ["ipykernel==7.4.0", "nbclient==0.11.0", "ray==2.60.0"];
 
 /// Builds the package as users get it, installs it, and runs its tests: pytest with the documentation's
 /// examples, the types, and the stubs against what is there.
@@ -44,19 +46,21 @@ pub fn run() -> Result<(), Failure> {
     run_command(at_package(&python, &sdist).arg(wheels("sdist")?))
 }
 
-/// What takes longer: the bars of the optimised package, the notebooks, and a build from the source
+/// What takes longer: the bars of the optimised package, the notebooks, a sweep on a cluster, and a build from the source
 /// distribution alone.
 ///
 /// # Errors
 /// A bar that is not kept, a notebook that does not run, a source distribution that lacks something.
 pub fn long() -> Result<(), Failure> {
-    let packages: Vec<_> = PACKAGES.into_iter().chain(NOTEBOOKS).collect();
+    let packages: Vec<_> = PACKAGES.into_iter().chain(LONG).collect();
     let python = environment(&packages)?;
     run_command(cargo().args(["build", "--quiet", "--release", "--package", "afpc"]))?;
     let afpc = target().join("release").join(format!("afpc{}", std::env::consts::EXE_SUFFIX));
     install(&python, "release")?;
     run_command(at_package(&python, &["bench.py", "--check"]).env("AFPC", afpc))?;
     run_command(&mut at_package(&python, &["notebooks/execute.py"]))?;
+    let cluster = ["-m", "pytest", "--quiet", "tests/test_cluster.py"];
+    run_command(at_package(&python, &cluster).env("AFP_RAY", "1"))?;
     let folder = wheels("sdist")?;
     let sdist = ["-m", "maturin", "sdist", "--quiet", "--out"];
     run_command(at_package(&python, &sdist).arg(&folder))?;

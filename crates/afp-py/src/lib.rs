@@ -4,12 +4,15 @@
 //! Python is said there. Nothing here borrows from a simulation: arrays and values are copies that outlive it.
 //! While a plan runs, the interpreter's lock is free for other threads.
 
+mod carbot;
 mod component;
 mod errors;
 mod log;
 mod plan;
 mod robot;
+mod scenario;
 mod simulation;
+mod sweep;
 mod toolbox;
 mod value;
 mod world;
@@ -20,6 +23,8 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _afp {
     #[pymodule_export]
+    use crate::carbot::Carbot;
+    #[pymodule_export]
     use crate::errors::{AfpError, PlanError};
     #[pymodule_export]
     use crate::log::read_log;
@@ -28,7 +33,11 @@ mod _afp {
     #[pymodule_export]
     use crate::robot::Robot;
     #[pymodule_export]
+    use crate::scenario::{Broken, Scenario, Verdict};
+    #[pymodule_export]
     use crate::simulation::{Event, Runner, faults};
+    #[pymodule_export]
+    use crate::sweep::Sweeper;
     #[pymodule_export]
     use crate::toolbox::Toolbox;
     #[pymodule_export]

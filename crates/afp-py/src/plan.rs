@@ -16,6 +16,7 @@ use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::errors::{error, plan_error, run_error};
+use crate::scenario::{self, Scenario};
 use crate::toolbox::Toolbox;
 
 use compile::Desk;
@@ -77,6 +78,12 @@ impl Plan {
     #[getter]
     fn ok(&self, py: Python<'_>) -> bool {
         self.compiled(py).graph.is_some()
+    }
+
+    /// The scenarios of the file; none while it has errors.
+    #[getter]
+    fn scenarios(&self, py: Python<'_>) -> Vec<Scenario> {
+        scenario::scenarios(py, self)
     }
 
     /// Raises `PlanError` if the plan has errors.

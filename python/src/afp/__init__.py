@@ -8,12 +8,26 @@ False
 'E0203'
 """
 
-from ._afp import AfpError, Diagnostic, Event, PlanError, Robot, World, __version__, faults
+from ._afp import (
+    AfpError,
+    Broken,
+    Carbot,
+    Diagnostic,
+    Event,
+    PlanError,
+    Robot,
+    Scenario,
+    Verdict,
+    World,
+    __version__,
+    faults,
+)
 from .components import Toolbox, tick
 from .log import Log
 from .plan import Plan, load, new_plan
 from .result import Collision, ComponentError, Result
 from .simulation import Simulation
+from .sweeps import Runs, sweep
 from .units import (
     Angle,
     AngularSpeed,
@@ -39,6 +53,8 @@ __all__ = [
     "AfpError",
     "Angle",
     "AngularSpeed",
+    "Broken",
+    "Carbot",
     "Collision",
     "ComponentError",
     "Diagnostic",
@@ -51,9 +67,12 @@ __all__ = [
     "Quantity",
     "Result",
     "Robot",
+    "Runs",
+    "Scenario",
     "Simulation",
     "Speed",
     "Toolbox",
+    "Verdict",
     "World",
     "__version__",
     "cm",
@@ -71,5 +90,6 @@ __all__ = [
     "rad",
     "rad_per_s",
     "s",
+    "sweep",
     "tick",
 ]

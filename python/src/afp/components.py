@@ -68,6 +68,9 @@ class Toolbox(_afp.Toolbox):
         """Reads the text of a toolbox file."""
         return _afp.Toolbox.__new__(cls, text, path)
 
+    _sources: str
+    """What implements the templates, as text: tells two versions apart."""
+
     def implement(self, component: Component, template: str | None = None) -> Component:
         """Names the class or function that implements a template, by its own name unless told otherwise.
 
@@ -77,6 +80,7 @@ class Toolbox(_afp.Toolbox):
         name = template or component.__name__
         about = self._template(name)
         self._implement(name, _maker(about["kind"], component, about["inputs"], about["live"]))
+        self._sources = f"{getattr(self, '_sources', '')}{name}\0{_source(component)}\0"
         return component
 
     def actor(
@@ -127,6 +131,15 @@ class Toolbox(_afp.Toolbox):
 
     def __repr__(self) -> str:
         return f"<Toolbox {self.name}: {', '.join(self.templates)}>"
+
+
+def _source(component: Callable[..., Any]) -> str:
+    """The text of a component, or else what there is of one."""
+    try:
+        return inspect.getsource(component)
+    except (OSError, TypeError):
+        code = getattr(component, "__code__", None)
+        return repr(code.co_code if code else component)
 
 
 def _text(value: str) -> str:

@@ -73,3 +73,16 @@ def timeline(events: Sequence[Event], end: float, title: str, ax: Any = None) ->
     ax.set(yticks=range(len(rows)), yticklabels=rows, xlabel="time [s]", title=title, xlim=(0, max(end, 1e-9)))
     ax.invert_yaxis()
     return ax
+
+
+def runs(x: Sequence[Any], y: Sequence[Any], endings: Sequence[str], labels: tuple[str, str, str], ax: Any = None) -> Any:
+    """A measure of many runs, a dot for each, told apart by how they ended."""
+    pyplot = need("matplotlib.pyplot", "plot")
+    ax = ax if ax is not None else pyplot.subplots(figsize=(6, 4), layout="constrained")[1]
+    for number, ending in enumerate(dict.fromkeys(endings)):
+        dots = [(a, b) for a, b, e in zip(x, y, endings, strict=True) if e == ending and a is not None and b is not None]
+        color = PALETTE[number % len(PALETTE)]
+        ax.plot([a for a, _ in dots], [b for _, b in dots], "o", color=color, alpha=0.6, label=ending)
+    ax.set(xlabel=labels[0], ylabel=labels[1], title=labels[2])
+    ax.legend(frameon=False)
+    return ax

@@ -90,6 +90,9 @@ fn said<T>(name: &str, reading: Reading<T>, take: impl FnOnce(T) -> Sensed) -> P
         Ok(value) => Ok(take(value)),
         Err(Invalid::NotYet) => Ok(Sensed::Nothing),
         Err(Invalid::NoAnswer) => Err(error(format!("the sensor of '{name}' does not answer"))),
+        Err(Invalid::Frozen) => {
+            Err(error(format!("the sensor of '{name}' says the same for ever")))
+        }
         Err(Invalid::NotFinite) => {
             Err(error(format!("the sensor of '{name}' says what is no number")))
         }

@@ -1,0 +1,232 @@
+//! `Scenario`: a test of a plan, run by the engine of `afpc test`.
+
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use afp::load::Registry;
+use afp_dsl::Compiled;
+use afp_dsl::scenario::Scenario as Checked;
+use afp_dsl::source::Span;
+use afp_sim::Simulation;
+use afp_test::{Setting, Verdict as Came};
+use pyo3::exceptions::PyIndexError;
+use pyo3::prelude::*;
+
+use crate::component::{Host, register};
+use crate::errors::run_error;
+use crate::plan::Plan;
+use crate::robot::Robot;
+use crate::toolbox::Toolbox;
+use crate::value::no_pickle;
+
+/// A scenario of a file: a world, what happens, what is expected.
+#[pyclass(module = "afp", frozen)]
+pub struct Scenario {
+    compiled: Arc<Compiled>,
+    index: usize,
+    file: PathBuf,
+    toolboxes: Vec<Py<Toolbox>>,
+}
+
+/// An expectation that was not met.
+#[pyclass(module = "afp", frozen, get_all)]
+#[derive(Clone)]
+pub struct Broken {
+    /// The line of the scenario.
+    text: String,
+    /// Its file.
+    file: String,
+    /// Its line, from 1.
+    line: usize,
+    /// Its column, from 1.
+    column: usize,
+    /// When it became clear, seconds.
+    time: f64,
+    /// What happened instead.
+    why: String,
+}
+
+/// What a scenario came to.
+#[pyclass(module = "afp", frozen, get_all)]
+pub struct Verdict {
+    /// Whether everything was as expected.
+    passed: bool,
+    /// What was not as expected, in order of time.
+    broken: Vec<Broken>,
+    /// What broke, and the timeline around the first of it, as `afpc test` prints it.
+    report: String,
+    /// How long it ran, seconds.
+    time: f64,
+    /// How the plan ended: `ok`, `interrupted`, `error`; `running` if it did not.
+    ending: &'static str,
+    /// The hash of the trace, as `afpc test --json` tells it.
+    trace_hash: String,
+    /// The timeline.
+    timeline: Vec<String>,
+}
+
+#[pymethods]
+impl Scenario {
+    /// Its name.
+    #[getter]
+    fn name(&self) -> PyResult<&str> {
+        Ok(&self.checked()?.name)
+    }
+
+    /// The name of its plan.
+    #[getter]
+    fn plan(&self) -> PyResult<&str> {
+        Ok(&self.checked()?.graph.main().name)
+    }
+
+    /// The file in which it stands.
+    #[getter]
+    fn path(&self) -> PathBuf {
+        self.file.clone()
+    }
+
+    /// The line of its name, from 1.
+    #[getter]
+    fn line(&self) -> PyResult<usize> {
+        Ok(place(&self.compiled, self.checked()?.span).1)
+    }
+
+    /// The seed of all noise.
+    #[getter]
+    fn seed(&self) -> PyResult<u64> {
+        Ok(self.checked()?.seed)
+    }
+
+    /// When it ends at the latest, seconds.
+    #[getter]
+    fn until(&self) -> PyResult<f64> {
+        Ok(self.checked()?.until as f64 * 1e-9)
+    }
+
+    /// Runs it; with `log`, records it there.
+    #[pyo3(signature = (*, log=None))]
+    fn run(&self, py: Python<'_>, log: Option<PathBuf>) -> PyResult<Verdict> {
+        let checked = self.checked()?;
+        let setting = Setting::find(checked, &self.file).map_err(|why| run_error(&why))?;
+        let components = Components::new(py, &self.toolboxes)?;
+        let templates = |registry: &mut _| components.register(registry);
+        let came = py.detach(|| afp_test::run(checked, &setting, &templates, log.as_deref()));
+        components.raised()?;
+        Ok(verdict(&self.compiled, came.map_err(|why| run_error(&why))?))
+    }
+
+    fn __repr__(&self) -> PyResult<String> {
+        Ok(format!("<Scenario '{}' for {}>", self.name()?, self.plan()?))
+    }
+
+    fn __reduce__(&self) -> PyResult<()> {
+        Err(no_pickle("Scenario", "load its file again"))
+    }
+}
+
+impl Scenario {
+    fn checked(&self) -> PyResult<&Checked> {
+        let found = self.compiled.scenarios.get(self.index);
+        found.ok_or_else(|| PyIndexError::new_err("there is no such scenario"))
+    }
+}
+
+/// The scenarios of a plan's file.
+pub fn scenarios(py: Python<'_>, plan: &Plan) -> Vec<Scenario> {
+    let compiled = plan.compiled(py);
+    let one = |index| Scenario {
+        compiled: Arc::clone(&compiled),
+        index,
+        file: plan.file(),
+        toolboxes: plan.python_toolboxes(py),
+    };
+    (0..compiled.scenarios.len()).map(one).collect()
+}
+
+/// Components in Python for engines that make plans by themselves: each plan gets a robot of its own.
+pub struct Components<'a> {
+    toolboxes: &'a [Py<Toolbox>],
+    hosts: Mutex<Vec<Arc<Host>>>,
+    broken: Mutex<Option<PyErr>>,
+}
+
+impl<'a> Components<'a> {
+    /// For the plans of these toolboxes.
+    ///
+    /// # Errors
+    /// A toolbox that can no longer be read.
+    pub fn new(py: Python<'_>, toolboxes: &'a [Py<Toolbox>]) -> PyResult<Self> {
+        for toolbox in toolboxes {
+            toolbox.bind(py).get().declared()?;
+        }
+        Ok(Components { toolboxes, hosts: Mutex::default(), broken: Mutex::default() })
+    }
+
+    /// Registers what implements the templates, for one plan.
+    pub fn register(&self, registry: &mut Registry<Simulation>) {
+        if self.toolboxes.is_empty() {
+            return;
+        }
+        let registered = Python::attach(|py| {
+            let host = Arc::new(Host::new(Py::new(py, Robot::new()?)?));
+            for toolbox in self.toolboxes {
+                register(py, toolbox.get(), &host, registry)?;
+            }
+            Ok(host)
+        });
+        match registered {
+            Ok(host) => {
+                let mut hosts = self.hosts.lock().unwrap_or_else(PoisonError::into_inner);
+                // Those whose plans are gone have nothing more to tell.
+                hosts.retain(|host| Arc::strong_count(host) > 1 || host.is_aborted());
+                hosts.push(host);
+            }
+            Err(why) => *self.broken.lock().unwrap_or_else(PoisonError::into_inner) = Some(why),
+        }
+    }
+
+    /// Raises what cannot be an outcome: a toolbox that broke, `SystemExit` and the like.
+    ///
+    /// # Errors
+    /// What was raised.
+    pub fn raised(&self) -> PyResult<()> {
+        if let Some(why) = self.broken.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            return Err(why);
+        }
+        let hosts = self.hosts.lock().unwrap_or_else(PoisonError::into_inner);
+        hosts.iter().find_map(|host| host.aborted()).map_or(Ok(()), Err)
+    }
+}
+
+fn verdict(compiled: &Compiled, came: Came) -> Verdict {
+    let broken = came.broken.iter().map(|broken| {
+        let (file, line, column) = place(compiled, broken.span);
+        let (text, why) = (broken.text.clone(), broken.why.clone());
+        Broken { text, file, line, column, time: broken.at.as_secs_f64(), why }
+    });
+    Verdict {
+        passed: came.passed(),
+        broken: broken.collect(),
+        report: plain(&came.report()),
+        time: came.length().as_secs_f64(),
+        ending: match came.ending {
+            None => "running",
+            Some(afp_core::Ending::Ok) => "ok",
+            Some(afp_core::Ending::Interrupted) => "interrupted",
+            Some(afp_core::Ending::Error(_)) => "error",
+        },
+        trace_hash: format!("{:016x}", came.trace),
+        timeline: came.timeline.iter().map(|(_, line)| plain(line)).collect(),
+    }
+}
+
+fn place(compiled: &Compiled, span: Span) -> (String, usize, usize) {
+    let source = compiled.sources.get(span.file);
+    let (line, column) = source.map_or((1, 1), |source| source.line_column(span.start));
+    (source.map_or(String::new(), |source| source.name.clone()), line, column)
+}
+
+/// A text without colours.
+fn plain(text: &str) -> String {
+    anstream::adapter::strip_str(text).to_string()
+}

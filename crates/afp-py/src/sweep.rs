@@ -1,0 +1,297 @@
+//! `Sweeper`: many runs of a plan, on the engine of `afpc sweep`.
+//!
+//! The runs go on in threads of the engine while the interpreter is free; components in Python take its lock in
+//! turn. The calling thread looks at signals and tells how it goes. Outcomes travel as lines of JSON, those of the
+//! journal, so that runs may be done by other processes.
+
+mod work;
+
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+use std::thread;
+
+use afp::load::LoadedPlan;
+use afp_core::Duration;
+use afp_core::rt::NamedPlan;
+use afp_core::trace::{Names, TraceEntryId};
+use afp_dsl::Compiled;
+use afp_dsl::graph::Graph;
+use afp_run::hash;
+use afp_sim::Simulation;
+use afp_sweep::{
+    Axis, Cells, Findings, Header, Journal, Outcome, Place, Point, Seeds, Setting, Sweep, columns,
+};
+use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::errors::{error, plan_error, run_error};
+use crate::plan::Plan;
+use crate::scenario::Components;
+use crate::toolbox::Toolbox;
+use crate::value::no_pickle;
+
+/// A sweep: its grid, and the outcomes so far.
+#[pyclass(module = "afp", frozen)]
+pub struct Sweeper {
+    compiled: Arc<Compiled>,
+    file: PathBuf,
+    toolboxes: Vec<Py<Toolbox>>,
+    sweep: Sweep,
+    header: Header,
+    done: Mutex<Done>,
+}
+
+/// Runs that ended alike: ending, where, why, how many, the first.
+type Alike = (&'static str, String, String, u64, u64);
+
+/// What has been done.
+#[derive(Default)]
+struct Done {
+    outcomes: Vec<Outcome>,
+    journal: Option<Journal>,
+    place: Option<Place>,
+}
+
+#[pymethods]
+impl Sweeper {
+    #[new]
+    #[pyo3(signature = (plan, worlds, seeds, vary, until, mark))]
+    fn new(
+        py: Python<'_>,
+        plan: &Plan,
+        worlds: Vec<Option<String>>,
+        seeds: (u64, u64),
+        vary: Vec<(String, Vec<(String, bool)>)>,
+        until: f64,
+        mark: &str,
+    ) -> PyResult<Self> {
+        let compiled = plan.compiled(py);
+        if compiled.graph.is_none() {
+            return Err(plan_error(py, &compiled));
+        }
+        if !(until.is_finite() && until > 0.0) {
+            return Err(PyValueError::new_err(format!("until is {until}; give seconds above 0")));
+        }
+        let (file, toolboxes) = (plan.file(), plan.python_toolboxes(py));
+        let mut sweep = Sweep {
+            plan: file.display().to_string(),
+            worlds,
+            axes: Vec::new(),
+            seeds: Seeds::new(seeds.0..seeds.1),
+            until: Duration::from_secs_f64(until),
+        };
+        let header = with_setting(py, &toolboxes, |templates| {
+            let graph = graph(&compiled)?;
+            let loaded = afp_test::load(graph, templates).map_err(|why| run_error(&why))?;
+            let axes = vary.into_iter().map(|(name, values)| axis(&loaded, name, values));
+            sweep.axes = axes.collect::<PyResult<_>>()?;
+            if sweep.is_empty() {
+                let text = "there is nothing to run: no worlds, seeds or values";
+                return Err(PyValueError::new_err(text));
+            }
+            let setting = Setting::new(&mut sweep, graph, &file, templates);
+            let setting = setting.map_err(|why| run_error(&why))?;
+            Ok(Header::new(program(mark), (&compiled, graph), &setting, &sweep))
+        })?;
+        Ok(Sweeper { compiled, file, toolboxes, sweep, header, done: Mutex::default() })
+    }
+
+    /// How many runs there are.
+    #[getter]
+    fn total(&self) -> u64 {
+        self.sweep.len()
+    }
+
+    /// What makes it this sweep: program, plan, worlds and grid, as in its journal.
+    #[getter]
+    fn identity(&self) -> String {
+        let Header { program, plan, worlds, grid, .. } = &self.header;
+        format!("{program} {plan} {worlds} {grid}")
+    }
+
+    /// Keeps outcomes in a journal beside the table `out`, and takes up those that are there.
+    fn open(&self, out: &str, restart: bool) -> PyResult<()> {
+        let place = Place::new(Some(Path::new(out)), &self.file, &self.header);
+        let place = place.map_err(|why| run_error(&why))?;
+        let journal = Journal::open(&place.journal, &self.header, restart);
+        let (journal, outcomes) = journal.map_err(|why| run_error(&why))?;
+        let done = &mut *self.lock()?;
+        *done = Done { outcomes, journal: Some(journal), place: Some(place) };
+        Ok(())
+    }
+
+    /// The numbers of the runs that are not done.
+    fn left(&self) -> PyResult<Vec<u64>> {
+        let done = self.lock()?;
+        let mut there: Vec<u64> = done.outcomes.iter().map(|outcome| outcome.run).collect();
+        there.sort_unstable();
+        Ok((0..self.sweep.len()).filter(|run| there.binary_search(run).is_err()).collect())
+    }
+
+    /// Does runs and keeps their outcomes; tells `progress` how many of this call are done.
+    #[pyo3(signature = (runs, jobs=None, progress=None))]
+    fn run(
+        &self,
+        py: Python<'_>,
+        runs: Vec<u64>,
+        jobs: Option<NonZero<usize>>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<()> {
+        let mut done = self.lock()?;
+        let done = &mut *done;
+        let mut told = 0_usize;
+        self.work(py, &runs, cores(jobs), |py, news| {
+            told += news.len();
+            done.keep(news)?;
+            progress.as_ref().map_or(Ok(()), |tell| tell.call1(py, (told,)).map(drop))
+        })
+    }
+
+    /// Does runs for another process; their outcomes as lines of JSON.
+    #[pyo3(signature = (runs, jobs=None))]
+    fn lines(
+        &self,
+        py: Python<'_>,
+        runs: Vec<u64>,
+        jobs: Option<NonZero<usize>>,
+    ) -> PyResult<Vec<String>> {
+        let mut lines = Vec::with_capacity(runs.len());
+        self.work(py, &runs, cores(jobs), |_, news| {
+            for outcome in &news {
+                lines.push(serde_json::to_string(outcome).map_err(error)?);
+            }
+            Ok(())
+        })?;
+        Ok(lines)
+    }
+
+    /// Keeps outcomes of another process; those of runs that are done are dropped. How many were new.
+    fn accept(&self, lines: Vec<String>) -> PyResult<usize> {
+        let mut done = self.lock()?;
+        let mut news: Vec<Outcome> = Vec::new();
+        for line in &lines {
+            let outcome: Outcome = serde_json::from_str(line).map_err(error)?;
+            let known = done.outcomes.iter().chain(&news).any(|other| other.run == outcome.run);
+            if !known && outcome.run < self.sweep.len() {
+                news.push(outcome);
+            }
+        }
+        let count = news.len();
+        done.keep(news)?;
+        Ok(count)
+    }
+
+    /// Writes the table, if it has a place; its paths.
+    fn write(&self) -> PyResult<Vec<PathBuf>> {
+        let done = self.lock()?;
+        let Some(place) = &done.place else { return Ok(Vec::new()) };
+        place.write(&self.sweep, &done.sorted()).map_err(|why| run_error(&why))?;
+        Ok(place.tables.iter().map(|(path, _)| path.clone()).collect())
+    }
+
+    /// The outcomes so far by column, in the order of the runs; the second of a pair is the type.
+    fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let outcomes = self.lock()?.sorted();
+        let dict = PyDict::new(py);
+        for column in columns(&self.sweep, &outcomes) {
+            let (cells, kind) = match column.cells {
+                Cells::Counts(all) => (all.into_bound_py_any(py)?, "count"),
+                Cells::Numbers(all) => (all.into_bound_py_any(py)?, "number"),
+                Cells::Texts(all) => (all.into_bound_py_any(py)?, "text"),
+            };
+            dict.set_item(column.name, (cells, kind))?;
+        }
+        Ok(dict)
+    }
+
+    /// Runs that ended alike: ending, where, why, how many, the first; failures last.
+    fn groups(&self) -> PyResult<Vec<Alike>> {
+        let findings = Findings::new(&self.lock()?.outcomes);
+        let told = findings.groups.into_iter();
+        Ok(told.map(|it| (it.ending.name(), it.place, it.why, it.count, it.run)).collect())
+    }
+
+    fn __reduce__(&self) -> PyResult<()> {
+        Err(no_pickle("Sweeper", "make it anew from what it was made of"))
+    }
+}
+
+impl Sweeper {
+    fn lock(&self) -> PyResult<MutexGuard<'_, Done>> {
+        match self.done.try_lock() {
+            Ok(done) => Ok(done),
+            Err(TryLockError::Poisoned(done)) => Ok(done.into_inner()),
+            Err(TryLockError::WouldBlock) => {
+                Err(PyRuntimeError::new_err("the sweep is running in another call"))
+            }
+        }
+    }
+}
+
+impl Done {
+    /// Keeps outcomes, in the journal too.
+    fn keep(&mut self, news: Vec<Outcome>) -> PyResult<()> {
+        for outcome in news {
+            if let Some(journal) = &mut self.journal {
+                journal.keep(&outcome).map_err(|why| run_error(&why))?;
+            }
+            self.outcomes.push(outcome);
+        }
+        Ok(())
+    }
+
+    fn sorted(&self) -> Vec<Outcome> {
+        let mut all = self.outcomes.clone();
+        all.sort_by_key(|outcome| outcome.run);
+        all
+    }
+}
+
+/// What is varied: a single text has the ways of a range (`20cm..60cm:5cm`); a bare number is in SI units.
+fn axis(
+    plan: &LoadedPlan<Simulation>,
+    name: String,
+    values: Vec<(String, bool)>,
+) -> PyResult<Axis> {
+    if let [(range, false)] = values.as_slice() {
+        return afp_sweep::axis(&format!("{name}={range}")).map_err(PyValueError::new_err);
+    }
+    let entry = plan.entry_number(&name).map(|entry| TraceEntryId(entry.into()));
+    let names = plan.names();
+    let unit = entry.map_or("", |entry| names.entry(entry).unit);
+    let point = |(text, bare)| Point { text: if bare { text + unit } else { text }, si: None };
+    Ok(Axis { name, points: values.into_iter().map(point).collect() })
+}
+
+/// Lets something be done with what registers the components in Python.
+fn with_setting<T>(
+    py: Python<'_>,
+    toolboxes: &[Py<Toolbox>],
+    use_it: impl FnOnce(afp_test::Templates<'_>) -> PyResult<T>,
+) -> PyResult<T> {
+    let components = Components::new(py, toolboxes)?;
+    let used = use_it(&|registry| components.register(registry));
+    components.raised()?;
+    used
+}
+
+/// The graph of a plan that has one.
+fn graph(compiled: &Compiled) -> PyResult<&Graph> {
+    compiled.graph.as_ref().ok_or_else(|| error("the plan has errors"))
+}
+
+/// What runs the plans; `afpc sweep` goes on with a journal of plans without components in Python.
+fn program(mark: &str) -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    match mark {
+        "" => version.to_owned(),
+        mark => format!("{version} python {}", hash(mark)),
+    }
+}
+
+fn cores(jobs: Option<NonZero<usize>>) -> usize {
+    jobs.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZero::get)
+}

@@ -1,0 +1,103 @@
+"""Sweeps on a Ray cluster; it needs `afp[ray]`.
+
+    afp.sweep(plan, seeds=range(10_000), backend="ray", out="runs.parquet")
+
+The runs go out in chunks, as tasks of one CPU each. A chunk whose worker or machine dies is done again elsewhere; each
+run counts once, whatever was done twice. Ray is started on this machine unless `ray.init` has been called.
+
+Workers need the package, and the plan's files and worlds under the same paths: a shared folder, or the driver's folder
+sent along with `ray.init(runtime_env={"working_dir": "."})` and paths relative to it. A worker that sees other texts
+refuses. Components in Python stay on the driver's machine: such plans run with `backend="local"` only.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ._afp import AfpError, Plan, Sweeper
+from .tables import need
+
+__all__ = ["Spec", "run"]
+
+RETRIES = 5
+"""How often a chunk is done again when its worker dies."""
+WAITING = 64
+"""Chunks that are handed to Ray ahead of time."""
+
+
+@dataclass(frozen=True)
+class Spec:
+    """What a worker makes the sweep of."""
+
+    text: str
+    path: str | None
+    name: str
+    worlds: list[str | None]
+    seeds: tuple[int, int]
+    vary: list[tuple[str, list[tuple[str, bool]]]]
+    until: float
+
+    @staticmethod
+    def of(
+        plan: Plan,
+        worlds: list[str | None],
+        seeds: tuple[int, int],
+        vary: list[tuple[str, list[tuple[str, bool]]]],
+        until: float,
+    ) -> Spec:
+        """For a plan without components in Python."""
+        if plan.toolboxes:
+            text = 'components written in Python stay in this process: sweep such a plan with backend="local"'
+            raise NotImplementedError(text)
+        path = None if plan.path is None else os.fspath(plan.path)
+        return Spec(plan.text, path, plan.name, worlds, seeds, vary, until)
+
+    def sweeper(self) -> Sweeper:
+        """The sweep."""
+        plan = Plan(self.text, self.path, name=self.name)
+        return Sweeper(plan, self.worlds, self.seeds, self.vary, self.until, "")
+
+
+def run(
+    spec: Spec, sweeper: Sweeper, runs: Sequence[int], tell: Callable[[int], Any], *, chunk: int | None = None
+) -> None:
+    """Does runs on the cluster; `sweeper` keeps their outcomes, `tell` hears how many of all are done."""
+    ray = need("ray", "ray")
+    if not ray.is_initialized():
+        ray.init(include_dashboard=False, log_to_driver=False)
+    cpus = int(ray.cluster_resources().get("CPU", 1))
+    size = chunk or max(1, min(100, len(runs) // (4 * max(cpus, 1))))
+    chunks = [list(runs[first : first + size]) for first in range(0, len(runs), size)]
+    task = ray.remote(num_cpus=1, max_retries=RETRIES)(work)
+    done = sweeper.total - len(runs)
+    waiting: list[Any] = []
+    try:
+        while chunks or waiting:
+            while chunks and len(waiting) < max(WAITING, 2 * cpus):
+                waiting.append(task.remote(spec, sweeper.identity, chunks.pop(0)))
+            # With a limit, so that Ctrl-C is seen.
+            ready, waiting = ray.wait(waiting, timeout=0.5)
+            for each in ready:
+                worker, lines = ray.get(each)
+                done += sweeper.accept(lines)
+                collected(worker)
+                tell(done)
+    finally:
+        for each in waiting:
+            ray.cancel(each, force=True)
+
+
+def work(spec: Spec, identity: str, runs: list[int]) -> tuple[int, list[str]]:
+    """Does a chunk, in a worker: its process, and outcomes as lines of JSON."""
+    sweeper = spec.sweeper()
+    if sweeper.identity != identity:
+        text = "this worker has other versions of the package, the plan's files or the worlds than the driver"
+        raise AfpError(f"{text}\n  driver: {identity}\n  worker: {sweeper.identity}")
+    return os.getpid(), sweeper.lines(runs, 1)
+
+
+def collected(worker: int) -> None:
+    """A chunk has come from a worker; for tests that disturb workers."""

@@ -1,0 +1,90 @@
+"""Sweeps on a local Ray: as the local engine has it, even if a worker dies."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import afp
+from afp import cluster
+
+if not os.environ.get("AFP_RAY"):
+    pytest.skip("AFP_RAY is not set; the nightly suite 'python long' sets it", allow_module_level=True)
+
+import ray
+
+ROOT = Path(__file__).resolve().parents[2]
+GRID: dict[str, Any] = {"seeds": 20, "vary": {"walldist": ["30cm", "40cm"]}, "until": 5.0}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def local() -> Iterator[None]:
+    ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False)
+    yield
+    ray.shutdown()
+
+
+def rows(runs: afp.Runs) -> list[dict[str, Any]]:
+    return [{**runs[row], "took_s": 0} for row in range(len(runs))]
+
+
+def test_a_worker_dies_and_no_run_is_lost_or_doubled(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    plan = afp.load(ROOT / "plans/wall_following.afp")
+    killed: list[int] = []
+    marks, work = tmp_path / "marks", cluster.work
+    marks.mkdir()
+
+    def watched(spec: cluster.Spec, identity: str, runs: list[int]) -> tuple[int, list[str]]:
+        """Leaves a mark for each chunk while it is being done, and how often it was begun."""
+        mark = marks / f"{os.getpid()}.{runs[0]}"
+        mark.touch()
+        with open(marks.parent / "begun", "a") as begun:
+            begun.write(f"{runs[0]}\n")
+        done = work(spec, identity, runs)
+        mark.unlink()
+        return done
+
+    def collected(worker: int) -> None:
+        while not killed:
+            for mark in marks.iterdir():
+                killed.append(int(mark.name.split(".")[0]))
+                os.kill(killed[0], signal.SIGKILL)
+                return
+            time.sleep(0.01)
+
+    monkeypatch.setattr(cluster, "work", watched)
+    monkeypatch.setattr(cluster, "collected", collected)
+    told: list[int] = []
+    out = tmp_path / "runs.parquet"
+    spread = afp.sweep(plan, **GRID, backend="ray", out=out, progress=lambda done, total: told.append(done))
+    begun = (tmp_path / "begun").read_text().split()
+    assert len(killed) == 1 and len(begun) > len(set(begun)), "a chunk was torn and begun again"
+    assert told == sorted(set(told)) and told[-1] == 40
+    assert len(out.with_suffix(".parquet.journal").read_text().splitlines()) == 41
+    assert rows(spread) == rows(afp.sweep(plan, **GRID, progress=False))
+
+
+def test_a_worker_with_another_plan_refuses(tmp_path: Path) -> None:
+    file = tmp_path / "go.afp"
+    file.write_text("use carbot\nplan Go { start go actor go: Forward(distance = 1 m) { ForwardSuccessful -> terminate } }")
+    spec = cluster.Spec.of(afp.load(file), [None], (0, 1), [], 5.0)
+    with pytest.raises(afp.AfpError, match="other versions"):
+        cluster.work(spec, "another", [0])
+
+
+def test_components_in_python_stay_here() -> None:
+    tools = afp.Toolbox("tools")
+
+    @tools.computation(states=["Done"])
+    def Nothing() -> str:
+        return "Done"
+
+    plan = afp.Plan("use tools plan P { start go computation go: Nothing { Done -> terminate } }", toolboxes=[tools])
+    with pytest.raises(NotImplementedError, match='backend="local"'):
+        afp.sweep(plan, backend="ray", progress=False)

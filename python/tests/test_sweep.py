@@ -1,0 +1,149 @@
+"""Sweeps: the grid, resuming, components in Python, tables."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import afp
+
+GO = "use carbot\nplan Go { in way: length = 20 cm start go actor go: Forward(distance = way) { ForwardSuccessful -> terminate } }"
+
+
+def rows(runs: afp.Runs) -> list[dict[str, Any]]:
+    return [{**runs[row], "took_s": 0} for row in range(len(runs))]
+
+
+def test_every_combination_is_a_row_with_its_command() -> None:
+    vary = {"way": [afp.cm(10), 0.2, "30cm"]}
+    runs = afp.sweep(afp.Plan(GO), ["random:1", "random:2"], range(3, 5), vary, until=5.0, progress=False)
+    assert len(runs) == 12 and runs.columns["run"] == list(range(12))
+    assert runs.columns["way"][::2] == ["0.1m", "0.2m", "30cm"] * 2
+    assert runs.columns["way_si"][:6:2] == [0.1, 0.2, 0.3]
+    wanted = "afpc run plan.afp --world random:2 --seed 4 --set way=30cm --until 5s"
+    assert runs[11]["command"] == wanted
+    assert sum(runs.endings.values()) == 12 and sum(group["count"] for group in runs.groups) == 12
+
+
+def test_a_range_is_that_of_the_command_line() -> None:
+    runs = afp.sweep(afp.Plan(GO), vary={"way": "10cm..30cm:10cm"}, until=5.0, progress=False)
+    assert runs.columns["way_si"] == [0.1, 0.2, 0.3]
+
+
+def test_a_row_is_the_run_of_a_simulation(wall_following: afp.Plan) -> None:
+    runs = afp.sweep(wall_following, seeds=range(5, 7), vary={"walldist": ["35cm"]}, until=5.0, progress=False)
+    alone = afp.Simulation(wall_following, seed=6, set={"walldist": "35cm"}).run(until=5.0)
+    assert runs[1]["trace"] == alone.trace_hash
+
+
+def test_jobs_do_not_matter_and_progress_is_told() -> None:
+    told: list[tuple[int, int]] = []
+    one = afp.sweep(afp.Plan(GO), seeds=6, until=5.0, jobs=1, progress=lambda *it: told.append(it))
+    four = afp.sweep(afp.Plan(GO), seeds=6, until=5.0, jobs=4, progress=False)
+    assert rows(one) == rows(four)
+    assert told[-1] == (6, 6) and told == sorted(told)
+
+
+def test_what_makes_no_sense_is_refused() -> None:
+    plan = afp.Plan(GO)
+    with pytest.raises(afp.AfpError, match="no.*'nothing'"):
+        afp.sweep(plan, vary={"nothing": [1]}, progress=False)
+    with pytest.raises(afp.AfpError, match="way"):
+        afp.sweep(plan, vary={"way": [afp.deg(1), 2]}, progress=False)
+    with pytest.raises(ValueError, match="no backend"):
+        afp.sweep(plan, backend="slurm")
+    with pytest.raises(ValueError, match="step of 1"):
+        afp.sweep(plan, seeds=range(0, 9, 2))
+    with pytest.raises(ValueError, match="no values"):
+        afp.sweep(plan, vary={"way": []})
+    with pytest.raises(ValueError, match="nothing to run"):
+        afp.sweep(plan, seeds=0)
+    with pytest.raises(afp.PlanError):
+        afp.sweep(afp.Plan("plan P {"))
+    with pytest.raises(ValueError, match="write its text"):
+        afp.sweep(plan, afp.World.parse(afp.World.random(3).text))
+
+
+def test_a_sweep_goes_on_where_it_was_stopped(tmp_path: Path) -> None:
+    plan, out = afp.Plan(GO), tmp_path / "runs.csv"
+
+    def stop(done: int, total: int) -> None:
+        if done >= 3:
+            raise InterruptedError
+
+    with pytest.raises(InterruptedError):
+        afp.sweep(plan, seeds=8, until=5.0, jobs=1, progress=stop, out=out)
+    kept = out.with_suffix(".csv.journal").read_text().splitlines()
+    assert 4 <= len(kept) <= 8
+    first: list[int] = []
+    runs = afp.sweep(plan, seeds=8, until=5.0, progress=lambda done, total: first.append(done), out=out)
+    assert first[0] > 3 and rows(runs) == rows(afp.sweep(plan, seeds=8, until=5.0, progress=False))
+    assert len(out.read_text().splitlines()) == 9
+    with pytest.raises(afp.AfpError, match="of another sweep"):
+        afp.sweep(plan, seeds=9, until=5.0, progress=False, out=out)
+    assert len(afp.sweep(plan, seeds=2, until=5.0, progress=False, out=out, restart=True)) == 2
+
+
+def test_the_command_line_goes_on_with_it(tmp_path: Path, afpc: str) -> None:
+    file, out = tmp_path / "go.afp", tmp_path / "runs.csv"
+    file.write_text(GO)
+    afp.sweep(afp.load(file), seeds=4, until=5.0, progress=False, out=out)
+    command = [afpc, "sweep", str(file), "--seeds", "0..4", "--until", "5s", "-o", str(out), "--json"]
+    lines = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
+    # All were done: there is the account and nothing else.
+    assert len(lines) == 1 and json.loads(lines[0])
+
+
+def test_components_in_python_take_turns() -> None:
+    threads: set[int] = set()
+    tools = afp.Toolbox("tools")
+
+    @tools.actor(states=["Done"])
+    async def Wait(robot: afp.Robot, time: afp.Duration) -> str:
+        threads.add(threading.get_ident())
+        while robot.time < time:
+            await afp.tick()
+        if robot.time > 0.5:
+            raise RuntimeError("too late")
+        return "Done"
+
+    text = "use tools plan P { in t: duration = 1 s start go actor go: Wait(time = t) { Done -> terminate } }"
+    plan = afp.Plan(text, toolboxes=[tools])
+    runs = afp.sweep(plan, seeds=4, vary={"t": [0.1, 1]}, jobs=2, until=2.0, progress=False)
+    assert runs.columns["ending"] == ["ok"] * 4 + ["error"] * 4
+    assert "python-exception" in runs[7]["why"]
+    assert threading.get_ident() not in threads
+
+
+def test_ctrl_c_stops_a_sweep() -> None:
+    begun = time.monotonic()
+    timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        afp.sweep(afp.Plan(GO.replace("20 cm", "-0.001 mm").replace("terminate", "go")), seeds=100_000, until=600.0, jobs=2, progress=False)
+    assert time.monotonic() - begun < 10.0
+
+
+def test_tables(tmp_path: Path) -> None:
+    pytest.importorskip("pandas")
+    parquet = pytest.importorskip("pyarrow.parquet")
+    out = tmp_path / "runs.parquet"
+    runs = afp.sweep(afp.Plan(GO), seeds=3, until=5.0, progress=False, out=out)
+    table = runs.to_arrow()
+    assert table.num_rows == 3 and str(table.schema.field("seed").type) == "uint64"
+    assert parquet.read_table(out).to_pydict() == table.to_pydict()
+    frame = runs.to_pandas()
+    assert list(frame["run"]) == [0, 1, 2] and frame["wall_error_mean_m"].dtype == "float64"
+    assert "<table>" in runs._repr_html_() and "3 ok" in repr(runs)
+    pytest.importorskip("matplotlib").use("agg")
+    assert runs.plot("seed", "distance_m").get_ylabel() == "distance_m"
+    with pytest.raises(KeyError, match="no column"):
+        runs.plot("nothing")
