@@ -4,12 +4,12 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use afp_carbot::devices::{
-    Battery, Beam, Body, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo, Frame, Glow,
-    InfraredSensor, Lens, Motion, Navigator, Odometry, Reading, RotatingTelemetry, Rotator,
-    TouchSensor, Ultrasonic,
+    Battery, Beam, Body, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo, Flow,
+    FlowCamera, Frame, Glow, InfraredSensor, Lens, Motion, Navigator, Odometry, Reading,
+    RotatingTelemetry, Rotator, TouchSensor, Ultrasonic,
 };
 use afp_core::quantity::{Angle, AngularSpeed, Speed};
-use afp_core::{Environment, Instant};
+use afp_core::{Environment, Fault, Instant};
 use afp_sim::{Sensor, Simulation};
 
 use crate::watch::Watch;
@@ -139,6 +139,15 @@ impl Camera for Witness {
 
     fn lens(&self) -> Lens {
         self.sim.lens()
+    }
+}
+
+impl FlowCamera for Witness {
+    fn flow(&mut self, now: Instant) -> Result<Reading<Flow<'_>>, Fault> {
+        let reading = self.sim.flow(now)?;
+        let valid = reading.value.is_ok();
+        self.watch.borrow_mut().told(Sensor::Camera, valid, reading.time, now);
+        Ok(reading)
     }
 }
 
