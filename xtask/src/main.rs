@@ -4,6 +4,7 @@
 
 mod arm;
 mod book;
+mod engine;
 mod fuzz;
 mod gate;
 mod image;

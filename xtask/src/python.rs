@@ -32,7 +32,7 @@ const LONG: [&str; 3] = ["ipykernel==7.4.0", "nbclient==0.11.0", "ray==2.60.0"];
 /// # Errors
 /// No Python, no network for the packages, or a test that fails.
 pub fn run() -> Result<(), Failure> {
-    let python = environment(&PACKAGES)?;
+    let python = environment("python", &PACKAGES)?;
     run_command(cargo().args(["build", "--quiet", "--package", "afpc"]))?;
     let afpc = target().join("debug").join(format!("afpc{}", std::env::consts::EXE_SUFFIX));
     read_a_log(&python, &afpc)?;
@@ -53,7 +53,7 @@ pub fn run() -> Result<(), Failure> {
 /// A bar that is not kept, a notebook that does not run, a source distribution that lacks something.
 pub fn long() -> Result<(), Failure> {
     let packages: Vec<_> = PACKAGES.into_iter().chain(LONG).collect();
-    let python = environment(&packages)?;
+    let python = environment("python", &packages)?;
     run_command(cargo().args(["build", "--quiet", "--release", "--package", "afpc"]))?;
     let afpc = target().join("release").join(format!("afpc{}", std::env::consts::EXE_SUFFIX));
     install(&python, "release")?;
@@ -125,9 +125,12 @@ fn read_a_sweep(python: &Path, afpc: &Path) -> Result<(), Failure> {
     run_command(program(python).arg(root().join("tests/python/read_sweep.py")).arg(table))
 }
 
-/// A Python with the packages, made once under target/.
-fn environment(packages: &[&str]) -> Result<PathBuf, Failure> {
-    let folder = target().join("xtask/python");
+/// A Python with the packages, made once under target/ in a folder of that name.
+///
+/// # Errors
+/// No Python, or no network for the packages.
+pub fn environment(name: &str, packages: &[&str]) -> Result<PathBuf, Failure> {
+    let folder = target().join("xtask").join(name);
     let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
     let done = folder.join("packages.txt");
     let installed = fs::read_to_string(&done).unwrap_or_default();

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::install::Profile;
 use crate::shell::{Failure, cargo, run as run_command};
-use crate::{arm, bench, fuzz, gate, install, opencv, python, scxml};
+use crate::{arm, bench, engine, fuzz, gate, install, opencv, python, scxml};
 
 /// A suite by its name.
 type Suite = (&'static str, fn() -> Result<(), Failure>);
@@ -25,6 +25,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("random plans", random_plans),
     ("random worlds", random_worlds),
     ("arm", arm::run),
+    ("engine", engine::run),
     ("python", python::run),
     ("python long", python::long),
     ("scxml", || scxml::run(2000)),
@@ -111,13 +112,12 @@ fn again(name: &str) -> String {
             format!("    AFP_WORLDS={RANDOM_WORLDS} cargo test --release -p afp-worlds")
         }
         "python long" => "    cargo xtask nightly 'python long'".to_owned(),
+        "arm" | "engine" | "opencv" => format!("    cargo xtask nightly {name}"),
         "long run" => {
             format!("    AFP_STEPS={STEPS} cargo test --release -p afp-tests --test no_allocation")
         }
-        "arm" => "    cargo xtask nightly arm".to_owned(),
         "fuzz" => format!("    cargo xtask fuzz --seconds {FUZZED}"),
         "benchmarks" => "    cargo xtask bench --check".to_owned(),
-        "opencv" => "    cargo xtask nightly opencv".to_owned(),
         other => format!("    cargo xtask test {other}"),
     }
 }

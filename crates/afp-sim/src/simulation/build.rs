@@ -45,7 +45,7 @@ pub(super) fn build(world: &World) -> Result<Built, WorldError> {
             None => drop(physics.insert_collider(collider.position(at), None)),
             Some(body) => {
                 let (body, _) = physics.insert(body, collider);
-                movers.push(Mover::new(i, body, at, obstacle));
+                movers.push(Mover::new(i, body, (at, &shape), obstacle));
             }
         }
         shapes.push((at, shape));

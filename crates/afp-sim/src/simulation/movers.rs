@@ -5,12 +5,11 @@ use crate::vehicle::Place;
 use crate::world::{Mobility, Obstacle, Path};
 use afp_core::Instant;
 use rapier2d::math::{Pose as Isometry, Vector};
+use rapier2d::parry::shape::SharedShape;
 use rapier2d::prelude::{RigidBody, RigidBodyBuilder, RigidBodyHandle};
 
 /// How fast something that slides over the floor gets slower, metres a second squared.
 const FLOOR: f32 = 0.4 * 9.81;
-/// And how fast the edge of something that turns does, as a share of that.
-const TURNING: f32 = 4.0 / 3.0;
 
 /// An obstacle that moves.
 pub(super) struct Mover {
@@ -25,8 +24,8 @@ pub(super) struct Mover {
 enum Way {
     /// By itself.
     Scripted(Path),
-    /// When it is pushed; its middle is so far from its rim, metres.
-    Pushed { radius: f32 },
+    /// When it is pushed; its radius of gyration, metres, at least a centimetre.
+    Pushed { gyration: f32 },
 }
 
 impl Mover {
@@ -39,13 +38,22 @@ impl Mover {
         }
     }
 
-    /// The `i`-th obstacle, with its body.
-    pub(super) fn new(i: usize, body: RigidBodyHandle, at: Isometry, obstacle: &Obstacle) -> Self {
+    /// The `i`-th obstacle, with its body; it stands at `start` and has a shape.
+    pub(super) fn new(
+        i: usize,
+        body: RigidBodyHandle,
+        (start, shape): (Isometry, &SharedShape),
+        obstacle: &Obstacle,
+    ) -> Self {
         let way = match &obstacle.mobility {
             Mobility::Scripted(path) => Way::Scripted(path.clone()),
-            Mobility::Fixed | Mobility::Movable { .. } => Way::Pushed { radius: radius(obstacle) },
+            Mobility::Fixed | Mobility::Movable { .. } => {
+                let spread = shape.mass_properties(1.0);
+                let gyration = (spread.principal_inertia() * spread.inv_mass).sqrt();
+                Way::Pushed { gyration: gyration.max(0.01) }
+            }
         };
-        Mover { obstacle: i, body, start: at, way }
+        Mover { obstacle: i, body, start, way }
     }
 
     /// Prepares the step that ends at `now`.
@@ -56,29 +64,27 @@ impl Mover {
                 let by = Vector::new(x as f32, y as f32);
                 body.set_next_kinematic_translation(self.start.translation + by);
             }
-            Way::Pushed { radius } if !body.is_sleeping() => slide(body, *radius),
+            Way::Pushed { gyration } if !body.is_sleeping() => slide(body, *gyration),
             Way::Pushed { .. } => {}
         }
     }
 }
 
-/// Half the distance between the corners that are farthest apart, or a little more.
-fn radius(obstacle: &Obstacle) -> f32 {
-    let corners = obstacle.outline.corners();
-    let first = corners.first().copied().unwrap_or_default();
-    let far = |c: &[f64; 2]| libm::hypot(c[0] - first[0], c[1] - first[1]) / 2.0;
-    corners.iter().map(far).fold(0.01, f64::max) as f32
-}
-
-/// The floor's friction of one step.
-fn slide(body: &mut RigidBody, radius: f32) {
+/// The floor's friction of one step. It acts on four places that are as far from the middle as the radius of gyration:
+/// so what turns is easier to slide, and the other way round.
+fn slide(body: &mut RigidBody, gyration: f32) {
     let less = FLOOR * DT as f32;
-    let velocity = body.linvel();
-    let speed = velocity.length();
-    let slower = if speed > less { velocity * (1.0 - less / speed) } else { Vector::ZERO };
-    let (turn, less) = (body.angvel(), TURNING * less / radius);
-    body.set_linvel(slower, false);
-    body.set_angvel(if turn.abs() > less { turn - less * turn.signum() } else { 0.0 }, false);
+    let (velocity, turn) = (body.linvel(), body.angvel());
+    let arm = body.rotation().transform_vector(Vector::new(gyration, 0.0));
+    let (mut slower, mut calmer) = (Vector::ZERO, 0.0);
+    for place in [arm, arm.perp(), -arm, -arm.perp()] {
+        let moves = velocity + place.perp() * turn;
+        let lost = moves * (less / moves.length().max(less)) / 4.0;
+        slower += lost;
+        calmer += place.perp_dot(lost) / (gyration * gyration);
+    }
+    body.set_linvel(velocity - slower, false);
+    body.set_angvel(turn - calmer, false);
 }
 
 impl Simulation {
