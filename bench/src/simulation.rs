@@ -128,7 +128,14 @@ impl RobotSink for Recorder {
         let pose = Pose2 { x: pose.x, y: pose.y, heading: pose.heading };
         self.pose(snapshot.time, "world", pose);
         if let Some(sonar) = snapshot.sonar {
-            let ranging = Ranging { frame: "sonar", half_angle: 0.26, range: sonar.distance };
+            let at = Pose2 { x: 0.0, y: 0.0, heading: sonar.bearing };
+            let ranging = Ranging {
+                time: sonar.time,
+                frame: "base_link",
+                pose: at,
+                half_angle: 0.26,
+                range: sonar.distance,
+            };
             self.ranging(snapshot.time, ranging);
         }
     }

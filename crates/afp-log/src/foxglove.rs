@@ -5,11 +5,11 @@ use prost_types::Timestamp;
 
 use crate::event::timestamp;
 use crate::proto::foxglove::{
-    Color, FrameTransform, FrameTransforms, LaserScan, LinePrimitive, Log, Point3, Pose,
-    PoseInFrame, Quaternion, SceneEntity, SceneUpdate, TriangleListPrimitive, Vector3,
+    Color, CompressedImage, FrameTransform, FrameTransforms, LaserScan, LinePrimitive, Log, Point3,
+    Pose, PoseInFrame, Quaternion, SceneEntity, SceneUpdate, TriangleListPrimitive, Vector3,
     line_primitive, log,
 };
-use crate::robot::{Level, Pose2, Ranging, Shape, Transform};
+use crate::robot::{Image, Level, Pose2, Ranging, Shape, Transform};
 
 /// Rays that stand for the cone of one ranging.
 const RAYS: usize = 9;
@@ -37,16 +37,40 @@ pub(crate) fn pose(at: Instant, frame: &str, at_pose: Pose2) -> PoseInFrame {
 }
 
 /// Without an echo the scan has no ranges: infinity would read as free space.
-pub(crate) fn ranging(at: Instant, ranging: &Ranging) -> LaserScan {
+pub(crate) fn ranging(ranging: &Ranging) -> LaserScan {
     LaserScan {
-        timestamp: Some(timestamp(at)),
+        timestamp: Some(timestamp(ranging.time)),
         frame_id: ranging.frame.to_owned(),
-        pose: Some(Pose { position: Some(Vector3::default()), orientation: Some(turned(0.0)) }),
+        pose: Some(Pose {
+            position: Some(place(ranging.pose, 0.0)),
+            orientation: Some(turned(ranging.pose.heading)),
+        }),
         start_angle: -ranging.half_angle,
         end_angle: ranging.half_angle,
         ranges: ranging.range.map_or_else(Vec::new, |range| vec![range; RAYS]),
         intensities: Vec::new(),
     }
+}
+
+/// The picture as a PNG; empty when its size and its pixels do not fit.
+pub(crate) fn image(image: &Image) -> CompressedImage {
+    CompressedImage {
+        timestamp: Some(timestamp(image.time)),
+        frame_id: image.frame.to_owned(),
+        data: png(image).unwrap_or_default(),
+        format: "png".to_owned(),
+    }
+}
+
+fn png(image: &Image) -> Option<Vec<u8>> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, image.width, image.height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    let mut writer = encoder.write_header().ok()?;
+    writer.write_image_data(&image.rgb).ok()?;
+    writer.finish().ok()?;
+    Some(file)
 }
 
 pub(crate) fn text(at: Instant, level: Level, name: &str, message: &str) -> Log {

@@ -22,7 +22,7 @@ mod write;
 pub use doctor::doctor;
 pub use error::LogError;
 pub use names::NameTable;
-pub use read::{LogData, TopicInfo, instant, read};
+pub use read::{Heard, LogData, TopicInfo, instant, read};
 pub use record::{Kept, OwnedRecord};
 pub use recorder::{About, FRAMES, Recorder, WhenFull, Written};
 pub use recover::{Recovered, recover, recovered_name};

@@ -10,8 +10,11 @@ use prost_types::Timestamp;
 
 use crate::error::LogError;
 use crate::proto::afp::{Configuration, PlanEvent, PlanTable};
-use crate::proto::foxglove::PoseInFrame;
-use crate::robot::Pose2;
+use crate::proto::foxglove::{
+    CompressedImage, FrameTransform, FrameTransforms, LaserScan, Pose, PoseInFrame, Quaternion,
+    Vector3,
+};
+use crate::robot::{BELIEVED, Pose2};
 use crate::scan::{load, scan};
 
 /// What a log holds, as far as AFP knows it.
@@ -29,6 +32,12 @@ pub struct LogData {
     pub configurations: Vec<Configuration>,
     /// Where the robot was.
     pub poses: Vec<(Instant, Pose2)>,
+    /// Where the robot believed to be.
+    pub believed: Vec<(Instant, Pose2)>,
+    /// What the range sensor said.
+    pub rangings: Vec<Heard>,
+    /// What the camera saw: when, and the picture as a PNG file.
+    pub images: Vec<(Instant, Vec<u8>)>,
     /// The channels by topic.
     pub topics: BTreeMap<String, TopicInfo>,
     /// The size of the file in bytes.
@@ -37,6 +46,19 @@ pub struct LogData {
     pub span: Option<(Instant, Instant)>,
     /// Why the log ends before its end, when it does.
     pub cut_short: Option<String>,
+}
+
+/// A reading of the range sensor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Heard {
+    /// When it was taken.
+    pub at: Instant,
+    /// Where the sensor was and which way it looked, against the robot.
+    pub pose: Pose2,
+    /// Half the opening of the cone, radians.
+    pub half_angle: f64,
+    /// Metres; `None` when no echo came back.
+    pub range: Option<f64>,
 }
 
 /// What is known of a channel.
@@ -134,7 +156,27 @@ impl Reader {
             "/plan/table" => self.log.table = PlanTable::decode(data)?,
             "/robot/pose" => {
                 let message = PoseInFrame::decode(data)?;
-                self.log.poses.extend(pose(&message).map(|pose| (at, pose)));
+                self.log.poses.extend(pose(message.pose.as_ref()).map(|pose| (at, pose)));
+            }
+            "/tf" => {
+                let message = FrameTransforms::decode(data)?;
+                let believed = |each: &&FrameTransform| each.child_frame_id == BELIEVED;
+                let believed = message.transforms.iter().find(believed).and_then(placed);
+                self.log.believed.extend(believed.map(|pose| (at, pose)));
+            }
+            "/robot/ultrasonic" => {
+                let LaserScan { timestamp, pose: at, end_angle, ranges, .. } =
+                    LaserScan::decode(data)?;
+                self.log.rangings.extend(pose(at.as_ref()).map(|pose| Heard {
+                    at: instant(&timestamp),
+                    pose,
+                    half_angle: end_angle,
+                    range: ranges.first().copied(),
+                }));
+            }
+            "/robot/camera" => {
+                let CompressedImage { timestamp, data, .. } = CompressedImage::decode(data)?;
+                self.log.images.push((instant(&timestamp), data));
             }
             _ => {}
         }
@@ -142,8 +184,17 @@ impl Reader {
     }
 }
 
-fn pose(message: &PoseInFrame) -> Option<Pose2> {
-    let pose = message.pose.as_ref()?;
-    let (at, turned) = (pose.position.as_ref()?, pose.orientation.as_ref()?);
-    Some(Pose2 { x: at.x, y: at.y, heading: 2.0 * libm::atan2(turned.z, turned.w) })
+fn pose(pose: Option<&Pose>) -> Option<Pose2> {
+    let pose = pose?;
+    plane(pose.position.as_ref()?, pose.orientation.as_ref()?)
+}
+
+fn placed(transform: &FrameTransform) -> Option<Pose2> {
+    plane(transform.translation.as_ref()?, transform.rotation.as_ref()?)
+}
+
+fn plane(at: &Vector3, turned: &Quaternion) -> Option<Pose2> {
+    let heading = 2.0 * libm::atan2(turned.z, turned.w);
+    let whole = [at.x, at.y, heading].iter().all(|number| number.is_finite());
+    whole.then_some(Pose2 { x: at.x, y: at.y, heading })
 }

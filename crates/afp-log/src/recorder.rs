@@ -17,7 +17,7 @@ use rtrb::{Consumer, Producer, PushError, RingBuffer};
 use crate::error::LogError;
 use crate::names::NameTable;
 use crate::record::OwnedRecord;
-use crate::robot::{Level, Pose2, Ranging, Shape, Transform};
+use crate::robot::{Image, Level, Pose2, Ranging, Shape, Transform};
 use crate::write::LogFile;
 
 /// Frames in one message of [`Recorder::transforms`].
@@ -68,6 +68,7 @@ pub(crate) enum Item {
     Transforms { at: Instant, transforms: [Transform; FRAMES] },
     Pose { at: Instant, frame: &'static str, pose: Pose2 },
     Ranging { at: Instant, ranging: Ranging },
+    Image { at: Instant, image: Image },
     Scene { at: Instant, shapes: Box<[Shape]> },
     Text { at: Instant, level: Level, name: &'static str, text: Box<str> },
 }
@@ -82,6 +83,7 @@ impl Item {
             | Item::Transforms { at, .. }
             | Item::Pose { at, .. }
             | Item::Ranging { at, .. }
+            | Item::Image { at, .. }
             | Item::Scene { at, .. }
             | Item::Text { at, .. } => Some(*at),
         }
@@ -160,6 +162,11 @@ impl Recorder {
     /// What a range sensor says.
     pub fn ranging(&mut self, at: Instant, ranging: Ranging) {
         self.push(Item::Ranging { at, ranging }, at);
+    }
+
+    /// What a camera saw; the writer makes a PNG of it.
+    pub fn image(&mut self, at: Instant, image: Image) {
+        self.push(Item::Image { at, image }, at);
     }
 
     /// What stands in the room; allocates, so meant for the start.

@@ -3,6 +3,11 @@
 //! Frames follow the usual convention: x forward, y left, z up, angles counter-clockwise, metres
 //! and radians.
 
+use afp_core::Instant;
+
+/// The frame of a robot where its own odometry takes it to be.
+pub const BELIEVED: &str = "base_link_by_odometry";
+
 /// A place and a heading in the plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose2 {
@@ -30,12 +35,31 @@ pub struct Transform {
 /// One range reading of a sensor that sees a cone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ranging {
-    /// The frame of the sensor, which looks along x.
+    /// When it was taken, which may be before it is known.
+    pub time: Instant,
+    /// The frame that `pose` speaks in.
     pub frame: &'static str,
+    /// Where the sensor was and which way it looked.
+    pub pose: Pose2,
     /// Half the cone's opening in radians.
     pub half_angle: f64,
     /// Metres; `None` when no echo came back.
     pub range: Option<f64>,
+}
+
+/// A picture of a camera.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Image {
+    /// When it was taken.
+    pub time: Instant,
+    /// The frame of the camera.
+    pub frame: &'static str,
+    /// Pixels.
+    pub width: u32,
+    /// Pixels.
+    pub height: u32,
+    /// Red, green and blue of each pixel, row by row.
+    pub rgb: Box<[u8]>,
 }
 
 /// Something that stands in the room.

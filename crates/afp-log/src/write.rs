@@ -30,18 +30,20 @@ pub(crate) enum Topic {
     Transforms,
     Pose,
     Ultrasonic,
+    Camera,
     Scene,
     Log,
 }
 
 /// Topic, schema and the descriptors that explain it, in the order of [`Topic`].
-const CHANNELS: [(&str, &str, &[u8]); 8] = [
+const CHANNELS: [(&str, &str, &[u8]); 9] = [
     ("/plan/events", "afp.PlanEvent", AFP_SET),
     ("/plan/configuration", "afp.Configuration", AFP_SET),
     ("/plan/table", "afp.PlanTable", AFP_SET),
     ("/tf", "foxglove.FrameTransforms", FOXGLOVE_SET),
     ("/robot/pose", "foxglove.PoseInFrame", FOXGLOVE_SET),
     ("/robot/ultrasonic", "foxglove.LaserScan", FOXGLOVE_SET),
+    ("/robot/camera", "foxglove.CompressedImage", FOXGLOVE_SET),
     ("/scene", "foxglove.SceneUpdate", FOXGLOVE_SET),
     ("/log", "foxglove.Log", FOXGLOVE_SET),
 ];
@@ -128,8 +130,9 @@ impl LogFile {
                 self.send(Topic::Pose, *at, &foxglove::pose(*at, frame, *pose))
             }
             Item::Ranging { at, ranging } => {
-                self.send(Topic::Ultrasonic, *at, &foxglove::ranging(*at, ranging))
+                self.send(Topic::Ultrasonic, *at, &foxglove::ranging(ranging))
             }
+            Item::Image { at, image } => self.send(Topic::Camera, *at, &foxglove::image(image)),
             Item::Scene { at, shapes } => {
                 self.send(Topic::Scene, *at, &foxglove::scene(*at, shapes))
             }

@@ -106,7 +106,16 @@ fn run(log: &mut Recorder) {
                 frames.map(|child| Transform { parent: "world", child, pose, height: 0.1 }),
             );
             let range = (n % 100 == 0).then_some(1.5);
-            log.ranging(now, Ranging { frame: "sonar", half_angle: 0.13, range });
+            log.ranging(
+                now,
+                Ranging {
+                    time: now,
+                    frame: "sonar",
+                    pose: Pose2::default(),
+                    half_angle: 0.13,
+                    range,
+                },
+            );
         }
     }
     let (lateness, cause) = (Duration::from_millis(3), Cause::LongPoll);

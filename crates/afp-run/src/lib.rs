@@ -35,7 +35,7 @@ pub use output::write_whole;
 pub use report::{line, timeline};
 pub use run::run;
 pub use stop::StopFlag;
-pub use svg::draw_log;
+pub use svg::{draw_film, draw_log, draw_sonar};
 
 /// A plan and where it comes from.
 #[derive(Clone, Copy, Debug)]

@@ -50,6 +50,10 @@ pub struct RunOptions {
     #[arg(long, value_name = "FILE", value_parser = parse::destination)]
     pub log: Option<Destination>,
 
+    /// Logs what the camera sees too, twice a second
+    #[arg(long)]
+    pub camera: bool,
+
     /// Where the picture goes; 'none' for no picture [default: target/afp/runs/<plan>.svg]
     #[arg(long, value_name = "FILE", value_parser = parse::destination)]
     pub svg: Option<Destination>,

@@ -115,9 +115,9 @@ impl<P: NamedPlan + Plan<Simulation>> Rig<P> {
         }
     }
 
-    /// Records the run; to be called before the start.
-    pub fn record(&mut self, mut log: Recorder, world: &World) {
-        self.robot_log = Some(RobotLog::begin(&mut log, world));
+    /// Records the run, with `camera` also what the camera sees; to be called before the start.
+    pub fn record(&mut self, mut log: Recorder, world: &World, camera: bool) {
+        self.robot_log = Some(RobotLog::begin(&mut log, world, camera));
         self.tracer.log = Some(log);
     }
 

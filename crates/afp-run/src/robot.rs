@@ -1,8 +1,8 @@
 //! The simulated robot and its room as a log has them.
 
-use afp_core::Instant;
+use afp_core::{Duration, Instant};
 use afp_log::Recorder;
-use afp_log::robot::{Pose2, Ranging, Shape, Transform};
+use afp_log::robot::{BELIEVED, Image, Pose2, Ranging, Shape, Transform};
 use afp_sim::world::{Mobility, Obstacle};
 use afp_sim::{Pose, Simulation, Snapshot, World};
 
@@ -11,8 +11,10 @@ use afp_carbot::devices::Ultrasonic;
 const WORLD: &str = "world";
 const BASE: &str = "base_link";
 const SONAR: &str = "sonar";
-/// Where the robot believes to be.
-const BELIEVED: &str = "base_link_by_odometry";
+const CAMERA: &str = "camera";
+
+/// How often a log gets what the camera sees.
+const FILM: Duration = Duration::from_millis(500);
 
 /// How high the parts of the robot are, metres.
 const BODY_HEIGHT: f64 = 0.22;
@@ -22,13 +24,17 @@ const SONAR_HEIGHT: f64 = 0.15;
 pub struct RobotLog {
     start: Pose2,
     last_ping: Option<Instant>,
+    /// When the camera is looked at next; never where it is not to be logged.
+    camera: Instant,
     /// What moves, as it was last written.
     movers: Vec<(usize, Shape)>,
 }
 
 impl RobotLog {
     /// Writes what stands in the room, and the robot's body.
-    pub fn begin(log: &mut Recorder, world: &World) -> Self {
+    ///
+    /// With `camera` the log gets what the camera sees, twice a second.
+    pub fn begin(log: &mut Recorder, world: &World, camera: bool) -> Self {
         let obstacles = || world.obstacles.iter().enumerate();
         let movers = obstacles().filter(|(_, obstacle)| obstacle.mobility != Mobility::Fixed);
         let movers = movers.map(|(index, obstacle)| (index, shape(index, obstacle))).collect();
@@ -41,7 +47,8 @@ impl RobotLog {
             color: [0.15, 0.45, 0.75, 0.9],
         };
         log.scene(Instant::ZERO, obstacles.chain([body]).collect());
-        RobotLog { start: plane(world.start), last_ping: None, movers }
+        let camera = if camera { Instant::ZERO } else { Instant::MAX };
+        RobotLog { start: plane(world.start), last_ping: None, camera, movers }
     }
 
     /// Writes where the robot is and what it has heard since.
@@ -65,8 +72,24 @@ impl RobotLog {
             && self.last_ping != Some(sonar.time)
         {
             self.last_ping = Some(sonar.time);
-            let half_angle = beam.opening.si() / 2.0;
-            log.ranging(time, Ranging { frame: SONAR, half_angle, range: sonar.distance });
+            let pose = Pose2 { heading: sonar.bearing, ..sensor };
+            let (half_angle, range) = (beam.opening.si() / 2.0, sonar.distance);
+            log.ranging(time, Ranging { time: sonar.time, frame: BASE, pose, half_angle, range });
+        }
+        if time >= self.camera
+            && let Some((taken, frame)) = sim.view()
+        {
+            self.camera = time + FILM;
+            log.image(
+                time,
+                Image {
+                    time: taken,
+                    frame: CAMERA,
+                    width: frame.width as u32,
+                    height: frame.height as u32,
+                    rgb: frame.rgb.into(),
+                },
+            );
         }
         self.look_at_movers(log, sim, time);
     }

@@ -67,7 +67,7 @@ where
     };
     let mut rig = Rig::new(plan, sim, Duration::ZERO);
     if let Some(log) = log {
-        rig.record(log, &world.world);
+        rig.record(log, &world.world, options.camera);
     }
     attendants.report.head(&head(program, options, &world));
     let stopped_by = drive(&mut rig, &mut attendants, options.end())

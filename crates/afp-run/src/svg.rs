@@ -1,9 +1,11 @@
 //! The path of a run over its world, as a picture.
 
 mod canvas;
+mod film;
 mod from_log;
 mod legend;
 mod marks;
+mod sonar;
 
 use afp_core::trace::{ComponentId, Names};
 use afp_sim::world::{Mobility, Obstacle, Outline};
@@ -12,8 +14,10 @@ use afp_sim::{Pose, World};
 use crate::judge::{Mark, Step};
 
 use canvas::{Canvas, View};
+pub use film::draw_film;
 pub use from_log::draw_log;
 use legend::Legend;
+pub use sonar::draw_sonar;
 
 /// What the range sensor looks over is drawn hatched, metres.
 const LOW: f64 = 0.15;

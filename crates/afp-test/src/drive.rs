@@ -94,7 +94,7 @@ fn rig(
     let mut rig = Rig::new(plan, sim, REST);
     if let Some(path) = log {
         let (about, names) = (about(scenario, setting), NameTable::new(rig.names()));
-        rig.record(Recorder::create(path, &about, names, WhenFull::Wait)?, world);
+        rig.record(Recorder::create(path, &about, names, WhenFull::Wait)?, world, false);
     }
     Ok(rig)
 }

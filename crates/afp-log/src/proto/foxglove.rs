@@ -90,6 +90,17 @@ pub struct LaserScan {
     #[prost(double, repeated, tag = "7")]
     pub intensities: ::prost::alloc::vec::Vec<f64>,
 }
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct CompressedImage {
+    #[prost(message, optional, tag = "1")]
+    pub timestamp: ::core::option::Option<::prost_types::Timestamp>,
+    #[prost(string, tag = "4")]
+    pub frame_id: ::prost::alloc::string::String,
+    #[prost(bytes = "vec", tag = "2")]
+    pub data: ::prost::alloc::vec::Vec<u8>,
+    #[prost(string, tag = "3")]
+    pub format: ::prost::alloc::string::String,
+}
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct CubePrimitive {
     #[prost(message, optional, tag = "1")]

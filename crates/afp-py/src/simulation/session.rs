@@ -55,7 +55,7 @@ impl Session {
         if let Some(path) = setting.log {
             let names = NameTable::new(rig.names());
             let log = Recorder::create(path, &about(setting), names, WhenFull::Wait);
-            rig.record(log.map_err(error)?, world);
+            rig.record(log.map_err(error)?, world, false);
         }
         let own_entries = setting.graph.main().entries.len();
         Ok(Session {

@@ -14,6 +14,9 @@ pub(super) const MARGIN: f64 = 28.0;
 const ROOM_WIDTH: f64 = 860.0;
 const ROOM_HEIGHT: f64 = 860.0;
 
+/// The radius of an echo's dot, pixels.
+pub(super) const ECHO: f64 = 2.2;
+
 /// From metres to pixels.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
@@ -159,6 +162,41 @@ impl Canvas {
         self.put(format_args!("<g class=\"mark\"><title>{secs:.3} s</title>{symbol}</g>"));
     }
 
+    /// Draws what must not run into the legend.
+    pub(super) fn clipped(&mut self, draw: impl FnOnce(&mut Self)) {
+        let (right, below) = self.view.end();
+        let (width, height) = (right + MARGIN / 2.0, below + MARGIN / 2.0);
+        self.put(format_args!(
+            r#"<clipPath id="room"><rect width="{width:.1}" height="{height:.1}"/></clipPath>"#
+        ));
+        self.put(format_args!(r#"<g clip-path="url(#room)">"#));
+        draw(self);
+        self.put(format_args!("</g>"));
+    }
+
+    /// A thin line: a way, as it was or as somebody takes it to be.
+    pub(super) fn line(&mut self, class: &str, points: &[[f64; 2]]) {
+        let points = self.points(points);
+        self.put(format_args!(r#"<polyline class="line {class}" points="{points}"/>"#));
+    }
+
+    /// Where an echo seems to come from.
+    pub(super) fn echo(&mut self, class: &str, at: [f64; 2]) {
+        let (x, y) = self.view.point(at);
+        self.put(format_args!(
+            r#"<circle class="echo {class}" cx="{x:.1}" cy="{y:.1}" r="{ECHO}"/>"#
+        ));
+    }
+
+    /// The arc on which an echo may come from anywhere: its ends, left first, and the range.
+    pub(super) fn arc(&mut self, [left, right]: [[f64; 2]; 2], range: f64) {
+        let ((x, y), (to_x, to_y)) = (self.view.point(left), self.view.point(right));
+        let radius = range * self.view.scale;
+        self.put(format_args!(
+            r#"<path class="arc" d="M{x:.1} {y:.1}A{radius:.1} {radius:.1} 0 0 1 {to_x:.1} {to_y:.1}"/>"#
+        ));
+    }
+
     /// One metre, below the room.
     pub(super) fn scale_bar(&mut self) {
         let (_, below) = self.view.end();
@@ -234,6 +272,11 @@ text { font: 13px system-ui, "Helvetica Neue", Arial, sans-serif; fill: #2b2b2b 
 .start polygon { stroke-dasharray: 4 3; stroke: #77736b; fill-opacity: .04 }
 .start .arrow { fill-opacity: .35 }
 .mark { fill: #ffffff; stroke: #2b2b2b; stroke-width: 1.6; stroke-linejoin: round }
+.line { fill: none; stroke-width: 1.4; stroke: #2b2b2b; opacity: .55 }
+.line.believed { stroke: #d55e00; stroke-dasharray: 5 4; opacity: .8 }
+.echo { fill: #0072b2 }
+.echo.believed { fill: none; stroke: #d55e00; stroke-width: 1; opacity: .55 }
+.arc { fill: none; stroke: #0072b2; stroke-width: 1.1; opacity: .13 }
 .scale { fill: none; stroke: #55524c; stroke-width: 1.6 }
 </style>
 <defs><pattern id="hatch" width="6" height="6" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">

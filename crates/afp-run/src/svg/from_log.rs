@@ -19,16 +19,7 @@ const WORLD: &str = "world.toml";
 /// # Errors
 /// The log has no world, or one that this release does not understand.
 pub fn draw_log(log: &LogData) -> Result<String, RunError> {
-    let content = |message: String, place, text: &str| RunError::Content {
-        path: WORLD.into(),
-        place,
-        text: text.to_owned(),
-        message,
-    };
-    let Some(text) = log.attachments.get(WORLD) else {
-        return Err(content(format!("the log has no attachment '{WORLD}'"), None, ""));
-    };
-    let world = World::parse(text).map_err(|error| content(error.message, error.place, text))?;
+    let world = world_of(log)?;
     let names = NameTable::from_table(&log.table);
     let (path, marks) = follow(log, &names);
     let way = path.windows(2).map(|pair| {
@@ -40,7 +31,7 @@ pub fn draw_log(log: &LogData) -> Result<String, RunError> {
     let picture = Picture {
         world: &world,
         title: fact("plan"),
-        subtitle: format!("{}, seed {}", world.name, fact("seed")),
+        subtitle: subtitle(&world, log),
         figures: vec![
             ("time", format!("{time:.1} s")),
             ("distance", format!("{:.2} m", way.sum::<f64>())),
@@ -51,8 +42,30 @@ pub fn draw_log(log: &LogData) -> Result<String, RunError> {
     Ok(draw(&picture, &names))
 }
 
+/// The world of a logged run.
+///
+/// # Errors
+/// The log has none, or one that this release does not understand.
+pub(super) fn world_of(log: &LogData) -> Result<World, RunError> {
+    let content = |message: String, place, text: &str| RunError::Content {
+        path: WORLD.into(),
+        place,
+        text: text.to_owned(),
+        message,
+    };
+    let Some(text) = log.attachments.get(WORLD) else {
+        return Err(content(format!("the log has no attachment '{WORLD}'"), None, ""));
+    };
+    World::parse(text).map_err(|error| content(error.message, error.place, text))
+}
+
+/// The line below the title.
+pub(super) fn subtitle(world: &World, log: &LogData) -> String {
+    format!("{}, seed {}", world.name, log.facts.get("seed").map_or("", String::as_str))
+}
+
 /// The path with the actor at each point, and the events on it.
-fn follow(log: &LogData, names: &NameTable) -> (Vec<Step>, Vec<Mark>) {
+pub(super) fn follow(log: &LogData, names: &NameTable) -> (Vec<Step>, Vec<Mark>) {
     let (mut path, mut marks) = (Vec::new(), Vec::new());
     let (mut actor, mut last) = (None, Pose::default());
     let mut events = log.events.iter().peekable();

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::canvas::{MARGIN, View, escape};
+use super::canvas::{ECHO, MARGIN, View, escape};
 use super::marks;
 
 /// The height of a line, pixels.
@@ -52,6 +52,41 @@ impl Legend {
             let times = if count > 1 { format!("  ×{count}") } else { String::new() };
             self.text("name", INDENT, &format!("{name}{times}"));
         }
+    }
+
+    /// What a map of echoes shows.
+    pub(super) fn sonar(&mut self) {
+        self.section("RANGE SENSOR");
+        let circle = |class: &str, x: f64, y: f64| {
+            format!(r#"<circle class="echo {class}" cx="{x:.1}" cy="{y:.1}" r="{ECHO}"/>"#)
+        };
+        let line = |class: &str, x: f64, y: f64| {
+            let (from, to) = (x - 10.0, x + 11.0);
+            format!(r#"<polyline class="line {class}" points="{from:.1},{y:.1} {to:.1},{y:.1}"/>"#)
+        };
+        let arc = |x: f64, y: f64| {
+            let (from, to, y) = (x - 10.0, x + 10.0, y + 3.0);
+            format!(
+                r#"<path class="arc" style="opacity:.5" d="M{from:.1} {y:.1}A18 18 0 0 1 {to:.1} {y:.1}"/>"#
+            )
+        };
+        let (x, y) = (self.x + 10.0, |legend: &Self| legend.y - 4.5);
+        let symbol = circle("true", x, y(self));
+        self.entry(&symbol, "echo, from where the robot was");
+        let symbol = arc(x, y(self));
+        self.entry(&symbol, "the cone that it may come from");
+        let symbol = circle("believed", x, y(self));
+        self.entry(&symbol, "the same, by odometry");
+        let symbol = line("true", x, y(self));
+        self.entry(&symbol, "way");
+        let symbol = line("believed", x, y(self));
+        self.entry(&symbol, "way by odometry");
+    }
+
+    /// A symbol and what it means.
+    fn entry(&mut self, symbol: &str, text: &str) {
+        self.put(format_args!("{symbol}"));
+        self.text("name", INDENT, text);
     }
 
     pub(super) fn figures(&mut self, figures: &[(&str, String)]) {

@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use crate::truth::Pose;
-use afp_carbot::devices::Motion;
+use afp_carbot::devices::{Frame, Motion};
 use afp_core::Instant;
 
 /// The robot at an instant.
@@ -34,6 +34,13 @@ pub struct Sonar {
 }
 
 impl Simulation {
+    /// The latest picture of the camera, whatever its line makes of it, and when it was taken; `None`
+    /// before the first. It is drawn when it is first looked at.
+    pub fn view(&self) -> Option<(Instant, Frame<'_>)> {
+        let exposure = self.exposure.value.as_ref().ok()?;
+        Some((self.exposure.time, exposure.frame()))
+    }
+
     /// What logs and pictures show of this instant.
     pub fn snapshot(&self) -> Snapshot {
         let sonar = self.echo.value.ok().map(|echo| Sonar {

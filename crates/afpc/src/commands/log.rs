@@ -27,7 +27,15 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
 
-    /// Also draws the plan with what the run used of it into this file, an SVG or a PNG
+    /// Also draws what the range sensor heard over the walls into this file
+    #[arg(long, value_name = "FILE")]
+    sonar: Option<PathBuf>,
+
+    /// Also draws what the camera saw into this file; for runs with '--camera'
+    #[arg(long, value_name = "FILE")]
+    film: Option<PathBuf>,
+
+    /// Also draws the plan with what the run used of it into this file
     #[arg(long, value_name = "FILE")]
     coverage: Option<PathBuf>,
 
@@ -54,7 +62,7 @@ Examples:
   afpc log target/afp/runs/wall_following.mcap
   afpc log run.mcap info
   afpc log run.mcap --svg path.svg
-  afpc log run.mcap --coverage cover.png
+  afpc log run.mcap --sonar map.svg --film film.png --coverage cover.png
   afpc log run.mcap.part recover
 
 Exit codes: 0 done or sound, 1 the file cannot be read or is not sound, 2 wrong usage";

@@ -16,13 +16,17 @@ use crate::plan_file::{NoPlan, PlanFile};
 /// # Errors
 /// The log cannot be read or does not hold what a picture shows; a file cannot be written.
 pub(super) fn draw(arguments: &Arguments) -> Result<(), NoPlan> {
-    let Arguments { svg, coverage, .. } = arguments;
-    if [svg, coverage].iter().all(|picture| picture.is_none()) {
+    let Arguments { svg, sonar, film, coverage, .. } = arguments;
+    if [svg, sonar, film, coverage].iter().all(|picture| picture.is_none()) {
         return Ok(());
     }
     let log = read(&arguments.file).map_err(RunError::from)?;
-    if let Some(path) = svg {
-        picture::write(path, &afp_run::draw_log(&log)?)?;
+    let pictures: [(_, fn(&LogData) -> _); 3] =
+        [(svg, afp_run::draw_log), (sonar, afp_run::draw_sonar), (film, afp_run::draw_film)];
+    for (path, draw) in pictures {
+        if let Some(path) = path {
+            picture::write(path, &draw(&log)?)?;
+        }
     }
     if let Some(path) = coverage {
         draw_coverage(&log, path)?;

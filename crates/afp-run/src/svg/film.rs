@@ -1,0 +1,147 @@
+//! What the camera saw: a film strip from a log, each picture with its time and the actor that was
+//! active.
+
+use std::fmt::Write;
+
+use afp_core::Instant;
+use afp_core::trace::{ComponentId, Names};
+use afp_log::{LogData, NameTable};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+use super::canvas::escape;
+use super::from_log::follow;
+use super::{NOBODY, PALETTE, actors};
+use crate::error::RunError;
+
+/// A longer film is thinned out evenly to so many pictures.
+const MOST: usize = 40;
+/// Pictures in a row.
+const COLUMNS: usize = 5;
+/// A picture, pixels; it keeps its shape.
+const WIDTH: f64 = 224.0;
+const HEIGHT: f64 = 168.0;
+/// Below a picture, and between two of them.
+const CAPTION: f64 = 30.0;
+const GAP: f64 = 10.0;
+/// Around everything, and above the first row.
+const MARGIN: f64 = 24.0;
+const HEAD: f64 = 62.0;
+
+const STYLE: &str = r#"<style>
+text { font: 12.5px system-ui, "Helvetica Neue", Arial, sans-serif; fill: #2b2b2b }
+.title { font-size: 17px; font-weight: 600 }
+.quiet { fill: #77736b }
+.time { font-weight: 600 }
+</style>
+"#;
+
+/// A picture with its caption.
+struct Shot<'a> {
+    at: Instant,
+    png: &'a [u8],
+    actor: Option<ComponentId>,
+}
+
+/// Draws the film strip of a logged run.
+///
+/// # Errors
+/// The log has no pictures of a camera.
+pub fn draw_film(log: &LogData) -> Result<String, RunError> {
+    if log.images.is_empty() {
+        let help = "log a run with them: 'afpc run plan.afp --camera --log run.mcap'";
+        return Err(RunError::usage("the log holds no pictures of the camera", help));
+    }
+    let names = NameTable::from_table(&log.table);
+    let (path, _) = follow(log, &names);
+    let known = actors(&path);
+    let actor_at = |at: Instant| {
+        let behind = log.poses.partition_point(|(time, _)| *time <= at);
+        path.get(behind.checked_sub(1)?)?.actor
+    };
+    let shots = thinned(&log.images);
+    let rows = shots.len().div_ceil(COLUMNS);
+    let columns = shots.len().min(COLUMNS);
+    let width = 2.0 * MARGIN + columns as f64 * (WIDTH + GAP) - GAP;
+    let height = HEAD + rows as f64 * (HEIGHT + CAPTION + GAP) + MARGIN - GAP;
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
+         viewBox=\"0 0 {width:.0} {height:.0}\">\n{STYLE}\
+         <rect width=\"100%\" height=\"100%\" fill=\"#f6f5f2\"/>\n"
+    );
+    head(&mut svg, log, shots.len());
+    for (place, (at, png)) in shots.iter().enumerate() {
+        let (column, row) = (place % COLUMNS, place / COLUMNS);
+        let x = MARGIN + column as f64 * (WIDTH + GAP);
+        let y = HEAD + row as f64 * (HEIGHT + CAPTION + GAP);
+        let shot = Shot { at: *at, png, actor: actor_at(*at) };
+        draw(&mut svg, &shot, &names, &known, (x, y));
+    }
+    svg.push_str("</svg>\n");
+    Ok(svg)
+}
+
+/// At most so many pictures, from the first to the last.
+fn thinned(images: &[(Instant, Vec<u8>)]) -> Vec<&(Instant, Vec<u8>)> {
+    match images.len() {
+        count @ ..=MOST => images.iter().take(count).collect(),
+        count => (0..MOST).filter_map(|n| images.get(n * (count - 1) / (MOST - 1))).collect(),
+    }
+}
+
+fn head(svg: &mut String, log: &LogData, shown: usize) {
+    let fact = |key: &str| escape(log.facts.get(key).map_or("", String::as_str));
+    let count = match log.images.len() {
+        all if all == shown => format!("{all} pictures"),
+        all => format!("{shown} of {all} pictures"),
+    };
+    // Writing to a String cannot fail.
+    let _ = writeln!(
+        svg,
+        "<text class=\"title\" x=\"{MARGIN}\" y=\"30\">{}</text>\n\
+         <text class=\"quiet\" x=\"{MARGIN}\" y=\"49\">{}, seed {}: {count} of the camera</text>",
+        fact("plan"),
+        fact("world"),
+        fact("seed"),
+    );
+}
+
+fn draw(
+    svg: &mut String,
+    shot: &Shot<'_>,
+    names: &NameTable,
+    known: &[ComponentId],
+    (x, y): (f64, f64),
+) {
+    let place = shot.actor.and_then(|actor| known.iter().position(|each| *each == actor));
+    let color = place.map_or(NOBODY, |place| PALETTE[place % PALETTE.len()]);
+    let name = shot.actor.map_or("", |actor| names.component(actor).path);
+    let (below, text) = (y + HEIGHT, y + HEIGHT + 20.0);
+    let right = x + WIDTH;
+    let secs = shot.at.as_secs_f64();
+    let data = STANDARD.encode(shot.png);
+    let _ = writeln!(
+        svg,
+        "<image x=\"{x}\" y=\"{y}\" width=\"{WIDTH}\" height=\"{HEIGHT}\" \
+         href=\"data:image/png;base64,{data}\"/>\n\
+         <rect x=\"{x}\" y=\"{below}\" width=\"{WIDTH}\" height=\"4\" fill=\"{color}\"/>\n\
+         <text class=\"time\" x=\"{x}\" y=\"{text}\">{secs:.1} s</text>\n\
+         <text class=\"quiet\" x=\"{right}\" y=\"{text}\" text-anchor=\"end\">{}</text>",
+        escape(name),
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_film_keeps_its_ends() {
+        let image = |n: u64| (Instant::from_nanos(n), Vec::new());
+        let images: Vec<_> = (0..121).map(image).collect();
+        let shown = thinned(&images);
+        assert_eq!(shown.len(), MOST);
+        assert_eq!((shown[0].0.as_nanos(), shown[MOST - 1].0.as_nanos()), (0, 120));
+        assert_eq!(thinned(&images[..7]).len(), 7);
+    }
+}

@@ -1,0 +1,178 @@
+//! What the range sensor said over the true walls: a map from a log.
+//!
+//! Each echo is drawn twice: from where the robot truly was, which shows the sensor's own errors, and
+//! from where its odometry took it to be, which shows what a map made on board would look like.
+
+use afp_core::Instant;
+use afp_core::trace::Names;
+use afp_log::robot::Pose2;
+use afp_log::{Heard, LogData, NameTable};
+use afp_sim::World;
+
+use super::canvas::{Canvas, View};
+use super::from_log::{follow, subtitle, world_of};
+use super::legend::Legend;
+use super::{LOW, bounds, marks};
+use crate::error::RunError;
+
+/// An echo in the world: where it seems to come from, and the ends of the arc that the cone leaves open.
+struct Echo {
+    at: [f64; 2],
+    arc: [[f64; 2]; 2],
+    range: f64,
+}
+
+/// Draws the echoes of a logged run over the walls of its world.
+///
+/// # Errors
+/// The log has no world or one that this release does not understand, or no echoes.
+pub fn draw_sonar(log: &LogData) -> Result<String, RunError> {
+    let world = world_of(log)?;
+    let heard = log.rangings.iter().filter(|heard| heard.range.is_some()).count();
+    if heard == 0 || log.poses.is_empty() {
+        let help = "log a longer run, with something in reach of the range sensor";
+        return Err(RunError::usage("the log holds no echoes", help));
+    }
+    let names = NameTable::from_table(&log.table);
+    let (path, marks) = follow(log, &names);
+    let view = View::around(bounds(&world, &path));
+    let mut canvas = room(&world, view);
+    canvas.robot(world.start, false);
+    canvas.clipped(|canvas| {
+        canvas.line("believed", &places(&log.believed));
+        canvas.line("true", &places(&log.poses));
+        for echo in echoes(&log.rangings, &log.believed) {
+            canvas.echo("believed", echo.at);
+        }
+        for echo in echoes(&log.rangings, &log.poses) {
+            canvas.arc(echo.arc, echo.range);
+            canvas.echo("true", echo.at);
+        }
+    });
+    if let Some(last) = path.last() {
+        canvas.robot(last.pose, true);
+    }
+    let kinds = marks::kinds(&marks);
+    for mark in &marks {
+        let kind = kinds.iter().position(|kind| *kind == (mark.supervisor, mark.event));
+        canvas.mark(mark.pose, kind.unwrap_or(0), mark.at);
+    }
+    canvas.scale_bar();
+    let mut legend = Legend::new(view);
+    legend.head(log.facts.get("plan").map_or("", String::as_str), &subtitle(&world, log));
+    legend.sonar();
+    legend.events(kinds.iter().map(|(id, event)| {
+        let name = format!("{}.{}", names.component(*id).path, names.outcome(*id, *event));
+        let same = marks.iter().filter(|mark| (mark.supervisor, mark.event) == (*id, *event));
+        (name, same.count())
+    }));
+    legend.figures(&figures(log, heard));
+    Ok(canvas.finish(legend))
+}
+
+/// The floor with everything that stands on it.
+fn room(world: &World, view: View) -> Canvas {
+    let mut canvas = Canvas::new(view);
+    canvas.floor();
+    for patch in &world.patches {
+        canvas.patch(&patch.corners, patch.color);
+    }
+    for obstacle in &world.obstacles {
+        canvas.obstacle(&obstacle.outline.corners(), obstacle.height < LOW);
+    }
+    canvas
+}
+
+fn figures(log: &LogData, heard: usize) -> Vec<(&'static str, String)> {
+    let time = log.span.map_or(0.0, |(_, last)| last.as_secs_f64());
+    let mut figures = vec![
+        ("time", format!("{time:.1} s")),
+        ("echoes", format!("{heard}")),
+        ("silent", format!("{}", log.rangings.len() - heard)),
+    ];
+    if let (Some((_, pose)), Some((_, believed))) = (log.poses.last(), log.believed.last()) {
+        let drift = libm::hypot(pose.x - believed.x, pose.y - believed.y);
+        figures.push(("drift", format!("{:.0} cm", drift * 100.0)));
+    }
+    figures
+}
+
+fn places(poses: &[(Instant, Pose2)]) -> Vec<[f64; 2]> {
+    poses.iter().map(|(_, pose)| [pose.x, pose.y]).collect()
+}
+
+/// The echoes, from where the robot was according to some poses.
+fn echoes<'a>(
+    rangings: &'a [Heard],
+    poses: &'a [(Instant, Pose2)],
+) -> impl Iterator<Item = Echo> + 'a {
+    rangings.iter().filter_map(|heard| {
+        let (range, robot) = (heard.range?, pose_at(poses, heard.at)?);
+        let sensor = beyond(robot, heard.pose);
+        let at = |turn: f64| {
+            let (sin, cos) = libm::sincos(sensor.heading + turn);
+            [sensor.x + range * cos, sensor.y + range * sin]
+        };
+        Some(Echo { at: at(0.0), arc: [at(heard.half_angle), at(-heard.half_angle)], range })
+    })
+}
+
+/// The pose at an instant, between the two that were logged around it.
+fn pose_at(poses: &[(Instant, Pose2)], at: Instant) -> Option<Pose2> {
+    let behind = poses.partition_point(|(time, _)| *time < at);
+    let (to, after) = *poses.get(behind).or(poses.last())?;
+    let (from, before) = *poses.get(behind.saturating_sub(1))?;
+    let whole = to.since(from).as_secs_f64();
+    let share = if whole > 0.0 { (at.since(from).as_secs_f64() / whole).min(1.0) } else { 1.0 };
+    let between = |from: f64, to: f64| from + (to - from) * share;
+    let turn = libm::remainder(after.heading - before.heading, std::f64::consts::TAU);
+    Some(Pose2 {
+        x: between(before.x, after.x),
+        y: between(before.y, after.y),
+        heading: before.heading + turn * share,
+    })
+}
+
+/// A pose that is given against another one.
+fn beyond(base: Pose2, pose: Pose2) -> Pose2 {
+    let (sin, cos) = libm::sincos(base.heading);
+    Pose2 {
+        x: base.x + pose.x * cos - pose.y * sin,
+        y: base.y + pose.x * sin + pose.y * cos,
+        heading: base.heading + pose.heading,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pose(x: f64, heading: f64) -> Pose2 {
+        Pose2 { x, y: 0.0, heading }
+    }
+
+    #[test]
+    fn poses_are_found_between_those_that_were_logged() {
+        let at = Instant::from_nanos;
+        let poses = [(at(0), pose(0.0, 3.0)), (at(100), pose(1.0, -3.0))];
+        let middle = pose_at(&poses, at(50)).unwrap();
+        assert!((middle.x - 0.5).abs() < 1e-12);
+        // The short way round.
+        assert!((middle.heading - std::f64::consts::PI).abs() < 1e-9, "{middle:?}");
+        assert_eq!(pose_at(&poses, at(500)).unwrap().x, 1.0);
+        assert!(pose_at(&[], at(5)).is_none());
+    }
+
+    #[test]
+    fn an_echo_lies_ahead_of_the_sensor() {
+        let heard = Heard {
+            at: Instant::ZERO,
+            pose: Pose2 { x: 0.2, y: 0.0, heading: std::f64::consts::FRAC_PI_2 },
+            half_angle: 0.1,
+            range: Some(1.0),
+        };
+        let poses = [(Instant::ZERO, pose(1.0, 0.0))];
+        let echo = echoes(&[heard], &poses).next().unwrap();
+        assert!((echo.at[0] - 1.2).abs() < 1e-12 && (echo.at[1] - 1.0).abs() < 1e-12);
+    }
+}
