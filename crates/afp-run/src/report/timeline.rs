@@ -84,7 +84,7 @@ fn commit(event: &PlanEvent) -> String {
     format!("{DATA}◆ {entry}: {old} → {new}{DATA:#}  {QUIET}by {author}{QUIET:#}")
 }
 
-/// A value with its unit; angles in degrees, lengths in centimetres, as plans have them.
+/// A value with its unit, as people write it: angles in degrees, short lengths in centimetres.
 fn show(value: &Option<Value>, unit: &str) -> String {
     match value.as_ref().and_then(|value| value.value.as_ref()) {
         None => "unset".to_owned(),
@@ -93,7 +93,7 @@ fn show(value: &Option<Value>, unit: &str) -> String {
         Some(Told::Number(number)) => match unit {
             "" => short(*number),
             "rad" => format!("{} deg", short(number.to_degrees())),
-            "m" => format!("{} cm", short(number * 100.0)),
+            "m" => length(*number),
             "m/s" => format!("{} cm/s", short(number * 100.0)),
             "rad/s" => format!("{} deg/s", short(number.to_degrees())),
             unit => format!("{} {unit}", short(*number)),
@@ -103,9 +103,24 @@ fn show(value: &Option<Value>, unit: &str) -> String {
     }
 }
 
+/// Metres from one metre on, centimetres below; told to the hundredth of a millimetre.
+fn length(metres: f64) -> String {
+    let told = (metres * 1e5).round() / 1e5;
+    if told.abs() < 1.0 {
+        format!("{} cm", short(told * 100.0))
+    } else {
+        format!("{} m", rounded(told, 5))
+    }
+}
+
 /// Up to three decimals, without trailing zeros.
 fn short(number: f64) -> String {
-    let text = format!("{number:.3}");
+    rounded(number, 3)
+}
+
+/// Up to so many decimals, without trailing zeros.
+fn rounded(number: f64, decimals: usize) -> String {
+    let text = format!("{number:.decimals$}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
@@ -123,4 +138,25 @@ fn ended(event: &PlanEvent) -> String {
         Ending::NotEnded => "somehow".to_owned(),
     };
     format!("{style}■ {component} ended: {how}{style:#}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::length;
+
+    #[test]
+    fn lengths_read_as_people_write_them() {
+        for (metres, text) in [
+            (0.3, "30 cm"),
+            (0.123_456, "12.346 cm"),
+            (0.999_999_9, "1 m"),
+            (1.0, "1 m"),
+            (-2.5, "-2.5 m"),
+            (1.234_56, "1.23456 m"),
+            (100.0, "100 m"),
+            (0.0, "0 cm"),
+        ] {
+            assert_eq!(length(metres), text);
+        }
+    }
 }
