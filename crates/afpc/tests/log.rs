@@ -44,6 +44,39 @@ fn the_plan_of_a_log_is_drawn_with_what_was_used() {
 }
 
 #[test]
+fn echoes_and_camera_pictures_are_drawn() {
+    let place = Place::with_plan();
+    let run = "run wall_following.afp --until 1s --camera --log a.mcap --svg none";
+    place.afpc(run).succeeds();
+    place.afpc("log a.mcap --sonar map.svg --film film.svg").succeeds();
+    let map = place.read("map.svg");
+    assert!(map.matches("class=\"echo true\"").count() > 10, "{map}");
+    assert!(map.contains("echo, from where the robot was") && map.contains("drift"), "{map}");
+    let film = place.read("film.svg");
+    // Two a second.
+    assert_eq!(film.matches("data:image/png;base64,iVBORw0KGgo").count(), 2);
+    assert!(film.contains("searchFirstWall") && film.contains("2 pictures of the camera"));
+    place.afpc("log a.mcap --film film.png").succeeds();
+    assert!(place.bytes("film.png").starts_with(b"\x89PNG"));
+    assert!(place.afpc("log a.mcap info").succeeds().out.contains("foxglove.CompressedImage"));
+}
+
+#[test]
+fn a_log_without_camera_pictures_says_what_to_do() {
+    let place = place();
+    place.afpc("log a.mcap --film film.svg").fails(
+        2,
+        &["the log holds no pictures of the camera", "afpc run plan.afp --camera --log run.mcap"],
+    );
+    assert!(!place.exists("film.svg"));
+    place.afpc("run wall_following.afp --until 5ms --log b.mcap --svg none").succeeds();
+    place
+        .afpc("log b.mcap --sonar map.svg")
+        .fails(2, &["the log holds no echoes", "something in reach of the range sensor"]);
+    assert!(!place.exists("map.svg"));
+}
+
+#[test]
 fn facts_are_enough_to_run_again() {
     let place = place();
     let said = place.afpc("log a.mcap info");
