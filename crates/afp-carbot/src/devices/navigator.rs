@@ -20,7 +20,9 @@ pub struct Body {
 /// stops the robot. Whether the robot really stands is [`super::Odometry`]'s to tell.
 pub trait Navigator {
     /// Asks for a speed ahead (negative: backwards) and a turn rate, until further notice or the
-    /// end of the dead-man time. Values beyond what the robot can do are reduced.
+    /// end of the dead-man time. Values beyond what the robot can do are reduced, both by the same
+    /// factor, so that the robot keeps to the curve. The robot stops from any motion that is left within the
+    /// stop time that the templates declare.
     fn drive(&mut self, speed: Speed, turn: AngularSpeed, now: Instant);
 
     /// Asks for a standstill.

@@ -10,10 +10,8 @@ use afp_core::{Duration, Instant};
 
 /// Without a new command for so long the controller stops the robot.
 pub(crate) const DEAD_MAN: Duration = Duration::from_millis(200);
-/// Top speed, metres a second.
-pub(crate) const TOP_SPEED: f64 = 0.31;
-/// The fastest turn, radians a second.
-const TOP_TURN: f64 = 1.8;
+/// Top speed of a wheel's rim, metres a second; so of the robot too.
+const TOP_SPEED: f64 = 0.31;
 /// A castor's resistance: force per speed, and the most of it, newtons.
 const CASTOR: f64 = 30.0;
 const ROLLING: f64 = 0.02 * MASS * 9.81 / 4.0;
@@ -76,7 +74,8 @@ impl Drive {
             return;
         }
         self.commanded = now;
-        self.obey(speed.clamp(-TOP_SPEED, TOP_SPEED), turn.clamp(-TOP_TURN, TOP_TURN));
+        let (speed, turn) = reduced(speed, turn);
+        self.obey(speed, turn);
     }
 
     /// Blocks the wheels at once.
@@ -122,5 +121,51 @@ impl Drive {
             push.add(limited(-CASTOR * vx, -CASTOR * vy, ROLLING), (-WHEEL_X, y));
         }
         push
+    }
+}
+
+/// A command in which no wheel is faster than the top speed, on the same curve.
+fn reduced(speed: f64, turn: f64) -> (f64, f64) {
+    // In quarters the sum of any two finite values is finite.
+    let (ahead, across) = (speed.abs() / 4.0 + turn.abs() / 4.0 * WHEEL_Y, turn / 4.0 * WHEEL_X);
+    let outer = libm::hypot(ahead, across);
+    let top = TOP_SPEED / 4.0;
+    if outer <= top {
+        return (speed, turn);
+    }
+    (speed / outer * top, turn / outer * top)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// How fast the rim of the faster wheel goes with a command.
+    fn rim((speed, turn): (f64, f64)) -> f64 {
+        let at = |y: f64| (speed - turn * y).hypot(turn * WHEEL_X);
+        at(WHEEL_Y).max(at(-WHEEL_Y))
+    }
+
+    #[test]
+    fn a_command_for_which_the_wheels_are_fast_enough_is_obeyed_as_it_is() {
+        for command in [(0.0, 0.0), (TOP_SPEED, 0.0), (-TOP_SPEED, 0.0), (0.2, -0.6), (0.0, 1.6)] {
+            assert_eq!(reduced(command.0, command.1), command);
+        }
+    }
+
+    #[test]
+    fn a_reduced_command_has_one_wheel_at_top_speed_and_the_same_radius() {
+        for speed in [0.31, -0.31, 0.2, 0.05, 5.0, -1e300, f64::MAX] {
+            for turn in [1.8, -1.8, 3.0, 1e3, -f64::MAX] {
+                let (slower, slighter) = reduced(speed, turn);
+                let what = format!("{speed} m/s, {turn} rad/s: {slower} m/s, {slighter} rad/s");
+                assert!((rim((slower, slighter)) - TOP_SPEED).abs() < 1e-9, "{what}");
+                let (radius, wanted) = (slower / slighter, speed / turn);
+                assert!(
+                    radius == wanted || (radius / wanted - 1.0).abs() < 1e-9,
+                    "{what}: {radius}"
+                );
+            }
+        }
     }
 }

@@ -54,6 +54,49 @@ fn stops_within_five_centimetres_and_300_ms_from_top_speed() {
 }
 
 #[test]
+fn it_stands_within_300_ms_of_any_curve_and_turn() {
+    for (ahead, turn) in [
+        (0.31, 1.8),
+        (0.31, -1.8),
+        (-0.31, 1.8),
+        (0.31, 0.5),
+        (0.1, 1.8),
+        (0.0, 1.8),
+        (0.0, -100.0),
+        (100.0, 100.0),
+    ] {
+        // Also while the wheels still steer.
+        for millis in [100, 200, 300, 2000] {
+            let mut sim = among("");
+            drive(&mut sim, ahead, turn, millis);
+            sim.stop(sim.now());
+            wait(&mut sim, 300);
+            let before = sim.truth().pose().heading;
+            let speed = speed(&mut sim);
+            let turns = (sim.truth().pose().heading - before).abs() / 0.005;
+            let what = format!("{ahead} m/s, {turn} rad/s for {millis} ms");
+            assert!(speed < 0.006 && turns < 0.026, "{what}: {speed} m/s, {turns} rad/s");
+        }
+    }
+}
+
+#[test]
+fn a_curve_that_is_too_fast_is_driven_slower_with_the_same_radius() {
+    let mut sim = among("");
+    drive(&mut sim, 0.31, 0.62, 1000);
+    let (mut length, mut angle) = (0.0, 0.0);
+    for _ in 0..200 {
+        let before = sim.truth().pose();
+        drive(&mut sim, 0.31, 0.62, 10);
+        let after = sim.truth().pose();
+        length += (after.x - before.x).hypot(after.y - before.y);
+        angle += after.heading - before.heading;
+    }
+    assert!((length / angle - 0.5).abs() < 0.01, "{length} m in {angle} rad");
+    assert!(length < 0.5, "the outer wheel is faster than it can be: {length} m in 2 s");
+}
+
+#[test]
 fn an_emergency_stop_is_shorter_than_a_stop() {
     let way = |stop: fn(&mut Simulation)| {
         let mut sim = among("");
