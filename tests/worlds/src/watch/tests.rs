@@ -184,3 +184,23 @@ fn a_robot_out_of_the_room_breaks_a_rule() {
     watch.look(&sim);
     breaks(watch, "the robot is at");
 }
+
+/// Drives for a second with an infrared sensor that says at every poll what it measured at `time`.
+fn drive_by_infrared(time: impl Fn(u64) -> u64) -> Watch {
+    let (_, mut watch) = watched();
+    for millis in (1000..2000).step_by(10) {
+        watch.step(at(millis));
+        watch.told(Sensor::Odometry, true, at(millis), at(millis));
+        watch.told(Sensor::Infrared, true, at(time(millis)), at(millis));
+        watch.commanded(0.2, 0.0, at(millis));
+    }
+    watch
+}
+
+#[test]
+fn a_late_infrared_reading_is_usable_while_it_is_new() {
+    let late = drive_by_infrared(|now| (now - 341) / 50 * 50);
+    assert_eq!(late.broken(), []);
+    breaks(drive_by_infrared(|_| 900), "infrared said nothing");
+    breaks(drive_by_infrared(|now| now - 510), "infrared said nothing");
+}
