@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("the camera has no flow".into());
     }
     let mut drawing = draw_picture(&sim)?;
-    let truth: Vec<_> = truths(&mut sim)?;
+    let truth = truths(&mut sim)?;
     let now = sim.now();
     let flow = sim.flow(now)?.value.map_err(|why| format!("{why:?}"))?;
     for (place, shift) in places(&flow) {
@@ -60,8 +60,11 @@ fn places<'a>(flow: &'a Flow<'_>) -> impl Iterator<Item = ([f64; 2], Option<[f64
     })
 }
 
+/// A place in the picture and what has become of it: how far to the right and down.
+type Arrow = ([f64; 2], [f64; 2]);
+
 /// Where every place has truly gone.
-fn truths(sim: &mut Simulation) -> Result<Vec<([f64; 2], [f64; 2])>, Box<dyn Error>> {
+fn truths(sim: &mut Simulation) -> Result<Vec<Arrow>, Box<dyn Error>> {
     let now = sim.now();
     let flow = sim.flow(now)?.value.map_err(|why| format!("{why:?}"))?;
     let all: Vec<_> = places(&flow).map(|(place, _)| place).collect();
