@@ -10,7 +10,7 @@ use tempfile::TempDir;
 const AFPC: &str = env!("CARGO_BIN_EXE_afpc");
 
 /// Commands of others that `sh` blocks may have; nothing runs them.
-const FOREIGN: &[&str] = &["cargo", "git", "mdbook", "cd"];
+const FOREIGN: &[&str] = &["cargo", "git", "mdbook", "cd", "pip"];
 
 fn docs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs")
@@ -92,7 +92,8 @@ impl Page {
     /// A command that shall succeed.
     fn shell(&mut self, line: &str) -> Result<(), String> {
         let command = line.split(" #").next().unwrap_or_default().trim();
-        let first = command.split(' ').next().unwrap_or_default();
+        let mut words = command.split(' ').skip_while(|word| word.contains('='));
+        let first = words.next().unwrap_or_default();
         if command.is_empty() || FOREIGN.contains(&first) {
             return Ok(());
         }
