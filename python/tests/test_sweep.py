@@ -97,9 +97,10 @@ def test_the_command_line_goes_on_with_it(tmp_path: Path, afpc: str) -> None:
     file.write_text(GO)
     afp.sweep(afp.load(file), seeds=4, until=5.0, progress=False, out=out)
     command = [afpc, "sweep", str(file), "--seeds", "0..4", "--until", "5s", "-o", str(out), "--json"]
-    lines = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
-    # All were done: there is the account and nothing else.
-    assert len(lines) == 1 and json.loads(lines[0])
+    told = subprocess.run(command, check=True, capture_output=True, text=True)
+    assert "all 4 runs are done" in told.stderr
+    *rows, account = [json.loads(line) for line in told.stdout.splitlines()]
+    assert len(rows) == account["summary"]["runs"] == 4
 
 
 def test_components_in_python_take_turns() -> None:
