@@ -42,7 +42,7 @@ pub fn run() -> Result<(), Failure> {
     run_command(at_package(&python, &tests).env("AFPC", afpc))?;
     run_command(&mut at_package(&python, &["-m", "mypy"]))?;
     run_command(&mut at_package(&python, &["-m", "mypy.stubtest", "afp._afp"]))?;
-    let sdist = ["-m", "maturin", "sdist", "--quiet", "--out"];
+    let sdist = ["-m", "maturin", "sdist", "--out"];
     run_command(at_package(&python, &sdist).arg(wheels("sdist")?))
 }
 
@@ -62,7 +62,7 @@ pub fn long() -> Result<(), Failure> {
     let cluster = ["-m", "pytest", "--quiet", "tests/test_cluster.py"];
     run_command(at_package(&python, &cluster).env("AFP_RAY", "1"))?;
     let folder = wheels("sdist")?;
-    let sdist = ["-m", "maturin", "sdist", "--quiet", "--out"];
+    let sdist = ["-m", "maturin", "sdist", "--out"];
     run_command(at_package(&python, &sdist).arg(&folder))?;
     let pip = ["-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir"];
     let mut built = at_package(&python, &pip);
