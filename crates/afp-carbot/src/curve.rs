@@ -1,62 +1,50 @@
 //! Drive along an arc.
 
 use crate::devices::{Navigator, Odometry};
-use crate::guard::{Guard, NO_ODOMETRY};
 use crate::motion::Ramp;
 use crate::templates;
 use crate::templates::curve::{Inputs, Live, State};
-use afp_core::quantity::{Angle, AngularSpeed, Speed};
+use crate::turning::{Progress, Turning};
+use afp_core::quantity::{AngularSpeed, Speed};
 use afp_core::{Actor, Fault, Instant, Poll};
 
 /// Speed is gained and lost at this many metres a second squared.
 const ACCELERATION: f64 = 0.5;
-/// The arc counts as driven when less than this of its angle is left, radians.
-const CLOSE: f64 = 0.005;
 
 /// Drives an arc of a circle until the heading has turned by an angle, by odometry.
 #[derive(Debug)]
 pub struct Curve {
+    turning: Turning,
     radius: f64,
-    angle: f64,
     speed: f64,
     ramp: Ramp,
-    odometry: Guard,
-    /// The heading at the beginning; none until the first reading.
-    from: Option<Angle>,
 }
 
 impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
     fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
-        let mut odometry = Guard::new(NO_ODOMETRY, now);
-        let from = odometry.current(env.motion(), now)?.map(|motion| motion.heading);
         Ok(Curve {
+            turning: Turning::new(inputs.angle, env, now)?,
             radius: inputs.radius.si(),
-            angle: inputs.angle.si(),
             speed: inputs.speed.si(),
             ramp: Ramp::new(ACCELERATION, now),
-            odometry,
-            from,
         })
     }
 
     fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
-        let Some(motion) = self.odometry.current(env.motion(), now)? else {
-            env.halt(now);
-            return Ok(Poll::Pending);
-        };
-        let turned = motion.heading - *self.from.get_or_insert(motion.heading);
-        let left = if self.angle < 0.0 { -1.0 } else { 1.0 };
-        let rest = left * (self.angle - turned.si());
-        if rest < CLOSE {
-            env.halt(now);
-            return Ok(if motion.stands() {
-                Poll::Ready(State::CurveSuccessful { turned })
-            } else {
-                Poll::Pending
-            });
+        match self.turning.progress(env, now)? {
+            Progress::Unknown => env.halt(now),
+            Progress::Left(left) => {
+                let speed = self.ramp.rate(left.abs() * self.radius, self.speed, now);
+                let rate = speed.copysign(left) / self.radius;
+                env.drive(Speed::from_si(speed), AngularSpeed::from_si(rate), now);
+            }
+            Progress::Turned { by, stands } => {
+                env.halt(now);
+                if stands {
+                    return Ok(Poll::Ready(State::CurveSuccessful { turned: by }));
+                }
+            }
         }
-        let speed = self.ramp.rate(rest * self.radius, self.speed, now);
-        env.drive(Speed::from_si(speed), AngularSpeed::from_si(left * speed / self.radius), now);
         Ok(Poll::Pending)
     }
 
@@ -70,7 +58,8 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
 mod tests {
     use super::*;
     use crate::fake::Fake;
-    use afp_core::quantity::Length;
+    use crate::guard::NO_ODOMETRY;
+    use afp_core::quantity::{Angle, Length};
 
     fn curve(robot: &mut Fake, degrees: f64) -> Result<Option<State>, Fault> {
         let (radius, speed) = (Length::from_si(0.5), Speed::from_si(0.2));

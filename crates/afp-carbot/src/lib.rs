@@ -39,6 +39,7 @@ pub mod templates {
 }
 mod turn;
 mod turn_to_infrared;
+mod turning;
 mod wall_forward;
 
 #[cfg(test)]

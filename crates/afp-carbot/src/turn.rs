@@ -1,60 +1,47 @@
 //! Turn in place.
 
 use crate::devices::{Navigator, Odometry};
-use crate::guard::{Guard, NO_ODOMETRY};
 use crate::motion::Ramp;
 use crate::templates;
 use crate::templates::turn::{Inputs, Live, State};
-use afp_core::quantity::{Angle, AngularSpeed, Speed};
+use crate::turning::{Progress, Turning};
+use afp_core::quantity::{AngularSpeed, Speed};
 use afp_core::{Actor, Fault, Instant, Poll};
 
 /// Turn rate is gained and lost at this many radians a second squared.
 const ACCELERATION: f64 = 3.0;
-/// The angle counts as turned when less than this many radians are left.
-const CLOSE: f64 = 0.005;
 
 /// Turns by an angle against the heading it starts with, by odometry.
 #[derive(Debug)]
 pub struct Turn {
-    angle: f64,
+    turning: Turning,
     speed: f64,
     ramp: Ramp,
-    odometry: Guard,
-    /// The heading at the beginning; none until the first reading.
-    from: Option<Angle>,
 }
 
 impl<E: Navigator + Odometry + ?Sized> Actor<templates::Turn, E> for Turn {
     fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
-        let mut odometry = Guard::new(NO_ODOMETRY, now);
-        let from = odometry.current(env.motion(), now)?.map(|motion| motion.heading);
         Ok(Turn {
-            angle: inputs.angle.si(),
+            turning: Turning::new(inputs.angle, env, now)?,
             speed: inputs.speed.si(),
             ramp: Ramp::new(ACCELERATION, now),
-            odometry,
-            from,
         })
     }
 
     fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
-        let Some(motion) = self.odometry.current(env.motion(), now)? else {
-            env.halt(now);
-            return Ok(Poll::Pending);
-        };
-        let turned = motion.heading - *self.from.get_or_insert(motion.heading);
-        let left = if self.angle < 0.0 { -1.0 } else { 1.0 };
-        let rest = left * (self.angle - turned.si());
-        if rest < CLOSE {
-            env.halt(now);
-            return Ok(if motion.stands() {
-                Poll::Ready(State::TurnSuccessful { turned })
-            } else {
-                Poll::Pending
-            });
+        match self.turning.progress(env, now)? {
+            Progress::Unknown => env.halt(now),
+            Progress::Left(left) => {
+                let rate = self.ramp.rate(left.abs(), self.speed, now).copysign(left);
+                env.drive(Speed::from_si(0.0), AngularSpeed::from_si(rate), now);
+            }
+            Progress::Turned { by, stands } => {
+                env.halt(now);
+                if stands {
+                    return Ok(Poll::Ready(State::TurnSuccessful { turned: by }));
+                }
+            }
         }
-        let rate = self.ramp.rate(rest, self.speed, now);
-        env.drive(Speed::from_si(0.0), AngularSpeed::from_si(left * rate), now);
         Ok(Poll::Pending)
     }
 
@@ -68,6 +55,8 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Turn, E> for Turn {
 mod tests {
     use super::*;
     use crate::fake::Fake;
+    use crate::guard::NO_ODOMETRY;
+    use afp_core::quantity::Angle;
 
     fn turn(robot: &mut Fake, degrees: f64) -> Result<Option<State>, Fault> {
         let speed = AngularSpeed::from_si(0.8);

@@ -225,3 +225,36 @@ impl<N: Names + ?Sized> Teller<'_, N> {
         Value { value: kind }
     }
 }
+
+/// How a plan ended, in a word; empty while it runs.
+pub fn ending_word(ending: plan_event::Ending) -> &'static str {
+    match ending {
+        plan_event::Ending::NotEnded => "",
+        plan_event::Ending::Ok => "ok",
+        plan_event::Ending::EndedInterrupted => "interrupted",
+        plan_event::Ending::Error => "error",
+    }
+}
+
+/// What happened, in a word, as JSON and Python tell it.
+pub fn kind_word(kind: plan_event::Kind) -> &'static str {
+    match kind {
+        Kind::Unknown => "unknown",
+        Kind::ClockWentBack => "clock_went_back",
+        Kind::StopRequested => "stop_requested",
+        Kind::Polled => "polled",
+        Kind::Missed => "missed",
+        Kind::Event => "event",
+        Kind::AlreadyThere => "already_there",
+        Kind::Interrupted => "interrupted",
+        Kind::Finished => "finished",
+        Kind::Committed => "committed",
+        Kind::Input => "input",
+        Kind::Started => "started",
+        Kind::Diverted => "diverted",
+        Kind::Faulted => "faulted",
+        Kind::Ended => "ended",
+        Kind::Lost => "lost",
+        Kind::Injected => "injected",
+    }
+}

@@ -14,7 +14,7 @@ from ._afp import Event, read_log
 __all__ = ["Log"]
 
 
-class Log:
+class Log(tables.Events):
     """A log, read whole; one that was cut short yields what it holds."""
 
     facts: dict[str, str]
@@ -54,22 +54,6 @@ class Log:
             if value is not None and (not rows or rows[-1][1] != value):
                 rows.append((time, value))
         return np.array([time for time, _ in rows]), [value for _, value in rows]
-
-    def to_pandas(self) -> Any:
-        """The events as a pandas data frame; needs `afp[pandas]`."""
-        return tables.to_pandas(self.events)
-
-    def to_polars(self) -> Any:
-        """The events as a polars data frame; needs `afp[polars]`."""
-        return tables.to_polars(self.events)
-
-    def to_arrow(self) -> Any:
-        """The events as an Arrow table; needs `afp[arrow]`."""
-        return tables.to_arrow(self.events)
-
-    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
-        """The events for whatever reads Arrow; needs `afp[arrow]`."""
-        return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     def plot_timeline(self, ax: Any = None) -> Any:
         """Draws what was active when; needs `afp[plot]`."""

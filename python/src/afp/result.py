@@ -37,7 +37,7 @@ class Collision:
     end: float
 
 
-class Result:
+class Result(tables.Events):
     """What came of a run; it does not change when the simulation goes on."""
 
     plan: str
@@ -108,26 +108,6 @@ class Result:
         if self.fault == "python-exception" and self.errors:
             raise self.errors[-1].error
         return self
-
-    def columns(self) -> dict[str, list[Any]]:
-        """The events as lists by column."""
-        return tables.columns(self.events)
-
-    def to_pandas(self) -> Any:
-        """The events as a pandas data frame; needs `afp[pandas]`."""
-        return tables.to_pandas(self.events)
-
-    def to_polars(self) -> Any:
-        """The events as a polars data frame; needs `afp[polars]`."""
-        return tables.to_polars(self.events)
-
-    def to_arrow(self) -> Any:
-        """The events as an Arrow table; needs `afp[arrow]`."""
-        return tables.to_arrow(self.events)
-
-    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
-        """The events for whatever reads Arrow: `polars.DataFrame(result)`; needs `afp[arrow]`."""
-        return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     def plot_path(self, ax: Any = None) -> Any:
         """Draws the robot's path in its world; needs `afp[plot]`."""

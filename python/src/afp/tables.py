@@ -62,3 +62,29 @@ def to_arrow(events: Sequence[Event]) -> Any:
     table = columns(events)
     types = {name: arrow.float64() if name in numbers else arrow.string() for name in table}
     return arrow.table(table, schema=arrow.schema(list(types.items())))
+
+
+class Events:
+    """What has events, as tables."""
+
+    events: Sequence[Event]
+
+    def columns(self) -> dict[str, list[Any]]:
+        """The events as lists by column."""
+        return columns(self.events)
+
+    def to_pandas(self) -> Any:
+        """The events as a pandas data frame; needs `afp[pandas]`."""
+        return to_pandas(self.events)
+
+    def to_polars(self) -> Any:
+        """The events as a polars data frame; needs `afp[polars]`."""
+        return to_polars(self.events)
+
+    def to_arrow(self) -> Any:
+        """The events as an Arrow table; needs `afp[arrow]`."""
+        return to_arrow(self.events)
+
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
+        """The events for whatever reads Arrow, as in `polars.DataFrame(result)`; needs `afp[arrow]`."""
+        return self.to_arrow().__arrow_c_stream__(requested_schema)

@@ -1,3 +1,5 @@
+//! Motion before a still room, from a robot that drives; cameras that fail.
+
 use super::*;
 use crate::devices::{Camera, Flow, Frame, Grid, Lens, Motion, Reading, Shift};
 use afp_core::Duration;

@@ -53,17 +53,8 @@ impl ActorSlot<Simulation> for PyActor {
         env: &mut Simulation,
         _: Instant,
     ) -> Result<Option<u16>, Fault> {
-        let callee = &self.callee;
         let running = self.running.as_ref().ok_or(Fault::INTERNAL)?;
-        let live = callee.live(args)?;
-        let told = callee.host.lend(env, &callee.template()?.name, |py| {
-            callee.told(&call(py, &running.poll, &live)?)
-        })?;
-        Ok(told.map(|told| {
-            let outcome = told.outcome;
-            told.give(to);
-            outcome
-        }))
+        self.callee.poll(&running.poll, args, to, env)
     }
 
     fn interrupt(&mut self, env: &mut Simulation, _: Instant) -> Result<(), Fault> {
@@ -74,17 +65,5 @@ impl ActorSlot<Simulation> for PyActor {
 
     fn clear(&mut self) {
         self.running = None;
-    }
-}
-
-/// Calls a `poll`, with the live inputs if there are any.
-pub(super) fn call<'py>(
-    py: Python<'py>,
-    poll: &Py<PyAny>,
-    live: &super::call::Inputs<'_>,
-) -> PyResult<Bound<'py, PyAny>> {
-    match live.is_empty() {
-        true => poll.bind(py).call0(),
-        false => poll.bind(py).call1((live.dict(py)?,)),
     }
 }

@@ -7,6 +7,7 @@ use afp_core::rt::{Args, Outputs};
 use afp_core::{Fault, Value, ValueRef};
 use afp_dsl::toolbox::{InPort, Template, Toolbox};
 use afp_dsl::types::Type;
+use afp_sim::Simulation;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple};
@@ -32,7 +33,7 @@ enum Pulled {
 
 /// A state or event with its outputs, by port.
 pub struct Told {
-    pub outcome: u16,
+    outcome: u16,
     outputs: Vec<(u16, Pulled)>,
 }
 
@@ -97,6 +98,30 @@ impl Callee {
         pulled.collect::<Result<_, _>>().map(Inputs)
     }
 
+    /// Polls an actor or supervisor, with its live inputs if there are any; the state or event that it
+    /// told, its outputs handed over.
+    ///
+    /// # Errors
+    /// As [`Callee::live`]; what the component raised.
+    pub fn poll(
+        &self,
+        method: &Py<PyAny>,
+        args: &dyn Args,
+        to: &mut dyn Outputs,
+        env: &mut Simulation,
+    ) -> Result<Option<u16>, Fault> {
+        let live = self.live(args)?;
+        let told = self.host.lend(env, &self.template()?.name, |py| {
+            let method = method.bind(py);
+            let said = match live.is_empty() {
+                true => method.call0(),
+                false => method.call1((live.dict(py)?,)),
+            };
+            self.told(&said?)
+        })?;
+        Ok(told.map(|told| told.give(to)))
+    }
+
     /// Takes what a component returned: `None`, `"State"` or `("State", {"output": value})`.
     ///
     /// # Errors
@@ -159,8 +184,8 @@ impl Inputs<'_> {
 }
 
 impl Told {
-    /// Hands over the outputs.
-    pub fn give(self, to: &mut dyn Outputs) {
+    /// Hands over the outputs; the state or event.
+    pub fn give(self, to: &mut dyn Outputs) -> u16 {
         for (port, value) in self.outputs {
             match value {
                 Pulled::Value(Value::Bool(value)) => to.bool(port, value),
@@ -172,6 +197,7 @@ impl Told {
                 Pulled::Object(object) => to.object(port, &mut Some(object)),
             }
         }
+        self.outcome
     }
 }
 

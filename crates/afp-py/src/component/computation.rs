@@ -29,8 +29,6 @@ impl ComputationSlot for PyComputation {
             let none = || PyTypeError::new_err(format!("'{name}' returned None, not a state"));
             callee.told(&said)?.ok_or_else(none)
         })?;
-        let outcome = told.outcome;
-        told.give(to);
-        Ok(outcome)
+        Ok(told.give(to))
     }
 }

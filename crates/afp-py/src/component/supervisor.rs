@@ -7,7 +7,6 @@ use afp_sim::Simulation;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use super::actor::call;
 use super::call::Callee;
 
 /// The home of a supervisor in Python.
@@ -54,17 +53,8 @@ impl SupervisorSlot<Simulation> for PySupervisor {
         env: &mut Simulation,
         _: Instant,
     ) -> Result<Option<u16>, Fault> {
-        let callee = &self.callee;
         let poll = self.poll.as_ref().ok_or(Fault::INTERNAL)?;
-        let live = callee.live(args)?;
-        let told = callee
-            .host
-            .lend(env, &callee.template()?.name, |py| callee.told(&call(py, poll, &live)?))?;
-        Ok(told.map(|told| {
-            let event = told.outcome;
-            told.give(to);
-            event
-        }))
+        self.callee.poll(poll, args, to, env)
     }
 
     fn clear(&mut self) {

@@ -2,9 +2,9 @@
 
 use afp::load::PlanNames;
 use afp_log::OwnedRecord;
-use afp_log::event::describe;
+use afp_log::event::{describe, ending_word, kind_word};
 use afp_log::instant;
-use afp_log::proto::afp::plan_event::{Cause, Ending, Kind};
+use afp_log::proto::afp::plan_event::{Cause, Kind};
 use afp_log::proto::afp::value::Value as Told;
 use afp_log::proto::afp::{PlanEvent, Value};
 use pyo3::IntoPyObjectExt;
@@ -41,25 +41,7 @@ impl Event {
     /// What happened: `started`, `event`, `finished`, `interrupted`, `committed`, `faulted`, `ended`, ...
     #[getter]
     fn kind(&self) -> &'static str {
-        match self.event.kind() {
-            Kind::Unknown => "unknown",
-            Kind::ClockWentBack => "clock_went_back",
-            Kind::StopRequested => "stop_requested",
-            Kind::Polled => "polled",
-            Kind::Missed => "missed",
-            Kind::Event => "event",
-            Kind::AlreadyThere => "already_there",
-            Kind::Interrupted => "interrupted",
-            Kind::Finished => "finished",
-            Kind::Committed => "committed",
-            Kind::Input => "input",
-            Kind::Started => "started",
-            Kind::Diverted => "diverted",
-            Kind::Faulted => "faulted",
-            Kind::Ended => "ended",
-            Kind::Lost => "lost",
-            Kind::Injected => "injected",
-        }
+        kind_word(self.event.kind())
     }
 
     /// Whom it happened to: the path of an element or supervisor; who wrote, for `committed`.
@@ -119,12 +101,7 @@ impl Event {
     /// How a plan ended: `ok`, `interrupted`, `error`.
     #[getter]
     fn ending(&self) -> Option<&'static str> {
-        match self.event.ending() {
-            Ending::NotEnded => None,
-            Ending::Ok => Some("ok"),
-            Ending::EndedInterrupted => Some("interrupted"),
-            Ending::Error => Some("error"),
-        }
+        Some(ending_word(self.event.ending())).filter(|word| !word.is_empty())
     }
 
     /// The code of a fault.

@@ -2,8 +2,9 @@
 //!
 //! Nothing here depends on the machine: interpreter and generated binary print the same bytes.
 
+use afp_log::event::{ending_word, kind_word};
 use afp_log::instant;
-use afp_log::proto::afp::plan_event::{Cause, Ending, Kind};
+use afp_log::proto::afp::plan_event::{Cause, Kind};
 use afp_log::proto::afp::value::Value as Told;
 use afp_log::proto::afp::{PlanEvent, Value};
 use serde::Serialize;
@@ -58,7 +59,7 @@ pub(super) fn line(event: &PlanEvent) -> Option<String> {
     };
     let line = Line {
         t: instant(&event.time).as_secs_f64(),
-        kind: kind(event),
+        kind: kind_word(event.kind()),
         component: &event.component,
         outcome: &event.outcome,
         target: &event.target,
@@ -67,7 +68,7 @@ pub(super) fn line(event: &PlanEvent) -> Option<String> {
         old: event.old.as_ref().map(value),
         new: event.value.as_ref().map(value),
         unit: &event.unit,
-        ending: ending(event.ending()),
+        ending: ending_word(event.ending()),
         fault: &event.fault,
         text: &event.fault_text,
         lateness_s,
@@ -75,38 +76,6 @@ pub(super) fn line(event: &PlanEvent) -> Option<String> {
         skipped,
     };
     serde_json::to_string(&line).ok()
-}
-
-/// How a plan ended, in a word; empty while it runs.
-fn ending(ending: Ending) -> &'static str {
-    match ending {
-        Ending::NotEnded => "",
-        Ending::Ok => "ok",
-        Ending::EndedInterrupted => "interrupted",
-        Ending::Error => "error",
-    }
-}
-
-fn kind(event: &PlanEvent) -> &'static str {
-    match event.kind() {
-        Kind::Unknown => "unknown",
-        Kind::ClockWentBack => "clock_went_back",
-        Kind::StopRequested => "stop_requested",
-        Kind::Polled => "polled",
-        Kind::Missed => "missed",
-        Kind::Event => "event",
-        Kind::AlreadyThere => "already_there",
-        Kind::Interrupted => "interrupted",
-        Kind::Finished => "finished",
-        Kind::Committed => "committed",
-        Kind::Input => "input",
-        Kind::Started => "started",
-        Kind::Diverted => "diverted",
-        Kind::Faulted => "faulted",
-        Kind::Ended => "ended",
-        Kind::Lost => "lost",
-        Kind::Injected => "injected",
-    }
 }
 
 fn value(value: &Value) -> serde_json::Value {
