@@ -6,6 +6,7 @@ mod faults;
 mod map;
 mod moving;
 mod random;
+mod ranges;
 mod schema;
 mod seeing;
 mod sensors;
