@@ -3,9 +3,9 @@
     python compare_engine.py MANOEUVRES.json OURS.jsonl
 
 The other engine is Chipmunk (pymunk). The robot is modelled anew there, from the figures in
-docs/simulator.md and with other means: contact patches hold rigidly up to their friction instead of
-pushing with the slip, a box rests on many patches, and the step is 1 ms instead of 5. No code of the
-project takes part. Prints a table of differences and fails where one is larger than its limit.
+docs/simulator.md and with other means: contact patches are joints of the engine that hold up to their
+friction, a box rests on many patches, and the step is 1 ms instead of 5. No code of the project takes
+part. Prints a table of differences and fails where one is larger than its limit.
 """
 
 import json

@@ -1,11 +1,13 @@
 //! The vehicle: its body's measures, its wheels and the controller that drives them.
 
+mod floor;
 mod place;
 
 pub(crate) mod drive;
 pub(crate) mod servo;
 pub(crate) mod wheel;
 
+pub(crate) use floor::{Push, Twist};
 pub(crate) use place::Place;
 
 /// Half the body's length, metres; the turning centre is its middle.
@@ -14,3 +16,5 @@ pub const HALF_LENGTH: f64 = 0.20;
 pub const HALF_WIDTH: f64 = 0.175;
 /// Mass, kilograms.
 pub(crate) const MASS: f64 = 4.7;
+/// Inertia about the centre, kilogram square metres; the mass is spread evenly.
+pub(crate) const INERTIA: f64 = MASS * (HALF_LENGTH * HALF_LENGTH + HALF_WIDTH * HALF_WIDTH) / 3.0;

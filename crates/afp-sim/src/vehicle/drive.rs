@@ -5,21 +5,24 @@
 //! stops by itself when commands cease.
 
 use super::MASS;
-use super::wheel::{Push, Twist, WHEEL_X, WHEEL_Y, Wheel, limited};
+use super::floor::{Demand, Footing};
+use super::wheel::{WHEEL_X, WHEEL_Y, Wheel};
+use super::{Push, Twist};
 use afp_core::{Duration, Instant};
 
 /// Without a new command for so long the controller stops the robot.
 pub(crate) const DEAD_MAN: Duration = Duration::from_millis(200);
 /// Top speed of a wheel's rim, metres a second; so of the robot too.
 const TOP_SPEED: f64 = 0.31;
-/// A castor's resistance: force per speed, and the most of it, newtons.
-const CASTOR: f64 = 30.0;
+/// A castor's rolling resistance, newtons.
 const ROLLING: f64 = 0.02 * MASS * 9.81 / 4.0;
 
 /// The drive with its controller.
 #[derive(Debug)]
 pub(crate) struct Drive {
     wheels: [Wheel; 2],
+    /// Of the wheels, then of the castors.
+    footing: Footing<4>,
     command: (f64, f64),
     commanded: Instant,
     /// The last command, whatever became of it.
@@ -48,6 +51,12 @@ impl Drive {
     pub(crate) fn new() -> Self {
         Drive {
             wheels: [Wheel::new(WHEEL_Y), Wheel::new(-WHEEL_Y)],
+            footing: Footing::new([
+                (WHEEL_X, WHEEL_Y),
+                (WHEEL_X, -WHEEL_Y),
+                (-WHEEL_X, WHEEL_Y),
+                (-WHEEL_X, -WHEEL_Y),
+            ]),
             command: (0.0, 0.0),
             commanded: Instant::ZERO,
             asked: (0.0, 0.0),
@@ -111,16 +120,12 @@ impl Drive {
         if now.since(self.commanded) > DEAD_MAN {
             self.obey(0.0, 0.0);
         }
-        let mut push = Push::default();
         for wheel in &mut self.wheels {
             wheel.step(power, dt);
-            push.add(wheel.force(body, self.health.grip), (WHEEL_X, wheel.y));
         }
-        for y in [WHEEL_Y, -WHEEL_Y] {
-            let (vx, vy) = (body.x - body.turn * y, body.y - body.turn * WHEEL_X);
-            push.add(limited(-CASTOR * vx, -CASTOR * vy, ROLLING), (-WHEEL_X, y));
-        }
-        push
+        let [left, right] = self.wheels.each_ref().map(|wheel| wheel.demand(self.health.grip));
+        let castor = Demand { rim: (0.0, 0.0), most: ROLLING };
+        self.footing.push([left, right, castor, castor], body, dt)
     }
 }
 

@@ -1,9 +1,9 @@
 //! One of the two wheels in front: it steers and drives by itself.
 //!
-//! It pushes the body through its contact patch: the force grows with the slip and ends at what
-//! friction can hold, in every direction alike (the friction circle).
+//! It pushes the body where it touches the floor, see [`super::floor`].
 
 use super::MASS;
+use super::floor::Demand;
 use super::servo::Servo;
 
 /// The wheels stand this far before the turning centre and to its sides, metres.
@@ -16,33 +16,8 @@ const MOTOR_ACCELERATION: f64 = 2.0;
 /// Steering servos: reach, radians, and rate, radians a second.
 const STEER_REACH: f64 = 1.75;
 const STEER_RATE: f64 = 7.0;
-/// A wheel's grip: force per slip, newtons per metre a second, and the most it can hold.
-const GRIP: f64 = 300.0;
+/// The most that a wheel's friction holds, newtons.
 const FRICTION: f64 = 0.7 * MASS * 9.81 / 4.0;
-
-/// How the body moves, in its own frame: ahead, to the left, turning.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Twist {
-    pub(crate) x: f64,
-    pub(crate) y: f64,
-    pub(crate) turn: f64,
-}
-
-/// What pushes the body, in its own frame: newtons and newton metres about the centre.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Push {
-    pub(crate) x: f64,
-    pub(crate) y: f64,
-    pub(crate) turn: f64,
-}
-
-impl Push {
-    pub(crate) fn add(&mut self, (fx, fy): (f64, f64), (x, y): (f64, f64)) {
-        self.x += fx;
-        self.y += fy;
-        self.turn += x * fy - y * fx;
-    }
-}
 
 /// A wheel that steers and drives.
 #[derive(Debug)]
@@ -122,21 +97,8 @@ impl Wheel {
         self.speed
     }
 
-    /// The force of the patch on the body that moves like this, with this share of the grip.
-    pub(super) fn force(&self, body: Twist, grip: f64) -> (f64, f64) {
-        let rim = self.velocity();
-        let slip_x = body.x - body.turn * self.y - rim.0;
-        let slip_y = body.y + body.turn * WHEEL_X - rim.1;
-        limited(-GRIP * slip_x, -GRIP * slip_y, FRICTION * grip)
+    /// That its patch slips nowhere, with this share of the grip.
+    pub(super) fn demand(&self, grip: f64) -> Demand {
+        Demand { rim: self.velocity(), most: FRICTION * grip }
     }
-}
-
-/// A force no larger than `most`.
-pub(super) fn limited(x: f64, y: f64, most: f64) -> (f64, f64) {
-    let square = x * x + y * y;
-    if square <= most * most {
-        return (x, y);
-    }
-    let share = most / libm::sqrt(square);
-    (x * share, y * share)
 }

@@ -1,0 +1,211 @@
+//! What the floor does to the body where wheels and castors stand on it.
+//!
+//! Each contact stops its slip as far as friction can hold, in every direction alike (the friction circle). All
+//! push the same body, so what they do is found together: by projected Gauss-Seidel iteration that begins
+//! with the step before (E. Catto, Iterative Dynamics with Temporal Coherence, GDC 2005). What else pushes the
+//! body, boxes and walls, shows only afterwards in how it moves; the wheels hold against what it was last.
+
+use super::{INERTIA, MASS};
+
+/// At most so many rounds over the contacts in a step; with what they remember two or three do.
+const ROUNDS: usize = 20;
+/// No contact has changed its mind by more than this in the last round, newton seconds.
+const SETTLED: f64 = 1e-7;
+
+/// How the body moves, in its own frame: ahead, to the left, turning.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Twist {
+    pub(crate) x: f64,
+    pub(crate) y: f64,
+    pub(crate) turn: f64,
+}
+
+/// What pushes the body, in its own frame: newtons and newton metres about the centre.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Push {
+    pub(crate) x: f64,
+    pub(crate) y: f64,
+    pub(crate) turn: f64,
+}
+
+/// A place of the body that touches the floor.
+#[derive(Debug)]
+struct Contact {
+    /// Ahead and to the left of the body's centre, metres.
+    at: (f64, f64),
+    /// What slip it answers to an impulse, at most: the inverse of the mass it moves, per kilogram.
+    yielding: f64,
+    /// What it did to the body in the step before, newton seconds.
+    impulse: (f64, f64),
+}
+
+/// What a contact wants and what it can do in a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Demand {
+    /// The velocity at which nothing slips, in the body's frame: that of the wheel's rim.
+    pub(super) rim: (f64, f64),
+    /// The most that friction holds, newtons.
+    pub(super) most: f64,
+}
+
+/// Where the body stands on the floor.
+#[derive(Debug)]
+pub(super) struct Footing<const N: usize> {
+    contacts: [Contact; N],
+    /// How the body moves after the step before unless something else pushed it.
+    expected: Twist,
+}
+
+impl<const N: usize> Footing<N> {
+    /// On those places, ahead and to the left of the body's centre, metres.
+    pub(super) fn new(places: [(f64, f64); N]) -> Self {
+        Footing { contacts: places.map(Contact::new), expected: Twist::default() }
+    }
+
+    /// What the contacts do together to a body that moves like this, within a step of `dt` seconds.
+    pub(super) fn push(&mut self, demands: [Demand; N], body: Twist, dt: f64) -> Push {
+        let others = body.less(self.expected);
+        let mut after =
+            Twist { x: body.x + others.x, y: body.y + others.y, turn: body.turn + others.turn };
+        for contact in &self.contacts {
+            contact.act(contact.impulse, &mut after);
+        }
+        for _ in 0..ROUNDS {
+            let mut change = 0.0_f64;
+            for (contact, demand) in self.contacts.iter_mut().zip(demands) {
+                change = change.max(contact.settle(demand, &mut after, dt));
+            }
+            if change < SETTLED {
+                break;
+            }
+        }
+        self.expected = after.less(others);
+        let gained = self.expected.less(body);
+        Push { x: gained.x * MASS / dt, y: gained.y * MASS / dt, turn: gained.turn * INERTIA / dt }
+    }
+}
+
+impl Twist {
+    /// What is left without another.
+    fn less(self, other: Twist) -> Twist {
+        Twist { x: self.x - other.x, y: self.y - other.y, turn: self.turn - other.turn }
+    }
+}
+
+impl Contact {
+    fn new((x, y): (f64, f64)) -> Self {
+        let yielding = 1.0 / MASS + (x * x + y * y) / INERTIA;
+        Contact { at: (x, y), yielding, impulse: (0.0, 0.0) }
+    }
+
+    /// Changes the impulse so that less slips, and the body's motion by it; by how much.
+    fn settle(&mut self, demand: Demand, body: &mut Twist, dt: f64) -> f64 {
+        let (x, y) = self.at;
+        let slip_x = body.x - body.turn * y - demand.rim.0;
+        let slip_y = body.y + body.turn * x - demand.rim.1;
+        let (px, py) = self.impulse;
+        // The same share in every direction: so what slips is braked against the way it slips.
+        let (wx, wy) = (px - slip_x / self.yielding, py - slip_y / self.yielding);
+        self.impulse = limited(wx, wy, demand.most * dt);
+        let (dx, dy) = (self.impulse.0 - px, self.impulse.1 - py);
+        self.act((dx, dy), body);
+        dx.abs().max(dy.abs())
+    }
+
+    /// Lets an impulse act on the body.
+    fn act(&self, (px, py): (f64, f64), body: &mut Twist) {
+        let (x, y) = self.at;
+        body.x += px / MASS;
+        body.y += py / MASS;
+        body.turn += (x * py - y * px) / INERTIA;
+    }
+}
+
+/// An impulse no larger than `most`.
+fn limited(x: f64, y: f64, most: f64) -> (f64, f64) {
+    let square = x * x + y * y;
+    if square <= most * most {
+        return (x, y);
+    }
+    let share = most / libm::sqrt(square);
+    (x * share, y * share)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DT: f64 = 0.005;
+
+    const CORNERS: [(f64, f64); 4] = [(0.13, 0.14), (0.13, -0.14), (-0.13, 0.14), (-0.13, -0.14)];
+
+    /// What the floor does in a step to a body that moved like this before, too.
+    fn push(body: Twist, demand: Demand) -> Push {
+        let mut footing = Footing::new(CORNERS);
+        footing.expected = body;
+        footing.push([demand; 4], body, DT)
+    }
+
+    /// The motion after a step.
+    fn after(body: Twist, push: Push) -> Twist {
+        Twist {
+            x: body.x + push.x * DT / MASS,
+            y: body.y + push.y * DT / MASS,
+            turn: body.turn + push.turn * DT / INERTIA,
+        }
+    }
+
+    #[test]
+    fn what_friction_can_hold_stands_after_a_step() {
+        let body = Twist { x: 0.02, y: -0.01, turn: 0.05 };
+        let hold = Demand { rim: (0.0, 0.0), most: 50.0 };
+        let end = after(body, push(body, hold));
+        assert!(end.x.abs().max(end.y.abs()).max(end.turn.abs()) < 1e-6, "{end:?}");
+    }
+
+    #[test]
+    fn what_slides_is_braked_with_all_friction_against_its_way() {
+        let body = Twist { x: 0.3, y: 0.4, turn: 0.0 };
+        let slide = Demand { rim: (0.0, 0.0), most: 1.5 };
+        let push = push(body, slide);
+        assert!((push.x + 6.0 * 0.6).abs() < 1e-4 && (push.y + 6.0 * 0.8).abs() < 1e-4, "{push:?}");
+        assert!(push.turn.abs() < 1e-4, "{push:?}");
+    }
+
+    #[test]
+    fn a_body_that_spins_is_braked_by_all_friction_at_its_corners() {
+        let body = Twist { turn: 9.0, ..Twist::default() };
+        let slide = Demand { rim: (0.0, 0.0), most: 1.5 };
+        let push = push(body, slide);
+        let lever = libm::hypot(0.13, 0.14);
+        assert!((push.turn + 6.0 * lever).abs() < 1e-4, "{push:?}");
+    }
+
+    #[test]
+    fn wheels_that_agree_carry_the_body_with_them() {
+        let (x, turn) = (0.2, 0.4);
+        let demands = CORNERS
+            .map(|(ahead, left)| Demand { rim: (x - turn * left, turn * ahead), most: 50.0 });
+        let mut footing = Footing::new(CORNERS);
+        let mut body = Twist::default();
+        for _ in 0..4 {
+            body = after(body, footing.push(demands, body, DT));
+        }
+        assert!((body.x - x).abs() < 1e-6 && body.y.abs() < 1e-6, "{body:?}");
+        assert!((body.turn - turn).abs() < 1e-6, "{body:?}");
+    }
+
+    #[test]
+    fn wheels_that_hold_do_not_give_way_to_a_steady_push() {
+        let hold = Demand { rim: (0.0, 0.0), most: 5.0 };
+        let mut footing = Footing::new(CORNERS);
+        let (mut body, mut way) = (Twist::default(), 0.0);
+        for _ in 0..200 {
+            body = after(body, footing.push([hold; 4], body, DT));
+            // A box pushes with 10 N to the left; 20 N would hold.
+            body.y += 10.0 * DT / MASS;
+            way += body.y * DT;
+        }
+        assert!(way.abs() < 1e-4, "{way}");
+    }
+}
