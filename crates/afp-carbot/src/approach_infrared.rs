@@ -2,7 +2,8 @@
 
 use crate::devices::{InfraredSensor, Navigator, Odometry};
 use crate::guard::{Guard, NO_INFRARED, NO_ODOMETRY, PATIENCE};
-use crate::motion::Ramp;
+use crate::history::{History, Pose};
+use crate::motion::{Ramp, wrap};
 use crate::templates;
 use crate::templates::approach_infrared::{Inputs, Live, State};
 use afp_core::quantity::{AngularSpeed, Speed};
@@ -17,7 +18,9 @@ const STEER: f64 = 1.5;
 /// The share of a new reading in what is steered by.
 const NEWS: f64 = 0.4;
 
-/// Steers by the light's bearing, smoothed, and stops where the light is as bright as wanted.
+/// Steers by the light's direction and brightness, smoothed, and stops where the light is as bright as wanted.
+///
+/// What a reading says holds for where the robot was when it was measured; from there the odometry goes on.
 #[derive(Debug)]
 pub struct ApproachInfrared {
     strength: f64,
@@ -25,6 +28,8 @@ pub struct ApproachInfrared {
     ramp: Ramp,
     infrared: Guard,
     odometry: Guard,
+    history: History,
+    /// When the latest reading was measured.
     last_look: Instant,
     /// When the light was seen last; the beginning counts as seen.
     seen: Instant,
@@ -34,11 +39,12 @@ pub struct ApproachInfrared {
     ending: Option<State>,
 }
 
-/// What is steered by: where the light is, radians, and how bright.
+/// What is steered by: the heading towards the light, radians, and the way left from a place, metres.
 #[derive(Clone, Copy, Debug)]
 struct Light {
-    bearing: f64,
-    strength: f64,
+    heading: f64,
+    way: f64,
+    from: Pose,
 }
 
 impl<E> Actor<templates::ApproachInfrared, E> for ApproachInfrared
@@ -47,12 +53,15 @@ where
 {
     fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
         env.halt(now);
+        let mut history = History::new();
+        history.note(env.motion());
         Ok(ApproachInfrared {
             strength: inputs.strength,
             speed: inputs.speed.si(),
             ramp: Ramp::new(ACCELERATION, now),
             infrared: Guard::new(NO_INFRARED, now),
             odometry: Guard::new(NO_ODOMETRY, now),
+            history,
             last_look: now,
             seen: now,
             light: None,
@@ -61,24 +70,27 @@ where
     }
 
     fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
-        let motion = self.odometry.current(env.motion(), now)?;
+        let counted = env.motion();
+        self.history.note(counted);
+        let motion = self.odometry.current(counted, now)?;
         self.look(env, now)?;
-        self.ending = self.ending.or_else(|| self.end(now));
+        let light = self.light.zip(motion).map(|(light, motion)| (light, Pose::from(motion)));
+        self.ending = self.ending.or_else(|| self.end(light));
         if let Some(state) = self.ending {
             env.halt(now);
             let stands = motion.is_some_and(|motion| motion.stands());
             return Ok(if stands { Poll::Ready(state) } else { Poll::Pending });
         }
         // In the dark it waits: what was ahead may have gone anywhere.
-        let in_sight = self.light.filter(|_| self.seen == self.last_look && motion.is_some());
-        let Some(light) = in_sight else {
+        let Some((light, here)) = light.filter(|_| self.seen == self.last_look) else {
             env.halt(now);
             self.ramp = Ramp::new(ACCELERATION, now);
             return Ok(Poll::Pending);
         };
-        let cruise = self.speed * libm::cos(light.bearing).max(0.0);
-        let speed = self.ramp.rate(self.way(light), cruise, now);
-        env.drive(Speed::from_si(speed), AngularSpeed::from_si(STEER * light.bearing), now);
+        let bearing = wrap(light.heading - here.heading);
+        let cruise = self.speed * libm::cos(bearing).max(0.0);
+        let speed = self.ramp.rate(light.way_from(here), cruise, now);
+        env.drive(Speed::from_si(speed), AngularSpeed::from_si(STEER * bearing), now);
         Ok(Poll::Pending)
     }
 
@@ -94,33 +106,53 @@ impl ApproachInfrared {
     where
         E: InfraredSensor + ?Sized,
     {
-        let reading = env.glow();
-        let Some(glow) = self.infrared.next(reading, self.last_look, now)? else { return Ok(()) };
+        let reading = self.history.placed(env.glow());
+        let Some((glow, then)) = self.infrared.next(reading, self.last_look, now)? else {
+            return Ok(());
+        };
         self.last_look = reading.time;
         let Some(glow) = glow else { return Ok(()) };
         self.seen = reading.time;
-        let new = Light { bearing: glow.bearing.si(), strength: glow.strength };
-        let old = self.light.unwrap_or(new);
-        self.light = Some(Light {
-            bearing: old.bearing + NEWS * (new.bearing - old.bearing),
-            strength: old.strength + NEWS * (new.strength - old.strength),
-        });
+        let new = Light {
+            heading: then.heading + glow.bearing.si(),
+            way: self.way(glow.strength),
+            from: then,
+        };
+        self.light = Some(self.light.map_or(new, |old| old.mixed(new)));
         Ok(())
     }
 
-    /// What ends the approach at `now`, if something does.
-    fn end(&self, now: Instant) -> Option<State> {
-        if self.light.is_some_and(|light| self.way(light) < CLOSE) {
+    /// What ends the approach, if something does.
+    fn end(&self, light: Option<(Light, Pose)>) -> Option<State> {
+        if light.is_some_and(|(light, here)| light.way_from(here) < CLOSE) {
             return Some(State::InfraredReached);
         }
-        (now.since(self.seen) > PATIENCE).then_some(State::InfraredLost)
+        (self.last_look.since(self.seen) > PATIENCE).then_some(State::InfraredLost)
     }
 
     /// The way left, metres, were the source of strength 1: brightness falls with the square of the
     /// distance.
-    fn way(&self, light: Light) -> f64 {
+    fn way(&self, strength: f64) -> f64 {
         let distance = |strength: f64| 1.0 / libm::sqrt(strength.max(1e-6));
-        distance(light.strength) - distance(self.strength)
+        distance(strength) - distance(self.strength)
+    }
+}
+
+impl Light {
+    /// The way left from another place.
+    fn way_from(&self, place: Pose) -> f64 {
+        let (sin, cos) = libm::sincos(self.heading);
+        self.way - (place.x - self.from.x) * cos - (place.y - self.from.y) * sin
+    }
+
+    /// With a share of something newer.
+    fn mixed(&self, new: Light) -> Light {
+        let way = self.way_from(new.from);
+        Light {
+            heading: self.heading + NEWS * wrap(new.heading - self.heading),
+            way: way + NEWS * (new.way - way),
+            from: new.from,
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Watch the lane ahead.
 
 use crate::devices::{Echo, Navigator, Rotator, Ultrasonic};
-use crate::guard::{Arrival, Guard, NO_RANGE};
+use crate::guard::{Arrival, Guard};
 use crate::templates;
 use crate::templates::check_driving_lane::{Event, Inputs, Live};
 use afp_core::quantity::Angle;
@@ -43,7 +43,7 @@ impl<E: Navigator + Ultrasonic + Rotator + ?Sized> Supervisor<templates::CheckDr
             place: 0,
             target: 0.0,
             last_ping: now,
-            guard: Guard::new(NO_RANGE, now),
+            guard: Guard::of_echoes(now),
             arrival: Arrival::new(now),
         })
     }
@@ -84,7 +84,7 @@ impl CheckDrivingLane {
 mod tests {
     use super::*;
     use crate::fake::{Fake, Plane, plane};
-    use crate::guard::STUCK_ROTATOR;
+    use crate::guard::{NO_RANGE, STUCK_ROTATOR};
     use afp_core::quantity::Length;
 
     type Template = templates::CheckDrivingLane;

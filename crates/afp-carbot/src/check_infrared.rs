@@ -1,15 +1,22 @@
 //! Watch for infrared light.
 
-use crate::devices::InfraredSensor;
-use crate::guard::{Guard, NO_INFRARED, PATIENCE};
+use crate::devices::{InfraredSensor, Odometry};
+use crate::guard::{Guard, NO_INFRARED, NO_ODOMETRY, PATIENCE};
+use crate::history::History;
+use crate::motion::wrap;
 use crate::templates;
 use crate::templates::check_infrared::{Event, Inputs, Live};
+use afp_core::quantity::Angle;
 use afp_core::{Events, Fault, Instant, Supervisor};
 
 /// Reports while there is light, or when there has been none for half a second.
+///
+/// The bearing is against the heading at the time of the report, however late the reading comes.
 #[derive(Debug)]
 pub struct CheckInfrared {
     guard: Guard,
+    odometry: Guard,
+    history: History,
     seen_wanted: bool,
     lost_wanted: bool,
     last_look: Instant,
@@ -17,10 +24,16 @@ pub struct CheckInfrared {
     seen: Instant,
 }
 
-impl<E: InfraredSensor + ?Sized> Supervisor<templates::CheckInfrared, E> for CheckInfrared {
-    fn start(_: Inputs, wanted: Events, _: &mut E, now: Instant) -> Result<Self, Fault> {
+impl<E: InfraredSensor + Odometry + ?Sized> Supervisor<templates::CheckInfrared, E>
+    for CheckInfrared
+{
+    fn start(_: Inputs, wanted: Events, env: &mut E, now: Instant) -> Result<Self, Fault> {
+        let mut history = History::new();
+        history.note(env.motion());
         Ok(CheckInfrared {
             guard: Guard::new(NO_INFRARED, now),
+            odometry: Guard::new(NO_ODOMETRY, now),
+            history,
             seen_wanted: wanted.contains(0),
             lost_wanted: wanted.contains(1),
             last_look: now,
@@ -29,13 +42,19 @@ impl<E: InfraredSensor + ?Sized> Supervisor<templates::CheckInfrared, E> for Che
     }
 
     fn poll(&mut self, live: Live, env: &mut E, now: Instant) -> Result<Option<Event>, Fault> {
-        let reading = env.glow();
-        let Some(glow) = self.guard.next(reading, self.last_look, now)? else { return Ok(None) };
+        let counted = env.motion();
+        self.history.note(counted);
+        let Some(motion) = self.odometry.current(counted, now)? else { return Ok(None) };
+        let reading = self.history.placed(env.glow());
+        let Some((glow, then)) = self.guard.next(reading, self.last_look, now)? else {
+            return Ok(None);
+        };
         self.last_look = reading.time;
         match glow.filter(|glow| glow.strength >= live.strength) {
             Some(glow) => {
                 self.seen = reading.time;
-                let bearing = glow.bearing;
+                let bearing = wrap(then.heading + glow.bearing.si() - motion.heading.si());
+                let bearing = Angle::from_si(bearing);
                 Ok(self.seen_wanted.then_some(Event::InfraredSeen { bearing }))
             }
             None => {

@@ -2,7 +2,8 @@
 
 use crate::devices::{Flow, FlowCamera, Invalid, Odometry};
 use crate::guard::{Guard, NO_FLOW};
-use crate::own_motion::Track;
+use crate::history::History;
+use crate::own_motion::Step;
 use crate::templates;
 use crate::templates::check_motion::{Event, Inputs, Live};
 use afp_core::quantity::Angle;
@@ -27,7 +28,7 @@ pub struct CheckMotion {
     wanted: bool,
     /// Radians a second.
     speed: f64,
-    track: Track,
+    history: History,
     guard: Guard,
     last: Instant,
     /// What moved in the last picture, and in how many before without a break.
@@ -36,13 +37,13 @@ pub struct CheckMotion {
 
 impl<E: FlowCamera + Odometry + ?Sized> Supervisor<templates::CheckMotion, E> for CheckMotion {
     fn start(inputs: Inputs, wanted: Events, env: &mut E, now: Instant) -> Result<Self, Fault> {
-        let mut track = Track::new();
-        track.note(env.motion());
+        let mut history = History::new();
+        history.note(env.motion());
         env.flow(now)?;
         Ok(CheckMotion {
             wanted: wanted.contains(0),
             speed: inputs.speed.si(),
-            track,
+            history,
             guard: Guard::new(NO_FLOW, now),
             last: now,
             before: None,
@@ -50,12 +51,12 @@ impl<E: FlowCamera + Odometry + ?Sized> Supervisor<templates::CheckMotion, E> fo
     }
 
     fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Option<Event>, Fault> {
-        self.track.note(env.motion());
+        self.history.note(env.motion());
         let lens = env.lens();
         let mut reading = env.flow(now)?;
         let step = reading.value.ok().and_then(|flow| {
             let before = reading.time.as_nanos().saturating_sub(flow.span.as_nanos());
-            self.track.between(&lens, Instant::from_nanos(before), reading.time)
+            Step::between(&self.history, &lens, Instant::from_nanos(before), reading.time)
         });
         let shows = |flow: &Flow<'_>| flow.shifts.iter().flatten().take(SEEN).count() == SEEN;
         if step.is_none() || !reading.value.is_ok_and(|flow| shows(&flow)) {

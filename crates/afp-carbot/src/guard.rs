@@ -50,6 +50,9 @@ pub const STUCK_ROTATOR: Fault = Fault::new(&Reason {
     text: "the rotator did not reach its bearing within 1 s",
 });
 
+/// The age up to which an echo tells a robot that drives what is ahead: 6 cm at full speed.
+pub const LATE_ECHO: Duration = Duration::from_millis(200);
+
 /// The age up to which the continuous sensors (odometry, bumper, buttons, rotator) are current.
 const CURRENT: Duration = Duration::from_millis(100);
 
@@ -57,13 +60,20 @@ const CURRENT: Duration = Duration::from_millis(100);
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Guard {
     usable: Instant,
+    /// What is older when it comes is not usable.
+    oldest: Duration,
     fault: Fault,
 }
 
 impl Guard {
     /// Begins at `now`, with full patience; `fault` is what its end is called.
     pub(crate) fn new(fault: Fault, now: Instant) -> Self {
-        Guard { usable: now, fault }
+        Guard { usable: now, oldest: PATIENCE, fault }
+    }
+
+    /// Patience with the range sensor of a robot that drives.
+    pub(crate) fn of_echoes(now: Instant) -> Self {
+        Guard { oldest: LATE_ECHO, ..Guard::new(NO_RANGE, now) }
     }
 
     /// The current value, none while the sensor is silent but not yet for too long.
@@ -83,7 +93,7 @@ impl Guard {
         Ok(value)
     }
 
-    /// The value of a reading that was measured after `last`; the caller keeps `last`.
+    /// The value of a reading that was measured after `last` and does not come too late; the caller keeps `last`.
     ///
     /// # Errors
     /// This guard's fault after [`PATIENCE`] without a new valid reading.
@@ -93,7 +103,7 @@ impl Guard {
         last: Instant,
         now: Instant,
     ) -> Result<Option<T>, Fault> {
-        let value = reading.fresh(now, PATIENCE).filter(|_| reading.time > last);
+        let value = reading.fresh(now, self.oldest).filter(|_| reading.time > last);
         if value.is_some() {
             self.usable = now;
         }
@@ -139,6 +149,15 @@ mod tests {
         assert_eq!(guard.current(Reading::valid(1.0, at(500)), at(500)), Ok(Some(1.0)));
         assert_eq!(guard.current(dead, at(1000)), Ok(None));
         assert_eq!(guard.current(dead, at(1001)), Err(NO_RANGE));
+    }
+
+    #[test]
+    fn echoes_that_come_late_are_no_news_for_a_robot_that_drives() {
+        let at = |ms| Instant::ZERO + Duration::from_millis(ms);
+        let mut guard = Guard::of_echoes(at(0));
+        assert_eq!(guard.next(Reading::valid(2.0, at(50)), at(0), at(250)), Ok(Some(2.0)));
+        assert_eq!(guard.next(Reading::valid(2.0, at(100)), at(50), at(301)), Ok(None));
+        assert_eq!(guard.next(Reading::valid(2.0, at(500)), at(50), at(751)), Err(NO_RANGE));
     }
 
     #[test]

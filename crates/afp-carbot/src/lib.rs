@@ -8,7 +8,8 @@
 //!
 //! Two rules hold for every template here. A reading that is invalid or too old is never taken
 //! for free space: the template waits, and faults when nothing usable came for
-//! [`guard::PATIENCE`]. And an actor that is ready has brought the robot to a standstill, so a
+//! [`guard::PATIENCE`]. What a reading says holds for the instant at which it was measured: bearings and ways are
+//! carried on from there by the odometry. And an actor that is ready has brought the robot to a standstill, so a
 //! finished actor is as safe as an interrupted one.
 #![no_std]
 #![forbid(unsafe_code)]
@@ -29,6 +30,7 @@ mod curve;
 pub mod devices;
 mod forward;
 pub mod guard;
+mod history;
 mod line_fit;
 mod motion;
 mod own_motion;

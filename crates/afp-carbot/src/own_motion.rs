@@ -5,97 +5,14 @@
 //! the farthest would move to how the nearest would. Flow that ends off this stretch is of something
 //! that moves by itself.
 
-use crate::devices::{Lens, Motion, Reading};
-use afp_core::{Duration, Instant};
+use crate::devices::Lens;
+use crate::history::History;
+use afp_core::Instant;
 
 /// Nothing is nearer to the lens than this, metres: the bumper would know.
 const NEAREST: f64 = 0.25;
 /// The floor is not known better than this: the robot pitches a little.
 const FLOOR: f64 = 1.15;
-
-/// How many readings of the odometry are remembered.
-const KEPT: usize = 32;
-/// Motion is not guessed farther than this beyond what is known.
-const GUESSED: Duration = Duration::from_millis(30);
-
-/// The latest readings of the odometry, to know where the robot was when a picture was taken.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Track {
-    /// The oldest is at `next`.
-    motions: [Option<(Instant, Motion)>; KEPT],
-    next: usize,
-}
-
-/// A place on the floor and a heading, metres and radians.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Pose {
-    x: f64,
-    y: f64,
-    heading: f64,
-}
-
-impl Track {
-    pub(crate) fn new() -> Self {
-        Track { motions: [None; KEPT], next: 0 }
-    }
-
-    /// Remembers a reading, if it is valid and new.
-    pub(crate) fn note(&mut self, reading: Reading<Motion>) {
-        let Ok(motion) = reading.value else { return };
-        if self.last().is_some_and(|(time, _)| time >= reading.time) {
-            return;
-        }
-        self.motions[self.next] = Some((reading.time, motion));
-        self.next = (self.next + 1) % KEPT;
-    }
-
-    /// The move of the camera from one instant to another, if both are known.
-    pub(crate) fn between(&self, lens: &Lens, from: Instant, to: Instant) -> Option<Step> {
-        let (from, to) = (self.at(from)?, self.at(to)?);
-        let turn = to.heading - from.heading;
-        let (sin, cos) = libm::sincos(from.heading);
-        let (x, y) = (to.x - from.x, to.y - from.y);
-        let (sin_turn, cos_turn) = libm::sincos(turn);
-        let arm = lens.forward.si();
-        Some(Step {
-            ahead: x * cos + y * sin + arm * (cos_turn - 1.0),
-            left: y * cos - x * sin + arm * sin_turn,
-            turn: (sin_turn, cos_turn),
-        })
-    }
-
-    fn last(&self) -> Option<(Instant, Motion)> {
-        self.motions[(self.next + KEPT - 1) % KEPT]
-    }
-
-    /// Where the robot was, between the readings around an instant.
-    fn at(&self, when: Instant) -> Option<Pose> {
-        let mut around = [None; 2];
-        for n in 0..KEPT {
-            let Some((time, motion)) = self.motions[(self.next + n) % KEPT] else { continue };
-            if time <= when {
-                around = [Some((time, motion)), None];
-            } else if around[1].is_none() {
-                around[1] = Some((time, motion));
-            }
-        }
-        match around {
-            [Some((a, from)), Some((b, to))] => {
-                let share = when.since(a).as_secs_f64() / b.since(a).as_secs_f64();
-                let mix = |from: f64, to: f64| from + (to - from) * share;
-                Some(Pose {
-                    x: mix(from.x.si(), to.x.si()),
-                    y: mix(from.y.si(), to.y.si()),
-                    heading: mix(from.heading.si(), to.heading.si()),
-                })
-            }
-            [Some((time, motion)), None] if when.since(time) <= GUESSED => {
-                Some(Pose { x: motion.x.si(), y: motion.y.si(), heading: motion.heading.si() })
-            }
-            _ => None,
-        }
-    }
-}
 
 /// How the camera has moved from one picture to the next, in the frame of the earlier one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,6 +28,25 @@ pub(crate) struct Step {
 pub(crate) type Place = [f64; 2];
 
 impl Step {
+    /// The move of the camera from one instant to another, if both are known.
+    pub(crate) fn between(
+        history: &History,
+        lens: &Lens,
+        from: Instant,
+        to: Instant,
+    ) -> Option<Step> {
+        let (from, to) = (history.at(from)?, history.at(to)?);
+        let (sin, cos) = libm::sincos(from.heading);
+        let (x, y) = (to.x - from.x, to.y - from.y);
+        let (sin_turn, cos_turn) = libm::sincos(to.heading - from.heading);
+        let arm = lens.forward.si();
+        Some(Step {
+            ahead: x * cos + y * sin + arm * (cos_turn - 1.0),
+            left: y * cos - x * sin + arm * sin_turn,
+            turn: (sin_turn, cos_turn),
+        })
+    }
+
     /// How far, in pixels, something that stood still and was seen at `place` is at least from where
     /// `found` is, and how far it can have moved in the picture at most. `focus` is the lens's focal
     /// length in pixels.
@@ -163,6 +99,8 @@ pub(crate) struct Unexplained {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::devices::{Motion, Reading};
+    use afp_core::Duration;
     use afp_core::quantity::{Angle, Length};
 
     const FOCUS: f64 = 114.0;
@@ -183,7 +121,7 @@ mod tests {
 
     /// The step of a robot that drove and turned evenly for 50 ms.
     fn step(ahead: f64, turned: f64) -> Step {
-        let mut track = Track::new();
+        let mut history = History::new();
         for tick in 0..=10 {
             let share = tick as f64 / 10.0;
             let motion = Motion {
@@ -191,9 +129,9 @@ mod tests {
                 heading: Angle::from_si(turned * share),
                 ..Motion::default()
             };
-            track.note(Reading::valid(motion, at(5 * tick)));
+            history.note(Reading::valid(motion, at(5 * tick)));
         }
-        track.between(&lens(), at(0), at(50)).unwrap()
+        Step::between(&history, &lens(), at(0), at(50)).unwrap()
     }
 
     fn off(step: Step, place: Place, found: Place) -> f64 {
@@ -231,16 +169,5 @@ mod tests {
         let scale = depth / (depth - 0.02);
         assert!(off(step, [30.0, 50.0], [30.0 * scale, 50.0 * scale]) < 1e-9);
         assert!(off(step, [30.0, 50.0], [30.0, 50.0]) > 1.0, "it comes along");
-    }
-
-    #[test]
-    fn what_the_odometry_does_not_know_is_not_guessed() {
-        let mut track = Track::new();
-        for tick in 0..100 {
-            track.note(Reading::valid(Motion::default(), at(100 + 5 * tick)));
-        }
-        assert_eq!(track.between(&lens(), at(100), at(150)), None, "forgotten");
-        assert!(track.between(&lens(), at(500), at(600)).is_some());
-        assert_eq!(track.between(&lens(), at(500), at(650)), None, "to come");
     }
 }

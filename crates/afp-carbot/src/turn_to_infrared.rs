@@ -2,10 +2,11 @@
 
 use crate::devices::{InfraredSensor, Navigator, Odometry};
 use crate::guard::{Guard, NO_INFRARED, NO_ODOMETRY, PATIENCE};
+use crate::history::History;
 use crate::motion::Ramp;
 use crate::templates;
 use crate::templates::turn_to_infrared::{Inputs, Live, State};
-use afp_core::quantity::{Angle, AngularSpeed, Speed};
+use afp_core::quantity::{AngularSpeed, Speed};
 use afp_core::{Actor, Fault, Instant, Poll};
 
 /// Turn rate is gained and lost at this many radians a second squared.
@@ -19,7 +20,8 @@ const CLOSE: f64 = 0.005;
 
 /// Turns left until it sees light, then towards it.
 ///
-/// Each reading gives the rest of the way anew, so the sensor's noise does not add up.
+/// Each reading gives the rest of the way anew, so the sensor's noise does not add up. A reading that comes late is
+/// about the heading that the robot had when it was measured.
 #[derive(Debug)]
 pub struct TurnToInfrared {
     tolerance: f64,
@@ -27,11 +29,13 @@ pub struct TurnToInfrared {
     ramp: Ramp,
     infrared: Guard,
     odometry: Guard,
+    history: History,
+    /// When the latest reading was measured.
     last_look: Instant,
     /// The heading at the beginning; none until the first reading.
-    from: Option<Angle>,
-    /// The heading towards the light, by the last reading that saw it, and when that was.
-    light: Option<(Angle, Instant)>,
+    from: Option<f64>,
+    /// The heading towards the light, by the last reading that saw it, and when that was; radians.
+    light: Option<(f64, Instant)>,
     /// Readings in a row with the light ahead.
     ahead: u8,
 }
@@ -42,12 +46,15 @@ where
 {
     fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
         env.halt(now);
+        let mut history = History::new();
+        history.note(env.motion());
         Ok(TurnToInfrared {
             tolerance: inputs.tolerance.si(),
             speed: inputs.speed.si(),
             ramp: Ramp::new(ACCELERATION, now),
             infrared: Guard::new(NO_INFRARED, now),
             odometry: Guard::new(NO_ODOMETRY, now),
+            history,
             last_look: now,
             from: None,
             light: None,
@@ -56,21 +63,24 @@ where
     }
 
     fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
-        let Some(motion) = self.odometry.current(env.motion(), now)? else {
+        let counted = env.motion();
+        self.history.note(counted);
+        let Some(motion) = self.odometry.current(counted, now)? else {
             env.halt(now);
             return Ok(Poll::Pending);
         };
-        self.look(env, motion.heading, now)?;
-        let from = *self.from.get_or_insert(motion.heading);
+        let heading = motion.heading.si();
+        self.look(env, heading, now)?;
+        let from = *self.from.get_or_insert(heading);
         let (rest, ending) = match self.light {
             Some((towards, seen)) => {
-                let lost = now.since(seen) > PATIENCE;
+                let lost = self.last_look.since(seen) > PATIENCE;
                 let facing = self.ahead >= SURE;
                 let state = if lost { State::NoInfraredFound } else { State::FacingInfrared };
-                ((towards - motion.heading).si(), (lost || facing).then_some(state))
+                (towards - heading, (lost || facing).then_some(state))
             }
             None => {
-                let rest = ALL_AROUND - (motion.heading - from).si();
+                let rest = ALL_AROUND - (heading - from);
                 (rest, (rest < CLOSE).then_some(State::NoInfraredFound))
             }
         };
@@ -91,18 +101,21 @@ where
 
 impl TurnToInfrared {
     /// Takes in a new reading of the sensor, if there is one.
-    fn look<E>(&mut self, env: &E, heading: Angle, now: Instant) -> Result<(), Fault>
+    fn look<E>(&mut self, env: &E, heading: f64, now: Instant) -> Result<(), Fault>
     where
         E: InfraredSensor + ?Sized,
     {
-        let reading = env.glow();
-        let Some(glow) = self.infrared.next(reading, self.last_look, now)? else { return Ok(()) };
+        let reading = self.history.placed(env.glow());
+        let Some((glow, then)) = self.infrared.next(reading, self.last_look, now)? else {
+            return Ok(());
+        };
         self.last_look = reading.time;
         match glow {
             Some(glow) => {
-                let is_ahead = glow.bearing.si().abs() <= self.tolerance;
+                let light = then.heading + glow.bearing.si();
+                let is_ahead = (light - heading).abs() <= self.tolerance;
                 self.ahead = if is_ahead { self.ahead.saturating_add(1) } else { 0 };
-                self.light = Some((heading + glow.bearing, reading.time));
+                self.light = Some((light, reading.time));
             }
             None => self.ahead = 0,
         }
@@ -114,6 +127,7 @@ impl TurnToInfrared {
 mod tests {
     use super::*;
     use crate::fake::Fake;
+    use afp_core::quantity::Angle;
 
     fn turn(robot: &mut Fake) -> Result<Option<State>, Fault> {
         let inputs =

@@ -12,12 +12,12 @@ mod track;
 mod tests;
 
 use crate::devices::{Echo, Motion, Navigator, Odometry, Rotator, Ultrasonic};
-use crate::guard::{Arrival, Guard, NO_ODOMETRY, NO_RANGE};
+use crate::guard::{Arrival, Guard, LATE_ECHO, NO_ODOMETRY};
 use crate::motion::{Ramp, wrap};
 use crate::templates;
 use crate::templates::wall_forward::{Inputs, Live, State};
 use afp_core::quantity::{Angle, AngularSpeed, Speed};
-use afp_core::{Actor, Duration, Fault, Instant, Poll};
+use afp_core::{Actor, Fault, Instant, Poll};
 use glance::Glance;
 use track::Track;
 
@@ -37,8 +37,6 @@ const SLOWING: f64 = 20.0 / 180.0 * core::f64::consts::PI;
 const LOST: f64 = 0.35;
 /// The beam may look this far beside the wall's normal for an echo to count, radians.
 const SQUARE: f64 = 25.0 / 180.0 * core::f64::consts::PI;
-/// Without a valid ping for so long the robot waits for one; long before the guard's patience ends.
-const BLIND: Duration = Duration::from_millis(200);
 /// The step counts as driven when less than this is left, metres.
 const CLOSE: f64 = 0.004;
 
@@ -78,7 +76,7 @@ where
             inputs,
             ramp: Ramp::new(ACCELERATION, now),
             odometry: Guard::new(NO_ODOMETRY, now),
-            range: Guard::new(NO_RANGE, now),
+            range: Guard::of_echoes(now),
             arrival: Arrival::new(now),
             last_ping: now,
             course: None,
@@ -136,8 +134,8 @@ impl WallForward {
     /// Commands the speed and the turn rate that lead to the wall's distance.
     fn steer<E: Navigator + ?Sized>(&mut self, env: &mut E, now: Instant) {
         let Some(course) = &self.course else { return };
-        // Nothing moves before the first glance ahead, nor blindly.
-        if course.glance.free().is_none() || now.since(self.last_ping) > BLIND {
+        // Nothing moves before the first glance ahead, nor blindly, long before the guard's patience ends.
+        if course.glance.free().is_none() || now.since(self.last_ping) > LATE_ECHO {
             env.halt(now);
             self.ramp = Ramp::new(ACCELERATION, now);
             return;

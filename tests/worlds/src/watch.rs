@@ -1,6 +1,6 @@
 //! What must hold in any world, watched while a plan runs.
 
-use afp_carbot::guard::PATIENCE;
+use afp_carbot::guard::{LATE_ECHO, PATIENCE};
 use afp_core::trace::{Kind, Names, Record};
 use afp_core::{Duration, Instant};
 use afp_sim::{Fault, Sensor, Simulation};
@@ -26,9 +26,9 @@ const CURRENT: Duration = Duration::from_millis(100);
 ///    older than 100 ms.
 /// 2. A command to move comes no later than the templates' [`PATIENCE`], and a poll, after the last
 ///    usable reading of every sensor that was asked since the active actor started. What the range and
-///    the infrared sensor say now and then is usable once, when it is valid and no older than the patience;
-///    what other sensors say is usable while it is valid and no older than 100 ms. So neither silence nor
-///    nonsense is free space for longer than that.
+///    the infrared sensor say now and then is usable once, when it is valid and no older than 200 ms and the
+///    patience; what other sensors say is usable while it is valid and no older than 100 ms. So neither
+///    silence nor nonsense is free space for longer than that.
 /// 3. Whatever interrupts an actor, the command is zero when the next one starts; the same when it
 ///    fails, and when it is ready.
 /// 4. After the end of the plan nothing commands motion, and the command is zero at the end.
@@ -97,9 +97,8 @@ impl Watch {
     pub(crate) fn told(&mut self, sensor: Sensor, valid: bool, time: Instant, now: Instant) {
         let known = &mut self.sensors[sensor as usize];
         let usable = match sensor {
-            Sensor::Ultrasonic | Sensor::Infrared => {
-                time > known.measured && now.since(time) <= PATIENCE
-            }
+            Sensor::Ultrasonic => time > known.measured && now.since(time) <= LATE_ECHO,
+            Sensor::Infrared => time > known.measured && now.since(time) <= PATIENCE,
             _ => now.since(time) <= CURRENT,
         };
         let waiting = known.waiting.get_or_insert(now);

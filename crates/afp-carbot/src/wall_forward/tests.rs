@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::fake::{Fake, Plane, plane};
+use crate::guard::NO_RANGE;
 use crate::guard::STUCK_ROTATOR;
 use afp_core::quantity::Length;
 

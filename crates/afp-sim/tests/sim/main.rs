@@ -3,6 +3,7 @@
 mod closed_forms;
 mod determinism;
 mod faults;
+mod late;
 mod map;
 mod moving;
 mod random;

@@ -1,0 +1,149 @@
+//! Where the robot was a moment ago.
+//!
+//! A reading is about the instant at which it was measured, and it may come late. What it says against the
+//! robot's heading or place is so against those of that instant, which the odometry remembers here.
+
+use crate::devices::{Invalid, Motion, Reading};
+use afp_core::{Duration, Instant};
+
+/// So many places are remembered, no closer in time than this but for the last two: 620 ms and more,
+/// longer than a template waits for a reading.
+const KEPT: usize = 32;
+const APART: Duration = Duration::from_millis(20);
+/// Motion is not guessed farther than this beyond what is known.
+const GUESSED: Duration = Duration::from_millis(30);
+
+/// A place and a heading in the frame of the odometry, metres and radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Pose {
+    pub(crate) x: f64,
+    pub(crate) y: f64,
+    pub(crate) heading: f64,
+}
+
+impl From<Motion> for Pose {
+    fn from(motion: Motion) -> Self {
+        Pose { x: motion.x.si(), y: motion.y.si(), heading: motion.heading.si() }
+    }
+}
+
+/// The latest of what the odometry said.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct History {
+    /// The oldest is at `next`.
+    poses: [Option<(Instant, Pose)>; KEPT],
+    next: usize,
+}
+
+impl History {
+    /// Nothing is known yet.
+    pub(crate) fn new() -> Self {
+        History { poses: [None; KEPT], next: 0 }
+    }
+
+    /// Remembers what the odometry says, if it is valid and new. To be called at every poll.
+    pub(crate) fn note(&mut self, reading: Reading<Motion>) {
+        let Ok(motion) = reading.value else { return };
+        let last = self.latest(1).map(|(time, _)| time);
+        if last.is_some_and(|last| last >= reading.time) {
+            return;
+        }
+        // What lies close behind its predecessor makes room for what is newer.
+        let before = self.latest(2).map(|(time, _)| time);
+        if last.zip(before).is_some_and(|(last, before)| last.since(before) < APART) {
+            self.next = self.place(1);
+        }
+        self.poses[self.next] = Some((reading.time, motion.into()));
+        self.next = (self.next + 1) % KEPT;
+    }
+
+    /// Where the robot was, between what is known before and after an instant.
+    pub(crate) fn at(&self, when: Instant) -> Option<Pose> {
+        let (mut before, mut after) = (None, None);
+        for ago in 1..=KEPT {
+            let Some((time, pose)) = self.latest(ago) else { break };
+            if time <= when {
+                before = Some((time, pose));
+                break;
+            }
+            after = Some((time, pose));
+        }
+        let (time, from) = before?;
+        let since = when.since(time);
+        let Some((later, to)) = after else { return (since <= GUESSED).then_some(from) };
+        let share = since.as_secs_f64() / later.since(time).as_secs_f64();
+        let mix = |from: f64, to: f64| from + (to - from) * share;
+        Some(Pose {
+            x: mix(from.x, to.x),
+            y: mix(from.y, to.y),
+            heading: mix(from.heading, to.heading),
+        })
+    }
+
+    /// A reading with where the robot was when it was measured; there is no answer if that is unknown.
+    pub(crate) fn placed<T: Copy>(&self, reading: Reading<T>) -> Reading<(T, Pose)> {
+        let pose = self.at(reading.time).ok_or(Invalid::NoAnswer);
+        let value = reading.value.and_then(|value| pose.map(|pose| (value, pose)));
+        Reading { time: reading.time, value }
+    }
+
+    /// The latest, the one before it, and so on, counted from 1.
+    fn latest(&self, ago: usize) -> Option<(Instant, Pose)> {
+        self.poses.get(self.place(ago)).copied().flatten()
+    }
+
+    fn place(&self, ago: usize) -> usize {
+        (self.next + KEPT - ago) % KEPT
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use afp_core::quantity::Angle;
+
+    fn at(millis: u64) -> Instant {
+        Instant::ZERO + Duration::from_millis(millis)
+    }
+
+    /// A robot that turns by a radian a second, noted every so many milliseconds until two seconds are over.
+    fn turning(every: u64) -> History {
+        let mut history = History::new();
+        for millis in (0..=2000).step_by(every as usize) {
+            let heading = Angle::from_si(millis as f64 / 1000.0);
+            history.note(Reading::valid(Motion { heading, ..Motion::default() }, at(millis)));
+        }
+        history
+    }
+
+    #[test]
+    fn the_heading_is_known_for_longer_than_readings_are_waited_for() {
+        for every in [2, 5, 10, 20, 40, 50] {
+            let history = turning(every);
+            for millis in 1490..=2000 {
+                let pose = history.at(at(millis)).unwrap_or_else(|| panic!("{every} {millis}"));
+                assert!((pose.heading - millis as f64 / 1000.0).abs() < 1e-9, "{every} {millis}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_the_odometry_does_not_know_is_not_guessed() {
+        assert_eq!(History::new().at(at(0)), None);
+        let history = turning(5);
+        assert_eq!(history.at(at(1000)), None, "forgotten");
+        assert_eq!(history.at(at(2030)).map(|pose| pose.heading), Some(2.0));
+        assert_eq!(history.at(at(2031)), None, "to come");
+        let reading = Reading::valid(7, at(1000));
+        assert_eq!(history.placed(reading).value, Err(Invalid::NoAnswer));
+    }
+
+    #[test]
+    fn what_is_old_or_invalid_is_not_noted() {
+        let mut history = turning(5);
+        let elsewhere = Motion { heading: Angle::from_si(9.0), ..Motion::default() };
+        history.note(Reading::valid(elsewhere, at(2000)));
+        history.note(Reading::invalid(Invalid::NoAnswer, at(2010)));
+        assert_eq!(history.at(at(2020)).map(|pose| pose.heading), Some(2.0));
+    }
+}
