@@ -86,6 +86,16 @@ fn scenarios_are_generated_and_pass() {
 }
 
 #[test]
+fn generated_scenarios_find_their_plan_from_where_they_are_written() {
+    let place = Place::with_plan();
+    let said = place.afpc("test --generate wall_following.afp -o checks/deep/walls.afp");
+    said.succeeds();
+    assert!(said.out.starts_with("checks/deep/walls.afp: "), "{}", said.out);
+    place.afpc("check checks/deep/walls.afp").succeeds();
+    place.afpc("test wall_following.afp -o walls.svg").fails(2, &["--coverage", "--generate"]);
+}
+
+#[test]
 fn a_wrong_scenario_does_not_hide_the_others() {
     let place = place();
     place.write("tests/wrong.afp", "use \"../wall_following.afp\"\n\nscenario \"x\" for WallFollowing { expect nobody active }\n");

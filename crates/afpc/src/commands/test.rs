@@ -35,20 +35,20 @@ pub struct Arguments {
     json: bool,
 
     /// Tells which elements, states, events, errors and entries no scenario made use of
-    #[arg(long)]
+    #[arg(long, group = "told")]
     coverage: bool,
 
     /// Counts logged runs of the same plans too
     #[arg(long, value_name = "LOG", requires = "coverage")]
     add_log: Vec<PathBuf>,
 
-    /// Draws the plan with what was used into this file, an SVG or a PNG; several plans into this
-    /// folder
-    #[arg(short, long, value_name = "FILE|FOLDER", requires = "coverage")]
+    /// With '--coverage' draws the plan with what was used into this file, an SVG or a PNG; with '--generate' writes
+    /// the scenarios into it; several plans into this folder
+    #[arg(short, long, value_name = "FILE|FOLDER", requires = "told")]
     output: Option<PathBuf>,
 
     /// Writes scenarios for plans: every event at five points of each actor's run
-    #[arg(long)]
+    #[arg(long, group = "told")]
     generate: bool,
 }
 
@@ -89,7 +89,8 @@ struct Done {
 pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
     if arguments.generate {
         let files: Vec<_> = arguments.what.iter().map(PathBuf::from).collect();
-        return generate::run(&files, &|registry| register(linked, registry), linked);
+        let output = arguments.output.as_deref();
+        return generate::run(&files, output, &|registry| register(linked, registry), linked);
     }
     let find::Wanted { files, filters } = find::wanted(&arguments.what)?;
     let mut code = EXIT_OK;

@@ -22,6 +22,7 @@ const RUN: u64 = 60_000_000_000;
 /// No file is named, a plan is wrong or cannot run without values, a file cannot be written.
 pub(super) fn run(
     files: &[PathBuf],
+    output: Option<&Path>,
     templates: Templates<'_>,
     linked: &[Linked],
 ) -> Result<u8, NoPlan> {
@@ -35,8 +36,8 @@ pub(super) fn run(
     runner::become_one_for(plans, linked)?;
     for file in read {
         let (file, graph) = file.checked()?;
-        let made = generate(&file.path, graph, templates)?;
-        let path = place(&file.path)?;
+        let path = place(&file.path, output, files.len() > 1)?;
+        let made = generate(&file.path, &path, graph, templates)?;
         let text = afp_dsl::format(&made.text).unwrap_or(made.text);
         write_whole("cannot write the scenarios", &path, text)?;
         print(&format!("{}: {} scenarios\n", path.display(), made.scenarios))?;
@@ -47,7 +48,13 @@ pub(super) fn run(
     Ok(EXIT_OK)
 }
 
-fn generate(file: &Path, graph: Graph, templates: Templates<'_>) -> Result<Generated, RunError> {
+/// Scenarios for a plan, which will stand in the file `to`.
+fn generate(
+    file: &Path,
+    to: &Path,
+    graph: Graph,
+    templates: Templates<'_>,
+) -> Result<Generated, RunError> {
     let missing =
         |entry: &&afp_dsl::graph::Entry| entry.kind == EntryKind::In && entry.init.is_none();
     if let Some(entry) = graph.main().entries.iter().find(missing) {
@@ -57,16 +64,35 @@ fn generate(file: &Path, graph: Graph, templates: Templates<'_>) -> Result<Gener
     let plan_file = file.display().to_string();
     let quiet = Scenario::quiet("as it goes", Arc::new(graph), plan_file, RUN);
     let setting = Setting::find(&quiet, file)?;
-    let name = file.file_name().unwrap_or_default().to_string_lossy();
-    afp_test::generate(&format!("../{name}"), &quiet, &mut |scenario| {
+    afp_test::generate(&way(file, to)?, &quiet, &mut |scenario| {
         afp_test::run(scenario, &setting, templates, None)
     })
 }
 
-/// `tests/patrol_generated.afp` beside `patrol.afp`.
-fn place(file: &Path) -> Result<PathBuf, RunError> {
-    let folder = file.parent().unwrap_or(Path::new("")).join("tests");
-    fs::create_dir_all(&folder).map_err(RunError::file("cannot make the folder", &folder))?;
+/// Where the scenarios of a plan go: into `output`, a folder if there are several, or else into
+/// `tests/patrol_generated.afp` beside `patrol.afp`. The folder is made.
+fn place(file: &Path, output: Option<&Path>, several: bool) -> Result<PathBuf, RunError> {
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
-    Ok(folder.join(format!("{stem}_generated.afp")))
+    let name = format!("{stem}_generated.afp");
+    let path = match output {
+        Some(output) if several || output.is_dir() => output.join(name),
+        Some(output) => output.to_owned(),
+        None => file.with_file_name("tests").join(name),
+    };
+    let folder = path.parent().unwrap_or(Path::new(""));
+    fs::create_dir_all(folder).map_err(RunError::file("cannot make the folder", folder))?;
+    Ok(path)
+}
+
+/// The way from the file `to` to a plan, as `use` takes it.
+fn way(file: &Path, to: &Path) -> Result<String, RunError> {
+    let folder = to.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+    let whole = |path: &Path| path.canonicalize().map_err(RunError::file("cannot find", path));
+    let (file, folder) = (whole(file)?, whole(folder)?);
+    let way = pathdiff::diff_paths(&file, folder).unwrap_or(file);
+    Ok(way
+        .components()
+        .map(|part| part.as_os_str().to_string_lossy())
+        .collect::<Vec<_>>()
+        .join("/"))
 }
