@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import os
 import signal
@@ -92,12 +93,34 @@ def test_stimuli_that_make_no_sense(wall_following: afp.Plan) -> None:
         simulation.press("enter")
     with pytest.raises(ValueError, match="no time"):
         simulation.press(at=float("nan"))
+    with pytest.raises(TypeError, match="needs a Plan, not a str"):
+        afp.Simulation("wall.afp")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="-1 is no seed"):
+        afp.Simulation(wall_following, seed=-1)
+    with pytest.raises(TypeError, match="cannot be pickled"):
+        copy.copy(simulation)
     simulation.fire("followWall.wallTouch", "TouchSensorPressed", at=0.1)
     with pytest.raises(afp.AfpError, match="at 0.1 s: 'followWall.wallTouch' is not active"):
         simulation.run(until=1.0)
     assert simulation.run(until=1.0).time == 1.0
     with pytest.raises(afp.AfpError, match="ended|over"):
         simulation.set("walldist", 0.4, at=0.5)
+
+
+def test_what_is_fired_comes_with_its_outputs(wall_following: afp.Plan) -> None:
+    simulation = afp.Simulation(wall_following)
+    simulation.fire("searchFirstWall.checkLane", "LaneNotFree")
+    simulation.run_to(0.2)
+    assert simulation.active == "findWallAngle"
+    with pytest.raises(ValueError, match=r'also brings .angle., which has no value here: give outputs={"angle": ...}'):
+        simulation.fire("findWallAngle", "WallFound")
+    with pytest.raises(ValueError, match="brings no connected output 'size'"):
+        simulation.fire("findWallAngle", "WallFound", {"angle": 0.1, "size": 3})
+    with pytest.raises(TypeError, match="not a quantity in m"):
+        simulation.fire("findWallAngle", "WallFound", {"angle": afp.cm(3)})
+    simulation.fire("findWallAngle", "WallFound", {"angle": afp.deg(10)})
+    simulation.run_to(0.4)
+    assert simulation["wallangle"] == pytest.approx(0.17453, abs=1e-4) and simulation.active != "findWallAngle"
 
 
 def test_entries(wall_following: afp.Plan) -> None:

@@ -64,8 +64,18 @@ def test_what_makes_no_sense_is_refused() -> None:
         afp.sweep(plan, seeds=range(0, 9, 2))
     with pytest.raises(ValueError, match="no values"):
         afp.sweep(plan, vary={"way": []})
-    with pytest.raises(ValueError, match="nothing to run"):
+    with pytest.raises(ValueError, match="give how many"):
         afp.sweep(plan, seeds=0)
+    with pytest.raises(ValueError, match="no seeds in range"):
+        afp.sweep(plan, seeds=range(5, 2))
+    with pytest.raises(ValueError, match="jobs is 0; give"):
+        afp.sweep(plan, jobs=0)
+    with pytest.raises(TypeError, match="the values of 'way'.*NoneType"):
+        afp.sweep(plan, vary={"way": [None]})
+    with pytest.raises(TypeError, match="needs a Plan, not a str"):
+        afp.sweep("go.afp")  # type: ignore[arg-type]
+    with pytest.raises(afp.AfpError, match="1000000000000 runs, and a sweep has at most 10000000"):
+        afp.sweep(plan, seeds=10**12)
     with pytest.raises(afp.PlanError):
         afp.sweep(afp.Plan("plan P {"))
     with pytest.raises(ValueError, match="write its text"):

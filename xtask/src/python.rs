@@ -7,8 +7,9 @@ use std::process::Command;
 use crate::shell::{Failure, cargo, output, program, root, run as run_command, target};
 
 /// What builds, tests and reads, as pip names it.
-const PACKAGES: [&str; 13] = [
+const PACKAGES: [&str; 14] = [
     "gymnasium==1.4.0",
+    "hypothesis==6.170.15",
     "matplotlib==3.11.2",
     "maturin==1.16.0",
     "mcap-protobuf-support==0.6.0",
@@ -25,6 +26,12 @@ const PACKAGES: [&str; 13] = [
 
 /// What notebooks and clusters need beside.
 const LONG: [&str; 3] = ["ipykernel==7.4.0", "nbclient==0.11.0", "ray==2.60.0"];
+
+/// Seconds that the nightly run looks for what breaks the package.
+const STRESSED: &str = "600";
+
+/// Simulations after which its memory must be what it was.
+const SIMULATIONS: &str = "10000";
 
 /// Builds the package as users get it, installs it, and runs its tests: pytest with the documentation's
 /// examples, the types, and the stubs against what is there.
@@ -46,7 +53,7 @@ pub fn run() -> Result<(), Failure> {
     run_command(at_package(&python, &sdist).arg(wheels("sdist")?))
 }
 
-/// What takes longer: the bars of the optimised package, the notebooks, a sweep on a cluster, and a build from the source
+/// What takes longer: the bars of the optimised package, the search for what breaks it, the notebooks, a sweep on a cluster, and a build from the source
 /// distribution alone.
 ///
 /// # Errors
@@ -58,6 +65,9 @@ pub fn long() -> Result<(), Failure> {
     let afpc = target().join("release").join(format!("afpc{}", std::env::consts::EXE_SUFFIX));
     install(&python, "release")?;
     run_command(at_package(&python, &["bench.py", "--check"]).env("AFPC", afpc))?;
+    let stress = ["-m", "pytest", "--quiet", "-s", "tests/test_stress.py"];
+    let mut stress = at_package(&python, &stress);
+    run_command(stress.env("AFP_STRESS", STRESSED).env("AFP_SIMULATIONS", SIMULATIONS))?;
     run_command(&mut at_package(&python, &["notebooks/execute.py"]))?;
     let cluster = ["-m", "pytest", "--quiet", "tests/test_cluster.py"];
     run_command(at_package(&python, &cluster).env("AFP_RAY", "1"))?;

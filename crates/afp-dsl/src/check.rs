@@ -18,7 +18,7 @@ pub(crate) mod names;
 mod plan;
 mod recursion;
 mod resources;
-mod scenario;
+pub(crate) mod scenario;
 mod scope;
 mod signature;
 mod size;

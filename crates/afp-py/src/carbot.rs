@@ -10,6 +10,7 @@ use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::errors::error;
+use crate::pause::{Halt, Pause};
 use crate::robot::sense;
 use crate::value::no_pickle;
 use crate::world::World;
@@ -47,7 +48,7 @@ impl Carbot {
         HALF_WIDTH
     }
 
-    /// Drives with a speed (m/s) and a turn rate (rad/s, to the left) for some seconds.
+    /// Drives with a speed (m/s) and a turn rate (rad/s, to the left) for some seconds; Ctrl-C interrupts it.
     fn drive(&self, py: Python<'_>, speed: f64, turn: f64, time: f64) -> PyResult<()> {
         let good = speed.is_finite() && turn.is_finite() && time.is_finite() && time >= 0.0;
         if !good {
@@ -57,8 +58,7 @@ impl Carbot {
         }
         let mut sim = self.lock()?;
         let sim = &mut *sim;
-        py.detach(|| drive(sim, speed, turn, Duration::from_secs_f64(time)));
-        Ok(())
+        py.detach(|| drive(sim, speed, turn, Duration::from_secs_f64(time)))
     }
 
     /// Stops the wheels.
@@ -117,11 +117,16 @@ impl Carbot {
     }
 }
 
-fn drive(sim: &mut Simulation, speed: f64, turn: f64, time: Duration) {
+fn drive(sim: &mut Simulation, speed: f64, turn: f64, time: Duration) -> PyResult<()> {
+    let mut pause = Pause::of_signals();
     let end: Instant = sim.now() + time;
     while sim.now() < end {
         let now = sim.now();
         Navigator::drive(sim, Speed::from_si(speed), AngularSpeed::from_si(turn), now);
         sim.advance_to(end.min(now + AGAIN));
+        if let Some(Halt::Raised(why)) = pause.look() {
+            return Err(why);
+        }
     }
+    Ok(())
 }

@@ -6,7 +6,9 @@
 mod actor;
 mod call;
 mod computation;
+mod depth;
 mod host;
+mod shelf;
 mod supervisor;
 
 use std::sync::Arc;
@@ -20,11 +22,13 @@ use crate::toolbox::Toolbox;
 use actor::PyActor;
 use call::Callee;
 use computation::PyComputation;
+pub use depth::{may_run, may_sweep};
 pub use host::Host;
+use shelf::Held;
 use supervisor::PySupervisor;
 
 /// An object of a plan: whatever Python put there.
-pub type Object = Arc<Py<PyAny>>;
+pub type Object = Arc<Held>;
 
 /// Adds the implementations of a toolbox to a registry.
 ///

@@ -8,6 +8,7 @@ mod carbot;
 mod component;
 mod errors;
 mod log;
+mod pause;
 mod plan;
 mod robot;
 mod scenario;

@@ -14,6 +14,7 @@ use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolbox as Declared;
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::{PyTraverseError, PyVisit};
 
 use crate::errors::{error, plan_error, run_error};
 use crate::scenario::{self, Scenario};
@@ -26,6 +27,7 @@ pub use diagnostic::{Diagnostic, diagnostics};
 #[pyclass(module = "afp", frozen, subclass)]
 pub struct Plan {
     desk: Mutex<Desk>,
+    toolboxes: Vec<Py<Toolbox>>,
 }
 
 #[pymethods]
@@ -38,8 +40,8 @@ impl Plan {
         name: Option<String>,
         toolboxes: Vec<Py<Toolbox>>,
     ) -> PyResult<Self> {
-        let desk = Desk::new(text, path, name, toolboxes).map_err(|why| run_error(&why))?;
-        Ok(Plan { desk: Mutex::new(desk) })
+        let desk = Desk::new(text, path, name, &toolboxes).map_err(|why| run_error(&why))?;
+        Ok(Plan { desk: Mutex::new(desk), toolboxes })
     }
 
     /// The text.
@@ -168,6 +170,10 @@ impl Plan {
         self.svg(py, "auto", false, true).ok()
     }
 
+    fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
+        self.toolboxes.iter().try_for_each(|toolbox| visit.call(toolbox))
+    }
+
     fn __reduce__(&self) -> PyResult<()> {
         Err(crate::value::no_pickle("Plan", "pickle its text and path"))
     }
@@ -186,7 +192,7 @@ impl Plan {
 
     /// The toolboxes that were given with it.
     pub fn python_toolboxes(&self, py: Python<'_>) -> Vec<Py<Toolbox>> {
-        self.lock().toolboxes().iter().map(|toolbox| toolbox.clone_ref(py)).collect()
+        self.toolboxes.iter().map(|toolbox| toolbox.clone_ref(py)).collect()
     }
 
     /// Where the plan stands, for logs and for the world beside it.

@@ -11,9 +11,11 @@ use afp_sim::Simulation;
 use afp_test::{Setting, Verdict as Came};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
+use pyo3::{PyTraverseError, PyVisit};
 
-use crate::component::{Host, register};
-use crate::errors::run_error;
+use crate::component::{Host, may_run, register};
+use crate::errors::{error, run_error};
+use crate::pause::{Halt, Pause};
 use crate::plan::Plan;
 use crate::robot::Robot;
 use crate::toolbox::Toolbox;
@@ -103,20 +105,38 @@ impl Scenario {
         Ok(self.checked()?.until as f64 * 1e-9)
     }
 
-    /// Runs it; with `log`, records it there.
+    /// Runs it; with `log`, records it there. Ctrl-C interrupts it.
     #[pyo3(signature = (*, log=None))]
     fn run(&self, py: Python<'_>, log: Option<PathBuf>) -> PyResult<Verdict> {
+        may_run()?;
         let checked = self.checked()?;
         let setting = Setting::find(checked, &self.file).map_err(|why| run_error(&why))?;
         let components = Components::new(py, &self.toolboxes)?;
         let templates = |registry: &mut _| components.register(registry);
-        let came = py.detach(|| afp_test::run(checked, &setting, &templates, log.as_deref()));
-        components.raised()?;
-        Ok(verdict(&self.compiled, came.map_err(|why| run_error(&why))?))
+        let (mut pause, mut raised) = (Pause::of_signals(), None);
+        let mut go_on = || {
+            if let Some(Halt::Raised(why)) = pause.look() {
+                raised = Some(why);
+            }
+            raised.is_none() && !components.is_over()
+        };
+        let log = log.as_deref();
+        let came =
+            py.detach(|| afp_test::run_while(checked, &setting, &templates, log, &mut go_on));
+        components.raised(py)?;
+        if let Some(why) = raised {
+            return Err(why);
+        }
+        let came = came.map_err(|why| run_error(&why))?;
+        Ok(verdict(&self.compiled, came.ok_or_else(|| error("the scenario was called off"))?))
     }
 
     fn __repr__(&self) -> PyResult<String> {
         Ok(format!("<Scenario '{}' for {}>", self.name()?, self.plan()?))
+    }
+
+    fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
+        self.toolboxes.iter().try_for_each(|toolbox| visit.call(toolbox))
     }
 
     fn __reduce__(&self) -> PyResult<()> {
@@ -185,16 +205,26 @@ impl<'a> Components<'a> {
         }
     }
 
+    /// Whether there is something to raise.
+    pub fn is_over(&self) -> bool {
+        if self.toolboxes.is_empty() {
+            return false;
+        }
+        let broken = self.broken.lock().unwrap_or_else(PoisonError::into_inner).is_some();
+        let hosts = self.hosts.lock().unwrap_or_else(PoisonError::into_inner);
+        broken || hosts.iter().any(|host| host.is_aborted())
+    }
+
     /// Raises what cannot be an outcome: a toolbox that broke, `SystemExit` and the like.
     ///
     /// # Errors
     /// What was raised.
-    pub fn raised(&self) -> PyResult<()> {
+    pub fn raised(&self, py: Python<'_>) -> PyResult<()> {
         if let Some(why) = self.broken.lock().unwrap_or_else(PoisonError::into_inner).take() {
             return Err(why);
         }
         let hosts = self.hosts.lock().unwrap_or_else(PoisonError::into_inner);
-        hosts.iter().find_map(|host| host.aborted()).map_or(Ok(()), Err)
+        hosts.iter().find_map(|host| host.aborted(py)).map_or(Ok(()), Err)
     }
 }
 

@@ -1,7 +1,6 @@
 //! `Runner`: a plan in a simulated world, driven from Python.
 
 mod event;
-mod pause;
 mod session;
 mod stimuli;
 mod visitor;
@@ -13,23 +12,26 @@ use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 use afp::load::{LoadedPlan, Registry};
 use afp_core::rt::NamedPlan;
 use afp_core::trace::{Names, TraceEntryId};
-use afp_core::{Duration, Instant};
+use afp_core::{Duration, Instant, Value};
+use afp_dsl::types::Type;
+use afp_dsl::{Compiled, scenario};
 use afp_sim::{Fault, Simulation};
 use numpy::PyArray2;
 use pyo3::exceptions::{PyKeyError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use pyo3::{PyTraverseError, PyVisit};
 
-use crate::component::{Host, register};
+use crate::component::{Host, may_run, register};
 use crate::errors::{error, plan_error};
+use crate::pause::Pause;
 use crate::plan::Plan;
 use crate::robot::{Robot, sense};
-use crate::value::{no_pickle, to_entry, to_python};
+use crate::value::{Given, no_pickle, to_port, to_python};
 use crate::world::{World, table};
 
 use event::line;
 pub use event::{Event, value};
-use pause::Pause;
 use session::{Session, Setting};
 use stimuli::{Control, Deed, fault};
 
@@ -40,6 +42,7 @@ pub struct Runner {
     host: Option<Arc<Host>>,
     stop: Arc<AtomicBool>,
     process: u32,
+    compiled: Arc<Compiled>,
 }
 
 #[pymethods]
@@ -66,7 +69,7 @@ impl Runner {
         for (name, value) in set {
             let name: String = name.extract()?;
             let entry = entry(&loaded, &name)?;
-            let value = to_entry(&loaded, entry, &value)?;
+            let value = Given::new(&value)?.for_entry(&loaded, entry)?;
             NamedPlan::set_input(&mut loaded, entry, &value)
                 .map_err(|why| error(format!("'{name}': {why}")))?;
         }
@@ -76,7 +79,8 @@ impl Runner {
         let stop = Arc::new(AtomicBool::new(false));
         let pause = Pause::new(host.clone(), Arc::clone(&stop));
         let session = Mutex::new(Session::new(loaded, &setting, pause)?);
-        Ok(Runner { session, host, stop, process: std::process::id() })
+        let process = std::process::id();
+        Ok(Runner { session, host, stop, process, compiled })
     }
 
     /// Runs the plan until it ends or until a time, when it is stopped if `stop` is set; whether it still runs.
@@ -87,6 +91,7 @@ impl Runner {
 
     /// Makes one step of the plan; whether it still runs.
     fn step(&self, py: Python<'_>) -> PyResult<bool> {
+        may_run()?;
         let mut session = self.lock()?;
         // Components get hold of the interpreter by themselves; without any, letting it go costs more than a step.
         let stepped = match &self.host {
@@ -96,7 +101,7 @@ impl Runner {
                 py.detach(|| session.step())
             }
         };
-        self.after(stepped)
+        self.after(py, stepped)
     }
 
     /// Goes on until something has happened after the first `seen` events, or until a time; whether the plan still
@@ -226,14 +231,12 @@ impl Runner {
     /// Writes an entry: before the start an `in` entry, later an `in` or `var` entry at the next step.
     #[pyo3(signature = (name, value, at=None))]
     fn set(&self, name: &str, value: &Bound<'_, PyAny>, at: Option<f64>) -> PyResult<()> {
-        // Reading a value may run Python, which must find the simulation free.
-        let (number, value) = {
-            let session = self.lock()?;
-            let plan = session.rig.scheduler.plan();
-            let number = entry(plan, name)?;
-            (number, to_entry(plan, number, value)?)
-        };
+        // This may run Python, which must find the simulation free.
+        let given = Given::new(value)?;
         let mut session = self.lock()?;
+        let plan = session.rig.scheduler.plan();
+        let number = entry(plan, name)?;
+        let value = given.for_entry(plan, number)?;
         let set = match at {
             None => session.write(number, &value).map_err(|why| why.to_string()),
             Some(at) => session.plan(instant(at)?, Deed::Write(number, value)),
@@ -269,10 +272,18 @@ impl Runner {
         session.plan(from, Deed::Break(fault, lasting)).map_err(error)
     }
 
-    /// Lets a component report an outcome that it did not see.
-    fn fire(&self, component: &str, outcome: &str, at: Option<f64>) -> PyResult<()> {
+    /// Lets a component report an outcome that it did not see, with its outputs.
+    fn fire(
+        &self,
+        component: &str,
+        outcome: &str,
+        outputs: &Bound<'_, PyDict>,
+        at: Option<f64>,
+    ) -> PyResult<()> {
+        let mut injection = self.lock()?.injection(component, outcome)?;
+        // Reading values may run Python, as above.
+        injection.outputs = self.brought(component, (injection.outcome, outcome), outputs)?;
         let mut session = self.lock()?;
-        let injection = session.injection(component, outcome)?;
         let from = session.moment(at.map(instant).transpose()?)?;
         session.plan(from, Deed::Inject(injection)).map_err(error)
     }
@@ -286,10 +297,20 @@ impl Runner {
     fn failures<'py>(&self, py: Python<'py>) -> Vec<(f64, String, Bound<'py, PyAny>)> {
         let failures = self.host.as_ref().map(|host| host.failures()).unwrap_or_default();
         let told = failures.into_iter().map(|failure| {
-            let error = failure.error.into_value(py).into_bound(py).into_any();
+            let error = failure.error.into_bound(py).into_any();
             (failure.at.as_secs_f64(), failure.template, error)
         });
         told.collect()
+    }
+
+    fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
+        self.host.as_ref().map_or(Ok(()), |host| host.traverse(&visit))
+    }
+
+    fn __clear__(&self) {
+        if let Some(host) = &self.host {
+            host.clear();
+        }
     }
 
     fn __reduce__(&self) -> PyResult<()> {
@@ -316,21 +337,50 @@ impl Runner {
         }
     }
 
+    /// The values that come with an outcome: one for each of its connected outputs, as in a scenario.
+    fn brought(
+        &self,
+        component: &str,
+        (number, outcome): (u16, &str),
+        given: &Bound<'_, PyDict>,
+    ) -> PyResult<Vec<(u16, Value)>> {
+        let Some(graph) = &self.compiled.graph else { return Ok(Vec::new()) };
+        let wanted = scenario::outputs(graph, component, number);
+        for name in given.keys() {
+            let name: String = name.extract()?;
+            if !wanted.iter().any(|(_, known, _)| *known == name) {
+                let text = format!("'{component}.{outcome}' brings no connected output '{name}'");
+                return Err(PyValueError::new_err(text));
+            }
+        }
+        let value = |(port, name, ty): &(u16, String, Type)| {
+            let missing = || {
+                let what = format!("'{component}.{outcome}' also brings '{name}'");
+                let help = format!("give outputs={{\"{name}\": ...}}");
+                PyValueError::new_err(format!("{what}, which has no value here: {help}"))
+            };
+            let value = given.get_item(name)?.ok_or_else(missing)?;
+            Ok((*port, to_port(ty, &value)?))
+        };
+        wanted.iter().map(value).collect()
+    }
+
     /// Drives the session with the interpreter free for others.
     fn drive(
         &self,
         py: Python<'_>,
         drive: impl FnOnce(&mut Session) -> PyResult<bool> + Send,
     ) -> PyResult<bool> {
+        may_run()?;
         let mut session = self.lock()?;
         let session = &mut *session;
         let driven = py.detach(|| drive(session));
-        self.after(driven)
+        self.after(py, driven)
     }
 
     /// What a component raised to end everything counts more than how the run went.
-    fn after(&self, driven: PyResult<bool>) -> PyResult<bool> {
-        match self.host.as_ref().and_then(|host| host.aborted()) {
+    fn after(&self, py: Python<'_>, driven: PyResult<bool>) -> PyResult<bool> {
+        match self.host.as_ref().and_then(|host| host.aborted(py)) {
             Some(raised) => Err(raised),
             None => driven,
         }

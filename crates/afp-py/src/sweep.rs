@@ -26,6 +26,7 @@ use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use pyo3::{PyTraverseError, PyVisit};
 
 use crate::errors::{error, plan_error, run_error};
 use crate::plan::Plan;
@@ -83,7 +84,7 @@ impl Sweeper {
             seeds: Seeds::new(seeds.0..seeds.1),
             until: Duration::from_secs_f64(until),
         };
-        let header = with_setting(py, &toolboxes, |templates| {
+        let header = with_setting(py, &toolboxes, |templates, _| {
             let graph = graph(&compiled)?;
             let loaded = afp_test::load(graph, templates).map_err(|why| run_error(&why))?;
             let axes = vary.into_iter().map(|(name, values)| axis(&loaded, name, values));
@@ -214,6 +215,10 @@ impl Sweeper {
         Ok(told.map(|it| (it.ending.name(), it.place, it.why, it.count, it.run)).collect())
     }
 
+    fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
+        self.toolboxes.iter().try_for_each(|toolbox| visit.call(toolbox))
+    }
+
     fn __reduce__(&self) -> PyResult<()> {
         Err(no_pickle("Sweeper", "make it anew from what it was made of"))
     }
@@ -270,11 +275,11 @@ fn axis(
 fn with_setting<T>(
     py: Python<'_>,
     toolboxes: &[Py<Toolbox>],
-    use_it: impl FnOnce(afp_test::Templates<'_>) -> PyResult<T>,
+    use_it: impl FnOnce(afp_test::Templates<'_>, &Components<'_>) -> PyResult<T>,
 ) -> PyResult<T> {
     let components = Components::new(py, toolboxes)?;
-    let used = use_it(&|registry| components.register(registry));
-    components.raised()?;
+    let used = use_it(&|registry| components.register(registry), &components);
+    components.raised(py)?;
     used
 }
 

@@ -1,5 +1,6 @@
 //! `Toolbox`: a toolbox file whose templates are implemented in Python.
 
+use std::mem;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -8,6 +9,7 @@ use afp_dsl::toolbox::{Template, TemplateKind, Toolbox as Declared, Toolboxes};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use pyo3::{PyTraverseError, PyVisit};
 
 use crate::errors::error;
 
@@ -79,8 +81,12 @@ impl Toolbox {
             return Err(PyValueError::new_err(text));
         }
         let mut inner = self.lock();
-        inner.makers.retain(|(name, _)| *name != template);
+        let earlier = inner.makers.iter().position(|(name, _)| *name == template);
+        let earlier = earlier.map(|place| inner.makers.remove(place));
         inner.makers.push((template, maker));
+        drop(inner);
+        // As below: only now.
+        drop(earlier);
         Ok(())
     }
 
@@ -91,6 +97,17 @@ impl Toolbox {
         let template = template
             .ok_or_else(|| PyValueError::new_err(format!("no template '{name}' in the toolbox")))?;
         describe(py, template)
+    }
+
+    fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
+        // Nobody waits for the interpreter while holding this, nor changes it without the interpreter.
+        self.lock().makers.iter().try_for_each(|(_, maker)| visit.call(maker))
+    }
+
+    fn __clear__(&self) {
+        let makers = mem::take(&mut self.lock().makers);
+        // What an object does when it goes may come back here.
+        drop(makers);
     }
 }
 

@@ -5,7 +5,7 @@ use afp_core::trace::{Names, TraceEntryId};
 use afp_core::{Text, Value, ValueRef};
 use afp_dsl::types::Type;
 use pyo3::IntoPyObjectExt;
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::{PyException, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyFloat, PyInt, PyString};
 
@@ -39,35 +39,67 @@ fn unit(value: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     }
 }
 
-/// A value from Python for an entry of a plan. A text is read as `--set` reads it, unless the entry
-/// is a text itself.
-pub fn to_entry(plan: &impl NamedPlan, entry: u16, value: &Bound<'_, PyAny>) -> PyResult<Value> {
-    let names = plan.names();
-    let about = names.entry(TraceEntryId(entry.into()));
-    let wrong = |what: String| {
-        let (path, ty, unit) = (about.path, about.ty, about.unit);
-        let link = if unit.is_empty() { "" } else { " in " };
-        PyTypeError::new_err(format!("'{path}' is a {ty}{link}{unit}, not {what}"))
-    };
-    if value.is_instance_of::<PyBool>() {
-        return Ok(Value::Bool(value.extract()?));
+/// A value from Python that is meant for an entry, before anything is known of that.
+pub enum Given {
+    /// A text, read as `--set` reads it unless the entry is a text itself.
+    Text(String),
+    /// A number or truth value, perhaps with its unit.
+    Plain(Value, Option<String>),
+    /// Something of another type.
+    Other(String),
+}
+
+impl Given {
+    /// Reads a value.
+    ///
+    /// # Errors
+    /// What the value itself raises; an integer of more than 64 bits.
+    pub fn new(value: &Bound<'_, PyAny>) -> PyResult<Given> {
+        if value.is_instance_of::<PyBool>() {
+            return Ok(Given::Plain(Value::Bool(value.extract()?), None));
+        }
+        if let Ok(text) = value.cast::<PyString>() {
+            return Ok(Given::Text(text.to_cow()?.into_owned()));
+        }
+        let unit = unit(value)?;
+        if value.is_instance_of::<PyInt>() {
+            return Ok(Given::Plain(Value::Int(value.extract()?), unit));
+        }
+        match number(value)? {
+            Some(number) => Ok(Given::Plain(Value::Float(number), unit)),
+            None => Ok(Given::Other(value.get_type().name()?.to_string())),
+        }
     }
-    if let Ok(text) = value.cast::<PyString>() {
-        let text = text.to_cow()?;
-        let read = plan.read(entry, &text);
-        return read.map_err(|_| wrong(format!("{:?}", &*text)));
+
+    /// The value for an entry of a plan.
+    ///
+    /// # Errors
+    /// It does not fit.
+    pub fn for_entry(self, plan: &impl NamedPlan, entry: u16) -> PyResult<Value> {
+        let names = plan.names();
+        let about = names.entry(TraceEntryId(entry.into()));
+        let wrong = |what: String| {
+            let (path, ty, unit) = (about.path, about.ty, about.unit);
+            let link = if unit.is_empty() { "" } else { " in " };
+            PyTypeError::new_err(format!("'{path}' is a {ty}{link}{unit}, not {what}"))
+        };
+        match self {
+            Given::Text(text) => plan.read(entry, &text).map_err(|_| wrong(format!("{text:?}"))),
+            Given::Plain(_, Some(unit)) if unit != about.unit => {
+                Err(wrong(format!("a quantity in {unit}")))
+            }
+            Given::Plain(value, _) => Ok(value),
+            Given::Other(name) => Err(wrong(format!("a {name}"))),
+        }
     }
-    if let Some(given) = unit(value)?
-        && given != about.unit
-    {
-        return Err(wrong(format!("a quantity in {given}")));
-    }
-    if value.is_instance_of::<PyInt>() {
-        return Ok(Value::Int(value.extract()?));
-    }
-    match value.extract::<f64>() {
-        Ok(number) => Ok(Value::Float(number)),
-        Err(_) => Err(wrong(format!("a {}", value.get_type().name()?))),
+}
+
+/// A number, if the value is one. What ends a program is not taken for a value that does not fit.
+fn number(value: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
+    match value.extract() {
+        Ok(number) => Ok(Some(number)),
+        Err(why) if why.is_instance_of::<PyException>(value.py()) => Ok(None),
+        Err(why) => Err(why),
     }
 }
 
@@ -88,7 +120,7 @@ pub fn to_port(ty: &Type, value: &Bound<'_, PyAny>) -> PyResult<Value> {
                     "expected a {ty}, not a quantity in {given}"
                 )));
             }
-            value.extract().map(Value::Float).map_err(|_| wrong())
+            number(value)?.map(Value::Float).ok_or_else(wrong)
         }
         Type::Text => {
             let text: String = value.extract().map_err(|_| wrong())?;
@@ -104,21 +136,21 @@ pub fn to_port(ty: &Type, value: &Bound<'_, PyAny>) -> PyResult<Value> {
                 PyValueError::new_err(format!("no {ty} '{name}'; there are: {known}"))
             })
         }
-        Type::Any | Type::Number => any(value).ok_or_else(wrong),
+        Type::Any | Type::Number => any(value)?.ok_or_else(wrong),
         Type::Object(_) => Err(wrong()),
     }
 }
 
 /// A value of whatever type Python gives.
-fn any(value: &Bound<'_, PyAny>) -> Option<Value> {
+fn any(value: &Bound<'_, PyAny>) -> PyResult<Option<Value>> {
     if value.is_instance_of::<PyBool>() {
-        return value.extract().ok().map(Value::Bool);
+        return Ok(value.extract().ok().map(Value::Bool));
     }
     if value.is_instance_of::<PyInt>() {
-        return value.extract().ok().map(Value::Int);
+        return Ok(value.extract().ok().map(Value::Int));
     }
     if let Ok(text) = value.extract::<String>() {
-        return Text::try_from(text.as_str()).ok().map(Value::Text);
+        return Ok(Text::try_from(text.as_str()).ok().map(Value::Text));
     }
-    value.extract().ok().map(Value::Float)
+    Ok(number(value)?.map(Value::Float))
 }

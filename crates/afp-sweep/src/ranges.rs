@@ -70,6 +70,9 @@ pub fn worlds(text: &str) -> Result<Vec<String>, String> {
     match text.strip_prefix("random:") {
         Some(range) if range.contains("..") => {
             let seeds = seeds(range)?;
+            if seeds.len() as f64 > MOST {
+                return Err(format!("'{text}' are more than {MOST} worlds; give a part of them"));
+            }
             Ok((0..seeds.len()).map(|n| format!("random:{}", seeds.nth(n))).collect())
         }
         _ => Ok(vec![text.to_owned()]),
@@ -120,7 +123,10 @@ fn range(from: &str, to: &str) -> Result<Vec<String>, String> {
         None => (last - first) / (POINTS - 1) as f64,
     };
     let steps = (last - first) / step;
-    if !(step > 0.0 && (0.0..MOST).contains(&steps)) {
+    if step > 0.0 && steps >= MOST {
+        return Err(format!("'{from}..{to}' has more than {MOST} values; write a wider step"));
+    }
+    if !(step > 0.0 && steps >= 0.0) {
         return Err(format!("no values lie in '{from}..{to}' in steps of {}", written(step, unit)));
     }
     // A step that should end at the last value does, whatever the division lost.
@@ -176,7 +182,7 @@ mod tests {
             ("d=0..1:0", "no values lie in"),
             ("d=0cm..1cm:1m", "write the step '1m' in 'cm'"),
             ("d=1,,2", "without a value"),
-            ("d=0..1e9", "no values lie in"),
+            ("d=0..1e9", "more than 1000000 values"),
         ] {
             let error = axis(text).unwrap_err();
             assert!(error.contains(why), "{text}: {error}");
@@ -189,6 +195,7 @@ mod tests {
         assert_eq!((all.len(), all.nth(2)), (3, 5));
         assert_eq!(seeds("3..=5").unwrap(), all);
         assert_eq!(seeds("7").unwrap().len(), 1);
+        assert!(worlds("random:0..99999999").unwrap_err().contains("more than 1000000 worlds"));
         assert!(seeds("3..3").is_err() && seeds("-1..2").is_err() && seeds("x").is_err());
         assert_eq!(worlds("random:7..9").unwrap(), ["random:7", "random:8"]);
         assert_eq!(worlds("random:7").unwrap(), ["random:7"]);

@@ -12,6 +12,9 @@ use afp_test::Templates;
 use crate::engine::Made;
 use crate::grid::{Point, Row, Sweep};
 
+/// More runs than this are a mistake, and no list could hold them.
+const MOST: u64 = 10_000_000;
+
 /// A plan and the worlds that it runs in.
 pub struct Setting<'a> {
     graph: &'a Graph,
@@ -24,7 +27,7 @@ impl<'a> Setting<'a> {
     /// sweep are in SI units.
     ///
     /// # Errors
-    /// A world that does not work, a template without Rust, something to vary that is not there, a value
+    /// Too many runs, a world that does not work, a template without Rust, something to vary that is not there, a value
     /// that does not fit.
     pub fn new(
         sweep: &mut Sweep,
@@ -32,6 +35,13 @@ impl<'a> Setting<'a> {
         file: &Path,
         templates: Templates<'a>,
     ) -> Result<Self, RunError> {
+        if sweep.len() > MOST {
+            let message = format!("these are {} runs, and a sweep has at most {MOST}", sweep.len());
+            return Err(RunError::usage(
+                message,
+                "give a part of the seeds or of the values at a time",
+            ));
+        }
         let worlds = sweep.worlds.iter();
         let worlds = worlds.map(|asked| world::find(asked.as_deref().map(Path::new), file));
         let worlds = worlds.collect::<Result<Vec<_>, _>>()?;

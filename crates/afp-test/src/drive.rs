@@ -13,7 +13,7 @@ use afp_dsl::scenario::Scenario;
 use afp_dsl::scenario::devices::Control;
 use afp_log::{About, NameTable, Recorder, WhenFull};
 use afp_run::RunError;
-use afp_run::rig::{Company, Rig};
+use afp_run::rig::{Company, Go, Rig};
 use afp_sim::{Simulation, Truth};
 
 use crate::setting::Setting;
@@ -35,15 +35,17 @@ struct Attendants<'a> {
     /// Whether entries have always held what was committed.
     sound: bool,
     timeline: Vec<(Instant, String)>,
+    go_on: &'a mut dyn FnMut() -> bool,
 }
 
-/// Runs a scenario to its end.
+/// Runs a scenario to its end; `None` when `go_on` called it off.
 pub(crate) fn run(
     scenario: &Scenario,
     setting: &Setting,
     plan: Loaded,
     log: Option<&Path>,
-) -> Result<Verdict, RunError> {
+    go_on: &mut dyn FnMut() -> bool,
+) -> Result<Option<Verdict>, RunError> {
     let mut rig = rig(scenario, setting, plan, log)?;
     let stimuli = Stimuli::new(scenario).map_err(|line| {
         let line = scenario.stimuli.get(line).map_or("", |stimulus| &stimulus.text);
@@ -56,17 +58,21 @@ pub(crate) fn run(
         broken: Vec::new(),
         sound: true,
         timeline: Vec::new(),
+        go_on,
     };
     let until = Instant::from_nanos(scenario.until);
-    rig.run(until, &mut attendants).map_err(|error| cannot_start(scenario, error))?;
+    let went = rig.run(until, &mut attendants).map_err(|error| cannot_start(scenario, error))?;
     rig.sim.emergency_stop();
     rig.finish_log()?;
+    if went == Go::Stop {
+        return Ok(None);
+    }
     let end = rig.sim.now();
     let Attendants { mut watch, broken: refused, timeline, .. } = attendants;
     let mut broken = watch.finish(end, rig.sim.truth().collisions());
     broken.extend(refused);
     broken.sort_by_key(|broken| broken.at);
-    Ok(Verdict {
+    Ok(Some(Verdict {
         broken,
         end,
         ending: watch.ending(),
@@ -74,7 +80,7 @@ pub(crate) fn run(
         activations: watch.activations,
         timeline,
         trace: rig.trace().get(),
-    })
+    }))
 }
 
 /// The plan of a scenario on a robot in its world.
@@ -100,6 +106,13 @@ fn rig(
 }
 
 impl Company<Loaded> for Attendants<'_> {
+    fn wait(&mut self, _: Instant, _: Instant) -> Go {
+        match (self.go_on)() {
+            true => Go::On,
+            false => Go::Stop,
+        }
+    }
+
     fn next(&self) -> Instant {
         self.stimuli.next()
     }

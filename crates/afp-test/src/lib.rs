@@ -48,8 +48,24 @@ pub fn run(
     templates: Templates<'_>,
     log: Option<&Path>,
 ) -> Result<Verdict, RunError> {
+    let came = run_while(scenario, setting, templates, log, &mut || true)?;
+    came.ok_or_else(|| RunError::usage("the scenario was called off", "run it again"))
+}
+
+/// Runs a scenario as [`run`] does, as long as `go_on` says so: it is asked whenever time is about to pass.
+/// `None` when it was called off.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_while(
+    scenario: &Scenario,
+    setting: &Setting,
+    templates: Templates<'_>,
+    log: Option<&Path>,
+    go_on: &mut dyn FnMut() -> bool,
+) -> Result<Option<Verdict>, RunError> {
     let plan = load(&scenario.graph, templates)?;
-    drive::run(scenario, setting, plan, log)
+    drive::run(scenario, setting, plan, log, go_on)
 }
 
 /// Loads a plan; `templates` registers what it uses beyond `std` and `carbot`.

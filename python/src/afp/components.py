@@ -77,7 +77,7 @@ class Toolbox(_afp.Toolbox):
         It may be used as a decorator. Parameters are the template's inputs by name, and `robot`; `poll` takes those
         that are live.
         """
-        name = template or component.__name__
+        name = template or _name(component)
         about = self._template(name)
         self._implement(name, _maker(about["kind"], component, about["inputs"], about["live"]))
         self._sources = f"{getattr(self, '_sources', '')}{name}\0{_source(component)}\0"
@@ -122,7 +122,7 @@ class Toolbox(_afp.Toolbox):
         self, kind: str, outcomes: Outcomes, name: str | None, uses: Sequence[str], timing: str, icon: str | None
     ) -> Callable[[Component], Component]:
         def declare(component: Component) -> Component:
-            template = name or component.__name__
+            template = name or _name(component)
             text = _declaration(kind, template, component, outcomes, uses, timing, icon)
             self._declare(text)
             return self.implement(component, template)
@@ -131,6 +131,13 @@ class Toolbox(_afp.Toolbox):
 
     def __repr__(self) -> str:
         return f"<Toolbox {self.name}: {', '.join(self.templates)}>"
+
+
+def _name(component: Callable[..., Any]) -> str:
+    name = getattr(component, "__name__", None)
+    if not callable(component) or not isinstance(name, str):
+        raise TypeError(f"a component is a class or a function, not {component!r}")
+    return name
 
 
 def _source(component: Callable[..., Any]) -> str:

@@ -6,13 +6,14 @@ import os
 import traceback
 from collections.abc import Iterator, Mapping
 from types import TracebackType
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._afp import Event, Plan, Runner, World
 from .result import ComponentError, Result
+from .seeds import seed_of
 
 __all__ = ["Simulation"]
 
@@ -36,6 +37,8 @@ class Simulation:
         set: Mapping[str, Any] | None = None,
         log: str | os.PathLike[str] | None = None,
     ) -> None:
+        if not isinstance(plan, Plan):
+            raise TypeError(f"a simulation needs a Plan, not a {type(plan).__name__}: afp.load() reads one")
         if world is None:
             world = World.of_plan(plan.path or "plan.afp")
         elif not isinstance(world, World):
@@ -44,7 +47,7 @@ class Simulation:
         self.world = world
         self.seed = seed
         self._failures: list[ComponentError] = []
-        self._runner = Runner(plan, world, seed, dict(set or {}), log)
+        self._runner = Runner(plan, world, seed_of(seed), dict(set or {}), log)
 
     # Driving
 
@@ -89,6 +92,9 @@ class Simulation:
     def close(self) -> None:
         """Ends the log, where there is one."""
         self._runner.close()
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a Simulation cannot be pickled; make it anew from its plan, world and seed")
 
     def __enter__(self) -> Simulation:
         return self
@@ -174,9 +180,20 @@ class Simulation:
         """Presses the bumper, now or at a time to come."""
         self._runner.hold("bumper", at, hold)
 
-    def fire(self, component: str, outcome: str, *, at: float | None = None) -> None:
-        """Lets an active actor or supervisor report an outcome that it did not see; outputs keep their values."""
-        self._runner.fire(component, outcome, at)
+    def fire(
+        self,
+        component: str,
+        outcome: str,
+        outputs: Mapping[str, Any] | None = None,
+        *,
+        at: float | None = None,
+    ) -> None:
+        """Lets an active actor or supervisor report an outcome that it did not see, at its next poll.
+
+        `outputs` are the values that come with it, one for each output of it that the plan has connected:
+        `fire("find", "WallFound", {"angle": afp.deg(10)})`.
+        """
+        self._runner.fire(component, outcome, dict(outputs or {}), at)
 
     def fail(
         self,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import math
 import operator
 import os
 import sys
@@ -11,6 +12,7 @@ from typing import Any
 
 from . import plots, tables
 from ._afp import Plan, Sweeper, World
+from .seeds import seed_of
 from .units import Quantity
 
 __all__ = ["Runs", "sweep"]
@@ -48,6 +50,12 @@ def sweep(
 
     `backend="ray"` spreads the runs over a Ray cluster; it needs `afp[ray]`, see `afp.cluster`.
     """
+    if not isinstance(plan, Plan):
+        raise TypeError(f"a sweep needs a Plan, not a {type(plan).__name__}: afp.load() reads one")
+    if jobs is not None and jobs < 1:
+        raise ValueError(f"jobs is {jobs}; give a number of threads from 1 on, or None for all cores")
+    if backend not in ("local", "ray"):
+        raise ValueError(f"no backend '{backend}'; there are: local, ray")
     values = [(name, _values(name, given)) for name, given in (vary or {}).items()]
     sweeper = Sweeper(
         plan,
@@ -65,13 +73,11 @@ def sweep(
         if backend == "local":
             before = sweeper.total - len(left)
             sweeper.run(left, jobs, lambda done: tell(before + done, sweeper.total))
-        elif backend == "ray":
+        else:
             from . import cluster
 
             spec = cluster.Spec.of(plan, _worlds(worlds), _seeds(seeds), values, until)
             cluster.run(spec, sweeper, left, lambda done: tell(done, sweeper.total))
-        else:
-            raise ValueError(f"no backend '{backend}'; there are: local, ray")
     finally:
         tell(-1, sweeper.total)
         if out is not None:
@@ -97,18 +103,30 @@ def _world(world: Place) -> str:
 
 
 def _seeds(seeds: int | range) -> tuple[int, int]:
-    if isinstance(seeds, int):
-        return (0, seeds)
+    if not isinstance(seeds, range):
+        return (0, _count(seeds))
     if seeds.step != 1:
         raise ValueError("seeds follow one another: give a range with a step of 1")
-    return (seeds.start, seeds.stop)
+    if not seeds:
+        raise ValueError(f"there are no seeds in {seeds}")
+    return (seed_of(seeds.start), seed_of(seeds.stop))
+
+
+def _count(seeds: int) -> int:
+    count = operator.index(seeds)
+    if count < 1:
+        raise ValueError(f"seeds is {count}; give how many, or a range")
+    return seed_of(count)
 
 
 def _values(name: str, values: Values) -> list[tuple[str, bool]]:
     """The values of an entry as texts, and whether each is a bare number."""
     if isinstance(values, str):
         return [(values, False)]
-    texts = [_text(value) for value in values]
+    try:
+        texts = [_text(value) for value in values]
+    except (TypeError, ValueError) as error:
+        raise type(error)(f"the values of '{name}': {error}") from None
     if not texts:
         raise ValueError(f"'{name}' has no values")
     return texts
@@ -122,6 +140,8 @@ def _text(value: Any) -> tuple[str, bool]:
     if isinstance(value, str):
         return (value, False)
     number = operator.index(value) if hasattr(value, "__index__") else float(value)
+    if not math.isfinite(number):
+        raise ValueError(f"{number} cannot be tried")
     return (repr(number), True)
 
 

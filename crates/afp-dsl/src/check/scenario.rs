@@ -58,6 +58,21 @@ pub(super) fn check(
     checked
 }
 
+/// The connected outputs that a declared outcome of a component carries; see
+/// [`crate::scenario::outputs`].
+pub(crate) fn outputs(
+    graph: &graph::Graph,
+    component: &str,
+    outcome: u16,
+) -> Vec<(u16, String, Type)> {
+    let paths = Paths::new(graph);
+    let name = |text: &str| Name { text: text.to_owned(), span: Span::default() };
+    let names: Vec<Name> = component.split('.').map(name).collect();
+    let Ok((found, [])) = paths.find(paths.main(), &names) else { return Vec::new() };
+    let outputs = paths.outputs(found, outcome).into_iter();
+    outputs.map(|(place, port, ty)| (place, port.name.clone(), ty)).collect()
+}
+
 /// The plan that the first scenario of a file is for: what runs where the file has no plan.
 pub(super) fn first_plan(program: &Program<'_>, file: &PlanFile) -> Option<usize> {
     let reference = nodes(&file.tree).first()?.plan()?.name()?;

@@ -6,6 +6,7 @@ use afp_core::{Fault, Instant};
 use afp_sim::Simulation;
 use pyo3::prelude::*;
 
+use super::Held;
 use super::call::Callee;
 
 /// The home of an actor in Python.
@@ -16,8 +17,8 @@ pub struct PyActor {
 
 /// The methods of a running actor.
 struct Running {
-    poll: Py<PyAny>,
-    interrupt: Py<PyAny>,
+    poll: Held,
+    interrupt: Held,
 }
 
 impl PyActor {
@@ -38,8 +39,9 @@ impl ActorSlot<Simulation> for PyActor {
         let inputs = callee.inputs(args, see)?;
         let running = callee.host.lend(env, &callee.template()?.name, |py| {
             let robot = callee.host.robot.clone_ref(py);
-            let actor = callee.maker(py).call1((robot, inputs.dict(py)?))?;
-            let method = |name: &str| actor.getattr(name).map(Bound::unbind);
+            let actor = callee.make(py, (robot, inputs.dict(py)?))?;
+            let method =
+                |name: &str| actor.getattr(name).map(|it| callee.host.shelf.put(it.unbind()));
             Ok(Running { poll: method("poll")?, interrupt: method("interrupt")? })
         })?;
         self.running = Some(running);
@@ -60,7 +62,9 @@ impl ActorSlot<Simulation> for PyActor {
     fn interrupt(&mut self, env: &mut Simulation, _: Instant) -> Result<(), Fault> {
         let callee = &self.callee;
         let running = self.running.as_ref().ok_or(Fault::INTERNAL)?;
-        callee.host.lend(env, &callee.template()?.name, |py| running.interrupt.call0(py).map(drop))
+        callee
+            .host
+            .lend(env, &callee.template()?.name, |py| running.interrupt.get(py)?.call0().map(drop))
     }
 
     fn clear(&mut self) {

@@ -8,11 +8,12 @@ use afp_core::{Fault, Value, ValueRef};
 use afp_dsl::toolbox::{InPort, Template, Toolbox};
 use afp_dsl::types::Type;
 use afp_sim::Simulation;
+use pyo3::call::PyCallArgs;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple};
 
-use super::{Host, Object};
+use super::{Held, Host, Object};
 use crate::value::{to_port, to_python};
 
 /// A template and what implements it.
@@ -21,7 +22,7 @@ pub struct Callee {
     pub host: Arc<Host>,
     toolbox: Arc<Toolbox>,
     index: usize,
-    maker: Arc<Py<PyAny>>,
+    maker: Arc<Held>,
     has_live: bool,
 }
 
@@ -44,7 +45,7 @@ impl Callee {
             host: Arc::clone(host),
             toolbox: Arc::clone(toolbox),
             index,
-            maker: Arc::new(maker),
+            maker: Arc::new(host.shelf.put(maker)),
             has_live: toolbox.templates.get(index).is_some_and(live),
         }
     }
@@ -57,9 +58,16 @@ impl Callee {
         self.toolbox.templates.get(self.index).ok_or(Fault::INTERNAL)
     }
 
-    /// What makes components.
-    pub fn maker<'py>(&self, py: Python<'py>) -> &Bound<'py, PyAny> {
-        self.maker.bind(py)
+    /// Calls what makes components; of a computation, what computes.
+    ///
+    /// # Errors
+    /// What it raises.
+    pub fn make<'py, A: PyCallArgs<'py>>(
+        &self,
+        py: Python<'py>,
+        with: A,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.maker.get(py)?.call1(with)
     }
 
     /// Pulls the inputs that are read once, shows and checks them.
@@ -105,14 +113,14 @@ impl Callee {
     /// As [`Callee::live`]; what the component raised.
     pub fn poll(
         &self,
-        method: &Py<PyAny>,
+        method: &Held,
         args: &dyn Args,
         to: &mut dyn Outputs,
         env: &mut Simulation,
     ) -> Result<Option<u16>, Fault> {
         let live = self.live(args)?;
         let told = self.host.lend(env, &self.template()?.name, |py| {
-            let method = method.bind(py);
+            let method = method.get(py)?;
             let said = match live.is_empty() {
                 true => method.call0(),
                 false => method.call1((live.dict(py)?,)),
@@ -139,7 +147,7 @@ impl Callee {
         let name = name.to_cow()?;
         let outcome = (0..).zip(&template.outcomes).find(|(_, outcome)| outcome.name == *name);
         let (outcome, _) = outcome.ok_or_else(|| unknown(template, said))?;
-        let outputs = outputs_of(template, outcome, &outputs)?;
+        let outputs = outputs_of(&self.host, template, outcome, &outputs)?;
         Ok(Some(Told { outcome, outputs }))
     }
 }
@@ -170,7 +178,7 @@ impl Inputs<'_> {
         for (_, port, value) in &self.0 {
             let value = match value {
                 Pulled::Value(value) => shown(py, &port.ty, value.borrow())?,
-                Pulled::Object(object) => object.bind(py).clone(),
+                Pulled::Object(object) => object.get(py)?,
             };
             dict.set_item(&port.name, value)?;
         }
@@ -227,6 +235,7 @@ fn shown<'py>(py: Python<'py>, ty: &Type, value: ValueRef<'_>) -> PyResult<Bound
 
 /// The outputs that an outcome carries; all of them must be there, and no others.
 fn outputs_of(
+    host: &Host,
     template: &Template,
     outcome: u16,
     given: &Bound<'_, PyDict>,
@@ -243,7 +252,7 @@ fn outputs_of(
             ))
         })?;
         let value = match &port.ty {
-            Type::Object(_) => Pulled::Object(Arc::new(value.unbind())),
+            Type::Object(_) => Pulled::Object(Arc::new(host.shelf.put(value.unbind()))),
             ty => Pulled::Value(to_port(ty, &value)?),
         };
         outputs.push((number, value));

@@ -4,7 +4,6 @@ use afp::load::{ComputationSlot, See};
 use afp_core::Fault;
 use afp_core::rt::{Args, Outputs};
 use pyo3::exceptions::PyTypeError;
-use pyo3::prelude::*;
 
 use super::call::Callee;
 
@@ -25,7 +24,7 @@ impl ComputationSlot for PyComputation {
         let inputs = callee.inputs(args, see)?;
         let name = &callee.template()?.name;
         let told = callee.host.ask(name, |py| {
-            let said = callee.maker(py).call1((inputs.dict(py)?,))?;
+            let said = callee.make(py, (inputs.dict(py)?,))?;
             let none = || PyTypeError::new_err(format!("'{name}' returned None, not a state"));
             callee.told(&said)?.ok_or_else(none)
         })?;

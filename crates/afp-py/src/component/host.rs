@@ -1,13 +1,16 @@
 //! What all components of a run share: the robot that they are lent, and what they raised.
 
 use std::mem;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use afp_core::{Fault, Instant, Reason};
 use afp_sim::Simulation;
-use pyo3::exceptions::PyException;
+use pyo3::exceptions::{PyBaseException, PyException};
 use pyo3::prelude::*;
+use pyo3::{PyTraverseError, PyVisit};
 
+use super::depth::inside;
+use super::shelf::Shelf;
 use crate::robot::Robot;
 
 /// What a plan sees of an exception.
@@ -20,21 +23,23 @@ const RAISED: Fault = Fault::new(&Reason {
 pub struct Failure {
     pub at: Instant,
     pub template: String,
-    pub error: PyErr,
+    pub error: Py<PyBaseException>,
 }
 
 /// What the components of a run share.
 pub struct Host {
     pub robot: Py<Robot>,
+    /// What else the plan holds of Python.
+    pub shelf: Arc<Shelf>,
     failures: Mutex<Vec<Failure>>,
     /// What ends the whole run: Ctrl-C and the like, which no `Error` edge shall catch.
-    abort: Mutex<Option<PyErr>>,
+    abort: Mutex<Option<Py<PyBaseException>>>,
 }
 
 impl Host {
     /// For a run whose components get this robot.
     pub fn new(robot: Py<Robot>) -> Host {
-        Host { robot, failures: Mutex::default(), abort: Mutex::default() }
+        Host { robot, shelf: Arc::default(), failures: Mutex::default(), abort: Mutex::default() }
     }
 
     /// Calls Python while the robot is lent to it.
@@ -51,7 +56,7 @@ impl Host {
         Python::attach(|py| {
             let robot = self.robot.get();
             robot.exchange(env, true);
-            let done = call(py);
+            let done = inside(|| call(py));
             robot.exchange(env, false);
             done.map_err(|error| self.fail(py, now, template, error))
         })
@@ -66,11 +71,15 @@ impl Host {
         template: &str,
         call: impl FnOnce(Python<'_>) -> PyResult<T>,
     ) -> Result<T, Fault> {
-        Python::attach(|py| call(py).map_err(|error| self.fail(py, Instant::ZERO, template, error)))
+        Python::attach(|py| {
+            inside(|| call(py)).map_err(|error| self.fail(py, Instant::ZERO, template, error))
+        })
     }
 
     fn fail(&self, py: Python<'_>, at: Instant, template: &str, error: PyErr) -> Fault {
-        if error.is_instance_of::<PyException>(py) {
+        let ordinary = error.is_instance_of::<PyException>(py);
+        let error = error.into_value(py);
+        if ordinary {
             lock(&self.failures).push(Failure { at, template: template.to_owned(), error });
         } else {
             lock(&self.abort).get_or_insert(error);
@@ -84,8 +93,27 @@ impl Host {
     }
 
     /// What was raised that ends the run.
-    pub fn aborted(&self) -> Option<PyErr> {
-        lock(&self.abort).take()
+    pub fn aborted(&self, py: Python<'_>) -> Option<PyErr> {
+        let raised = lock(&self.abort).take()?;
+        Some(PyErr::from_value(raised.into_bound(py).into_any()))
+    }
+
+    /// Shows what is held of Python to the garbage collector.
+    ///
+    /// # Errors
+    /// Those of the collector.
+    pub fn traverse(&self, visit: &PyVisit<'_>) -> Result<(), PyTraverseError> {
+        self.shelf.traverse(visit)?;
+        lock(&self.failures).iter().try_for_each(|failure| visit.call(&failure.error))?;
+        visit.call(&*lock(&self.abort))
+    }
+
+    /// Lets go of it.
+    pub fn clear(&self) {
+        self.shelf.clear();
+        drop(self.failures());
+        let raised = lock(&self.abort).take();
+        drop(raised);
     }
 
     /// What was raised since this was last asked.

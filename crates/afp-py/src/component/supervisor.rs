@@ -7,13 +7,14 @@ use afp_sim::Simulation;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
+use super::Held;
 use super::call::Callee;
 
 /// The home of a supervisor in Python.
 pub struct PySupervisor {
     callee: Callee,
     /// Its method.
-    poll: Option<Py<PyAny>>,
+    poll: Option<Held>,
 }
 
 impl PySupervisor {
@@ -39,8 +40,8 @@ impl SupervisorSlot<Simulation> for PySupervisor {
         let poll = callee.host.lend(env, &template.name, |py| {
             let robot = callee.host.robot.clone_ref(py);
             let wanted = PyTuple::new(py, &events)?;
-            let supervisor = callee.maker(py).call1((robot, inputs.dict(py)?, wanted))?;
-            supervisor.getattr("poll").map(Bound::unbind)
+            let supervisor = callee.make(py, (robot, inputs.dict(py)?, wanted))?;
+            Ok(callee.host.shelf.put(supervisor.getattr("poll")?.unbind()))
         })?;
         self.poll = Some(poll);
         Ok(())

@@ -20,13 +20,12 @@ use crate::toolbox::Toolbox;
 /// What a plan without a file is called in diagnostics.
 const NAMELESS: &str = "plan.afp";
 
-/// A plan's texts and toolboxes.
+/// A plan's texts, and the toolboxes that are known to it.
 pub struct Desk {
     text: String,
     path: Option<PathBuf>,
     /// Which plan of the file runs.
     name: Option<String>,
-    toolboxes: Vec<Py<Toolbox>>,
     known: Toolboxes,
     /// Texts of other files that a change has reached, by path.
     others: BTreeMap<String, String>,
@@ -39,7 +38,7 @@ impl Desk {
         text: String,
         path: Option<PathBuf>,
         name: Option<String>,
-        toolboxes: Vec<Py<Toolbox>>,
+        toolboxes: &[Py<Toolbox>],
     ) -> Result<Desk, RunError> {
         let mut known: Toolboxes = afp_toolboxes::sources().collect();
         if let Some(path) = &path {
@@ -49,12 +48,12 @@ impl Desk {
                 known.add(Source::new(shown(&file.path).display().to_string(), &file.text), &krate);
             }
         }
-        for toolbox in &toolboxes {
+        for toolbox in toolboxes {
             let source = toolbox.get().source();
             known.add(source, "python");
         }
         let others = BTreeMap::new();
-        Ok(Desk { text, path, name, toolboxes, known, others, compiled: None })
+        Ok(Desk { text, path, name, known, others, compiled: None })
     }
 
     pub fn text(&self) -> &str {
@@ -63,10 +62,6 @@ impl Desk {
 
     pub fn path(&self) -> Option<&PathBuf> {
         self.path.as_ref()
-    }
-
-    pub fn toolboxes(&self) -> &[Py<Toolbox>] {
-        &self.toolboxes
     }
 
     /// The plan's file, or what stands for it.

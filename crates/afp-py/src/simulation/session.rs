@@ -17,10 +17,10 @@ use afp_sim::Simulation;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
-use super::pause::{Halt, Pause};
 use super::stimuli::Deed;
 use super::visitor::Visitor;
 use crate::errors::{error, run_error};
+use crate::pause::{Halt, Pause};
 
 /// What a run begins with.
 pub struct Setting<'a> {

@@ -10,9 +10,9 @@ use afp_run::rig::{Company, Go, Rig};
 use afp_sim::{Simulation, Truth};
 use pyo3::PyErr;
 
-use super::pause::{Halt, Pause};
 use super::stimuli::{Control, Deed};
 use crate::errors::error;
+use crate::pause::{Halt, Pause};
 
 /// The company of a run.
 pub struct Visitor {

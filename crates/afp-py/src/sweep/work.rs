@@ -10,7 +10,9 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use super::{Sweeper, graph, with_setting};
+use crate::component::may_sweep;
 use crate::errors::run_error;
+use crate::scenario::Components;
 
 /// How often signals are looked at while no outcome comes.
 const EVERY: Duration = Duration::from_millis(30);
@@ -29,14 +31,15 @@ impl Sweeper {
             let text = format!("there is no run {run}; the sweep has {}", self.sweep.len());
             return Err(PyValueError::new_err(text));
         }
-        with_setting(py, &self.toolboxes, |templates| {
+        may_sweep()?;
+        with_setting(py, &self.toolboxes, |templates, components| {
             let mut sweep = self.sweep.clone();
             let setting = Setting::new(&mut sweep, graph(&self.compiled)?, &self.file, templates);
             let setting = setting.map_err(|why| run_error(&why))?;
             let stop = AtomicBool::new(false);
             let engine =
                 Engine { sweep: &sweep, maker: &|row| setting.make(row), jobs, stop: &stop };
-            py.detach(|| drive(&engine, runs, each))
+            py.detach(|| drive(&engine, runs, components, each))
         })
     }
 }
@@ -45,12 +48,13 @@ impl Sweeper {
 fn drive(
     engine: &Engine<'_>,
     runs: &[u64],
+    components: &Components<'_>,
     each: impl FnMut(Python<'_>, Vec<Outcome>) -> PyResult<()>,
 ) -> PyResult<()> {
     thread::scope(|scope| {
         let (send, outcomes) = channel();
         scope.spawn(move || engine.run(runs, |outcome| send.send(outcome).is_ok()));
-        let attended = attend(&outcomes, each);
+        let attended = attend(&outcomes, components, each);
         // Whatever still runs is called off.
         engine.stop.store(attended.is_err(), Ordering::Relaxed);
         drop(outcomes);
@@ -60,6 +64,7 @@ fn drive(
 
 fn attend(
     outcomes: &Receiver<Outcome>,
+    components: &Components<'_>,
     mut each: impl FnMut(Python<'_>, Vec<Outcome>) -> PyResult<()>,
 ) -> PyResult<()> {
     loop {
@@ -71,6 +76,9 @@ fn attend(
         Python::attach(|py| {
             if !news.is_empty() {
                 each(py, news)?;
+            }
+            if components.is_over() {
+                components.raised(py)?;
             }
             py.check_signals()
         })?;

@@ -1,4 +1,4 @@
-//! Looks at signals and stop requests while a plan runs.
+//! Looks at signals and stop requests while something runs for long.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -32,6 +32,12 @@ pub enum Halt {
 }
 
 impl Pause {
+    /// For what nobody can ask to stop.
+    pub fn of_signals() -> Self {
+        Pause::new(None, Arc::default())
+    }
+
+    /// For a plan: with its components, and what asks it to stop.
     pub fn new(host: Option<Arc<Host>>, stop: Arc<AtomicBool>) -> Self {
         Pause { host, stop, next: Instant::now() + EVERY, turns: 0 }
     }

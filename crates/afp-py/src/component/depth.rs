@@ -1,0 +1,52 @@
+//! How deep components are inside one another: a component may run another simulation, whose components may.
+//!
+//! Each level takes some of the thread's stack, of which Python cannot know.
+
+use std::cell::Cell;
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+
+/// More levels than this are a mistake; threads with half a megabyte of stack hold them.
+const MOST: u32 = 8;
+
+thread_local! {
+    static DEPTH: Cell<u32> = const { Cell::new(0) };
+}
+
+/// Calls a component.
+pub fn inside<T>(call: impl FnOnce() -> T) -> T {
+    struct Left;
+    impl Drop for Left {
+        fn drop(&mut self) {
+            DEPTH.set(DEPTH.get().saturating_sub(1));
+        }
+    }
+    DEPTH.set(DEPTH.get() + 1);
+    let _left = Left;
+    call()
+}
+
+/// Says whether this thread may run another simulation.
+///
+/// # Errors
+/// Too many of its simulations wait for a component already.
+pub fn may_run() -> PyResult<()> {
+    match DEPTH.get() < MOST {
+        true => Ok(()),
+        false => Err(PyRuntimeError::new_err(format!(
+            "{MOST} simulations run inside one another's components already"
+        ))),
+    }
+}
+
+/// Says whether this thread may run a sweep.
+///
+/// # Errors
+/// A component is being called.
+pub fn may_sweep() -> PyResult<()> {
+    match DEPTH.get() {
+        0 => Ok(()),
+        _ => Err(PyRuntimeError::new_err("a component cannot run a sweep")),
+    }
+}

@@ -1,0 +1,82 @@
+//! What plans hold of Python, in one place where the garbage collector finds it.
+//!
+//! A component may lead back to the simulation that holds it, by a closure or a traceback. The collector frees
+//! such circles only if it sees every reference, and inside a plan it cannot look.
+
+use std::collections::BTreeMap;
+use std::mem;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use pyo3::{PyTraverseError, PyVisit};
+
+/// The objects of one simulation.
+#[derive(Default)]
+pub struct Shelf {
+    things: Mutex<Things>,
+}
+
+#[derive(Default)]
+struct Things {
+    next: u64,
+    by_key: BTreeMap<u64, Py<PyAny>>,
+}
+
+/// An object on a shelf, as long as this lives.
+pub struct Held {
+    shelf: Arc<Shelf>,
+    key: u64,
+}
+
+impl Shelf {
+    /// Puts an object there.
+    pub fn put(self: &Arc<Self>, thing: Py<PyAny>) -> Held {
+        let mut things = self.lock();
+        let key = things.next;
+        things.next += 1;
+        things.by_key.insert(key, thing);
+        Held { shelf: Arc::clone(self), key }
+    }
+
+    /// Shows the objects to the garbage collector.
+    ///
+    /// # Errors
+    /// Those of the collector.
+    pub fn traverse(&self, visit: &PyVisit<'_>) -> Result<(), PyTraverseError> {
+        // Nobody waits for the interpreter while holding this.
+        self.lock().by_key.values().try_for_each(|thing| visit.call(thing))
+    }
+
+    /// Lets go of everything.
+    pub fn clear(&self) {
+        let things = mem::take(&mut self.lock().by_key);
+        // What an object does when it goes may come back here.
+        drop(things);
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Things> {
+        // Nothing in between is left half done by a panic.
+        self.things.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Held {
+    /// The object.
+    ///
+    /// # Errors
+    /// The garbage collector has taken it, so nobody can ask any more.
+    pub fn get<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let things = self.shelf.lock();
+        let gone = || PyRuntimeError::new_err("the simulation is gone");
+        Ok(things.by_key.get(&self.key).ok_or_else(gone)?.bind(py).clone())
+    }
+}
+
+impl Drop for Held {
+    fn drop(&mut self) {
+        let thing = self.shelf.lock().by_key.remove(&self.key);
+        // As above.
+        drop(thing);
+    }
+}

@@ -1,0 +1,18 @@
+"""Seeds, as the native half takes them."""
+
+from __future__ import annotations
+
+import operator
+
+__all__ = ["MOST", "seed_of"]
+
+MOST = 2**64 - 1
+"""The last seed."""
+
+
+def seed_of(seed: int) -> int:
+    """A seed; what is none is refused with its value."""
+    number = operator.index(seed)
+    if not 0 <= number <= MOST:
+        raise ValueError(f"{number} is no seed; seeds go from 0 to 2**64 - 1")
+    return number

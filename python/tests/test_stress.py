@@ -1,0 +1,38 @@
+"""Looks for what breaks the package, in processes of their own: even a crash is told with what led to it.
+
+AFP_STRESS is for how many seconds (the nightly run sets 600), AFP_SIMULATIONS how many simulations must leave the
+memory flat (10000); without them, it is a short search that is the same each time.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+STRESS = Path(__file__).parent / "stress"
+GROWTH = 6.0
+"""Megabytes that many simulations may take more than a few."""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="it interrupts calls by SIGALRM, and forks")
+def test_nothing_undocumented_comes_out(tmp_path: Path) -> None:
+    steps = tmp_path / "steps.txt"
+    command = [sys.executable, str(STRESS), "--seconds", os.environ.get("AFP_STRESS", "0"), "--steps", str(steps)]
+    done = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False)
+    print(done.stdout)
+    last = "\n".join(steps.read_text(encoding="ascii").splitlines()[-60:])
+    assert done.returncode == 0, f"status {done.returncode}\n{done.stderr[-6000:]}\nthe last steps:\n{last}"
+    assert "panicked at" not in done.stderr, done.stderr[-6000:]
+
+
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="memory is read from /proc")
+def test_simulations_leave_nothing_behind() -> None:
+    count = os.environ.get("AFP_SIMULATIONS", "300")
+    command = [sys.executable, str(STRESS / "memory.py"), count]
+    grown = float(subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout)
+    print(f"{count} simulations, {grown} MB")
+    assert grown < GROWTH
