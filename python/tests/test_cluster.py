@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -40,7 +41,7 @@ def test_a_worker_dies_and_no_run_is_lost_or_doubled(monkeypatch: pytest.MonkeyP
     marks, work = tmp_path / "marks", cluster.work
     marks.mkdir()
 
-    def watched(spec: cluster.Spec, identity: str, runs: list[int]) -> tuple[int, list[str]]:
+    def watched(spec: bytes, identity: str, runs: list[int]) -> tuple[int, list[str]]:
         """Leaves a mark for each chunk while it is being done, and how often it was begun."""
         mark = marks / f"{os.getpid()}.{runs[0]}"
         mark.touch()
@@ -75,16 +76,34 @@ def test_a_worker_with_another_plan_refuses(tmp_path: Path) -> None:
     file.write_text("use carbot\nplan Go { start go actor go: Forward(distance = 1 m) { ForwardSuccessful -> terminate } }")
     spec = cluster.Spec.of(afp.load(file), [None], (0, 1), [], 5.0)
     with pytest.raises(afp.AfpError, match="other versions"):
-        cluster.work(spec, "another", [0])
+        cluster.work(spec.packed(), "another", [0])
 
 
-def test_components_in_python_stay_here() -> None:
-    tools = afp.Toolbox("tools")
+def creeping(kept: Any) -> afp.Plan:
+    """A plan with an actor that is known to nobody else, and that leads back to its toolbox."""
+    tools = afp.Toolbox("tools", doc="Sent along.")
 
-    @tools.computation(states=["Done"])
-    def Nothing() -> str:
-        return "Done"
+    @tools.actor(states={"There": {"went": afp.Length}}, uses=["drive"])
+    async def Creep(robot: afp.Robot, far: afp.Length) -> Any:
+        assert kept is not None and "Creep" in tools.implemented
+        while robot.odometry[0] < far:
+            robot.drive(0.2)
+            await afp.tick()
+        return "There", {"went": float(robot.odometry[0])}
 
-    plan = afp.Plan("use tools plan P { start go computation go: Nothing { Done -> terminate } }", toolboxes=[tools])
-    with pytest.raises(NotImplementedError, match='backend="local"'):
-        afp.sweep(plan, backend="ray", progress=False)
+    text = "actor go: Creep(far = far, went => went) { There -> terminate }"
+    return afp.Plan(
+        f"use tools\nplan P {{ in far: length = 20 cm var went: length start go {text} }}", toolboxes=[tools]
+    )
+
+
+def test_components_in_python_go_along() -> None:
+    grid: dict[str, Any] = {"seeds": 6, "vary": {"far": ["10cm", "20cm"]}, "until": 5.0, "progress": False}
+    plan = creeping([1, 2])
+    spread = afp.sweep(plan, **grid, backend="ray")
+    assert rows(spread) == rows(afp.sweep(plan, **grid)) and spread.endings == {"ok": 12}
+
+
+def test_what_cannot_go_along_says_so() -> None:
+    with pytest.raises(TypeError, match="sent to other processes: cannot pickle '_thread.lock' object\n  help: let them"):
+        afp.sweep(creeping(threading.Lock()), backend="ray", progress=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import pickle
 import weakref
 from typing import Any
 
@@ -267,6 +268,23 @@ def test_ctrl_c_in_a_component_ends_the_run() -> None:
     with pytest.raises(KeyboardInterrupt):
         simulation.run(until=5.0)
     assert simulation.ending == "error"
+
+
+def test_a_toolbox_is_pickled_with_its_components() -> None:
+    again = pickle.loads(pickle.dumps(PICKLED))
+    assert again.text == PICKLED.text and again.implemented == ["Greater"] and again.sources == PICKLED.sources
+    text = "use hand plan P { var by: float start go computation go: Greater(a = 3, by => by) { Yes -> terminate } }"
+    assert afp.Simulation(afp.Plan(text, toolboxes=[again])).run().entries["by"] == 3.0
+
+
+PICKLED = afp.Toolbox("hand")
+
+
+def greater(a: float) -> Any:
+    return "Yes", {"by": a}
+
+
+PICKLED.computation(states={"Yes": {"by": float}}, name="Greater")(greater)
 
 
 def test_mistakes_of_declarations() -> None:

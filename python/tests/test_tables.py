@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-import builtins
-from typing import Any
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 
 import afp
+from conftest import ROOT
 
 
 @pytest.fixture
@@ -37,18 +39,36 @@ def test_pictures(result: afp.Result) -> None:
     path.figure.canvas.draw()
 
 
-@pytest.mark.parametrize(
-    ("method", "extra"),
-    [("to_pandas", "pandas"), ("to_polars", "polars"), ("to_arrow", "arrow"), ("plot_path", "plot")],
-)
-def test_what_is_not_installed_says_so(
-    result: afp.Result, method: str, extra: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    import importlib
+MISSING = {
+    "pandas": ("pandas", ["result.to_pandas()", "runs.to_pandas()", "log.to_pandas()"]),
+    "polars": ("polars", ["result.to_polars()", "runs.to_polars()", "log.to_polars()"]),
+    "pyarrow": ("arrow", ["result.to_arrow()", "runs.to_arrow()", "result.__arrow_c_stream__()"]),
+    "matplotlib": ("plot", ["result.plot_path()", "result.plot_timeline()", "runs.plot('seed')", "log.plot_timeline()"]),
+    "gymnasium": ("gym", ["__import__('afp.gym')"]),
+    "ray": ("ray", ["afp.sweep(plan, backend='ray', progress=False)"]),
+}
 
-    def missing(name: str, package: str | None = None) -> Any:
-        raise builtins.ImportError(name)
 
-    monkeypatch.setattr(importlib, "import_module", missing)
-    with pytest.raises(ImportError, match=rf"pip install 'afp\[{extra}\]'"):
-        getattr(result, method)()
+@pytest.mark.parametrize("module", MISSING)
+def test_what_is_not_installed_says_so(module: str, tmp_path: Path) -> None:
+    extra, calls = MISSING[module]
+    program = f"""
+import sys
+sys.modules[{module!r}] = None
+import afp
+plan = afp.load({str(ROOT / "plans/wall_following.afp")!r})
+with afp.Simulation(plan, log={str(tmp_path / "run.mcap")!r}) as simulation:
+    result = simulation.run(until=0.2)
+log = afp.Log({str(tmp_path / "run.mcap")!r})
+runs = afp.sweep(plan, until=0.2, progress=False)
+assert result.columns() and runs.columns and log.events
+for call in {calls!r}:
+    try:
+        eval(call)
+    except ImportError as error:
+        print(error)
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    said = f"this needs {module}; install it with: pip install 'afp[{extra}]'"
+    assert done.stdout.splitlines() == [said] * len(calls)

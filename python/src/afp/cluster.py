@@ -7,17 +7,20 @@ run counts once, whatever was done twice. Ray is started on this machine unless 
 
 Workers need the package, and the plan's files and worlds under the same paths: a shared folder, or the driver's folder
 sent along with `ray.init(runtime_env={"working_dir": "."})` and paths relative to it. A worker that sees other texts
-refuses. Components in Python stay on the driver's machine: such plans run with `backend="local"` only.
+refuses. Components in Python go along by value or, those of modules that workers can import, by reference
+(cloudpickle); workers run them in processes of their own, so that they do not wait for one another.
 """
 
 from __future__ import annotations
 
 import os
+import pickle
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ._afp import AfpError, Plan, Sweeper
+from ._afp import AfpError, Plan, Sweeper, Toolbox
+from .sweeps import mark_of
 from .tables import need
 
 __all__ = ["Spec", "run"]
@@ -39,6 +42,7 @@ class Spec:
     seeds: tuple[int, int]
     vary: list[tuple[str, list[tuple[str, bool]]]]
     until: float
+    toolboxes: list[Toolbox]
 
     @staticmethod
     def of(
@@ -48,17 +52,24 @@ class Spec:
         vary: list[tuple[str, list[tuple[str, bool]]]],
         until: float,
     ) -> Spec:
-        """For a plan without components in Python."""
-        if plan.toolboxes:
-            text = 'components written in Python stay in this process: sweep such a plan with backend="local"'
-            raise NotImplementedError(text)
+        """For a plan, with its components in Python."""
         path = None if plan.path is None else os.fspath(plan.path)
-        return Spec(plan.text, path, plan.name, worlds, seeds, vary, until)
+        return Spec(plan.text, path, plan.name, worlds, seeds, vary, until, plan.toolboxes)
+
+    def packed(self) -> bytes:
+        """What is sent to workers."""
+        try:
+            packed: bytes = need("ray.cloudpickle", "ray").dumps(self)
+        except (TypeError, pickle.PicklingError) as error:
+            text = f"the plan's components cannot be sent to other processes: {error}"
+            help = 'let them make there what cannot be pickled, or use backend="local"'
+            raise TypeError(f"{text}\n  help: {help}") from None
+        return packed
 
     def sweeper(self) -> Sweeper:
         """The sweep."""
-        plan = Plan(self.text, self.path, name=self.name)
-        return Sweeper(plan, self.worlds, self.seeds, self.vary, self.until, "")
+        plan = Plan(self.text, self.path, name=self.name, toolboxes=self.toolboxes)
+        return Sweeper(plan, self.worlds, self.seeds, self.vary, self.until, mark_of(self.toolboxes))
 
 
 def run(
@@ -71,13 +82,14 @@ def run(
     cpus = int(ray.cluster_resources().get("CPU", 1))
     size = chunk or max(1, min(100, len(runs) // (4 * max(cpus, 1))))
     chunks = [list(runs[first : first + size]) for first in range(0, len(runs), size)]
+    sent = ray.put(spec.packed())
     task = ray.remote(num_cpus=1, max_retries=RETRIES)(work)
     done = sweeper.total - len(runs)
     waiting: list[Any] = []
     try:
         while chunks or waiting:
             while chunks and len(waiting) < max(WAITING, 2 * cpus):
-                waiting.append(task.remote(spec, sweeper.identity, chunks.pop(0)))
+                waiting.append(task.remote(sent, sweeper.identity, chunks.pop(0)))
             # With a limit, so that Ctrl-C is seen.
             ready, waiting = ray.wait(waiting, timeout=0.5)
             for each in ready:
@@ -90,8 +102,9 @@ def run(
             ray.cancel(each, force=True)
 
 
-def work(spec: Spec, identity: str, runs: list[int]) -> tuple[int, list[str]]:
+def work(packed: bytes, identity: str, runs: list[int]) -> tuple[int, list[str]]:
     """Does a chunk, in a worker: its process, and outcomes as lines of JSON."""
+    spec: Spec = pickle.loads(packed)
     sweeper = spec.sweeper()
     if sweeper.identity != identity:
         text = "this worker has other versions of the package, the plan's files or the worlds than the driver"

@@ -66,10 +66,13 @@ class Toolbox(_afp.Toolbox):
     @classmethod
     def parse(cls, text: str, path: str | os.PathLike[str] | None = None) -> Toolbox:
         """Reads the text of a toolbox file."""
-        return _afp.Toolbox.__new__(cls, text, path)
+        toolbox = _afp.Toolbox.__new__(cls, text, path)
+        toolbox._path = path
+        return toolbox
 
-    _sources: str
-    """What implements the templates, as text: tells two versions apart."""
+    _path: str | os.PathLike[str] | None = None
+    _components: dict[str, tuple[Callable[..., Any], str]]
+    """What implements each template, and its source, which tells two versions apart."""
 
     def implement(self, component: Component, template: str | None = None) -> Component:
         """Names the class or function that implements a template, by its own name unless told otherwise.
@@ -80,8 +83,28 @@ class Toolbox(_afp.Toolbox):
         name = template or _name(component)
         about = self._template(name)
         self._implement(name, _maker(about["kind"], component, about["inputs"], about["live"]))
-        self._sources = f"{getattr(self, '_sources', '')}{name}\0{_source(component)}\0"
+        self._keep(name, component, _source(component))
         return component
+
+    def _keep(self, template: str, component: Callable[..., Any], source: str) -> None:
+        known = getattr(self, "_components", {})
+        self._components = {**known, template: (component, source)}
+
+    @property
+    def sources(self) -> str:
+        """The sources of what implements the templates; they tell two versions of it apart."""
+        known = getattr(self, "_components", {})
+        return "".join(f"{template}\0{source}\0" for template, (_, source) in sorted(known.items()))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Components as they are, in the state: they may lead back to their toolbox.
+        return _again, (type(self), self.text, self._path), getattr(self, "_components", {})
+
+    def __setstate__(self, components: dict[str, tuple[Component, str]]) -> None:
+        for template, (component, source) in components.items():
+            self.implement(component, template)
+            # The process that sends them has their files; this one may not.
+            self._keep(template, component, source)
 
     def actor(
         self,
@@ -131,6 +154,10 @@ class Toolbox(_afp.Toolbox):
 
     def __repr__(self) -> str:
         return f"<Toolbox {self.name}: {', '.join(self.templates)}>"
+
+
+def _again(kind: type[Toolbox], text: str, path: str | os.PathLike[str] | None) -> Toolbox:
+    return kind.parse(text, path)
 
 
 def _name(component: Callable[..., Any]) -> str:

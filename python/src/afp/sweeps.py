@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from . import plots, tables
-from ._afp import Plan, Sweeper, World
+from ._afp import Plan, Sweeper, Toolbox, World
 from .seeds import seed_of
 from .units import Quantity
 
@@ -42,7 +42,7 @@ def sweep(
     line (`"20cm..60cm:5cm"`). Each run is stopped at `until` seconds.
 
     `jobs` is the number of threads. Runs are done by the engine of `afpc sweep` while other threads of Python go on;
-    components written in Python take turns for the interpreter. `progress` shows a bar on a terminal or in a
+    components written in Python take turns for the interpreter, unless a cluster has several processes. `progress` shows a bar on a terminal or in a
     notebook, or is called with how many runs are done of how many.
 
     `out` (`runs.csv`, `runs.parquet`, or a folder for both) keeps each outcome as it comes: the same call goes on
@@ -63,7 +63,7 @@ def sweep(
         _seeds(seeds),
         values,
         until,
-        _mark(plan),
+        mark_of(plan.toolboxes),
     )
     if out is not None:
         sweeper.open(os.fspath(out), restart)
@@ -145,9 +145,9 @@ def _text(value: Any) -> tuple[str, bool]:
     return (repr(number), True)
 
 
-def _mark(plan: Plan) -> str:
+def mark_of(toolboxes: Iterable[Toolbox]) -> str:
     """What tells two versions of components in Python apart."""
-    return "\0".join(f"{toolbox.text}\0{getattr(toolbox, '_sources', '')}" for toolbox in plan.toolboxes)
+    return "\0".join(f"{toolbox.text}\0{getattr(toolbox, 'sources', '')}" for toolbox in toolboxes)
 
 
 def _teller(progress: bool | Callable[[int, int], Any], total: int) -> Callable[[int, int], Any]:

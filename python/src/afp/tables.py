@@ -30,7 +30,8 @@ def need(module: str, extra: str) -> Any:
     try:
         return importlib.import_module(module)
     except ImportError as error:
-        raise ImportError(f"this needs {module}; install it with: pip install 'afp[{extra}]'") from error
+        needed = module.partition(".")[0]
+        raise ImportError(f"this needs {needed}; install it with: pip install 'afp[{extra}]'") from error
 
 
 def columns(events: Sequence[Event]) -> dict[str, list[Any]]:

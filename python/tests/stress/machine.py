@@ -308,7 +308,7 @@ class Stress(RuleBasedStateMachine):
 
     @rule(which=few)
     def pickled(self, which: int) -> None:
-        for thing in [*self.sims[-1:], *self.plans[-1:], *self.worlds, *self.cars[-1:], *self.robots[-1:], *self.tools[-1:]]:
+        for thing in [*self.sims[-1:], *self.plans[-1:], *self.worlds, *self.cars[-1:], *self.robots[-1:]]:
             for how in (pickle.dumps, copy.copy, copy.deepcopy):
                 try:
                     how(thing)
