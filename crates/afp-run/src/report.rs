@@ -44,6 +44,8 @@ pub fn line(at: Instant, record: &Record<'_>, names: &impl Names) -> Option<Stri
 /// Writes to standard output as the run goes.
 pub(crate) struct Report {
     out: Box<dyn Write>,
+    /// Whether people look at it, not a program.
+    terminal: bool,
     json: bool,
     progress: Progress,
     /// Why nothing can be written any more.
@@ -58,7 +60,7 @@ impl Report {
             true => Box::new(anstream::stdout()),
             false => Box::new(io::BufWriter::new(anstream::stdout())),
         };
-        Report { out, json, progress: Progress::new(end), failure: None }
+        Report { out, terminal, json, progress: Progress::new(end), failure: None }
     }
 
     /// Whether nobody reads any more, or nothing can be written.
@@ -97,7 +99,7 @@ impl Report {
         }
     }
 
-    /// The last lines.
+    /// The last lines: for people, for programs, or for both where one cannot tell who reads.
     ///
     /// # Errors
     /// Something could not be written, unless whoever read it has seen enough.
@@ -107,8 +109,10 @@ impl Report {
             let text = summary.for_people();
             self.write(&text);
         }
-        let line = summary.json(self.json);
-        self.write(&line);
+        if self.json || !self.terminal {
+            let line = summary.json(self.json);
+            self.write(&line);
+        }
         let flushed = self.out.flush();
         match self.failure.map_or(flushed, Err) {
             Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error),
