@@ -1,5 +1,6 @@
 //! Wording shared by diagnostics: lists, articles, and the name that was probably meant.
 
+use crate::draw::formula::quantity;
 use crate::types::{Dimension, Type};
 
 /// `'a', 'b' and 'c'`, in single quotes.
@@ -69,14 +70,23 @@ pub(crate) fn a_dimension(dimension: Dimension) -> String {
     format!("{article} {name}")
 }
 
-/// A value in SI units as people write it, such as `31 cm/s`.
+/// A value in SI units as people write it, such as `31 cm/s` or `2 km`: as drawings do where that is
+/// short, otherwise rounded and in the usual unit.
 pub(crate) fn value(value: f64, ty: &Type) -> String {
     let Type::Quantity(dimension) = ty else { return plain(value) };
+    let exact = quantity(value, *dimension);
+    // Zero is as short in any unit.
+    if exact.len() <= SHORT && value != 0.0 {
+        return exact;
+    }
     let symbol = dimension.usual_unit();
     let one = crate::types::literal::Literal::parse(&format!("1 {symbol}"));
     let factor = one.ok().and_then(|literal| literal.value()).unwrap_or(1.0);
     format!("{} {symbol}", plain(value / factor)).trim_end().to_owned()
 }
+
+/// A longer exact value, in letters, has come from a calculation.
+const SHORT: usize = 14;
 
 /// At most nine decimals, without zeros at the end.
 fn plain(value: f64) -> String {
@@ -105,9 +115,22 @@ mod tests {
     }
 
     #[test]
-    fn values_are_shown_in_the_usual_unit() {
-        let speed = Type::Quantity(Dimension::named("speed").unwrap());
-        assert_eq!(value(0.31, &speed), "31 cm/s");
+    fn values_are_shown_as_people_write_them() {
+        let shown = |number, dimension| {
+            value(number, &Type::Quantity(Dimension::named(dimension).unwrap()))
+        };
+        assert_eq!(shown(0.31, "speed"), "31 cm/s");
+        assert_eq!(shown(2.0, "speed"), "2 m/s");
+        assert_eq!(shown(0.3, "length"), "30 cm");
+        assert_eq!(shown(1.0, "length"), "1 m");
+        assert_eq!(shown(2000.0, "length"), "2 km");
+        assert_eq!(shown(-2.5, "length"), "-2.5 m");
+        assert_eq!(shown(2.0 / 3.0, "length"), "66.666666667 cm");
+        assert_eq!(shown(0.0, "length"), "0 cm");
+        assert_eq!(shown(0.02, "duration"), "20 ms");
+        assert_eq!(shown(60.0, "duration"), "60 s");
+        assert_eq!(shown(std::f64::consts::FRAC_PI_2, "angle"), "90 deg");
+        assert_eq!(shown(std::f64::consts::TAU, "angle"), "360 deg");
         assert_eq!(value(2.5, &Type::FLOAT), "2.5");
     }
 }

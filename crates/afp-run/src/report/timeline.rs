@@ -84,32 +84,41 @@ fn commit(event: &PlanEvent) -> String {
     format!("{DATA}◆ {entry}: {old} → {new}{DATA:#}  {QUIET}by {author}{QUIET:#}")
 }
 
-/// A value with its unit, as people write it: angles in degrees, short lengths in centimetres.
+/// A value as people write it.
 fn show(value: &Option<Value>, unit: &str) -> String {
     match value.as_ref().and_then(|value| value.value.as_ref()) {
         None => "unset".to_owned(),
         Some(Told::Truth(truth)) => truth.to_string(),
         Some(Told::Integer(integer)) => integer.to_string(),
-        Some(Told::Number(number)) => match unit {
-            "" => short(*number),
-            "rad" => format!("{} deg", short(number.to_degrees())),
-            "m" => length(*number),
-            "m/s" => format!("{} cm/s", short(number * 100.0)),
-            "rad/s" => format!("{} deg/s", short(number.to_degrees())),
-            unit => format!("{} {unit}", short(*number)),
-        },
+        Some(Told::Number(number)) => quantity(*number, unit),
         Some(Told::Text(text)) => format!("{text:?}"),
         Some(Told::Choice(text) | Told::Object(text)) => text.clone(),
     }
 }
 
-/// Metres from one metre on, centimetres below; told to the hundredth of a millimetre.
-fn length(metres: f64) -> String {
-    let told = (metres * 1e5).round() / 1e5;
+/// A number of an SI unit as people write it: angles in degrees; less than a metre in centimetres, less than a
+/// second in milliseconds.
+fn quantity(number: f64, unit: &str) -> String {
+    match unit {
+        "" => short(number),
+        "rad" => format!("{} deg", short(number.to_degrees())),
+        "rad/s" => format!("{} deg/s", short(number.to_degrees())),
+        "m" => whole_or_parts(number, "m", "cm", 2),
+        "m/s" => whole_or_parts(number, "m/s", "cm/s", 2),
+        "s" => whole_or_parts(number, "s", "ms", 3),
+        unit => format!("{} {unit}", short(number)),
+    }
+}
+
+/// A number from one on in its unit, below in parts of it that are so many powers of ten smaller; told
+/// to the thousandth of a part.
+fn whole_or_parts(number: f64, unit: &str, part: &str, power: u8) -> String {
+    let parts = 10_f64.powi(power.into());
+    let told = (number * parts * 1e3).round() / (parts * 1e3);
     if told.abs() < 1.0 {
-        format!("{} cm", short(told * 100.0))
+        format!("{} {part}", short(told * parts))
     } else {
-        format!("{} m", rounded(told, 5))
+        format!("{} {unit}", rounded(told, usize::from(power) + 3))
     }
 }
 
@@ -142,21 +151,31 @@ fn ended(event: &PlanEvent) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::length;
+    use super::quantity;
 
     #[test]
-    fn lengths_read_as_people_write_them() {
-        for (metres, text) in [
-            (0.3, "30 cm"),
-            (0.123_456, "12.346 cm"),
-            (0.999_999_9, "1 m"),
-            (1.0, "1 m"),
-            (-2.5, "-2.5 m"),
-            (1.234_56, "1.23456 m"),
-            (100.0, "100 m"),
-            (0.0, "0 cm"),
+    fn values_read_as_people_write_them() {
+        for (number, unit, text) in [
+            (0.3, "m", "30 cm"),
+            (0.123_456, "m", "12.346 cm"),
+            (0.999_999_9, "m", "1 m"),
+            (1.0, "m", "1 m"),
+            (-2.5, "m", "-2.5 m"),
+            (1.234_56, "m", "1.23456 m"),
+            (100.0, "m", "100 m"),
+            (0.0, "m", "0 cm"),
+            (0.31, "m/s", "31 cm/s"),
+            (-2.0, "m/s", "-2 m/s"),
+            (0.02, "s", "20 ms"),
+            (0.000_4, "s", "0.4 ms"),
+            (90.0, "s", "90 s"),
+            (1.5, "s", "1.5 s"),
+            (std::f64::consts::FRAC_PI_2, "rad", "90 deg"),
+            (-std::f64::consts::PI, "rad/s", "-180 deg/s"),
+            (7.4, "V", "7.4 V"),
+            (0.25, "", "0.25"),
         ] {
-            assert_eq!(length(metres), text);
+            assert_eq!(quantity(number, unit), text);
         }
     }
 }
