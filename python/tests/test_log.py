@@ -35,7 +35,7 @@ def test_a_log_cut_short_yields_what_it_holds(wall_following: afp.Plan, tmp_path
 
 
 def test_what_is_no_log(tmp_path: Path) -> None:
-    with pytest.raises(FileNotFoundError, match="there is no log"):
+    with pytest.raises(FileNotFoundError, match="cannot read the log"):
         afp.Log(tmp_path / "none.mcap")
     (tmp_path / "text.mcap").write_text("hello")
     with pytest.raises(afp.AfpError):

@@ -155,6 +155,6 @@ def test_tables(tmp_path: Path) -> None:
     assert list(frame["run"]) == [0, 1, 2] and frame["wall_error_mean_m"].dtype == "float64"
     assert "<table>" in runs._repr_html_() and "3 ok" in repr(runs)
     pytest.importorskip("matplotlib").use("agg")
-    assert runs.plot("seed", "distance_m").get_ylabel() == "distance_m"
+    assert runs.plot("seed", "distance_m").get_ylabel() == "distance [m]"
     with pytest.raises(KeyError, match="no column"):
         runs.plot("nothing")

@@ -1,12 +1,15 @@
 //! The exceptions of the package.
 
 use std::fmt::Display;
+use std::io;
+use std::path::Path;
 
 use pyo3::create_exception;
-use pyo3::exceptions::{PyException, PyOSError};
+use pyo3::exceptions::{PyException, PyFileNotFoundError, PyOSError, PyPermissionError};
 use pyo3::prelude::*;
 
 use afp_dsl::Compiled;
+use afp_log::LogError;
 use afp_run::RunError;
 
 use crate::plan::diagnostics;
@@ -23,14 +26,38 @@ pub fn error(message: impl Display) -> PyErr {
 /// The exception that tells of a file that cannot be read is `OSError`, of anything else [`AfpError`].
 pub fn run_error(why: &RunError) -> PyErr {
     match why {
-        RunError::File { what, path, error } => {
-            let text = format!("{what} '{}'", path.display());
-            match error.raw_os_error() {
-                Some(number) => PyOSError::new_err((number, text, path.display().to_string())),
-                None => PyOSError::new_err(format!("{text}: {error}")),
+        RunError::File { what, path, error } => os_error(what, path, error),
+        RunError::Log(why) => log_error(why),
+        other => error(other),
+    }
+}
+
+/// The exception of a log that cannot be written or read, as [`run_error`].
+pub fn log_error(why: &LogError) -> PyErr {
+    match why {
+        LogError::Create { path, error } => os_error("cannot write the log", path, error),
+        LogError::Open { path, error } => os_error("cannot read the log", path, error),
+        other => error(other),
+    }
+}
+
+/// Python chooses the kind of `OSError` by the number.
+fn os_error(what: &str, path: &Path, why: &io::Error) -> PyErr {
+    let text = why.to_string();
+    // Python tells the number itself.
+    let text = text.split(" (os error").next().unwrap_or_default();
+    match why.raw_os_error() {
+        Some(number) => {
+            PyOSError::new_err((number, format!("{what}: {text}"), path.display().to_string()))
+        }
+        None => {
+            let text = format!("{what}: {text}: '{}'", path.display());
+            match why.kind() {
+                io::ErrorKind::NotFound => PyFileNotFoundError::new_err(text),
+                io::ErrorKind::PermissionDenied => PyPermissionError::new_err(text),
+                _ => PyOSError::new_err(text),
             }
         }
-        other => error(other),
     }
 }
 

@@ -4,21 +4,17 @@ use std::path::PathBuf;
 
 use afp_log::instant;
 use afp_log::robot::Pose2;
-use pyo3::exceptions::PyFileNotFoundError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-use crate::errors::error;
+use crate::errors::log_error;
 use crate::simulation::{Event, value};
 use crate::world::table;
 
 /// Reads a log, as far as it goes, into a dictionary.
 #[pyfunction]
 pub fn read_log<'py>(py: Python<'py>, path: PathBuf) -> PyResult<Bound<'py, PyDict>> {
-    if !path.is_file() {
-        return Err(PyFileNotFoundError::new_err(format!("there is no log '{}'", path.display())));
-    }
-    let log = py.detach(|| afp_log::read(&path)).map_err(error)?;
+    let log = py.detach(|| afp_log::read(&path)).map_err(|why| log_error(&why))?;
     let dict = PyDict::new(py);
     dict.set_item("facts", log.facts)?;
     dict.set_item("attachments", log.attachments)?;

@@ -12,7 +12,7 @@ use afp_dsl::draw::{self, Options, Theme};
 use afp_dsl::edit::{self, Change};
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolbox as Declared;
-use pyo3::exceptions::{PyOSError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::{PyTraverseError, PyVisit};
 
@@ -226,9 +226,4 @@ impl Plan {
         }
         Ok(())
     }
-}
-
-/// The exception of a file that cannot be written.
-fn unwritten(path: &std::path::Path, why: &std::io::Error) -> PyErr {
-    PyOSError::new_err(format!("cannot write the plan '{}': {why}", path.display()))
 }

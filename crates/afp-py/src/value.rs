@@ -5,7 +5,7 @@ use afp_core::trace::{Names, TraceEntryId};
 use afp_core::{Text, Value, ValueRef};
 use afp_dsl::types::Type;
 use pyo3::IntoPyObjectExt;
-use pyo3::exceptions::{PyException, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyException, PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyFloat, PyInt, PyString};
 
@@ -63,11 +63,11 @@ impl Given {
         }
         let unit = unit(value)?;
         if value.is_instance_of::<PyInt>() {
-            return Ok(Given::Plain(Value::Int(value.extract()?), unit));
+            return Ok(Given::Plain(Value::Int(integer(value)?), unit));
         }
         match number(value)? {
             Some(number) => Ok(Given::Plain(Value::Float(number), unit)),
-            None => Ok(Given::Other(value.get_type().name()?.to_string())),
+            None => Ok(Given::Other(a(&value.get_type().name()?.to_string()))),
         }
     }
 
@@ -81,17 +81,30 @@ impl Given {
         let wrong = |what: String| {
             let (path, ty, unit) = (about.path, about.ty, about.unit);
             let link = if unit.is_empty() { "" } else { " in " };
-            PyTypeError::new_err(format!("'{path}' is a {ty}{link}{unit}, not {what}"))
+            PyTypeError::new_err(format!("'{path}' is {}{link}{unit}, not {what}", a(ty)))
         };
         match self {
             Given::Text(text) => plan.read(entry, &text).map_err(|_| wrong(format!("{text:?}"))),
+            Given::Plain(Value::Bool(_), _) if about.ty != "bool" => {
+                Err(wrong("a bool".to_owned()))
+            }
             Given::Plain(_, Some(unit)) if unit != about.unit => {
                 Err(wrong(format!("a quantity in {unit}")))
             }
             Given::Plain(value, _) => Ok(value),
-            Given::Other(name) => Err(wrong(format!("a {name}"))),
+            Given::Other(name) => Err(wrong(name)),
         }
     }
+}
+
+fn integer(value: &Bound<'_, PyAny>) -> PyResult<i64> {
+    value.extract().map_err(|_| PyOverflowError::new_err("an integer of more than 64 bits"))
+}
+
+/// A word with its article.
+fn a(word: &str) -> String {
+    let article = if word.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    format!("{article} {word}")
 }
 
 /// A number, if the value is one. What ends a program is not taken for a value that does not fit.
@@ -107,7 +120,7 @@ fn number(value: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
 pub fn to_port(ty: &Type, value: &Bound<'_, PyAny>) -> PyResult<Value> {
     let wrong = || {
         let name = value.get_type().name().map(|name| name.to_string()).unwrap_or_default();
-        PyTypeError::new_err(format!("expected a {ty}, not a {name}"))
+        PyTypeError::new_err(format!("expected {}, not {}", a(&ty.to_string()), a(&name)))
     };
     match ty {
         Type::Bool => value.extract().map(Value::Bool).map_err(|_| wrong()),
@@ -117,7 +130,8 @@ pub fn to_port(ty: &Type, value: &Bound<'_, PyAny>) -> PyResult<Value> {
                 && given != dimension.si_unit()
             {
                 return Err(PyTypeError::new_err(format!(
-                    "expected a {ty}, not a quantity in {given}"
+                    "expected {}, not a quantity in {given}",
+                    a(&ty.to_string())
                 )));
             }
             number(value)?.map(Value::Float).ok_or_else(wrong)

@@ -30,6 +30,7 @@ from typing import Any, TypeVar, get_type_hints
 
 from . import _afp
 from ._afp import Robot
+from .units import spelled_time
 
 __all__ = ["Toolbox", "tick"]
 
@@ -111,13 +112,13 @@ class Toolbox(_afp.Toolbox):
         *,
         states: Outcomes,
         name: str | None = None,
-        uses: Sequence[str] = (),
-        every: str = "10 ms",
-        stop: str | None = None,
+        uses: str | Sequence[str] = (),
+        every: str | float = "10 ms",
+        stop: str | float | None = None,
         icon: str | None = None,
     ) -> Callable[[Component], Component]:
         """Declares and implements an actor: a class with `poll`, or an `async def` function."""
-        timing = f"every {every}" + (f" stop {stop}" if stop else "")
+        timing = _timing(every=every, stop=stop)
         return self._declarer("actor", states, name, uses, timing, icon)
 
     def supervisor(
@@ -125,14 +126,14 @@ class Toolbox(_afp.Toolbox):
         *,
         events: Outcomes,
         name: str | None = None,
-        uses: Sequence[str] = (),
-        every: str = "10 ms",
-        deadline: str | None = None,
-        budget: str | None = None,
+        uses: str | Sequence[str] = (),
+        every: str | float = "10 ms",
+        deadline: str | float | None = None,
+        budget: str | float | None = None,
         icon: str | None = None,
     ) -> Callable[[Component], Component]:
         """Declares and implements a supervisor: a class with `poll`, or a function that is called at each poll."""
-        timing = f"every {every} deadline {deadline or every}" + (f" budget {budget}" if budget else "")
+        timing = _timing(every=every, deadline=every if deadline is None else deadline, budget=budget)
         return self._declarer("supervisor", events, name, uses, timing, icon)
 
     def computation(
@@ -142,11 +143,15 @@ class Toolbox(_afp.Toolbox):
         return self._declarer("computation", states, name, (), "", icon)
 
     def _declarer(
-        self, kind: str, outcomes: Outcomes, name: str | None, uses: Sequence[str], timing: str, icon: str | None
+        self, kind: str, outcomes: Outcomes, name: str | None, uses: str | Sequence[str], timing: str, icon: str | None
     ) -> Callable[[Component], Component]:
+        if isinstance(outcomes, str):
+            raise TypeError(f"'{outcomes}' is one name; states and events are a list: [{outcomes!r}]")
+
         def declare(component: Component) -> Component:
             template = name or _name(component)
-            text = _declaration(kind, template, component, outcomes, uses, timing, icon)
+            devices = [uses] if isinstance(uses, str) else uses
+            text = _declaration(kind, template, component, outcomes, devices, timing, icon)
             self._declare(text)
             return self.implement(component, template)
 
@@ -164,7 +169,14 @@ def _name(component: Callable[..., Any]) -> str:
     name = getattr(component, "__name__", None)
     if not callable(component) or not isinstance(name, str):
         raise TypeError(f"a component is a class or a function, not {component!r}")
+    if not name.isidentifier():
+        raise TypeError(f"the component {component!r} has no name of its own: give name=")
     return name
+
+
+def _timing(**times: str | float | None) -> str:
+    """The times of a template, those that are given."""
+    return " ".join(f"{word} {spelled_time(time)}" for word, time in times.items() if time is not None)
 
 
 def _source(component: Callable[..., Any]) -> str:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from . import _afp
 from ._afp import Toolbox
+from .units import spelled, spelled_time
 
 __all__ = ["Plan", "load", "new_plan"]
 
@@ -80,9 +81,9 @@ class Plan(_afp.Plan):
         """Moves an item above another one of its list, or below its like."""
         self._change("reorder", {"item": item, "before": before})
 
-    def bind(self, item: str, port: str, formula: str) -> None:
-        """Binds an input port to a formula such as `30 cm`."""
-        self._change("bind", {"item": item, "port": port, "formula": formula})
+    def bind(self, item: str, port: str, formula: str | float) -> None:
+        """Binds an input port to a formula such as `"2 * far"`, or a value such as `afp.cm(30)`."""
+        self._change("bind", {"item": item, "port": port, "formula": spelled(formula)})
 
     def bind_output(self, item: str, port: str, entry: str) -> None:
         """Binds an output port to an entry."""
@@ -96,13 +97,17 @@ class Plan(_afp.Plan):
         """Makes an element or supervisor from another template."""
         self._change("template", {"item": item, "template": template})
 
-    def set_every(self, supervisor: str, value: str | None) -> None:
-        """Sets the poll period of a supervisor, such as `10 ms`; the template's with `None`."""
-        self._change("timing", {"item": supervisor, "keyword": "every", "value": value})
+    def set_every(self, supervisor: str, value: str | float | None) -> None:
+        """Sets the poll period of a supervisor, such as `"10 ms"` or `afp.ms(10)`; the template's with `None`."""
+        self._set_timing(supervisor, "every", value)
 
-    def set_deadline(self, supervisor: str, value: str | None) -> None:
-        """Sets the deadline of a supervisor, such as `20 ms`; the template's with `None`."""
-        self._change("timing", {"item": supervisor, "keyword": "deadline", "value": value})
+    def set_deadline(self, supervisor: str, value: str | float | None) -> None:
+        """Sets the deadline of a supervisor, such as `"20 ms"` or `afp.ms(20)`; the template's with `None`."""
+        self._set_timing(supervisor, "deadline", value)
+
+    def _set_timing(self, supervisor: str, keyword: str, value: str | float | None) -> None:
+        text = None if value is None else spelled_time(value)
+        self._change("timing", {"item": supervisor, "keyword": keyword, "value": text})
 
     def set_entry_kind(self, entry: str, keyword: str) -> None:
         """Makes an entry an `in`, `out`, `var` or `const`."""
@@ -112,9 +117,9 @@ class Plan(_afp.Plan):
         """Sets or removes the type of an entry."""
         self._change("entry_type", {"item": entry, "type": type})
 
-    def set_entry_value(self, entry: str, value: str | None) -> None:
-        """Sets or removes the initial value of an entry, a formula."""
-        self._change("entry_value", {"item": entry, "value": value})
+    def set_entry_value(self, entry: str, value: str | float | None) -> None:
+        """Sets or removes the initial value of an entry, a formula or a value such as `afp.cm(30)`."""
+        self._change("entry_value", {"item": entry, "value": None if value is None else spelled(value)})
 
     def set_doc(self, item: str, text: str) -> None:
         """Sets the help text above an item; an empty one removes it."""
@@ -144,7 +149,7 @@ def load(path: str | os.PathLike[str], *, plan: str | None = None, toolboxes: Se
     return Plan(path.read_text(encoding="utf-8"), path, name=plan, toolboxes=list(toolboxes))
 
 
-def new_plan(name: str, *, use: Sequence[str] = ("std", "carbot"), toolboxes: Sequence[Toolbox] = ()) -> Plan:
+def new_plan(name: str, *, use: str | Sequence[str] = ("std", "carbot"), toolboxes: Sequence[Toolbox] = ()) -> Plan:
     """An empty plan, to be filled with `add`, `connect` and the like.
 
     >>> plan = new_plan("Patrol", use=["carbot"])
@@ -153,6 +158,6 @@ def new_plan(name: str, *, use: Sequence[str] = ("std", "carbot"), toolboxes: Se
     >>> plan.ok
     True
     """
-    heads = "".join(f"use {toolbox}\n" for toolbox in use)
+    heads = "".join(f"use {toolbox}\n" for toolbox in ([use] if isinstance(use, str) else use))
     gap = "\n" if heads else ""
     return Plan(f"{heads}{gap}plan {name} {{\n}}\n", toolboxes=list(toolboxes))

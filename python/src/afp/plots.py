@@ -75,6 +75,13 @@ def timeline(events: Sequence[Event], end: float, title: str, ax: Any = None) ->
     return ax
 
 
+def _label(column: str) -> str:
+    """The name of a column with its unit in brackets."""
+    name, _, end = column.rpartition("_")
+    unit = {"s": "s", "m": "m", "si": "SI"}.get(end)
+    return f"{name.replace('_', ' ')} [{unit}]" if name and unit else column.replace("_", " ")
+
+
 def runs(x: Sequence[Any], y: Sequence[Any], endings: Sequence[str], labels: tuple[str, str, str], ax: Any = None) -> Any:
     """A measure of many runs, a dot for each, told apart by how they ended."""
     pyplot = need("matplotlib.pyplot", "plot")
@@ -83,6 +90,6 @@ def runs(x: Sequence[Any], y: Sequence[Any], endings: Sequence[str], labels: tup
         dots = [(a, b) for a, b, e in zip(x, y, endings, strict=True) if e == ending and a is not None and b is not None]
         color = PALETTE[number % len(PALETTE)]
         ax.plot([a for a, _ in dots], [b for _, b in dots], "o", color=color, alpha=0.6, label=ending)
-    ax.set(xlabel=labels[0], ylabel=labels[1], title=labels[2])
+    ax.set(xlabel=_label(labels[0]), ylabel=_label(labels[1]), title=labels[2])
     ax.legend(frameon=False)
     return ax

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ._afp import Event, Plan, Runner, World
 from .result import ComponentError, Result
 from .seeds import seed_of
+from .units import moment, seconds
 
 __all__ = ["Simulation"]
 
@@ -47,6 +48,8 @@ class Simulation:
         self.world = world
         self.seed = seed
         self._failures: list[ComponentError] = []
+        if not isinstance(set, (Mapping, type(None))):
+            raise TypeError(f"set gives entries their values, such as {{'walldist': afp.cm(35)}}, not {set!r}")
         self._runner = Runner(plan, world, seed_of(seed), dict(set or {}), log)
 
     # Driving
@@ -56,12 +59,12 @@ class Simulation:
 
         Ctrl-C interrupts it; the simulation can be driven on afterwards.
         """
-        self._runner.run(until, True)
+        self._runner.run(seconds("until", until), True)
         return self.result()
 
     def run_to(self, time: float) -> bool:
         """Lets time pass up to `time` (seconds since the start) and leaves the plan running; whether it still runs."""
-        return self._runner.run(time, False)
+        return self._runner.run(seconds("time", time), False)
 
     def step(self) -> bool:
         """Makes the next step of the plan, which may be a while later; whether the plan still runs."""
@@ -69,6 +72,7 @@ class Simulation:
 
     def stream(self, until: float | None = None) -> Iterator[Event]:
         """Drives the plan and yields its events as they happen, up to `until` (seconds since the start)."""
+        until = moment("until", until)
         seen = self._runner.event_count
         while True:
             running = self._runner.listen(seen, until)
@@ -166,7 +170,7 @@ class Simulation:
 
     def set(self, entry: str, value: Any, *, at: float | None = None) -> None:
         """Writes an entry, now (at the next step) or at a time to come."""
-        self._runner.set(entry, value, at)
+        self._runner.set(entry, value, moment("at", at))
 
     # Stimuli
 
@@ -174,11 +178,11 @@ class Simulation:
         """Presses a button, now or at a time to come."""
         if button != "escape":
             raise ValueError(f"the robot has no button '{button}'; there is: escape")
-        self._runner.hold("escape", at, hold)
+        self._runner.hold("escape", moment("at", at), seconds("hold", hold))
 
     def bump(self, *, at: float | None = None, hold: float = 0.2) -> None:
         """Presses the bumper, now or at a time to come."""
-        self._runner.hold("bumper", at, hold)
+        self._runner.hold("bumper", moment("at", at), seconds("hold", hold))
 
     def fire(
         self,
@@ -193,7 +197,7 @@ class Simulation:
         `outputs` are the values that come with it, one for each output of it that the plan has connected:
         `fire("find", "WallFound", {"angle": afp.deg(10)})`.
         """
-        self._runner.fire(component, outcome, dict(outputs or {}), at)
+        self._runner.fire(component, outcome, dict(outputs or {}), moment("at", at))
 
     def fail(
         self,
@@ -209,7 +213,8 @@ class Simulation:
 
         `delay` is for `delayed` and `slow`, `share` for `slip` and `low`; `afp.faults()` has all pairs.
         """
-        self._runner.fail(device, kind, at, lasting, delay, share)
+        times = (moment("at", at), moment("lasting", lasting), moment("delay", delay))
+        self._runner.fail(device, kind, *times, share)
 
     @property
     def errors(self) -> list[ComponentError]:

@@ -13,7 +13,7 @@ from typing import Any
 from . import plots, tables
 from ._afp import Plan, Sweeper, Toolbox, World
 from .seeds import seed_of
-from .units import Quantity
+from .units import Quantity, seconds
 
 __all__ = ["Runs", "sweep"]
 
@@ -56,6 +56,7 @@ def sweep(
         raise ValueError(f"jobs is {jobs}; give a number of threads from 1 on, or None for all cores")
     if backend not in ("local", "ray"):
         raise ValueError(f"no backend '{backend}'; there are: local, ray")
+    until = seconds("until", until)
     values = [(name, _values(name, given)) for name, given in (vary or {}).items()]
     sweeper = Sweeper(
         plan,

@@ -53,8 +53,49 @@ class Quantity(float):
         return f"Quantity({float(self)!r}, {self.unit!r})"
 
 
+def _number(name: str, value: float) -> float:
+    if isinstance(value, (str, bytes)):
+        raise TypeError(f"{name}() takes a number, not {value!r}")
+    return value
+
+
+def seconds(what: str, value: float) -> float:
+    """A time in seconds, plain or with its unit; `what` names it when it is none."""
+    if isinstance(value, (str, bytes)) or not hasattr(value, "__float__"):
+        raise TypeError(f"{what} is a time in seconds, such as 2.5 or afp.ms(300), not {value!r}")
+    if getattr(value, "unit", "s") != "s":
+        raise TypeError(f"{what} is a time in seconds, not a quantity in {value.unit}")  # type: ignore[attr-defined]
+    return float(value)
+
+
+def moment(what: str, value: float | None) -> float | None:
+    """As `seconds`, where there may be none."""
+    return None if value is None else seconds(what, value)
+
+
+def spelled(value: object) -> str:
+    """A value as it stands in a plan: texts are taken as they are, plain numbers have no unit."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, Quantity):
+        return f"{float(value)!r} {value.unit}"
+    return repr(value) if isinstance(value, (int, float)) else _text(value)
+
+
+def spelled_time(value: str | float) -> str:
+    """A time as it stands in a plan: a text such as `20 ms`, or seconds."""
+    return value if isinstance(value, str) else f"{seconds('a time', value)!r} s"
+
+
+def _text(value: object) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"expected a text, a number or a quantity, not {value!r}")
+    return value
+
+
 def _unit(name: str, unit: str, scale: float, what: str) -> Callable[[float], Quantity]:
     def make(value: float) -> Quantity:
+        value = _number(name, value)
         return Quantity(value * scale if scale >= 1 else value / round(1 / scale), unit)
 
     make.__name__ = make.__qualname__ = name
@@ -75,17 +116,17 @@ rad_per_s = _unit("rad_per_s", "rad/s", 1.0, "So many radians a second.")
 
 def deg(value: float) -> Quantity:
     """So many degrees, in radians."""
-    return Quantity(math.radians(value), "rad")
+    return Quantity(math.radians(_number("deg", value)), "rad")
 
 
 def deg_per_s(value: float) -> Quantity:
     """So many degrees a second, in radians a second."""
-    return Quantity(math.radians(value), "rad/s")
+    return Quantity(math.radians(_number("deg_per_s", value)), "rad/s")
 
 
 def kmh(value: float) -> Quantity:
     """So many kilometres an hour, in metres a second."""
-    return Quantity(value / 3.6, "m/s")
+    return Quantity(_number("kmh", value) / 3.6, "m/s")
 
 
 # Type hints for ports of components: the types of the language.

@@ -13,7 +13,6 @@ use afp_project::{CrateLink, ProjectFile, shown};
 use afp_run::{RunError, write_whole};
 use pyo3::prelude::*;
 
-use super::unwritten;
 use crate::errors::{error, run_error};
 use crate::toolbox::Toolbox;
 
@@ -120,10 +119,7 @@ impl Desk {
 }
 
 fn write(path: &Path, text: &str) -> PyResult<()> {
-    write_whole("cannot write the plan", path, text).map_err(|why| match &why {
-        RunError::File { path, error, .. } => unwritten(path, error),
-        other => run_error(other),
-    })
+    write_whole("cannot write the plan", path, text).map_err(|why| run_error(&why))
 }
 
 /// The text of a file that a plan file uses.

@@ -19,7 +19,7 @@ use pyo3::prelude::*;
 
 use super::stimuli::Deed;
 use super::visitor::Visitor;
-use crate::errors::{error, run_error};
+use crate::errors::{error, log_error, run_error};
 use crate::pause::{Halt, Pause};
 
 /// What a run begins with.
@@ -55,7 +55,7 @@ impl Session {
         if let Some(path) = setting.log {
             let names = NameTable::new(rig.names());
             let log = Recorder::create(path, &about(setting), names, WhenFull::Wait);
-            rig.record(log.map_err(error)?, world, false);
+            rig.record(log.map_err(|why| log_error(&why))?, world, false);
         }
         let own_entries = setting.graph.main().entries.len();
         Ok(Session {

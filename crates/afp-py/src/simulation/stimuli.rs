@@ -2,6 +2,7 @@
 
 use afp::load::Injection;
 use afp_core::{Duration, Value};
+use afp_dsl::scenario::devices::amount;
 use afp_sim::{Amount, Fault};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -46,6 +47,15 @@ pub fn fault(
     time: Option<Duration>,
     share: Option<f64>,
 ) -> PyResult<Fault> {
+    let known = amount(kind).map(|(name, _)| name);
+    if time.is_some() && known != Some("time") || share.is_some() && known != Some("share") {
+        let what = if share.is_some() { "share" } else { "delay" };
+        let text = format!("a {what} says nothing of '{kind}'");
+        return Err(PyValueError::new_err(text));
+    }
+    if let Some(share) = share.filter(|share| !(0.0..=1.0).contains(share)) {
+        return Err(PyValueError::new_err(format!("share is {share}; give a number from 0 to 1")));
+    }
     Fault::named(device, kind, Amount { time, share }).ok_or_else(|| {
         let of = Fault::names().filter(|(name, _)| *name == device);
         let kinds: Vec<_> = of.map(|(_, kind)| kind).collect();

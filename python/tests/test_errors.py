@@ -1,0 +1,63 @@
+"""What people get wrong, and what they are told."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+import afp
+from conftest import ROOT
+
+SAID: list[tuple[str, type[Exception], str]] = [
+    ("sim.run('20 s')", TypeError, "until is a time in seconds, such as 2.5 or afp.ms(300), not '20 s'"),
+    ("sim.run(afp.cm(3))", TypeError, "until is a time in seconds, not a quantity in m"),
+    ("sim.run(until=-1)", ValueError, "-1 is no time from 0 on, in seconds"),
+    ("sim.bump(hold='1 s')", TypeError, "hold is a time"),
+    ("sim.fail('ultrasonic', 'frozen', share=0.3)", ValueError, "a share says nothing of 'frozen'"),
+    ("sim.fail('odometry', 'delayed', share=0.3)", ValueError, "a share says nothing of 'delayed'"),
+    ("sim.fail('battery', 'low', share=7)", ValueError, "share is 7; give a number from 0 to 1"),
+    ("sim.fire('findWallAngle', 'WallFound', {'angle': 'ten'})", TypeError, "expected an angle, not a str"),
+    ("simulate(set={'walldist': True})", TypeError, "'walldist' is a length in m, not a bool"),
+    ("simulate(set={'walldist': None})", TypeError, "'walldist' is a length in m, not a NoneType"),
+    ("simulate(set={'walldist': 10**30})", OverflowError, "more than 64 bits"),
+    ("simulate(set='walldist=3')", TypeError, "set gives entries their values, such as {'walldist': afp.cm(35)}"),
+    ("simulate(log='nowhere/run.mcap')", FileNotFoundError, "cannot write the log: No such file or directory: 'nowhere/run.mcap'"),
+    ("afp.Log('nowhere.mcap')", FileNotFoundError, "cannot read the log: No such file or directory: 'nowhere.mcap'"),
+    ("afp.World.load('hall.toml')", FileNotFoundError, "cannot read the world: No such file or directory: 'hall.toml'"),
+    ("plan.save('nowhere/plan.afp')", FileNotFoundError, "cannot write the plan: No such file or directory"),
+    ("afp.cm('30')", TypeError, "cm() takes a number, not '30'"),
+    ("plan.set_every('searchFirstWall.touch', [5])", TypeError, "a time is a time in seconds"),
+    ("plan.bind('backupCollision', 'distance', None)", TypeError, "expected a text, a number or a quantity, not None"),
+    ("tools.actor(states='Done')", TypeError, "'Done' is one name; states and events are a list: ['Done']"),
+    ("tools.computation(states=['Done'])(lambda: 'Done')", TypeError, "has no name of its own: give name="),
+    ("tools.implement(3)", TypeError, "a component is a class or a function, not 3"),
+]
+
+
+@pytest.mark.parametrize(("tried", "kind", "said"), SAID, ids=[tried for tried, _, _ in SAID])
+def test_an_error_says_what_to_do(tried: str, kind: type[Exception], said: str, wall_following: afp.Plan) -> None:
+    def simulate(**options: Any) -> afp.Simulation:
+        return afp.Simulation(wall_following, **options)
+
+    names = {"afp": afp, "plan": wall_following, "sim": simulate(), "simulate": simulate, "tools": afp.Toolbox("tools")}
+    with pytest.raises(kind) as error:
+        eval(tried, names)
+    assert said in str(error.value)
+
+
+def test_times_and_values_are_taken_as_people_have_them(wall_following: afp.Plan) -> None:
+    afp.Simulation(wall_following).run(until=afp.ms(300))
+    plan = afp.load(ROOT / "plans/wall_following.afp")
+    plan.set_every("searchFirstWall.touch", afp.ms(5))
+    plan.bind("backupCollision", "distance", afp.cm(-20))
+    plan.set_entry_value("walldist", afp.cm(40))
+    assert plan.ok and "every 0.005 s" in plan.text and "distance = -0.2 m" in plan.text and "= 0.4 m" in plan.text
+    tools = afp.Toolbox("tools")
+
+    @tools.supervisor(events=["Near"], every=0.02, deadline=afp.ms(10))
+    def CheckNear(robot: afp.Robot) -> None:
+        return None
+
+    assert "every 0.02 s deadline 0.01 s" in tools.text
+    assert afp.new_plan("P", use="carbot").text.startswith("use carbot\n")
