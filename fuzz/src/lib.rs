@@ -8,7 +8,7 @@ mod names;
 mod text;
 
 pub use edits::edits;
-pub use text::{checker, formatter, layout, parser, settings, world};
+pub use text::{checker, formatter, layout, map, parser, scenario, settings, world};
 
 /// A property of bytes.
 pub type Target = fn(&[u8]);
@@ -22,4 +22,6 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("settings", settings),
     ("layout", layout),
     ("world", world),
+    ("map", map),
+    ("scenario", scenario),
 ];

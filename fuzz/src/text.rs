@@ -5,11 +5,12 @@ use std::borrow::Cow;
 use afp_dsl::diagnostics::Diagnostics;
 use afp_dsl::files::Texts;
 use afp_dsl::layout_file::Layout;
+use afp_dsl::scenario::{Scenario, Window};
 use afp_dsl::source::Source;
 use afp_dsl::syntax::{Node, kind::Kind, parse};
 use afp_dsl::toolbox::Toolboxes;
 use afp_dsl::{compile, format};
-use afp_sim::World;
+use afp_sim::{Simulation, World};
 
 /// Bytes as a reader of files gives them on.
 pub(crate) fn text(data: &[u8]) -> Cow<'_, str> {
@@ -75,6 +76,80 @@ pub fn world(data: &[u8]) {
     let text = text(data);
     if let Err(error) = World::parse(&text) {
         assert!(!error.to_string().is_empty());
+    }
+}
+
+/// A map of `map_server`, its `.yaml` text and after a NUL its picture, becomes the text of a world that can be
+/// simulated, or is refused at a place within the text.
+///
+/// # Panics
+/// When neither.
+pub fn map(data: &[u8]) {
+    let end = data.iter().position(|byte| *byte == 0).unwrap_or(data.len());
+    let (yaml, picture) = (text(&data[..end]), data.get(end + 1..).unwrap_or_default());
+    let named = World::map_picture(&yaml);
+    match World::map_text("fuzzed", &yaml, picture) {
+        Ok(written) => {
+            assert!(named.is_ok(), "a map without a picture's name");
+            let world = World::parse(&written).unwrap_or_else(|why| panic!("{why}\n{written}"));
+            if let Err(why) = Simulation::new(&world, 0) {
+                panic!("{why}\n{written}");
+            }
+        }
+        Err(error) => {
+            assert!(!error.message.is_empty());
+            let (line, column) = error.place.unwrap_or((1, 1));
+            // The end of the text counts as a place, behind a last line break too.
+            assert!(line >= 1 && line <= yaml.matches('\n').count() + 1, "{error}");
+            assert!(column >= 1, "{error}");
+        }
+    }
+}
+
+/// Scenarios of the shipped plans are checked: they belong to their plan and their times are in order, or
+/// errors say what is wrong.
+///
+/// # Panics
+/// When neither.
+pub fn scenario(data: &[u8]) {
+    let text = text(data);
+    let source = Source::new("plans/tests/fuzzed.afp", text.as_ref());
+    let compiled = compile(&source, &toolboxes(), &plan_file);
+    assert_eq!(compiled.graph.is_none(), compiled.diags.has_errors());
+    assert_eq!(compiled.render(false).is_empty(), compiled.diags.is_empty());
+    for scenario in &compiled.scenarios {
+        belongs(scenario, &text);
+    }
+}
+
+/// The texts of the plans that scenarios may be for.
+fn plan_file(path: &str) -> Result<String, String> {
+    const PLANS: &[(&str, &str)] = &[
+        ("plans/find_infrared.afp", include_str!("../../plans/find_infrared.afp")),
+        ("plans/patterns.afp", include_str!("../../plans/patterns.afp")),
+        ("plans/wall_following.afp", include_str!("../../plans/wall_following.afp")),
+    ];
+    let plan = PLANS.iter().find(|(name, _)| *name == path);
+    plan.map(|(_, text)| (*text).to_owned()).ok_or_else(|| "there is no such file".to_owned())
+}
+
+/// What holds for a scenario without errors.
+fn belongs(scenario: &Scenario, text: &str) {
+    let inside = |start: u32, end: u32| text.get(start as usize..end as usize).is_some();
+    assert!(inside(scenario.span.start, scenario.span.end), "{}", scenario.name);
+    assert!(scenario.stimuli.is_sorted_by_key(|stimulus| stimulus.at), "{:?}", scenario.stimuli);
+    for stimulus in &scenario.stimuli {
+        assert!(stimulus.at <= scenario.until, "{stimulus:?}");
+        assert!(inside(stimulus.span.start, stimulus.span.end), "{stimulus:?}");
+    }
+    for expectation in &scenario.expectations {
+        let Window { from, to } = expectation.window;
+        assert!(from <= to && to <= scenario.until, "{expectation:?}");
+        assert!(inside(expectation.span.start, expectation.span.end), "{expectation:?}");
+    }
+    let entries = scenario.graph.main().entries.len();
+    for (entry, _) in &scenario.set {
+        assert!(usize::from(*entry) < entries, "{:?}", scenario.set);
     }
 }
 

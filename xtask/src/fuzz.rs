@@ -19,6 +19,8 @@ const SEEDS: &[(&str, &[&str])] = &[
     ("settings", &[]),
     ("layout", &[]),
     ("world", &["worlds"]),
+    ("map", &[]),
+    ("scenario", &["plans/tests"]),
 ];
 
 const PLANS: &[&str] = &[

@@ -25,6 +25,9 @@ use rapier2d::math::Vector;
 use rapier2d::parry::query;
 use rapier2d::parry::shape::Cuboid;
 
+/// Nothing lies farther from the origin than this, metres: beyond it single precision is coarse.
+const FARTHEST: f64 = 1000.0;
+
 /// A world as read from its file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct World {

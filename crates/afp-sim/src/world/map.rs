@@ -7,7 +7,7 @@ mod boxes;
 mod picture;
 mod settings;
 
-use super::{HALF_LENGTH, HALF_WIDTH, World, WorldError};
+use super::{FARTHEST, HALF_LENGTH, HALF_WIDTH, World, WorldError};
 use boxes::{Cells, Rectangle};
 use settings::Settings;
 use std::fmt::Write;
@@ -36,6 +36,10 @@ impl World {
     pub fn map_text(name: &str, yaml: &str, picture: &[u8]) -> Result<String, WorldError> {
         let settings = Settings::read(yaml)?;
         let grey = picture::read(picture).map_err(|message| WorldError { place: None, message })?;
+        if !is_near(&settings, [grey.width, grey.height].map(|cells| cells as f64)) {
+            let message = format!("the map reaches farther than {FARTHEST} m");
+            return Err(WorldError { place: None, message });
+        }
         let cells = Cells::new(&grey, |value| settings.occupied(value));
         let radius = libm::hypot(HALF_LENGTH, HALF_WIDTH) + ROOM;
         let start = start(&settings, &cells, radius).ok_or_else(|| WorldError {
@@ -49,6 +53,14 @@ impl World {
         }
         Ok(text(name, &settings, &cells, start, &boxes))
     }
+}
+
+/// Whether a map of so many cells is not too large and not too far from the origin.
+fn is_near(settings: &Settings, [width, height]: [f64; 2]) -> bool {
+    let corners = [[0.0, 0.0], [width, 0.0], [0.0, height], [width, height]];
+    let places = corners.map(|[across, up]| settings.place(across, up));
+    let sizes = [width, height].map(|cells| cells * settings.resolution);
+    places.as_flattened().iter().chain(&sizes).all(|value| value.abs() <= FARTHEST)
 }
 
 /// The middle of the free cell nearest to the origin whose surroundings are free as well.
@@ -74,7 +86,7 @@ fn text(
     let name = toml_edit::Value::from(name);
     let mut text =
         format!("version = 1\nname = {name}\n\n[robot]\npose_m_deg = [{x:.4}, {y:.4}, 0.0]\n");
-    let degrees = settings.yaw.to_degrees();
+    let degrees = settings.yaw.to_degrees() % 360.0;
     for Rectangle { left, right, top, bottom } in boxes {
         let (across, up) = ((left + right) as f64 / 2.0, (top + bottom) as f64 / 2.0);
         let [x, y] = settings.place(across, cells.height as f64 - up);

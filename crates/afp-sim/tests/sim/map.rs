@@ -68,7 +68,9 @@ fn what_is_wrong_with_a_map_is_said() {
         (YAML.replace("trinary", "raw"), "line 2, column 1: mode: 'raw'"),
         (YAML.replace("image: room.pgm\n", ""), "image: is to name a picture"),
         (YAML.replace("resolution: 0.1", "resolution: 0.01"), "no free place"),
-        ("a: [".to_owned(), ""),
+        (YAML.replace("[-1.0", "[998"), "the map reaches farther than 1000 m"),
+        ("a: [".to_owned(), "line 1, column "),
+        ("image: room.pgm\nmode".to_owned(), "line 2, column 5"),
         (String::new(), "image"),
     ];
     for (yaml, expected) in cases {

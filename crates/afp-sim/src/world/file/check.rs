@@ -1,10 +1,7 @@
 //! Checks of single values, reported at their keys.
 
 use crate::truth::Pose;
-use crate::world::WorldError;
-
-/// Nothing lies farther from the origin than this, metres: beyond it single precision is coarse.
-const FARTHEST: f64 = 1000.0;
+use crate::world::{FARTHEST, WorldError};
 
 /// The way to a key of the file.
 #[derive(Clone)]

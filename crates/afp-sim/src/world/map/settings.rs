@@ -22,7 +22,7 @@ pub(super) struct Settings {
 impl Settings {
     pub(super) fn read(yaml: &str) -> Result<Settings, WorldError> {
         let documents = Yaml::load_from_str(yaml).map_err(|error| WorldError {
-            place: Some((error.marker().line(), error.marker().col() + 1)),
+            place: Some(within(yaml, error.marker().line(), error.marker().col() + 1)),
             message: error.info().to_owned(),
         })?;
         let keys = Keys { text: yaml, map: documents.first() };
@@ -88,6 +88,16 @@ impl<'a, 'b> Keys<'a, 'b> {
         let line = self.text.lines().position(|line| line.trim_start().starts_with(key));
         WorldError { place: line.map(|line| (line + 1, 1)), message: format!("{key}: {what}") }
     }
+}
+
+/// A line and a column, or the end of the text where they lie beyond: the reader counts an end without a
+/// line break as a line of its own.
+fn within(text: &str, line: usize, column: usize) -> (usize, usize) {
+    let last = text.split('\n').count();
+    if line <= last {
+        return (line, column);
+    }
+    (last, text.rsplit('\n').next().map_or(1, |end| end.chars().count() + 1))
 }
 
 fn number(value: &Yaml<'_>) -> Option<f64> {
