@@ -1,8 +1,13 @@
-"""Executes the notebooks beside this file; a cell that raises fails."""
+"""Executes the notebooks beside this file; a cell that raises fails.
+
+They run in a copy of what they need, so that no outcomes of earlier versions are found.
+"""
 
 from __future__ import annotations
 
+import shutil
 import sys
+import tempfile
 from pathlib import Path
 
 import nbformat
@@ -12,10 +17,15 @@ from nbclient import NotebookClient
 def main() -> int:
     """Runs them one after the other."""
     folder = Path(__file__).resolve().parent
-    for file in sorted(folder.glob("*.ipynb")):
-        print(f"executing {file.name}", flush=True)
-        notebook = nbformat.read(file, as_version=4)
-        NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(folder)}}).execute()
+    root = folder.parents[1]
+    with tempfile.TemporaryDirectory() as copy:
+        for needed in ("plans", "worlds", "python/notebooks"):
+            shutil.copytree(root / needed, Path(copy) / needed)
+        for file in sorted(folder.glob("*.ipynb")):
+            print(f"executing {file.name}", flush=True)
+            notebook = nbformat.read(file, as_version=4)
+            place = {"metadata": {"path": str(Path(copy) / "python/notebooks")}}
+            NotebookClient(notebook, timeout=300, resources=place).execute()
     return 0
 
 

@@ -126,6 +126,8 @@ DEEDS: dict[str, Callable[[Stress, Any], object]] = {
     "keep the robot": lambda machine, robot: machine.robots.append(robot),
     "use a kept robot": lambda machine, robot: [kept.time for kept in machine.robots[-3:]],
 }
+# Computations have none.
+WITH_ROBOT = {"drive", "drive wrong", "drive far too fast", "sense", "sense wrong", "keep the robot", "robot in a thread"}
 ACTIONS = [*SAID, *RAISED, *DEEDS]
 
 
@@ -148,6 +150,8 @@ class Script:
             error = RAISED[action]()
             self.machine.raised.add(type(error))
             raise error
+        if action in WITH_ROBOT and robot is None:
+            return None
         if action in DEEDS:
             DEEDS[action](self.machine, robot)
             return None
