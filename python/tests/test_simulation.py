@@ -89,7 +89,7 @@ def test_stimuli_that_make_no_sense(wall_following: afp.Plan) -> None:
         simulation.fail("hat", "lost")
     with pytest.raises(ValueError, match="no actor or supervisor 'nobody'"):
         simulation.fire("nobody", "Done")
-    with pytest.raises(ValueError, match="there is: escape"):
+    with pytest.raises(ValueError, match="there are: escape, touch"):
         simulation.press("enter")
     with pytest.raises(ValueError, match="no time"):
         simulation.press(at=float("nan"))
@@ -105,6 +105,18 @@ def test_stimuli_that_make_no_sense(wall_following: afp.Plan) -> None:
     assert simulation.run(until=1.0).time == 1.0
     with pytest.raises(afp.AfpError, match="ended|over"):
         simulation.set("walldist", 0.4, at=0.5)
+
+
+def test_actors_that_idle(wall_following: afp.Plan) -> None:
+    idle = afp.Simulation(wall_following)
+    idle.idle()
+    assert idle.run_to(2.0) and idle.active == "searchFirstWall" and idle.pose[:2] == pytest.approx((2.1, 1.95))
+    later = afp.Simulation(wall_following, seed=7)
+    later.idle("backupCollision", at=1.0)
+    later.press("touch", at=1.5)
+    assert later.run_to(10.0) and later.active == "backupCollision"
+    with pytest.raises(ValueError, match="no actor or sub-plan 'searchFirstWall.touch'"):
+        later.idle("searchFirstWall.touch")
 
 
 def test_what_is_fired_comes_with_its_outputs(wall_following: afp.Plan) -> None:

@@ -77,6 +77,8 @@ pub fn long() -> Result<(), Failure> {
     let pip = ["-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir"];
     let mut built = at_package(&python, &pip);
     built.arg(wheels("from-sdist")?).arg(only(&folder, "gz")?);
+    // What is missing is missing without optimisation, too.
+    built.env("MATURIN_PEP517_ARGS", "--profile dev");
     run_command(built.env("CARGO_TARGET_DIR", target().join("xtask/sdist-target")))
 }
 

@@ -288,6 +288,20 @@ impl Runner {
         session.plan(from, Deed::Inject(injection)).map_err(error)
     }
 
+    /// Lets an actor, those of a sub-plan, or all of them do nothing from their next start on.
+    fn idle(&self, element: Option<&str>, at: Option<f64>) -> PyResult<()> {
+        let mut session = self.lock()?;
+        let element = element.map(|path| session.element(path)).transpose()?;
+        let from = session.moment(at.map(instant).transpose()?)?;
+        match at {
+            None => {
+                session.rig.scheduler.plan_mut().idle(element);
+                Ok(())
+            }
+            Some(_) => session.plan(from, Deed::Idle(element)).map_err(error),
+        }
+    }
+
     /// Ends the log, where there is one; its path.
     fn close(&self) -> PyResult<Option<PathBuf>> {
         self.lock()?.close()

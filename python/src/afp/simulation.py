@@ -174,15 +174,13 @@ class Simulation:
 
     # Stimuli
 
-    def press(self, button: str = "escape", *, at: float | None = None, hold: float = 0.2) -> None:
-        """Presses a button, now or at a time to come."""
-        if button != "escape":
-            raise ValueError(f"the robot has no button '{button}'; there is: escape")
-        self._runner.hold("escape", moment("at", at), seconds("hold", hold))
+    def press(self, control: str = "escape", *, at: float | None = None, hold: float = 0.2) -> None:
+        """Presses the button `escape` or the bumper, `touch`, now or at a time to come."""
+        self._runner.hold(control, moment("at", at), seconds("hold", hold))
 
     def bump(self, *, at: float | None = None, hold: float = 0.2) -> None:
-        """Presses the bumper, now or at a time to come."""
-        self._runner.hold("bumper", moment("at", at), seconds("hold", hold))
+        """Presses the bumper, now or at a time to come: `press("touch")`."""
+        self.press("touch", at=at, hold=hold)
 
     def fire(
         self,
@@ -198,6 +196,13 @@ class Simulation:
         `fire("find", "WallFound", {"angle": afp.deg(10)})`.
         """
         self._runner.fire(component, outcome, dict(outputs or {}), moment("at", at))
+
+    def idle(self, element: str | None = None, *, at: float | None = None) -> None:
+        """Lets an actor, those of a sub-plan, or all actors do nothing from their next start on, as in scenarios.
+
+        They are active until they are interrupted, or `fire` lets them report a state.
+        """
+        self._runner.idle(element, moment("at", at))
 
     def fail(
         self,

@@ -207,6 +207,19 @@ impl Session {
         Ok(Injection { component, outcome, outputs: Vec::new() })
     }
 
+    /// An actor or sub-plan by its path.
+    pub fn element(&self, path: &str) -> PyResult<ComponentId> {
+        let about = |id: &ComponentId| self.rig.names().component(*id);
+        let mut ids = (0..self.rig.names().components()).map(ComponentId);
+        let found = ids.find(|id| {
+            let about = about(id);
+            about.path == path && matches!(about.kind, Kind::Actor | Kind::SubPlan)
+        });
+        found.ok_or_else(|| {
+            PyValueError::new_err(format!("the plan has no actor or sub-plan '{path}'"))
+        })
+    }
+
     /// The names of the plan's own entries.
     pub fn own_entries(&self) -> Vec<String> {
         let ids = (0..self.own_entries).map(TraceEntryId);

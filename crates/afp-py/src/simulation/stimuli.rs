@@ -1,6 +1,7 @@
 //! What happens to the robot and the plan from outside.
 
 use afp::load::Injection;
+use afp_core::trace::ComponentId;
 use afp_core::{Duration, Value};
 use afp_dsl::scenario::devices::amount;
 use afp_sim::{Amount, Fault};
@@ -18,6 +19,8 @@ pub enum Deed {
     Break(Fault, Duration),
     /// A component reports what it does not see.
     Inject(Injection),
+    /// An actor, those of a sub-plan, or all of them do nothing from their next start on.
+    Idle(Option<ComponentId>),
 }
 
 /// What people hold down.
@@ -32,9 +35,9 @@ impl Control {
     pub fn named(name: &str) -> PyResult<Control> {
         match name {
             "escape" => Ok(Control::Escape),
-            "bumper" => Ok(Control::Bumper),
+            "touch" => Ok(Control::Bumper),
             _ => Err(PyValueError::new_err(format!(
-                "nothing called '{name}' can be pressed; there are: escape, bumper"
+                "nothing called '{name}' can be pressed; there are: escape, touch"
             ))),
         }
     }

@@ -101,6 +101,9 @@ fn happen(rig: &mut Rig<LoadedPlan<Simulation>>, now: Instant, deed: Deed) -> Re
         Deed::Hold(Control::Bumper, true) => sim.press_bumper(),
         Deed::Hold(Control::Bumper, false) => sim.release_bumper(),
         Deed::Break(fault, lasting) => sim.inject(fault, now, lasting),
+        Deed::Idle(element) => {
+            rig.scheduler.plan_mut().idle(element);
+        }
         Deed::Inject(injection) => {
             let active = rig.scheduler.active();
             let done = rig.scheduler.plan_mut().inject(active, &injection);
