@@ -92,7 +92,8 @@ fn at_package(python: &Path, arguments: &[&str]) -> Command {
 /// Builds the wheel and installs it.
 fn install(python: &Path, profile: &str) -> Result<(), Failure> {
     let folder = wheels(profile)?;
-    let build = ["-m", "maturin", "build", "--quiet", "--profile", profile, "--out"];
+    // Not in pyproject.toml: the lock of a source distribution names crates that are not in it.
+    let build = ["-m", "maturin", "build", "--locked", "--quiet", "--profile", profile, "--out"];
     run_command(at_package(python, &build).arg(&folder))?;
     let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps"];
     let wheel = only(&folder, "whl")?;
