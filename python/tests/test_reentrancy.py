@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import gc
-import os
-import signal
 import subprocess
 import sys
 import threading
@@ -17,6 +15,7 @@ from typing import Any
 import pytest
 
 import afp
+from conftest import interrupted
 
 GO = "use tools\nplan P { start go actor go: Go { Done -> terminate } }"
 
@@ -31,20 +30,6 @@ def tools_with(poll: Callable[..., Any]) -> afp.Toolbox:
             return poll(robot)
 
     return tools
-
-
-def interrupted(work: Callable[[], object]) -> float:
-    """Seconds from Ctrl-C to its exception."""
-    sent: list[float] = []
-
-    def send() -> None:
-        sent.append(time.perf_counter())
-        os.kill(os.getpid(), signal.SIGINT)
-
-    threading.Timer(0.3, send).start()
-    with pytest.raises(KeyboardInterrupt):
-        work()
-    return time.perf_counter() - sent[0]
 
 
 def test_a_component_may_run_another_simulation(wall_following: afp.Plan) -> None:
