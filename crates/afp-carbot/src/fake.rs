@@ -11,6 +11,7 @@ use afp_core::{
     Actor, ActorTemplate, Duration, Environment, Events, Fault, Instant, Poll, Supervisor,
     SupervisorTemplate,
 };
+use std::collections::VecDeque;
 use std::vec::Vec;
 
 /// A plane wall: the direction of its normal, away from the origin, and its distance from there.
@@ -52,10 +53,14 @@ pub(crate) struct Fake {
     pub(crate) dead_battery: bool,
     /// Pings sent from this many milliseconds on hear nothing, for so many pings.
     pub(crate) lost_pings: (u64, u64),
+    /// Echoes are told so many milliseconds after they were heard.
+    pub(crate) late_echoes: u64,
     target: f64,
     command: (f64, f64),
     commanded: Instant,
     echo: Reading<Echo>,
+    /// Those that are not told yet.
+    heard: VecDeque<Reading<Echo>>,
 }
 
 const FORWARD: f64 = 0.1;
@@ -82,10 +87,12 @@ impl Fake {
             charge: 1.0,
             dead_battery: false,
             lost_pings: (u64::MAX, 0),
+            late_echoes: 0,
             target: 0.0,
             command: (0.0, 0.0),
             commanded: Instant::ZERO,
             echo: Reading::invalid(Invalid::NotYet, Instant::ZERO),
+            heard: VecDeque::new(),
         }
     }
 
@@ -121,7 +128,11 @@ impl Fake {
             let lost = self.millis() >= from && self.millis() < from.saturating_add(count * 50);
             let distance = if lost { None } else { self.hear() };
             let echo = Echo { distance, bearing: Angle::from_si(self.rotator) };
-            self.echo = Reading::valid(echo, self.now);
+            self.heard.push_back(Reading::valid(echo, self.now));
+        }
+        let late = Duration::from_millis(self.late_echoes);
+        while let Some(echo) = self.heard.pop_front_if(|echo| self.now.since(echo.time) >= late) {
+            self.echo = echo;
         }
     }
 

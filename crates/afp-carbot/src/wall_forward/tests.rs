@@ -105,6 +105,22 @@ fn a_sensor_that_dies_on_the_way_stops_the_robot_at_once_and_is_a_fault_later() 
 }
 
 #[test]
+fn echoes_that_come_too_late_are_a_fault_and_no_reason_to_drive_or_to_wait_for_ever() {
+    let mut robot = Fake::new(&[beside(0.475), plane(0.0, 2.0)]);
+    robot.late_echoes = 150;
+    assert_eq!(follow(&mut robot, 5.0), Ok(Some(State::LaneNotFree)));
+    let front = 2.0 - robot.motion.x.si() - 0.2;
+    assert!(front > 0.24, "{front}");
+    for late in [250, 400, 600] {
+        let mut robot = Fake::new(&[beside(0.475), plane(0.0, 2.0)]);
+        robot.late_echoes = late;
+        assert_eq!(follow(&mut robot, 5.0), Err(NO_RANGE), "{late} ms late");
+        assert_eq!(robot.motion.x.si(), 0.0, "{late} ms late");
+        assert!(robot.millis() <= 600, "{late} ms late: a fault after {} ms", robot.millis());
+    }
+}
+
+#[test]
 fn dead_devices_are_faults() {
     let mut robot = Fake::new(&[beside(0.475)]);
     robot.range_dies = 0;
