@@ -126,8 +126,8 @@ fn plane(pose: Pose) -> Pose2 {
     Pose2 { x: pose.x, y: pose.y, heading: pose.heading }
 }
 
-/// A motion begun at a pose.
-fn beyond(start: Pose2, moved: Pose2) -> Pose2 {
+/// What is given against a pose (a motion begun there, a sensor on the robot), in the frame of the pose itself.
+pub(crate) fn beyond(start: Pose2, moved: Pose2) -> Pose2 {
     let (sin, cos) = libm::sincos(start.heading);
     Pose2 {
         x: start.x + moved.x * cos - moved.y * sin,

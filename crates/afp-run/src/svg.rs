@@ -57,14 +57,7 @@ pub(crate) fn draw(picture: &Picture<'_>, names: &impl Names) -> String {
         index.map_or(NOBODY, |index| PALETTE[index % PALETTE.len()])
     };
     let view = View::around(bounds(world, path));
-    let mut canvas = Canvas::new(view);
-    canvas.floor();
-    for patch in &world.patches {
-        canvas.patch(&patch.corners, patch.color);
-    }
-    for obstacle in &world.obstacles {
-        canvas.obstacle(&obstacle.outline.corners(), obstacle.height < LOW);
-    }
+    let mut canvas = room(world, view);
     for (obstacle, way) in ways(world) {
         let (middle, _) = middle(&obstacle.outline);
         canvas.way(&way.map(|by| [middle[0] + by[0], middle[1] + by[1]]).collect::<Vec<_>>());
@@ -96,21 +89,27 @@ pub(crate) fn draw(picture: &Picture<'_>, names: &impl Names) -> String {
         canvas.robot(last.pose, true);
     }
     let kinds = marks::kinds(marks);
-    for mark in *marks {
-        let kind = kinds.iter().position(|kind| *kind == (mark.supervisor, mark.event));
-        canvas.mark(mark.pose, kind.unwrap_or(0), mark.at);
-    }
+    marks::draw(&mut canvas, marks, &kinds);
     canvas.scale_bar();
     let mut legend = Legend::new(view);
     legend.head(&picture.title, &picture.subtitle);
     legend.actors(actors.iter().map(|id| (names.component(*id).path, color(Some(*id)))));
-    legend.events(kinds.iter().map(|(id, event)| {
-        let same = |mark: &&Mark| (mark.supervisor, mark.event) == (*id, *event);
-        let name = format!("{}.{}", names.component(*id).path, names.outcome(*id, *event));
-        (name, marks.iter().filter(same).count())
-    }));
+    legend.events(marks::counted(marks, &kinds, names));
     legend.figures(&picture.figures);
     canvas.finish(legend)
+}
+
+/// The floor with everything that stands on it.
+fn room(world: &World, view: View) -> Canvas {
+    let mut canvas = Canvas::new(view);
+    canvas.floor();
+    for patch in &world.patches {
+        canvas.patch(&patch.corners, patch.color);
+    }
+    for obstacle in &world.obstacles {
+        canvas.obstacle(&obstacle.outline.corners(), obstacle.height < LOW);
+    }
+    canvas
 }
 
 /// The actors that ran, in the order in which they first did.

@@ -42,8 +42,8 @@ def sweep(
     line (`"20cm..60cm:5cm"`). Each run is stopped at `until` seconds.
 
     `jobs` is the number of threads. Runs are done by the engine of `afpc sweep` while other threads of Python go on;
-    components written in Python take turns for the interpreter, unless a cluster has several processes. `progress` shows a bar on a terminal or in a
-    notebook, or is called with how many runs are done of how many.
+    components written in Python take turns for the interpreter, unless a cluster has several processes.
+    `progress` shows a bar on a terminal or in a notebook, or is called with how many runs are done of how many.
 
     `out` (`runs.csv`, `runs.parquet`, or a folder for both) keeps each outcome as it comes: the same call goes on
     where an earlier one was stopped or killed, unless `restart` is set; `afpc sweep` goes on with it too.

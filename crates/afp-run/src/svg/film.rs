@@ -1,6 +1,8 @@
 //! What the camera saw: a film strip from a log, each picture with its time and the actor that was
 //! active.
 
+mod still;
+
 use std::fmt::Write;
 
 use afp_core::Instant;
@@ -14,8 +16,6 @@ use super::from_log::follow;
 use super::{NOBODY, PALETTE, actors};
 use crate::error::RunError;
 use still::fewer_colors;
-
-mod still;
 
 /// A longer film is thinned out evenly to so many pictures.
 const MOST: usize = 40;

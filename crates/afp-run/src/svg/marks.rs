@@ -1,7 +1,8 @@
 //! Symbols for events, one for each kind that was taken.
 
-use afp_core::trace::ComponentId;
+use afp_core::trace::{ComponentId, Names};
 
+use super::canvas::Canvas;
 use crate::judge::Mark;
 
 /// The kinds of events in the order in which they first came.
@@ -14,6 +15,26 @@ pub(super) fn kinds(marks: &[Mark]) -> Vec<(ComponentId, u16)> {
         }
     }
     kinds
+}
+
+/// Draws each mark where it was taken, with the symbol of its kind.
+pub(super) fn draw(canvas: &mut Canvas, marks: &[Mark], kinds: &[(ComponentId, u16)]) {
+    for mark in marks {
+        let kind = kinds.iter().position(|kind| *kind == (mark.supervisor, mark.event));
+        canvas.mark(mark.pose, kind.unwrap_or(0), mark.at);
+    }
+}
+
+/// The kinds by their names, and how often each came.
+pub(super) fn counted<'a>(
+    marks: &'a [Mark],
+    kinds: &'a [(ComponentId, u16)],
+    names: &'a impl Names,
+) -> impl Iterator<Item = (String, usize)> + 'a {
+    kinds.iter().map(|&(id, event)| {
+        let same = marks.iter().filter(|mark| (mark.supervisor, mark.event) == (id, event));
+        (format!("{}.{}", names.component(id).path, names.outcome(id, event)), same.count())
+    })
 }
 
 /// The symbol of a kind, around a point in pixels.

@@ -4,16 +4,15 @@
 //! from where its odometry took it to be, which shows what a map made on board would look like.
 
 use afp_core::Instant;
-use afp_core::trace::Names;
 use afp_log::robot::Pose2;
 use afp_log::{Heard, LogData, NameTable};
-use afp_sim::World;
 
-use super::canvas::{Canvas, View};
+use super::canvas::View;
 use super::from_log::{follow, subtitle, world_of};
 use super::legend::Legend;
-use super::{LOW, bounds, marks};
+use super::{bounds, marks, room};
 use crate::error::RunError;
+use crate::robot::beyond;
 
 /// An echo in the world: where it seems to come from, and the ends of the arc that the cone leaves open.
 struct Echo {
@@ -53,34 +52,14 @@ pub fn draw_sonar(log: &LogData) -> Result<String, RunError> {
         canvas.robot(last.pose, true);
     }
     let kinds = marks::kinds(&marks);
-    for mark in &marks {
-        let kind = kinds.iter().position(|kind| *kind == (mark.supervisor, mark.event));
-        canvas.mark(mark.pose, kind.unwrap_or(0), mark.at);
-    }
+    marks::draw(&mut canvas, &marks, &kinds);
     canvas.scale_bar();
     let mut legend = Legend::new(view);
     legend.head(log.facts.get("plan").map_or("", String::as_str), &subtitle(&world, log));
     legend.sonar();
-    legend.events(kinds.iter().map(|(id, event)| {
-        let name = format!("{}.{}", names.component(*id).path, names.outcome(*id, *event));
-        let same = marks.iter().filter(|mark| (mark.supervisor, mark.event) == (*id, *event));
-        (name, same.count())
-    }));
+    legend.events(marks::counted(&marks, &kinds, &names));
     legend.figures(&figures(log, heard));
     Ok(canvas.finish(legend))
-}
-
-/// The floor with everything that stands on it.
-fn room(world: &World, view: View) -> Canvas {
-    let mut canvas = Canvas::new(view);
-    canvas.floor();
-    for patch in &world.patches {
-        canvas.patch(&patch.corners, patch.color);
-    }
-    for obstacle in &world.obstacles {
-        canvas.obstacle(&obstacle.outline.corners(), obstacle.height < LOW);
-    }
-    canvas
 }
 
 fn figures(log: &LogData, heard: usize) -> Vec<(&'static str, String)> {
@@ -131,16 +110,6 @@ fn pose_at(poses: &[(Instant, Pose2)], at: Instant) -> Option<Pose2> {
         y: between(before.y, after.y),
         heading: before.heading + turn * share,
     })
-}
-
-/// A pose that is given against another one.
-fn beyond(base: Pose2, pose: Pose2) -> Pose2 {
-    let (sin, cos) = libm::sincos(base.heading);
-    Pose2 {
-        x: base.x + pose.x * cos - pose.y * sin,
-        y: base.y + pose.x * sin + pose.y * cos,
-        heading: base.heading + pose.heading,
-    }
 }
 
 #[cfg(test)]
