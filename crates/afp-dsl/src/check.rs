@@ -21,7 +21,7 @@ mod resources;
 pub(crate) mod scenario;
 mod scope;
 mod signature;
-mod size;
+pub(crate) mod size;
 pub(crate) mod text;
 pub(crate) mod timing;
 pub(crate) mod types;

@@ -8,6 +8,7 @@ mod dump;
 
 use std::sync::Arc;
 
+use crate::rows::Rows;
 use crate::source::Span;
 use crate::toolbox::{Template, Toolbox};
 use crate::types::{Conversion, Type};
@@ -49,6 +50,8 @@ pub struct Graph {
     pub main: PlanId,
     /// The toolboxes in use, in the order in which the files name them.
     pub toolboxes: Vec<Arc<Toolbox>>,
+    /// The tables that the scheduler reads, one for each of [`Graph::plans`].
+    pub rows: Vec<Rows>,
 }
 
 /// One plan: elements, supervisors, entries.
@@ -287,19 +290,13 @@ impl Graph {
         &self.plans[id.index()]
     }
 
+    /// The tables of a plan by index.
+    pub fn rows(&self, id: PlanId) -> &Rows {
+        &self.rows[id.index()]
+    }
+
     /// A template by index.
     pub fn template(&self, id: TemplateId) -> &Template {
         &self.toolboxes[id.toolbox.index()].templates[usize::from(id.index)]
-    }
-}
-
-impl Plan {
-    /// The supervisors that are polled while `element` is active: its own and the global ones,
-    /// shorter declared deadline first, then global before local, then as written.
-    pub fn sweep(&self, element: &Element) -> Vec<SupervisorId> {
-        let globals = (0..self.globals).map(SupervisorId);
-        let mut order: Vec<_> = globals.chain(element.supervisors.iter().copied()).collect();
-        order.sort_by_key(|id| self.supervisors[id.index()].deadline);
-        order
     }
 }

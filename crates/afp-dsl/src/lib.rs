@@ -14,6 +14,7 @@ mod format;
 mod gather;
 pub mod graph;
 pub mod layout_file;
+pub mod rows;
 pub mod scenario;
 pub mod source;
 pub mod syntax;

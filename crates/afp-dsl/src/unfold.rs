@@ -1,9 +1,9 @@
 //! Numbers for everything in a running plan, sub-plans unfolded.
 //!
 //! A trace speaks in these numbers. Generated code, plans loaded at run time and readers of logs
-//! take them from here, so they cannot disagree: 0 is the outermost plan; then come its elements
-//! and its supervisors, then, element by element, the blocks of its sub-plans, laid out alike.
-//! Entries are numbered the same way.
+//! take the names from here, and from [`crate::rows`] where the numbers of a sub-plan begin, so they
+//! cannot disagree: 0 is the outermost plan; then come its elements and its supervisors, then, element
+//! by element, the blocks of its sub-plans, laid out alike. Entries are numbered the same way.
 
 use crate::graph::{Component, EntryKind, Graph, Plan, PlanId, Target};
 use crate::types::Type;
@@ -59,43 +59,6 @@ pub struct Unfolded {
     pub components: Vec<ComponentNames>,
     /// The entries.
     pub entries: Vec<EntryNames>,
-}
-
-/// How many numbers a plan takes, and where those of its sub-plans begin.
-#[derive(Clone, Debug, Default)]
-pub struct Block {
-    /// Components, those of sub-plans included, itself excluded.
-    pub components: u32,
-    /// Entries, those of sub-plans included.
-    pub entries: u32,
-    /// For each element that is a sub-plan, where its components and entries begin, counted from
-    /// the first of this plan; zero for the others.
-    pub children: Vec<(u32, u32)>,
-}
-
-/// The block of each plan of a graph.
-pub fn blocks(graph: &Graph) -> Vec<Block> {
-    let mut blocks: Vec<Block> = Vec::with_capacity(graph.plans.len());
-    for plan in &graph.plans {
-        let mut block = Block {
-            components: (plan.elements.len() + plan.supervisors.len()) as u32,
-            entries: plan.entries.len() as u32,
-            children: Vec::with_capacity(plan.elements.len()),
-        };
-        for element in &plan.elements {
-            // Sub-plans stand before the plans that use them.
-            let child = match element.component {
-                Component::SubPlan(id) => blocks.get(id.index()),
-                Component::Actor(_) | Component::Computation(_) => None,
-            };
-            let begin = child.map_or((0, 0), |_| (block.components, block.entries));
-            block.children.push(begin);
-            block.components += child.map_or(0, |child| child.components);
-            block.entries += child.map_or(0, |child| child.entries);
-        }
-        blocks.push(block);
-    }
-    blocks
 }
 
 /// How a component hangs together with the others, by their numbers.

@@ -8,7 +8,7 @@ use afp_dsl::graph::{
 use afp_dsl::scenario::Injection;
 use afp_dsl::toolbox::{Constant, OutPort};
 use afp_dsl::types::Type;
-use afp_dsl::unfold::{Goal, Place, Unfolded, blocks, places, unfold};
+use afp_dsl::unfold::{Goal, Place, Unfolded, places, unfold};
 
 use crate::watch::hits::Hits;
 
@@ -256,11 +256,10 @@ fn add(graph: &Graph, home: Part, parts: &mut Vec<Part>, homes: &mut Vec<Part>) 
     parts.extend(
         (0..plan.supervisors.len()).map(|id| part(What::Supervisor(SupervisorId(id as u16)))),
     );
-    let block = &blocks(graph)[home.plan.index()];
-    for ((element, (_, entries)), number) in plan.elements.iter().zip(&block.children).zip(first..)
-    {
+    let rows = &graph.rows(home.plan).elements;
+    for ((element, row), number) in plan.elements.iter().zip(rows).zip(first..) {
         if let Component::SubPlan(child) = element.component {
-            let entries = home.entries + entries;
+            let entries = home.entries + row.child.entries;
             let inner = Part { plan: child, what: What::Plan, entries, home: number };
             add(graph, inner, parts, homes);
         }

@@ -3,6 +3,7 @@
 use crate::check::Program;
 use crate::check::names::key;
 use crate::graph::{self, Component, Graph, PlanId};
+use crate::rows;
 
 /// The graph of the plan `main`; `order` has sub-plans before their users.
 pub(super) fn graph(
@@ -29,7 +30,10 @@ pub(super) fn graph(
     }
     let main = ids[main]?;
     tell_apart(&mut drawn, main);
-    Some(Graph { plans: drawn, main, toolboxes: program.linked.clone() })
+    let toolboxes = program.linked.clone();
+    let mut graph = Graph { plans: drawn, main, toolboxes, rows: Vec::new() };
+    graph.rows = rows::lower(&graph)?;
+    Some(graph)
 }
 
 /// Which plans `main` is made of, itself included.

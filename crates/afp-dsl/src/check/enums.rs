@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use crate::check::names::Names;
+use crate::check::size;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::rows::MAX_ROWS;
 use crate::syntax::ast;
 use crate::types::Enum;
 
@@ -19,6 +21,8 @@ pub(crate) fn read(
     for variant in &variants {
         names.declare(variant, diags);
     }
+    let spans = variants.iter().map(|variant| variant.span);
+    size::at_most(MAX_ROWS, ("an enum", "values"), spans, "split it into two enums", diags);
     if variants.is_empty() && !diags.error_within(node.span()) {
         diags.push(
             Diagnostic::new(

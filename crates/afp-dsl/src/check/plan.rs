@@ -6,9 +6,10 @@ use crate::check::edges::Elements;
 use crate::check::formula::Scope;
 use crate::check::names::{self, Names};
 use crate::check::resources::Users;
-use crate::check::{Context, PlanHead, Program, edges};
+use crate::check::{Context, PlanHead, Program, edges, size};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{self, Element, ElementId, Supervisor, SupervisorId};
+use crate::rows::Table;
 use crate::source::Span;
 use crate::syntax::ast;
 
@@ -56,7 +57,12 @@ pub(crate) fn check(
         drawn.push(element.and_then(|element| own(element, first, supervisors.len())));
     }
     let start = start(&head.node, &names, diags);
-    too_many(head.name.as_ref(), &[elements.len(), supervisors.len(), head.entries.len()], diags);
+    let written = [
+        (Table::Entries, head.entries.len()),
+        (Table::Elements, elements.len()),
+        (Table::Supervisors, supervisors.len()),
+    ];
+    size::too_many_rows(head.name.as_ref(), written, diags);
     let plan = finish(context, head, drawn, supervisors, globals, start);
     (plan, users)
 }
@@ -179,16 +185,4 @@ fn half_typed(plan: &ast::Plan, diags: &Diagnostics) -> bool {
     diags
         .syntax_errors_within(plan.span())
         .any(|span| !inner.iter().any(|item| item.contains(span)))
-}
-
-fn too_many(name: Option<&ast::Name>, counts: &[usize], diags: &mut Diagnostics) {
-    let limit = usize::from(u16::MAX);
-    if let Some(name) = name.filter(|_| counts.iter().any(|count| *count > limit)) {
-        let message =
-            format!("'{}' has more than {limit} elements, supervisors or entries", name.text);
-        diags.push(
-            Diagnostic::new(Code::E0231, name.span, message)
-                .help("move some of them to a sub-plan"),
-        );
-    }
 }

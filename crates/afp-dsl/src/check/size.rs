@@ -1,11 +1,15 @@
-//! How large a plan is when it runs: every use of a sub-plan is a sub-plan of its own.
+//! How large a plan is: the tables of a plan, and what it comes to when it runs.
 //!
-//! A few plans that use each other twice are a million elements; whatever unfolds them would run out
-//! of memory or stack.
+//! Rows are numbered with 16 bits. When a plan runs, every use of a sub-plan is a sub-plan of its own:
+//! a few plans that use each other twice are a million elements, and whatever unfolds them would run
+//! out of memory or stack.
 
 use crate::check::Program;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{Component, Plan};
+use crate::rows::{MAX_ROWS, Table, tables};
+use crate::source::Span;
+use crate::syntax::ast::Name;
 
 /// Greatest number of elements and supervisors of a running plan.
 const MAX_COMPONENTS: u64 = 100_000;
@@ -28,8 +32,15 @@ pub(super) fn check(
     order: &[usize],
     diags: &mut Diagnostics,
 ) {
+    too_many_plans(program, diags);
     let mut sizes = vec![None; plans.len()];
     for place in order {
+        if let Some(plan) = &plans[*place] {
+            // What people can count in the text is reported also for a plan without a graph.
+            let derived = |table| matches!(table, Table::Edges | Table::Sweeps);
+            let rows = tables(plan).into_iter().filter(|(table, _)| derived(*table));
+            too_many_rows(program.plans[*place].name.as_ref(), rows, diags);
+        }
         let Some(size) = plans[*place].as_ref().and_then(|plan| size(plan, &sizes)) else {
             continue;
         };
@@ -42,6 +53,54 @@ pub(super) fn check(
             None => sizes[*place] = Some(size),
         }
     }
+}
+
+/// Reports the first item beyond the greatest number that there may be.
+pub(crate) fn at_most(
+    limit: usize,
+    (owner, what): (&str, &str),
+    items: impl IntoIterator<Item = Span>,
+    help: &str,
+    diags: &mut Diagnostics,
+) {
+    if let Some(span) = items.into_iter().nth(limit) {
+        let message = format!("{owner} has at most {limit} {what}");
+        diags.push(Diagnostic::new(Code::E0231, span, message).help(help));
+    }
+}
+
+/// Reports each table of a plan that has too many rows.
+pub(super) fn too_many_rows(
+    name: Option<&Name>,
+    rows: impl IntoIterator<Item = (Table, usize)>,
+    diags: &mut Diagnostics,
+) {
+    let Some(name) = name else { return };
+    for (table, count) in rows.into_iter().filter(|(_, count)| *count > MAX_ROWS) {
+        let message =
+            format!("'{}' has {count} {}; at most {MAX_ROWS} fit", name.text, what(table));
+        diags.push(
+            Diagnostic::new(Code::E0231, name.span, message)
+                .help("move some of them to a sub-plan"),
+        );
+    }
+}
+
+fn what(table: Table) -> &'static str {
+    match table {
+        Table::Entries => "entries",
+        Table::Elements => "elements",
+        Table::Supervisors => "supervisors",
+        Table::Edges => "states and events",
+        Table::Sweeps => "pairs of an element and a supervisor that watches it",
+    }
+}
+
+/// Plans are numbered, too.
+fn too_many_plans(program: &Program<'_>, diags: &mut Diagnostics) {
+    let help = "leave out files whose plans are not needed";
+    let names = program.plans.iter().filter_map(|head| Some(head.name.as_ref()?.span));
+    at_most(MAX_ROWS, ("a plan with the files that it uses", "plans"), names, help, diags);
 }
 
 /// `None` for a plan that contains one which is too large or has errors.

@@ -24,7 +24,6 @@ use crate::codegen::layout::{comment, doc};
 use crate::codegen::names::camel;
 use crate::graph::{Graph, PlanId};
 use crate::source::Span;
-use crate::unfold;
 use context::Context;
 pub(crate) use shared::units_name;
 
@@ -58,15 +57,13 @@ pub struct Module {
 
 /// The Rust code of all plans of a graph.
 pub fn plan(graph: &Graph, options: &Options) -> Generated {
-    let blocks = unfold::blocks(graph);
-    let places = (0..).zip(&graph.plans);
     let enums = shared::enums_of(graph);
     let mut modules = shared::modules(graph, &enums, options);
-    for ((number, plan), block) in places.zip(&blocks) {
-        let context = Context::new(graph, &enums, plan, block);
-        modules.push(module(&context, options, PlanId(number)));
+    let ids = (0..=u16::MAX).map(PlanId).take(graph.plans.len());
+    for id in ids.clone() {
+        modules.push(module(&Context::new(graph, &enums, id), options, id));
     }
-    let plans = (0..graph.plans.len() as u16).map(|number| home(graph, PlanId(number)));
+    let plans = ids.map(|id| home(graph, id));
     let (main, plan) = home(graph, graph.main);
     Generated { modules, plans: plans.collect(), main, plan }
 }

@@ -96,7 +96,7 @@ codes! {
     E0228 Error "formula that has no value"
     E0229 Error "initial value that is not known yet"
     E0230 Error "text too long"
-    E0231 Error "formula or plan too large"
+    E0231 Error "formula, plan or toolbox too large"
     E0232 Error "unknown type"
     E0233 Error "'Interrupted' left unconnected"
     E0235 Error "Celsius inside a formula"

@@ -2,6 +2,7 @@
 
 use crate::flow::view::View;
 use crate::graph::{Component, Supervisor, SupervisorId, Target as Flow};
+use crate::rows::polling_order;
 
 use super::cost::Cost;
 use super::level::{Levels, Outside};
@@ -51,18 +52,16 @@ fn response(
     Ok(Response { tick, step: longest_step.known()?, before: before.known()?, own })
 }
 
-/// For each supervisor of a plan the most that is polled before it in one step: shorter deadlines
-/// first, then global before local, then as written.
+/// For each supervisor of a plan the most that is polled before it in one step.
 fn before(view: &View<'_>) -> Vec<Cost> {
     let plan = view.plan;
-    let mut order: Vec<usize> = (0..plan.supervisors.len()).collect();
-    order.sort_by_key(|at| (plan.supervisors[*at].deadline, *at));
+    let all = (0..=u16::MAX).map(SupervisorId).take(plan.supervisors.len());
     let mut before = vec![Cost::ZERO; plan.supervisors.len()];
     let mut globals = Cost::ZERO;
     let mut locals = vec![Cost::ZERO; plan.elements.len()];
     let mut most_locals = Cost::ZERO;
-    // Global supervisors stand first in the table, so the order of the search is that of the polls.
-    for at in order {
+    for id in polling_order(plan, all) {
+        let at = id.index();
         let supervisor = &plan.supervisors[at];
         let budget = Cost::budget(view.model.template(supervisor.template));
         match supervisor.owner {

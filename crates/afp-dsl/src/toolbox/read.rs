@@ -7,8 +7,9 @@ use std::sync::Arc;
 
 use crate::check::names::Names;
 use crate::check::types::Types;
-use crate::check::{enums, imports, shadows, text};
+use crate::check::{enums, imports, shadows, size, text};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::rows::MAX_ROWS;
 use crate::source::{Source, Span};
 use crate::syntax::ast::{File, Item, Name};
 use crate::syntax::parse;
@@ -84,6 +85,14 @@ fn read(
     };
     let types = declare(&items, &mut toolbox, diags);
     toolbox.templates = templates(&items, &types, &source.text, diags);
+    let spans = toolbox.templates.iter().map(|template| template.span);
+    size::at_most(
+        MAX_ROWS,
+        ("a toolbox", "templates"),
+        spans,
+        "split it into two toolboxes",
+        diags,
+    );
     Some(toolbox)
 }
 

@@ -41,9 +41,10 @@ fn the_plan_of_the_paper_compiles_without_a_word() {
         "turnAfterWallLost",
     ];
     assert_eq!(names, expected);
-    let sweep: Vec<_> = plan
-        .sweep(&plan.elements[0])
-        .into_iter()
+    let rows = graph.rows(graph.main);
+    let sweep: Vec<_> = rows
+        .sweep(&rows.elements[0])
+        .iter()
         .map(|id| plan.supervisors[id.index()].name.as_str())
         .collect();
     assert_eq!(sweep, ["touch", "checkLane", "escape"]);

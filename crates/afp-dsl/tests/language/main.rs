@@ -3,6 +3,7 @@
 mod errors;
 mod explanations;
 mod graph;
+mod limits;
 mod scale;
 mod support;
 mod timing;

@@ -8,6 +8,8 @@ use afp_core::{Fault, Value, ValueRef};
 use afp_dsl::graph::Entry;
 use afp_dsl::types::Type;
 
+use super::plan::numbered;
+
 /// An object of some Rust type that only its templates know.
 pub trait ObjectCell: Send {
     /// The object, while there is one.
@@ -113,7 +115,7 @@ impl Config {
     fn commit_staged<S: Sink>(&mut self, to: &mut Committer<'_, S>) {
         self.staged.dirty = false;
         let staged = self.staged.values.iter_mut().zip(&mut self.staged.objects);
-        for (entry, (slot, (value, object))) in self.values.0.iter_mut().zip(staged).enumerate() {
+        for (entry, (slot, (value, object))) in numbered(self.values.0.iter_mut().zip(staged)) {
             let Some(mut value) = value.take() else { continue };
             if let (Value::Object(number), Some(to_cell), Some(from)) =
                 (&mut value, &mut slot.object, object)
@@ -123,7 +125,7 @@ impl Config {
                 from.clear();
             }
             let old = if slot.is_set { slot.value.borrow() } else { ValueRef::Unset };
-            to.wrote(entry as u16, old, value.borrow());
+            to.wrote(entry, old, value.borrow());
             slot.value = value;
             slot.is_set = true;
         }

@@ -8,6 +8,7 @@ use afp_dsl::graph;
 
 use super::config::{ObjectCell, Staged, Values};
 use super::formula::{Converter, Formula, check_finite};
+use super::plan::numbered;
 
 /// The bound formulas of a component, and room for the texts that they make.
 pub struct Inputs {
@@ -51,7 +52,7 @@ impl Binding {
 impl Inputs {
     pub fn new(formulas: &[graph::Formula]) -> Self {
         let formulas: Vec<_> = formulas.iter().map(Formula::new).collect();
-        let makers = (0..).zip(&formulas).filter(|(_, formula)| formula.makes_text());
+        let makers = numbered(&formulas).filter(|(_, formula)| formula.makes_text());
         let texts = makers.map(|(port, _)| (port, Ok(Text::new()))).collect();
         Inputs { formulas, texts }
     }

@@ -10,7 +10,6 @@ use afp_core::trace::{ComponentId, Sink};
 use afp_core::{Clock, Environment, Fault, PlanState, Value, ValueRef, WriteError};
 use afp_dsl::graph::{self, Component, EntryKind, Graph, PlanId};
 use afp_dsl::types::Type;
-use afp_dsl::unfold::{self, Block};
 
 use super::config::{Config, ObjectCell};
 use super::element::{ElementSlot, Running};
@@ -127,13 +126,13 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     /// # Errors
     /// A template or object type that the registry does not know.
     pub fn new(graph: &Graph, registry: &Registry<E>) -> Result<Self, LoadError> {
-        let (names, blocks) = (PlanNames::new(graph), unfold::blocks(graph));
-        Loader { graph, registry, blocks, names }.plan(graph.main)
+        let names = PlanNames::new(graph);
+        Loader { graph, registry, names }.plan(graph.main)
     }
 
     /// The number of an entry.
     pub fn entry_number(&self, name: &str) -> Option<u16> {
-        self.entries.iter().position(|entry| entry.name == name).map(|index| index as u16)
+        numbered(&self.entries).find(|(_, entry)| entry.name == name).map(|(number, _)| number)
     }
 
     /// The names of the entries, in their order.
@@ -229,7 +228,7 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
 
     /// Gives the `port`-th `in` entry its value for the next activation.
     pub(super) fn pass(&mut self, port: usize, value: Value, object: Option<&dyn ObjectCell>) {
-        let mut inputs = (0..).zip(&self.entries).filter(|(_, entry)| entry.kind == EntryKind::In);
+        let mut inputs = numbered(&self.entries).filter(|(_, entry)| entry.kind == EntryKind::In);
         if let Some((entry, _)) = inputs.nth(port) {
             self.config.values.set(entry, value, object);
         }
@@ -237,8 +236,8 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
 
     /// The `out` entries that are set, each with its position among the `out` entries.
     pub(super) fn results(&self) -> impl Iterator<Item = (u16, u16)> {
-        let outs = (0..).zip(&self.entries).filter(|(_, entry)| entry.kind == EntryKind::Out);
-        let outs = (0..).zip(outs).map(|(port, (entry, _))| (port, entry));
+        let outs = numbered(&self.entries).filter(|(_, entry)| entry.kind == EntryKind::Out);
+        let outs = numbered(outs).map(|(port, (entry, _))| (port, entry));
         outs.filter(|(_, entry)| self.config.values.is_set(*entry))
     }
 
@@ -252,16 +251,17 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
 struct Loader<'a, E: ?Sized + 'static> {
     graph: &'a Graph,
     registry: &'a Registry<E>,
-    blocks: Vec<Block>,
     names: PlanNames,
 }
 
 impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
     fn plan(&self, id: PlanId) -> Result<LoadedPlan<E>, LoadError> {
         let plan = self.graph.plan(id);
-        let tables = LoadedTables::new(self.graph, plan, &self.blocks[id.index()]);
+        let tables = LoadedTables::new(self.graph.rows(id));
         self.check_objects(plan)?;
-        let elements = plan.elements.iter().enumerate();
+        let rows = tables.table();
+        let elements = plan.elements.iter().zip(rows.elements);
+        let supervisors = plan.supervisors.iter().zip(rows.supervisors);
         Ok(LoadedPlan {
             config: Config::new(&plan.entries, |ty| match ty {
                 Type::Object(object) => self.registry.object_cell(&object.toolbox, &object.name),
@@ -271,19 +271,10 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
             names: self.names.clone(),
             initial: initial(plan),
             elements: elements
-                .map(|(index, element)| {
-                    let child = tables.table().elements[index].child;
-                    self.element(element, child)
-                })
+                .map(|(element, row)| self.element(element, row.child))
                 .collect::<Result<_, _>>()?,
-            supervisors: plan
-                .supervisors
-                .iter()
-                .enumerate()
-                .map(|(index, supervisor)| {
-                    let wanted = tables.table().supervisors[index].wanted;
-                    self.supervisor(supervisor, wanted)
-                })
+            supervisors: supervisors
+                .map(|(supervisor, row)| self.supervisor(supervisor, row.wanted))
                 .collect::<Result<_, _>>()?,
             tables,
         })
@@ -341,6 +332,11 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
     }
 }
 
+/// Items with their 16-bit numbers, of which the tables of a plan have no more.
+pub(super) fn numbered<T>(items: impl IntoIterator<Item = T>) -> impl Iterator<Item = (u16, T)> {
+    (0..=u16::MAX).zip(items)
+}
+
 /// A value of the entry's own type: an `int` given to a `float` becomes one.
 fn fit(ty: Option<&Type>, value: &Value) -> Value {
     match (ty, value) {
@@ -356,11 +352,11 @@ fn initial(plan: &graph::Plan) -> Vec<(u16, Formula)> {
         EntryKind::In => 1,
         EntryKind::Var | EntryKind::Out => 2,
     };
-    let mut order: Vec<_> = plan.entries.iter().enumerate().collect();
+    let mut order: Vec<_> = numbered(&plan.entries).collect();
     order.sort_by_key(|(_, entry)| rank(entry.kind));
-    let formulas = order.into_iter().filter_map(|(index, entry)| {
-        entry.init.as_ref().map(|init| (index as u16, Formula::new(init)))
-    });
+    let formulas = order
+        .into_iter()
+        .filter_map(|(number, entry)| entry.init.as_ref().map(|init| (number, Formula::new(init))));
     formulas.collect()
 }
 
@@ -377,19 +373,18 @@ impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {
     }
 
     fn missing_input(&self) -> Option<u16> {
-        let missing = |(index, entry): &(usize, &EntryInfo)| {
-            let index = *index as u16;
+        let missing = |(number, entry): &(u16, &EntryInfo)| {
             entry.kind == EntryKind::In
-                && !self.config.values.is_set(index)
-                && !self.initial.iter().any(|(with, _)| *with == index)
+                && !self.config.values.is_set(*number)
+                && !self.initial.iter().any(|(with, _)| with == number)
         };
-        self.entries.iter().enumerate().find(missing).map(|(index, _)| index as u16)
+        numbered(&self.entries).find(missing).map(|(number, _)| number)
     }
 
     fn initialise(&mut self) -> Result<(), Fault> {
-        for (index, entry) in self.entries.iter().enumerate() {
+        for (number, entry) in numbered(&self.entries) {
             if entry.kind != EntryKind::In {
-                self.config.values.clear(index as u16);
+                self.config.values.clear(number);
             }
         }
         for (entry, formula) in &self.initial {

@@ -7,13 +7,11 @@ use crate::scenario::Outcome;
 use crate::source::Span;
 use crate::syntax::ast::Name;
 use crate::toolbox::OutPort;
-use crate::unfold::{Block, blocks};
 
 /// The plan of a scenario, by names.
 pub(super) struct Paths<'a> {
     /// Its graph.
     pub graph: &'a Graph,
-    blocks: Vec<Block>,
 }
 
 /// One plan or sub-plan at its place among the numbers.
@@ -51,12 +49,22 @@ impl Home {
 
 impl<'a> Paths<'a> {
     pub fn new(graph: &'a Graph) -> Self {
-        Paths { graph, blocks: blocks(graph) }
+        Paths { graph }
     }
 
     /// The plan that runs.
     pub fn main(&self) -> Home {
         Home { plan: self.graph.main, components: 1, entries: 0 }
+    }
+
+    /// The plan of an element that is a sub-plan.
+    fn inside(&self, home: Home, element: usize, plan: PlanId) -> Home {
+        let child = self.graph.rows(home.plan).elements[element].child;
+        Home {
+            plan,
+            components: home.components + child.components,
+            entries: home.entries + child.entries,
+        }
     }
 
     /// The component that the first of the names mean, and the names that are left.
@@ -83,12 +91,7 @@ impl<'a> Paths<'a> {
             if self.outcome(found, &next.text).is_some() {
                 return Ok((found, rest));
             }
-            let (components, entries) = self.blocks[home.plan.index()].children[id.index()];
-            home = Home {
-                plan: inner,
-                components: home.components + components,
-                entries: home.entries + entries,
-            };
+            home = self.inside(home, id.index(), inner);
             names = rest;
         }
     }
@@ -107,12 +110,7 @@ impl<'a> Paths<'a> {
             if let (Some(place), false) = (inner, rest.is_empty())
                 && let Component::SubPlan(inner) = plan.elements[place].component
             {
-                let (components, entries) = self.blocks[home.plan.index()].children[place];
-                home = Home {
-                    plan: inner,
-                    components: home.components + components,
-                    entries: home.entries + entries,
-                };
+                home = self.inside(home, place, inner);
                 names = rest;
                 continue;
             }

@@ -1,14 +1,15 @@
 //! The plan on a platform: its components started, polled, interrupted and dropped.
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::bindings::Function;
 use super::context::Context;
 use super::elements::{self, passes, results};
+use super::rules::wanted;
 use super::supervisors;
 use crate::codegen::layout::at;
-use crate::graph::{Component, Supervisor, Target};
+use crate::graph::Component;
 
 /// `impl Plan<E>`, for every platform on which all components run.
 pub fn plan(context: &Context<'_>) -> TokenStream {
@@ -79,13 +80,14 @@ fn used(name: TokenStream, used: bool) -> TokenStream {
 }
 
 fn start_supervisor(context: &Context<'_>) -> TokenStream {
-    let all = context.plan.supervisors.iter().zip(&context.supervisors);
+    let all = context.plan.supervisors.iter().zip(&context.rows.supervisors);
     let arms: Vec<_> = all
-        .map(|(supervisor, names)| {
+        .zip(&context.supervisors)
+        .map(|((supervisor, row), names)| {
             let bound = supervisors::bound(context, supervisor, names);
             let (number, field) = (&names.number, &names.inputs);
             let Function { rooms, call, .. } = bound.inputs();
-            let (wanted, at) = (wanted(supervisor), at(supervisor.span));
+            let (wanted, at) = (wanted(row), at(supervisor.span));
             quote! {
                 #at
                 #number => {
@@ -111,16 +113,6 @@ fn start_supervisor(context: &Context<'_>) -> TokenStream {
             #body
         }
     }
-}
-
-/// The events that lead to something other than `ignore`.
-pub fn wanted(supervisor: &Supervisor) -> TokenStream {
-    let events = supervisor.events.iter().enumerate();
-    let bits = events.filter(|(_, event)| **event != Target::Ignore);
-    let bits: u64 = bits.fold(0, |bits, (index, _)| bits | 1 << index.min(63));
-    let bits: Literal =
-        format!("0b{bits:b}").parse().unwrap_or_else(|_| Literal::u64_unsuffixed(bits));
-    quote!(Events::from_bits(#bits))
 }
 
 fn poll_supervisor(context: &Context<'_>) -> TokenStream {

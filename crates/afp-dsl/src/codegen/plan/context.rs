@@ -7,9 +7,9 @@ use crate::codegen::formula::reads;
 use crate::codegen::names::{Names, camel, ident, shout, snake};
 use crate::codegen::rust_type::Home;
 use crate::graph::{Component, Formula, Graph, Output, Plan, PlanId, SupervisorId, TemplateId};
+use crate::rows::Rows;
 use crate::toolbox::{Template, Toolbox};
 use crate::types::{Enum, Object, Type};
-use crate::unfold::Block;
 
 use super::imports::{CORE, QUANTITY, RT};
 use super::shared::FileEnum;
@@ -45,7 +45,7 @@ pub struct Context<'a> {
     /// The enums of the plan files.
     pub enums: &'a [FileEnum],
     pub plan: &'a Plan,
-    pub block: &'a Block,
+    pub rows: &'a Rows,
     /// The module.
     pub module: Ident,
     /// The plan's type.
@@ -99,7 +99,8 @@ pub fn type_name(name: &str) -> Ident {
 
 impl<'a> Context<'a> {
     /// Names everything in a plan.
-    pub fn new(graph: &'a Graph, enums: &'a [FileEnum], plan: &'a Plan, block: &'a Block) -> Self {
+    pub fn new(graph: &'a Graph, enums: &'a [FileEnum], id: PlanId) -> Self {
+        let (plan, rows) = (graph.plan(id), graph.rows(id));
         let mut namer = Namer::new();
         let elements: Vec<_> =
             plan.elements.iter().map(|element| namer.name(&element.name, &element.name)).collect();
@@ -118,7 +119,7 @@ impl<'a> Context<'a> {
             graph,
             enums,
             plan,
-            block,
+            rows,
             module: module_name(&plan.name),
             ty: type_name(&camel(&plan.name)),
             entries: entry_names(plan),

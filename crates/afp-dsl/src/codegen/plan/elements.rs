@@ -8,6 +8,7 @@ use super::context::{ComponentNames, Context, is_bare};
 use crate::codegen::formula::{Formulas, is_literal};
 use crate::codegen::layout::{at, comment, doc};
 use crate::graph::{Component, Element, Entry, EntryKind, PlanId, TemplateId};
+use crate::rows::ElementRow;
 use crate::types::{Conversion, Dimension, Type};
 
 /// Numbers, the enum of the active element, and the bindings of each element.
@@ -17,7 +18,8 @@ pub fn elements(context: &Context<'_>) -> TokenStream {
         quote!(const #number: u16 = #index;)
     });
     let active = active(context);
-    let bindings = context.plan.elements.iter().zip(&context.elements).map(|(element, names)| {
+    let rows = context.rows.elements.iter().zip(&context.elements);
+    let bindings = context.plan.elements.iter().zip(rows).map(|(element, (row, names))| {
         match element.component {
             Component::Actor(id) | Component::Computation(id) => {
                 let bound = bound(context, element, names, id);
@@ -26,7 +28,7 @@ pub fn elements(context: &Context<'_>) -> TokenStream {
                 let (inputs, outputs) = (bound.inputs().item, bound.outputs().item);
                 quote!(#inputs #live #outputs)
             }
-            Component::SubPlan(id) => sub_plan(context, element, names, id),
+            Component::SubPlan(id) => sub_plan(context, element, row, names, id),
         }
     });
     quote! {
@@ -97,17 +99,15 @@ pub fn description(context: &Context<'_>, element: &Element) -> String {
 fn sub_plan(
     context: &Context<'_>,
     element: &Element,
+    row: &ElementRow,
     names: &ComponentNames,
     id: PlanId,
 ) -> TokenStream {
     let (module, _) = context.child(id);
     let child = context.graph.plan(id);
     let fields = super::context::entry_names(child);
-    let index = context.elements.iter().position(|known| std::ptr::eq(known, names));
-    let (components, entries) =
-        index.and_then(|index| context.block.children.get(index)).copied().unwrap_or_default();
-    let (components, entries) =
-        (Literal::u32_unsuffixed(components), Literal::u32_unsuffixed(entries));
+    let [components, entries] =
+        [row.child.components, row.child.entries].map(Literal::u32_unsuffixed);
     let place = &names.place;
     let ins = child.entries.iter().zip(&fields).filter(|(entry, _)| entry.kind == EntryKind::In);
     let sets: Vec<_> = ins

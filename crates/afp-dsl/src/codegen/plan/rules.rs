@@ -1,38 +1,29 @@
 //! The fourth section: where every state and event leads, as static rows.
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::context::Context;
 use super::elements::description;
 use crate::codegen::layout::{at, comment, doc};
-use crate::graph::{Component, Element, Supervisor, Target};
-
-/// Rows under construction: edges and sweeps are shared by all elements.
-#[derive(Default)]
-struct Rows {
-    edges: Vec<TokenStream>,
-    sweeps: Vec<TokenStream>,
-}
+use crate::graph::{Component, Element, Supervisor, Target, TemplateId};
+use crate::rows::{ElementKind, ElementRow, Range, SupervisorRow};
 
 /// The tables of the plan.
 pub fn rules(context: &Context<'_>) -> TokenStream {
-    let plan = context.plan;
-    let mut rows = Rows::default();
-    let elements: Vec<_> = plan
-        .elements
-        .iter()
-        .enumerate()
-        .map(|(index, element)| rows.element(context, index, element))
+    let (plan, rows) = (context.plan, context.rows);
+    let elements: Vec<_> = (plan.elements.iter().zip(&rows.elements))
+        .zip(&context.elements)
+        .map(|((element, row), names)| self::element(context, element, row, &names.place))
         .collect();
-    let supervisors: Vec<_> = (0..)
-        .zip(&plan.supervisors)
-        .map(|(index, supervisor)| rows.supervisor(context, index, supervisor))
+    let supervisors: Vec<_> = (plan.supervisors.iter().zip(&rows.supervisors))
+        .zip(&context.supervisors)
+        .map(|((supervisor, row), names)| self::supervisor(context, supervisor, row, &names.text))
         .collect();
-    let Rows { edges, sweeps } = rows;
-    let start = context.elements.get(plan.start.index()).map(|names| &names.number);
-    let globals = Literal::u16_unsuffixed(plan.globals);
-    let entries = Literal::usize_unsuffixed(plan.entries.len());
+    let edges = edges(context);
+    let sweeps = sweeps(context);
+    let start = context.elements.get(rows.start.index()).map(|names| &names.number);
+    let [globals, entries] = [rows.globals, rows.entries].map(Literal::u16_unsuffixed);
     let [n_elements, n_supervisors, n_edges, n_sweeps] =
         [elements.len(), supervisors.len(), edges.len(), sweeps.len()]
             .map(Literal::usize_unsuffixed);
@@ -75,126 +66,122 @@ pub fn rules(context: &Context<'_>) -> TokenStream {
     }
 }
 
-impl Rows {
-    fn element(&mut self, context: &Context<'_>, index: usize, element: &Element) -> TokenStream {
-        let (kind, every, states) = match element.component {
-            Component::Actor(id) => {
-                let template = context.template(id);
-                (
-                    quote!(Actor),
-                    template.every,
-                    template.outcomes.iter().map(|o| o.name.clone()).collect(),
-                )
-            }
-            Component::Computation(id) => {
-                let states = context.template(id).outcomes.iter().map(|o| o.name.clone());
-                (quote!(Computation), 0, states.collect())
-            }
-            Component::SubPlan(_) => {
-                (quote!(SubPlan), 0, vec!["OK".to_owned(), "Interrupted".to_owned()])
-            }
-        };
-        let states = self.edges(context, &element.name, &states, &element.states);
-        let first = self.sweeps.len();
-        if !matches!(element.component, Component::Computation(_)) {
-            for (place, id) in context.plan.sweep(element).into_iter().enumerate() {
-                let number = &context.supervisors[id.index()].number;
-                let note =
-                    (place == 0).then(|| comment(&format!("while {} is active", element.name)));
-                self.sweeps.push(quote!(#note #number));
-            }
-        }
-        let sweep = range(first, self.sweeps.len() - first);
-        let locals = element.supervisors.first().map_or(0, |id| id.index());
-        let locals = range(locals, element.supervisors.len());
-        let on_error = target(context, element.on_error);
-        let child = match element.component {
-            Component::SubPlan(_) => {
-                let place = &context.elements[index].place;
-                quote!(#place)
-            }
-            _ => quote!(Child { components: 0, entries: 0 }),
-        };
-        let (note, period) = (comment(&description(context, element)), duration(every));
-        let at = at(element.span);
-        quote! {
-            #note
-            #at
-            ElementRow {
-                kind: ElementKind::#kind,
-                period: #period,
-                states: #states,
-                on_error: #on_error,
-                locals: #locals,
-                sweep: #sweep,
-                child: #child,
-            }
+/// One element.
+fn element(
+    context: &Context<'_>,
+    element: &Element,
+    row: &ElementRow,
+    place: &Ident,
+) -> TokenStream {
+    let (kind, child) = match row.kind {
+        ElementKind::Actor => (quote!(Actor), None),
+        ElementKind::Computation => (quote!(Computation), None),
+        ElementKind::SubPlan => (quote!(SubPlan), Some(quote!(#place))),
+    };
+    let child = child.unwrap_or_else(|| quote!(Child { components: 0, entries: 0 }));
+    let [states, locals, sweep] = [row.states, row.locals, row.sweep].map(range);
+    let on_error = target(context, row.on_error);
+    let (note, at) = (comment(&description(context, element)), at(element.span));
+    let period = duration(row.period);
+    quote! {
+        #note
+        #at
+        ElementRow {
+            kind: ElementKind::#kind,
+            period: #period,
+            states: #states,
+            on_error: #on_error,
+            locals: #locals,
+            sweep: #sweep,
+            child: #child,
         }
     }
+}
 
-    fn supervisor(
-        &mut self,
-        context: &Context<'_>,
-        index: u16,
-        supervisor: &Supervisor,
-    ) -> TokenStream {
-        let template = context.template(supervisor.template);
-        let names = &context.supervisors[usize::from(index)];
-        let slot = match supervisor.owner {
-            None => index,
-            Some(owner) => {
-                let first = context.plan.elements[owner.index()].supervisors.first();
-                context.plan.globals + index - first.map_or(index, |id| id.0)
-            }
-        };
-        let slot = Literal::u16_unsuffixed(slot);
-        let events: Vec<_> = template.outcomes.iter().map(|event| event.name.clone()).collect();
-        let targets: Vec<_> = supervisor.events.iter().copied().map(Some).collect();
-        let events = self.edges(context, &names.text, &events, &targets);
-        let wanted = super::components::wanted(supervisor);
-        let on_miss = target(context, supervisor.on_miss);
-        let note = comment(&format!("{}: {}", names.text, template.name));
-        let at = at(supervisor.span);
-        let [period, deadline, budget] =
-            [supervisor.every, supervisor.deadline, template.budget.unwrap_or(0)].map(duration);
-        quote! {
-            #note
-            #at
-            SupervisorRow {
-                period: #period,
-                deadline: #deadline,
-                budget: #budget,
-                slot: #slot,
-                events: #events,
-                on_miss: #on_miss,
-                wanted: #wanted,
-            }
+/// One supervisor.
+fn supervisor(
+    context: &Context<'_>,
+    supervisor: &Supervisor,
+    row: &SupervisorRow,
+    name: &str,
+) -> TokenStream {
+    let template = &context.template(supervisor.template).name;
+    let (note, at) = (comment(&format!("{name}: {template}")), at(supervisor.span));
+    let [period, deadline, budget] = [row.period, row.deadline, row.budget].map(duration);
+    let (slot, events) = (Literal::u16_unsuffixed(row.slot), range(row.events));
+    let (on_miss, wanted) = (target(context, row.on_miss), wanted(row));
+    quote! {
+        #note
+        #at
+        SupervisorRow {
+            period: #period,
+            deadline: #deadline,
+            budget: #budget,
+            slot: #slot,
+            events: #events,
+            on_miss: #on_miss,
+            wanted: #wanted,
         }
     }
+}
 
-    /// Adds the edges of a component, each under its rule as the plan states it.
-    fn edges(
-        &mut self,
-        context: &Context<'_>,
-        name: &str,
-        outcomes: &[String],
-        targets: &[Option<Target>],
-    ) -> TokenStream {
-        let first = self.edges.len();
+/// The events that lead to something other than `ignore`.
+pub fn wanted(row: &SupervisorRow) -> TokenStream {
+    let bits = row.wanted;
+    let bits: Literal =
+        format!("0b{bits:b}").parse().unwrap_or_else(|_| Literal::u64_unsuffixed(bits));
+    quote!(Events::from_bits(#bits))
+}
+
+/// The edges of all components, each under its rule as the plan states it.
+fn edges(context: &Context<'_>) -> Vec<TokenStream> {
+    let (plan, rows) = (context.plan, context.rows);
+    let mut edges = Vec::with_capacity(rows.edges.len());
+    let mut add = |name: &str, outcomes: &[String], targets: &[Option<Target>]| {
         for (outcome, to) in outcomes.iter().zip(targets) {
             let rule = match to {
                 Some(to) => format!("{name}: {outcome} -> {}", target_text(context, *to)),
                 None => format!("{name}: {outcome} cannot happen"),
             };
             let (note, to) = (comment(&rule), target(context, *to));
-            self.edges.push(quote!(#note #to));
+            edges.push(quote!(#note #to));
         }
-        range(first, self.edges.len() - first)
+    };
+    for (element, row) in plan.elements.iter().zip(&rows.elements) {
+        let states = match element.component {
+            Component::Actor(id) | Component::Computation(id) => outcomes(context, id),
+            Component::SubPlan(_) => vec!["OK".to_owned(), "Interrupted".to_owned()],
+        };
+        add(&element.name, &states, rows.edges(row.states));
     }
+    let supervisors = plan.supervisors.iter().zip(&rows.supervisors);
+    for ((supervisor, row), names) in supervisors.zip(&context.supervisors) {
+        add(&names.text, &outcomes(context, supervisor.template), rows.edges(row.events));
+    }
+    edges
 }
 
-fn range(first: usize, len: usize) -> TokenStream {
-    let [first, len] = [first, len].map(Literal::usize_unsuffixed);
+fn outcomes(context: &Context<'_>, id: TemplateId) -> Vec<String> {
+    context.template(id).outcomes.iter().map(|outcome| outcome.name.clone()).collect()
+}
+
+/// The sweeps of all elements, each under the element's name.
+fn sweeps(context: &Context<'_>) -> Vec<TokenStream> {
+    let rows = context.rows;
+    let mut sweeps = Vec::with_capacity(rows.sweeps.len());
+    for (element, row) in context.plan.elements.iter().zip(&rows.elements) {
+        for (position, id) in rows.sweep(row).iter().enumerate() {
+            let number = &context.supervisors[id.index()].number;
+            let note =
+                (position == 0).then(|| comment(&format!("while {} is active", element.name)));
+            sweeps.push(quote!(#note #number));
+        }
+    }
+    sweeps
+}
+
+fn range(range: Range) -> TokenStream {
+    let [first, len] = [range.first, range.len].map(Literal::u16_unsuffixed);
     quote!(Range { first: #first, len: #len })
 }
 

@@ -2,8 +2,9 @@
 
 use crate::check::names::Names;
 use crate::check::types::Types;
-use crate::check::{text, timing};
+use crate::check::{size, text, timing};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::rows::{MAX_EVENTS, MAX_ROWS, MAX_STATES};
 use crate::source::Span;
 use crate::syntax::ast::{self, Name, Part};
 use crate::toolbox::read::ports;
@@ -55,6 +56,7 @@ pub(super) fn read(
             Part::Outcome(_) => {}
         }
     }
+    too_large(&template, diags);
     deadline(&parts, &template, diags);
     without_outcomes(node, &template, diags);
     Some(template)
@@ -161,6 +163,23 @@ fn set_time(time: &ast::Timing, template: &mut Template, seen: &mut Seen, diags:
         "budget" => template.budget = Some(value),
         _ => template.stop = Some(value),
     }
+}
+
+fn too_large(template: &Template, diags: &mut Diagnostics) {
+    let help = "split it into two templates";
+    let outcomes = template.outcomes.iter().map(|outcome| outcome.span);
+    match template.kind {
+        TemplateKind::Supervisor => {
+            size::at_most(MAX_EVENTS, ("a supervisor", "events"), outcomes, help, diags);
+        }
+        TemplateKind::Actor | TemplateKind::Computation => {
+            size::at_most(MAX_STATES, ("a template", "states"), outcomes, help, diags);
+        }
+    }
+    let inputs = template.inputs.iter().map(|port| port.span);
+    size::at_most(MAX_ROWS, ("a template", "inputs"), inputs, help, diags);
+    let outputs = template.outputs.iter().map(|port| port.span);
+    size::at_most(MAX_ROWS, ("a template", "outputs"), outputs, help, diags);
 }
 
 fn deadline(parts: &[Part], template: &Template, diags: &mut Diagnostics) {

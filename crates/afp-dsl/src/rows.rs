@@ -1,0 +1,122 @@
+//! The tables that the scheduler reads, lowered once from the checked plans.
+//!
+//! Loaded plans convert them, generated code prints them, so the two back ends cannot disagree. They
+//! are plain data with checked sizes: what a table has no room for is refused by the check
+//! (`check/size.rs`), and [`lower`] gives nothing rather than a number that wrapped.
+
+mod ids;
+mod lower;
+mod order;
+mod size;
+
+pub(crate) use lower::lower;
+pub(crate) use order::polling_order;
+pub(crate) use size::{MAX_EVENTS, MAX_ROWS, MAX_STATES, Table, tables};
+
+use crate::graph::{ElementId, SupervisorId, Target};
+
+/// The tables of one plan.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rows {
+    /// The first element.
+    pub start: ElementId,
+    /// How many supervisors are global.
+    pub globals: u16,
+    /// How many entries there are.
+    pub entries: u16,
+    /// The elements.
+    pub elements: Vec<ElementRow>,
+    /// The supervisors.
+    pub supervisors: Vec<SupervisorRow>,
+    /// Where states and events lead; `None` where a state cannot be reached.
+    pub edges: Vec<Option<Target>>,
+    /// For each element, its supervisors and the global ones in polling order.
+    pub sweeps: Vec<SupervisorId>,
+}
+
+/// A run of rows in another table.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Range {
+    /// Index of the first.
+    pub first: u16,
+    /// How many.
+    pub len: u16,
+}
+
+/// What an element is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ElementKind {
+    /// An actor.
+    Actor,
+    /// A computation.
+    Computation,
+    /// A sub-plan.
+    SubPlan,
+}
+
+/// Where the ids of a sub-plan begin, counted from the first id of the plan that uses it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Child {
+    /// Offset of its component ids.
+    pub components: u32,
+    /// Offset of its entry ids.
+    pub entries: u32,
+}
+
+/// One element.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ElementRow {
+    /// What it is.
+    pub kind: ElementKind,
+    /// Poll period of an actor in nanoseconds; zero for the others.
+    pub period: u64,
+    /// Its states in [`Rows::edges`].
+    pub states: Range,
+    /// Its `Error` edge.
+    pub on_error: Option<Target>,
+    /// Its local supervisors in [`Rows::supervisors`].
+    pub locals: Range,
+    /// The supervisors polled while it is active, in order, in [`Rows::sweeps`].
+    pub sweep: Range,
+    /// Its ids; zero unless it is a sub-plan.
+    pub child: Child,
+}
+
+/// One supervisor. The global ones come first, then the local ones, element by element.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SupervisorRow {
+    /// Poll period in nanoseconds.
+    pub period: u64,
+    /// Deadline after each release in nanoseconds.
+    pub deadline: u64,
+    /// Declared bound of one poll in nanoseconds; zero where none is declared.
+    pub budget: u64,
+    /// Where it keeps its releases: its own number for a global one, and for a local one the number
+    /// of globals plus its position in its element.
+    pub slot: u16,
+    /// Its events in [`Rows::edges`].
+    pub events: Range,
+    /// Its `DeadlineMissed` edge.
+    pub on_miss: Option<Target>,
+    /// The events that lead to something other than `ignore`: bit `n` is the template's `n`-th.
+    pub wanted: u64,
+}
+
+impl Range {
+    /// The indices.
+    pub fn indices(self) -> std::ops::Range<usize> {
+        usize::from(self.first)..usize::from(self.first) + usize::from(self.len)
+    }
+}
+
+impl Rows {
+    /// The edges of an element's states or of a supervisor's events.
+    pub fn edges(&self, range: Range) -> &[Option<Target>] {
+        self.edges.get(range.indices()).unwrap_or(&[])
+    }
+
+    /// The supervisors polled while an element is active, in order.
+    pub fn sweep(&self, element: &ElementRow) -> &[SupervisorId] {
+        self.sweeps.get(element.sweep.indices()).unwrap_or(&[])
+    }
+}

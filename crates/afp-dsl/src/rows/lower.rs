@@ -1,0 +1,114 @@
+//! From plans to tables.
+
+use crate::graph::{Component, Element, Graph, Plan, Supervisor, SupervisorId, Target};
+use crate::rows::ids::blocks;
+use crate::rows::size::has_sweep;
+use crate::rows::{Child, ElementKind, ElementRow, Range, Rows, SupervisorRow, polling_order};
+
+/// The tables of all plans of a graph, in their order; `None` when a table would have too many rows,
+/// which the check has reported.
+pub(crate) fn lower(graph: &Graph) -> Option<Vec<Rows>> {
+    let blocks = blocks(&graph.plans)?;
+    let plans = graph.plans.iter().zip(&blocks);
+    plans.map(|(plan, block)| rows(graph, plan, &block.children)).collect()
+}
+
+fn rows(graph: &Graph, plan: &Plan, children: &[Child]) -> Option<Rows> {
+    let mut rows = Rows {
+        start: plan.start,
+        globals: plan.globals,
+        entries: u16::try_from(plan.entries.len()).ok()?,
+        elements: Vec::with_capacity(plan.elements.len()),
+        supervisors: Vec::with_capacity(plan.supervisors.len()),
+        edges: Vec::new(),
+        sweeps: Vec::new(),
+    };
+    for (element, child) in plan.elements.iter().zip(children) {
+        let row = add_element(&mut rows, graph, plan, element, *child)?;
+        rows.elements.push(row);
+    }
+    for (index, supervisor) in plan.supervisors.iter().enumerate() {
+        let row = add_supervisor(&mut rows, graph, plan, supervisor, index)?;
+        rows.supervisors.push(row);
+    }
+    Some(rows)
+}
+
+fn add_element(
+    rows: &mut Rows,
+    graph: &Graph,
+    plan: &Plan,
+    element: &Element,
+    child: Child,
+) -> Option<ElementRow> {
+    let (kind, period) = match element.component {
+        Component::Actor(id) => (ElementKind::Actor, graph.template(id).every),
+        Component::Computation(_) => (ElementKind::Computation, 0),
+        Component::SubPlan(_) => (ElementKind::SubPlan, 0),
+    };
+    let states = append(&mut rows.edges, element.states.iter().copied())?;
+    let polled = match has_sweep(element.component) {
+        true => sweep(plan, element),
+        false => Vec::new(),
+    };
+    let first = element.supervisors.first().map_or(0, |id| id.0);
+    let len = u16::try_from(element.supervisors.len()).ok()?;
+    Some(ElementRow {
+        kind,
+        period,
+        states,
+        on_error: element.on_error,
+        locals: Range { first, len },
+        sweep: append(&mut rows.sweeps, polled)?,
+        child,
+    })
+}
+
+/// The supervisors that are polled while `element` is active: its own and the global ones.
+fn sweep(plan: &Plan, element: &Element) -> Vec<SupervisorId> {
+    let globals = (0..plan.globals).map(SupervisorId);
+    polling_order(plan, globals.chain(element.supervisors.iter().copied()))
+}
+
+fn add_supervisor(
+    rows: &mut Rows,
+    graph: &Graph,
+    plan: &Plan,
+    supervisor: &Supervisor,
+    index: usize,
+) -> Option<SupervisorRow> {
+    let index = u16::try_from(index).ok()?;
+    let slot = match supervisor.owner {
+        None => index,
+        Some(owner) => {
+            let first = plan.elements.get(owner.index())?.supervisors.first()?;
+            plan.globals.checked_add(index.checked_sub(first.0)?)?
+        }
+    };
+    Some(SupervisorRow {
+        period: supervisor.every,
+        deadline: supervisor.deadline,
+        budget: graph.template(supervisor.template).budget.unwrap_or(0),
+        slot,
+        events: append(&mut rows.edges, supervisor.events.iter().copied().map(Some))?,
+        on_miss: supervisor.on_miss,
+        wanted: wanted(&supervisor.events)?,
+    })
+}
+
+/// The events that lead to something other than `ignore`.
+fn wanted(events: &[Target]) -> Option<u64> {
+    let mut bits = 0;
+    for (index, _) in events.iter().enumerate().filter(|(_, target)| **target != Target::Ignore) {
+        bits |= 1_u64.checked_shl(u32::try_from(index).ok()?)?;
+    }
+    Some(bits)
+}
+
+/// Adds rows to a shared table and says where they stand.
+fn append<T>(table: &mut Vec<T>, rows: impl IntoIterator<Item = T>) -> Option<Range> {
+    let first = table.len();
+    table.extend(rows);
+    let (first, end) = (u16::try_from(first).ok()?, u16::try_from(table.len()).ok()?);
+    Some(Range { first, len: end - first })
+}

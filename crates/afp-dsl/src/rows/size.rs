@@ -1,0 +1,47 @@
+//! How many rows the tables of a plan have.
+
+use crate::graph::{Component, Plan};
+
+/// Greatest number of rows of one table.
+pub(crate) const MAX_ROWS: usize = u16::MAX as usize;
+
+/// Greatest number of events of a supervisor: those that lead somewhere are a set of bits.
+pub(crate) const MAX_EVENTS: usize = 64;
+/// Greatest number of states of an actor or computation: the two numbers above stand for `Error` and
+/// `DeadlineMissed`.
+pub(crate) const MAX_STATES: usize = MAX_ROWS - 1;
+
+/// A table of a plan, as people count it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Table {
+    /// Entries.
+    Entries,
+    /// Elements.
+    Elements,
+    /// Supervisors.
+    Supervisors,
+    /// States of elements and events of supervisors.
+    Edges,
+    /// Pairs of an element and a supervisor that is polled while it is active.
+    Sweeps,
+}
+
+/// The rows of each table of a plan.
+pub(crate) fn tables(plan: &Plan) -> [(Table, usize); 5] {
+    let states = plan.elements.iter().map(|element| element.states.len());
+    let events = plan.supervisors.iter().map(|supervisor| supervisor.events.len());
+    let watched = plan.elements.iter().filter(|element| has_sweep(element.component));
+    let polled = watched.map(|element| usize::from(plan.globals) + element.supervisors.len());
+    [
+        (Table::Entries, plan.entries.len()),
+        (Table::Elements, plan.elements.len()),
+        (Table::Supervisors, plan.supervisors.len()),
+        (Table::Edges, states.chain(events).sum()),
+        (Table::Sweeps, polled.sum()),
+    ]
+}
+
+/// Whether supervisors are polled while an element is active; a computation takes no time.
+pub(super) fn has_sweep(component: Component) -> bool {
+    !matches!(component, Component::Computation(_))
+}
