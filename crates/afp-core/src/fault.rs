@@ -59,6 +59,11 @@ impl Fault {
     pub const fn code(self) -> &'static str {
         self.0.code
     }
+
+    /// What happened, for people.
+    pub const fn text(self) -> &'static str {
+        self.0.text
+    }
 }
 
 impl PartialEq for Fault {

@@ -8,9 +8,11 @@
 
 mod clock;
 mod component;
+pub mod devices;
 mod fault;
 mod job;
 mod machine;
+mod platform;
 pub mod quantity;
 #[doc(hidden)]
 pub mod rt;
@@ -27,6 +29,7 @@ pub use component::{
 pub use fault::{Fault, Reason};
 pub use job::{Job, Ticket, Worker};
 pub use machine::MAX_TRANSITIONS_PER_STEP;
+pub use platform::Platform;
 pub use rt::{NamedPlan, Plan, PlanState, WriteError};
 pub use scheduler::{MAX_WRITES_PER_STEP, Scheduler, StartError, Wake};
 pub use time::{Duration, Instant};

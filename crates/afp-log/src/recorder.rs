@@ -16,9 +16,9 @@ use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
 use crate::error::LogError;
 use crate::names::NameTable;
-use crate::record::OwnedRecord;
 use crate::robot::{Image, Level, Pose2, Ranging, Shape, Transform};
 use crate::write::LogFile;
+use afp_session::OwnedRecord;
 
 /// Frames in one message of [`Recorder::transforms`].
 pub const FRAMES: usize = 3;

@@ -30,6 +30,13 @@ impl TraceHash {
         }
     }
 
+    /// Takes a record whose [`Line`] is at hand.
+    pub fn line(&mut self, line: &str) {
+        // A hash takes any text.
+        let _ = self.write_str(line);
+        let _ = self.write_str("\n");
+    }
+
     /// The hash so far.
     pub fn get(self) -> u64 {
         self.0

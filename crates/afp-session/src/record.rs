@@ -1,6 +1,6 @@
-//! Trace records that own what they say, small enough for a queue and made without allocation.
+//! Trace records that own what they say, small enough for a queue and made without allocation, and sinks that keep them.
 
-use afp_core::trace::{Record, Sink};
+use afp_core::trace::{NoTrace, Record, Sink, Verdict};
 use afp_core::{Instant, Value, ValueRef};
 
 /// A record with its time; its texts are kept in place.
@@ -73,14 +73,90 @@ impl OwnedRecord {
     }
 }
 
-/// A sink that keeps every record in memory: for tests and for looking back within a step.
+/// A sink that keeps the records of a step until it is over.
+pub trait Keep: Sink {
+    /// Says whether polls that saw nothing are kept, too.
+    fn keep_clear_polls(&mut self, wanted: bool);
+
+    /// Whether nothing is kept.
+    fn is_empty(&self) -> bool;
+
+    /// Takes out what is kept.
+    fn take(&mut self) -> Vec<OwnedRecord>;
+
+    /// Gives back the room of what was taken.
+    fn give_back(&mut self, records: Vec<OwnedRecord>);
+}
+
+/// Keeps records in memory, polls that saw nothing only where somebody wants them.
 #[derive(Clone, Debug, Default)]
-pub struct Kept(pub Vec<OwnedRecord>);
+pub struct Kept {
+    records: Vec<OwnedRecord>,
+    clear_polls: bool,
+}
+
+impl Kept {
+    /// Keeps everything.
+    pub fn all() -> Self {
+        Kept { records: Vec::new(), clear_polls: true }
+    }
+
+    /// What is kept.
+    pub fn records(&self) -> &[OwnedRecord] {
+        &self.records
+    }
+}
 
 impl Sink for Kept {
+    #[inline]
     fn record(&mut self, at: Instant, record: &Record<'_>) {
-        self.0.push(OwnedRecord::new(at, record));
+        if self.clear_polls || !is_clear(record) {
+            self.records.push(OwnedRecord::new(at, record));
+        }
     }
+}
+
+impl Keep for Kept {
+    #[inline]
+    fn keep_clear_polls(&mut self, wanted: bool) {
+        self.clear_polls = wanted;
+    }
+
+    #[inline]
+    fn is_empty(&self) -> bool {
+        self.records.is_empty()
+    }
+
+    fn take(&mut self) -> Vec<OwnedRecord> {
+        std::mem::take(&mut self.records)
+    }
+
+    fn give_back(&mut self, mut records: Vec<OwnedRecord>) {
+        records.clear();
+        self.records = records;
+    }
+}
+
+impl Keep for NoTrace {
+    #[inline]
+    fn keep_clear_polls(&mut self, _: bool) {}
+
+    #[inline]
+    fn is_empty(&self) -> bool {
+        true
+    }
+
+    fn take(&mut self) -> Vec<OwnedRecord> {
+        Vec::new()
+    }
+
+    fn give_back(&mut self, _: Vec<OwnedRecord>) {}
+}
+
+/// Whether a record is a poll that saw nothing.
+#[inline]
+pub(crate) fn is_clear(record: &Record<'_>) -> bool {
+    matches!(record, Record::Polled { verdict: Verdict::Clear, .. })
 }
 
 #[cfg(test)]

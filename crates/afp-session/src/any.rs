@@ -1,0 +1,129 @@
+//! Sessions of any plan over any robot: where types end.
+
+use std::fmt;
+
+use afp_core::devices::{DeviceRow, SignalId};
+use afp_core::trace::{ComponentId, Ending, Names, TraceHash};
+use afp_core::{Duration, Fault, Instant, StartError, Value, ValueRef, WriteError};
+
+use crate::figures::Figures;
+use crate::observer::{Gate, Go, Observer};
+use crate::request::{Request, RequestError, RequestId};
+use crate::sample::SampleRef;
+
+/// A session, whatever its plan and its robot.
+pub trait AnySession: Send {
+    /// The instant up to which time has passed.
+    fn now(&self) -> Instant;
+
+    /// When the next step is made; [`Instant::MAX`] once the plan has ended.
+    fn due(&self) -> Instant;
+
+    /// The names of the plan.
+    fn names(&self) -> &dyn Names;
+
+    /// The devices of the robot.
+    fn devices(&self) -> &'static [DeviceRow];
+
+    /// The active element of the outermost plan.
+    fn active(&self) -> Option<ComponentId>;
+
+    /// How the plan ended, once it has.
+    fn ending(&self) -> Option<Ending>;
+
+    /// The value of an entry of the plan itself, by position.
+    fn entry(&self, id: u16) -> ValueRef<'_>;
+
+    /// Deadlines missed so far, skipped releases included.
+    fn misses(&self) -> u64;
+
+    /// What a signal is now.
+    fn read(&self, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>));
+
+    /// Writes an entry as people write it, `35 cm`: before the start an `in` entry, later with the next step. Gives
+    /// the value.
+    ///
+    /// # Errors
+    /// An entry that is not there or cannot be written, a value that does not fit.
+    fn set(&mut self, entry: &str, text: &str) -> Result<Value, SetError>;
+
+    /// Asks for something at an instant. It is checked now and done then; what cannot be done then is told to
+    /// observers.
+    ///
+    /// # Errors
+    /// It can never be done.
+    fn at(&mut self, at: Instant, request: Request) -> Result<RequestId, RequestError>;
+
+    /// How long a run goes on when the plan has ended, so that the robot comes to rest; nothing unless told.
+    fn set_rest(&mut self, rest: Duration);
+
+    /// Lets time pass up to the next thing to do, but not beyond `limit`, and does it.
+    ///
+    /// # Errors
+    /// The plan cannot start.
+    fn tick(
+        &mut self,
+        limit: Instant,
+        gate: &mut dyn Gate,
+        to: &mut [&mut dyn Observer],
+    ) -> Result<Go, StartError>;
+
+    /// Runs the plan until `until`, until it has ended and the robot has come to rest, or until the gate stops it;
+    /// whether it did. A plan that still runs goes on with the next call.
+    ///
+    /// # Errors
+    /// The plan cannot start.
+    fn run(
+        &mut self,
+        until: Instant,
+        gate: &mut dyn Gate,
+        to: &mut [&mut dyn Observer],
+    ) -> Result<Go, StartError>;
+
+    /// Makes the plan end here and now, as interrupted.
+    fn stop(&mut self, to: &mut [&mut dyn Observer]);
+
+    /// Ends the plan here and now because nothing of it can be trusted any more.
+    fn abort(&mut self, fault: Fault, to: &mut [&mut dyn Observer]);
+
+    /// Stops the robot for good and says what the run came to.
+    fn end(&mut self) -> Figures;
+
+    /// The hash of the trace so far, without polls that saw nothing: the same for the same plan, world and seed,
+    /// on every machine.
+    fn trace(&self) -> TraceHash;
+
+    /// What was asked for so far, with the instants.
+    fn requests(&self) -> &[(Instant, Request)];
+}
+
+/// Why an entry cannot be set.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SetError {
+    /// There is no such entry.
+    Unknown,
+    /// It is no `in` entry.
+    NotIn,
+    /// The text is no value of its type; a quantity may be written in these units.
+    Unreadable {
+        /// Why.
+        why: Fault,
+        /// Names of units; none for what is no quantity.
+        units: Vec<String>,
+    },
+    /// The entry does not take the value.
+    Refused(WriteError),
+}
+
+impl fmt::Display for SetError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SetError::Unknown => f.write_str("there is no such entry"),
+            SetError::NotIn => f.write_str("it cannot be set from outside: it is no 'in' entry"),
+            SetError::Unreadable { why, .. } => why.fmt(f),
+            SetError::Refused(why) => why.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for SetError {}

@@ -1,0 +1,42 @@
+//! One way to drive a plan over any robot.
+//!
+//! A [`Session`] drives one plan over one [`Platform`](afp_core::Platform). Whoever runs plans has a session and
+//! differs in its [`Gate`] (may time pass?), its [`Observer`]s (what happened) and its [`Request`]s (what comes
+//! from outside), never in how a run goes. Inside, a session is compiled for its plan and its robot; outside, it
+//! is a `dyn` [`AnySession`], one virtual call for each instant.
+//!
+//! At an instant:
+//!
+//! 1. The platform has advanced to it.
+//! 2. Samples, for measures and observers, on a grid of their own; the plan cannot notice them.
+//! 3. Requests that are due, in the order of their times, at one time as they were made; before the start too.
+//!    Faults are a set: whatever begins or ends changes it, then the robot gets all of it at once.
+//! 4. The step, if it is due.
+//! 5. Its records in order to measures, observers and the hash; then [`Observer::after_step`].
+//!
+//! Time passes up to the earliest of: the plan's next step (not before the platform is ready for it), the next
+//! request, the next sample, the limit, the end of the rest that follows an ending.
+//!
+//! Nothing here knows a clock on the wall, a file, a thread or a terminal.
+#![forbid(unsafe_code)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
+mod any;
+mod faults;
+mod figures;
+mod observer;
+mod record;
+mod request;
+mod robot;
+mod sample;
+mod session;
+
+pub use any::{AnySession, SetError};
+pub use faults::{Active, Faults};
+pub use figures::{Figure, FigureValue, Figures, Span};
+pub use observer::{Gate, Go, NamedRecord, Observer, Open, Sampling, View};
+pub use record::{Keep, Kept, OwnedRecord};
+pub use request::{HOLD, Request, RequestError, RequestId};
+pub use robot::{ControlOf, FaultOf, Measure, Refused, Robot, Simulated};
+pub use sample::{Image, Pose2, Ranging, SampleRef, Samples, Shape, Transform};
+pub use session::{SAMPLE, Session};

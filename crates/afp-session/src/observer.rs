@@ -1,0 +1,178 @@
+//! Who lets time pass, and who is told what happened.
+
+use afp_core::devices::SignalId;
+use afp_core::trace::{ComponentId, Ending, Names, Record};
+use afp_core::{Duration, Instant, ValueRef};
+
+use crate::request::{RequestError, RequestId};
+use crate::sample::SampleRef;
+
+/// Whether a run goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Go {
+    /// It does.
+    On,
+    /// Ask again: what comes next may have changed.
+    Again,
+    /// It is to stop.
+    Stop,
+}
+
+/// Says whether time may pass: holds a run back to real time, pauses it, calls it off.
+pub trait Gate {
+    /// Time is about to pass from `now` up to `target`.
+    fn pass(&mut self, target: Instant, now: Instant) -> Go {
+        let _ = (target, now);
+        Go::On
+    }
+}
+
+/// The gate that is always open.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Open;
+
+impl Gate for Open {}
+
+impl<F: FnMut(Instant, Instant) -> Go> Gate for F {
+    fn pass(&mut self, target: Instant, now: Instant) -> Go {
+        self(target, now)
+    }
+}
+
+/// How often an observer gets samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sampling {
+    /// Not at all.
+    Never,
+    /// At each multiple of this, before what comes at that instant.
+    Every(Duration),
+    /// After each step, and at each multiple of this.
+    Following(Duration),
+}
+
+impl Sampling {
+    /// Whether it wants samples after each step.
+    pub(crate) fn follows(self) -> bool {
+        matches!(self, Sampling::Following(_))
+    }
+
+    /// Its grid.
+    pub(crate) fn grid(self) -> Option<Duration> {
+        match self {
+            Sampling::Never => None,
+            Sampling::Every(grid) | Sampling::Following(grid) => Some(grid),
+        }
+    }
+}
+
+/// A record with the names behind its ids.
+#[derive(Clone, Copy)]
+pub struct NamedRecord<'a> {
+    /// The time of the step.
+    pub at: Instant,
+    /// The record.
+    pub record: &'a Record<'a>,
+    /// The names.
+    pub names: &'a dyn Names,
+    /// The record as a line of the trace, made once for all who want it; empty for a poll that saw nothing.
+    pub line: &'a str,
+}
+
+impl NamedRecord<'_> {
+    /// The line without its time.
+    pub fn text(&self) -> &str {
+        self.line.split_once(' ').map_or("", |(_, text)| text)
+    }
+}
+
+/// Is told what happens in a run. It never touches the session.
+pub trait Observer {
+    /// A record of the step that is over.
+    fn on_record(&mut self, record: &NamedRecord<'_>) {
+        let _ = record;
+    }
+
+    /// Whether it is told of polls that saw nothing, too.
+    fn wants_clear_polls(&self) -> bool {
+        false
+    }
+
+    /// All records of a step have been told.
+    fn after_step(&mut self, view: &View<'_>) {
+        let _ = view;
+    }
+
+    /// How often it gets samples.
+    fn sampling(&self) -> Sampling {
+        Sampling::Never
+    }
+
+    /// Whether it wants a signal at an instant.
+    fn wants(&self, at: Instant, signal: SignalId) -> bool {
+        let _ = (at, signal);
+        true
+    }
+
+    /// A sample of a signal that it wants.
+    fn on_sample(&mut self, at: Instant, signal: SignalId, value: SampleRef<'_>) {
+        let _ = (at, signal, value);
+    }
+
+    /// All samples of an instant have been given.
+    fn after_samples(&mut self, at: Instant) {
+        let _ = at;
+    }
+
+    /// A request that was taken cannot be met now that it is due.
+    fn on_refused(&mut self, at: Instant, request: RequestId, why: &RequestError) {
+        let _ = (at, request, why);
+    }
+}
+
+/// A session between two steps.
+#[derive(Clone, Copy)]
+pub struct View<'a> {
+    pub(crate) now: Instant,
+    pub(crate) inside: &'a dyn Inside,
+}
+
+/// What a view shows.
+pub(crate) trait Inside {
+    fn entry(&self, id: u16) -> ValueRef<'_>;
+    fn active(&self) -> Option<ComponentId>;
+    fn ending(&self) -> Option<Ending>;
+    fn names(&self) -> &dyn Names;
+    fn read(&self, at: Instant, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>));
+}
+
+impl View<'_> {
+    /// The time of the step.
+    pub fn now(&self) -> Instant {
+        self.now
+    }
+
+    /// The value of an entry of the plan itself, by position.
+    pub fn entry(&self, id: u16) -> ValueRef<'_> {
+        self.inside.entry(id)
+    }
+
+    /// The active element of the outermost plan.
+    pub fn active(&self) -> Option<ComponentId> {
+        self.inside.active()
+    }
+
+    /// How the plan ended, once it has.
+    pub fn ending(&self) -> Option<Ending> {
+        self.inside.ending()
+    }
+
+    /// The names of the plan.
+    pub fn names(&self) -> &dyn Names {
+        self.inside.names()
+    }
+
+    /// What a signal is now.
+    pub fn read(&self, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>)) {
+        self.inside.read(self.now, signal, to);
+    }
+}

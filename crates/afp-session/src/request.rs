@@ -1,0 +1,128 @@
+//! What comes from outside while a plan runs: writes, presses, faults, and what only tests ask for.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+#[cfg(feature = "load")]
+use afp::load::Injection;
+use afp_core::devices::{ControlId, FaultId};
+use afp_core::trace::ComponentId;
+use afp_core::{Duration, Instant, Value, WriteError};
+
+/// How long something is held down unless anybody says otherwise.
+pub const HOLD: Duration = Duration::from_millis(200);
+
+/// Something that comes from outside.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Request {
+    /// An entry is written: before the start an `in` entry at once, later with the next step.
+    Write(u16, Value),
+    /// A control is held down or let go.
+    Press(ControlId, bool),
+    /// Something breaks, by that amount, for a while; [`Duration::MAX`] is for good.
+    Break(FaultId, Option<f64>, Duration),
+    /// A component reports an outcome at its next poll, whatever it sees.
+    #[cfg(feature = "load")]
+    Inject(Injection),
+    /// An actor, those of a sub-plan, or all of them do nothing from their next start on.
+    Idle(Option<ComponentId>),
+    /// The plan ends as interrupted.
+    Stop,
+}
+
+/// The number of a request of a session, in the order in which they were made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct RequestId(pub u64);
+
+/// Why a request cannot be met.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RequestError {
+    /// Its instant is over.
+    Over {
+        /// The instant.
+        at: Instant,
+        /// The time now.
+        now: Instant,
+    },
+    /// The plan has ended.
+    Ended,
+    /// There is no such control.
+    NoControl,
+    /// There is no such fault.
+    NoFault,
+    /// There cannot be so much of a fault.
+    Amount(f64),
+    /// The robot's devices declare it, but this robot has it not.
+    Lacks(&'static str),
+    /// The robot does not do that.
+    Refused,
+    /// The entry does not take the value.
+    Write(WriteError),
+    /// A component of that path is not being polled, so it cannot report anything.
+    NotActive(String),
+    /// There is no such actor or sub-plan.
+    NoElement,
+    /// The plan was compiled into the program: its components report what they see, and nothing else.
+    Compiled,
+}
+
+/// What is still to come, by time; at one time as it was made.
+#[derive(Clone, Debug)]
+pub(crate) struct Requests {
+    waiting: BTreeMap<(Instant, RequestId), Request>,
+    made: u64,
+    /// When the next one is due.
+    next: Instant,
+}
+
+impl Default for Requests {
+    fn default() -> Self {
+        Requests { waiting: BTreeMap::new(), made: 0, next: Instant::MAX }
+    }
+}
+
+impl Requests {
+    pub(crate) fn add(&mut self, at: Instant, request: Request) -> RequestId {
+        let id = RequestId(self.made);
+        self.made += 1;
+        self.waiting.insert((at, id), request);
+        self.next = self.next.min(at);
+        id
+    }
+
+    #[inline]
+    pub(crate) fn next(&self) -> Instant {
+        self.next
+    }
+
+    pub(crate) fn take_due(&mut self, now: Instant) -> Option<(RequestId, Request)> {
+        let first = self.waiting.first_entry().filter(|first| first.key().0 <= now)?;
+        let ((_, id), request) = first.remove_entry();
+        self.next = self.waiting.keys().next().map_or(Instant::MAX, |(at, _)| *at);
+        Some((id, request))
+    }
+}
+
+impl fmt::Display for RequestError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            RequestError::Over { at, now } => {
+                write!(f, "{} s is over: it is {} s", at.as_secs_f64(), now.as_secs_f64())
+            }
+            RequestError::Ended => f.write_str("the plan has ended"),
+            RequestError::NoControl => f.write_str("the robot has no such control"),
+            RequestError::NoFault => f.write_str("the robot has no such fault"),
+            RequestError::Amount(amount) => write!(f, "{amount} is out of range"),
+            RequestError::Lacks(what) => write!(f, "this robot has no '{what}'"),
+            RequestError::Refused => f.write_str("the robot does not do that"),
+            RequestError::Write(why) => why.fmt(f),
+            RequestError::NotActive(path) => write!(f, "'{path}' is not active"),
+            RequestError::NoElement => f.write_str("there is no such actor"),
+            RequestError::Compiled => {
+                f.write_str("the plan was compiled in; only a loaded one can be made to report")
+            }
+        }
+    }
+}
+
+impl std::error::Error for RequestError {}

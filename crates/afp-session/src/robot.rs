@@ -1,0 +1,110 @@
+//! What a session asks of a robot, beyond that time passes for it.
+
+use std::fmt;
+
+use afp_core::devices::Devices;
+use afp_core::{Instant, Platform};
+
+use crate::faults::Active;
+use crate::figures::Figure;
+use crate::observer::NamedRecord;
+use crate::sample::Samples;
+
+/// What can be held down on a robot.
+pub type ControlOf<R> = <<R as Robot>::Devices as Devices>::Control;
+/// What can be broken of a robot.
+pub type FaultOf<R> = <<R as Robot>::Devices as Devices>::Fault;
+
+/// The robot does not do that.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Refused;
+
+/// A platform with devices. Hardware leaves `press` and `set_faults` out.
+pub trait Robot: Platform {
+    /// Its devices.
+    type Devices: Devices;
+
+    /// What its devices declare and it has not: `camera`, `wheels.slip`.
+    const LACKS: &'static [&'static str] = &[];
+
+    /// Holds a control down or lets it go.
+    ///
+    /// # Errors
+    /// Nobody can press it here.
+    fn press(&mut self, control: ControlOf<Self>, held: bool) -> Result<(), Refused> {
+        let _ = (control, held);
+        Err(Refused)
+    }
+
+    /// Breaks exactly these, and mends everything else.
+    ///
+    /// # Errors
+    /// Nothing can be broken here.
+    fn set_faults(&mut self, active: &Active<'_, FaultOf<Self>>) -> Result<(), Refused> {
+        let _ = active;
+        Err(Refused)
+    }
+
+    /// Says what its signals are now. What is dear to compute is asked for with [`Samples::wants`].
+    fn sample(&self, to: &mut Samples<'_, '_>);
+
+    /// What it came to so far, beyond what measures say.
+    fn figures(&self) -> Vec<Figure> {
+        Vec::new()
+    }
+}
+
+/// A robot in a world, in virtual time.
+pub trait Simulated: Robot + Sized + Send + 'static {
+    /// The world.
+    type World;
+
+    /// The robot at its start, at time zero; `seed` decides on every noise.
+    ///
+    /// # Errors
+    /// Why the world cannot be built.
+    fn new(world: &Self::World, seed: u64) -> Result<Self, String>;
+
+    /// The names of its measures.
+    const MEASURES: &'static [&'static str] = &[];
+
+    /// A measure of that name.
+    fn measure(name: &str) -> Option<Box<dyn Measure<Self>>> {
+        let _ = name;
+        None
+    }
+
+    /// The same robot at the same instant, with a clock of its own.
+    fn keyframe(&self) -> Option<Self> {
+        None
+    }
+}
+
+/// Judges a run, with all that the robot's own crate knows of the robot.
+pub trait Measure<R>: Send {
+    /// Takes a record of the step that is over.
+    fn on_record(&mut self, record: &NamedRecord<'_>, robot: &R) {
+        let _ = (record, robot);
+    }
+
+    /// Looks at the robot, every [`crate::SAMPLE`].
+    fn on_sample(&mut self, at: Instant, robot: &R) {
+        let _ = (at, robot);
+    }
+
+    /// What it came to.
+    fn figures(&self) -> Vec<Figure>;
+
+    /// The same judge at the same instant.
+    fn keyframe(&self) -> Option<Box<dyn Measure<R>>> {
+        None
+    }
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the robot does not do that")
+    }
+}
+
+impl std::error::Error for Refused {}

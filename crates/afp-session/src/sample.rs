@@ -1,0 +1,208 @@
+//! What a robot signals, as samples: values of the language, and what logs and pictures show.
+//!
+//! Frames follow the usual convention: x forward, y left, z up, angles counter-clockwise, metres and radians.
+
+use afp_core::Instant;
+use afp_core::devices::{SignalId, SignalType};
+
+use crate::observer::{Observer, Sampling};
+
+/// A place and a heading in the plane.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pose2 {
+    /// Metres.
+    pub x: f64,
+    /// Metres.
+    pub y: f64,
+    /// Radians.
+    pub heading: f64,
+}
+
+/// Where one frame stands in another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Transform {
+    /// The frame that `pose` speaks in.
+    pub parent: &'static str,
+    /// The frame that it places.
+    pub child: &'static str,
+    /// The place of `child`.
+    pub pose: Pose2,
+    /// Its height in metres.
+    pub height: f64,
+}
+
+/// One range reading of a sensor that sees a cone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ranging {
+    /// When it was taken, which may be before it is known.
+    pub time: Instant,
+    /// The frame that `pose` speaks in.
+    pub frame: &'static str,
+    /// Where the sensor was and which way it looked.
+    pub pose: Pose2,
+    /// Half the cone's opening in radians.
+    pub half_angle: f64,
+    /// Metres; `None` when no echo came back.
+    pub range: Option<f64>,
+}
+
+/// A picture of a camera.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Image<'a> {
+    /// When it was taken.
+    pub time: Instant,
+    /// The frame of the camera.
+    pub frame: &'static str,
+    /// Pixels.
+    pub width: u32,
+    /// Pixels.
+    pub height: u32,
+    /// Red, green and blue of each pixel, row by row.
+    pub rgb: &'a [u8],
+}
+
+/// Something that stands in the room.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    /// Unique name within the scene; a later shape of the same name replaces this one.
+    pub id: String,
+    /// The frame it stands in.
+    pub frame: &'static str,
+    /// Its outline in metres, counter-clockwise.
+    pub outline: Vec<[f64; 2]>,
+    /// From the floor, in metres.
+    pub height: f64,
+    /// Red, green, blue and opacity, each 0 to 1.
+    pub color: [f64; 4],
+}
+
+/// The value of a signal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SampleRef<'a> {
+    /// A truth value.
+    Bool(bool),
+    /// A whole number.
+    Int(i64),
+    /// A number in the unit of its row.
+    Float(f64),
+    /// A text.
+    Text(&'a str),
+    /// Where a frame stands.
+    Pose(Transform),
+    /// What a range sensor heard.
+    Range(Ranging),
+    /// A picture.
+    Image(Image<'a>),
+    /// The outline of something that moves.
+    Outline(&'a Shape),
+}
+
+impl SampleRef<'_> {
+    /// Whether it is of a type.
+    pub fn is(&self, ty: SignalType) -> bool {
+        matches!(
+            (self, ty),
+            (SampleRef::Bool(_), SignalType::Bool)
+                | (SampleRef::Int(_), SignalType::Int)
+                | (SampleRef::Float(_), SignalType::Float(_))
+                | (SampleRef::Text(_), SignalType::Text)
+                | (SampleRef::Pose(_), SignalType::Pose)
+                | (SampleRef::Range(_), SignalType::Range)
+                | (SampleRef::Image(_), SignalType::Image)
+                | (SampleRef::Outline(_), SignalType::Outline)
+        )
+    }
+}
+
+/// Takes the samples of an instant from a robot and gives each to whoever wants it.
+pub struct Samples<'a, 'o> {
+    at: Instant,
+    to: To<'a, 'o>,
+}
+
+enum To<'a, 'o> {
+    /// Those observers whose turn it is.
+    Observers(&'a mut [&'o mut dyn Observer], Turn),
+    /// Somebody who asks for one signal.
+    One(SignalId, &'a mut dyn FnMut(SampleRef<'_>)),
+}
+
+/// Whose turn it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Turn {
+    /// Those on whose grid the instant is; those that follow the robot have their turn after the step, where
+    /// there is one.
+    Grid {
+        /// Whether a step is about to be made.
+        before_step: bool,
+    },
+    /// A step is over: those that follow the robot.
+    Step,
+}
+
+impl<'a, 'o> Samples<'a, 'o> {
+    pub(crate) fn of_turn(at: Instant, to: &'a mut [&'o mut dyn Observer], turn: Turn) -> Self {
+        Samples { at, to: To::Observers(to, turn) }
+    }
+
+    pub(crate) fn of_one(
+        at: Instant,
+        signal: SignalId,
+        to: &'a mut dyn FnMut(SampleRef<'_>),
+    ) -> Self {
+        Samples { at, to: To::One(signal, to) }
+    }
+
+    /// Whether anybody wants a signal: to be asked before what is dear to compute.
+    pub fn wants(&self, signal: SignalId) -> bool {
+        match &self.to {
+            To::Observers(all, turn) => all
+                .iter()
+                .any(|each| turn.includes(self.at, each.sampling()) && each.wants(self.at, signal)),
+            To::One(wanted, _) => *wanted == signal,
+        }
+    }
+
+    /// Gives a sample to whoever wants it.
+    pub fn put(&mut self, signal: SignalId, value: SampleRef<'_>) {
+        match &mut self.to {
+            To::Observers(all, turn) => {
+                for each in all.iter_mut() {
+                    if turn.includes(self.at, each.sampling()) && each.wants(self.at, signal) {
+                        each.on_sample(self.at, signal, value);
+                    }
+                }
+            }
+            To::One(wanted, to) if *wanted == signal => to(value),
+            To::One(..) => {}
+        }
+    }
+
+    /// The samples of this instant are complete.
+    pub(crate) fn finish(self) {
+        if let To::Observers(all, turn) = self.to {
+            for each in all.iter_mut() {
+                if turn.includes(self.at, each.sampling()) {
+                    each.after_samples(self.at);
+                }
+            }
+        }
+    }
+}
+
+impl Turn {
+    /// Whether it is the turn of an observer of that sampling.
+    fn includes(self, at: Instant, sampling: Sampling) -> bool {
+        match (self, sampling) {
+            (_, Sampling::Never) | (Turn::Step, Sampling::Every(_)) => false,
+            (Turn::Grid { .. }, Sampling::Every(every)) => is_on_grid(at, every),
+            (Turn::Grid { before_step }, Sampling::Following(_)) => !before_step,
+            (Turn::Step, Sampling::Following(_)) => true,
+        }
+    }
+}
+
+/// Whether an instant is a multiple of a period.
+pub(crate) fn is_on_grid(at: Instant, every: afp_core::Duration) -> bool {
+    at.as_nanos().is_multiple_of(every.as_nanos().max(1))
+}

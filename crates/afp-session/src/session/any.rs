@@ -1,0 +1,109 @@
+//! Every session as one type.
+
+use afp_core::devices::{DeviceRow, SignalId};
+use afp_core::rt::{NamedPlan, Plan};
+use afp_core::trace::{ComponentId, Ending, Names, TraceHash};
+use afp_core::{Duration, Fault, Instant, StartError, Value, ValueRef};
+
+use super::{Session, told};
+use crate::any::{AnySession, SetError};
+use crate::figures::Figures;
+use crate::observer::{Gate, Go, Observer};
+use crate::record::Keep;
+use crate::request::{Request, RequestError, RequestId};
+use crate::robot::Robot;
+use crate::sample::SampleRef;
+
+impl<P, R, S> AnySession for Session<P, R, S>
+where
+    P: NamedPlan + Plan<R>,
+    R: Robot,
+    S: Keep,
+    Session<P, R, S>: Send,
+{
+    fn now(&self) -> Instant {
+        self.robot.now()
+    }
+
+    fn due(&self) -> Instant {
+        self.due()
+    }
+
+    fn names(&self) -> &dyn Names {
+        &self.names
+    }
+
+    fn devices(&self) -> &'static [DeviceRow] {
+        self.table()
+    }
+
+    fn active(&self) -> Option<ComponentId> {
+        told::active(&self.scheduler)
+    }
+
+    fn ending(&self) -> Option<Ending> {
+        self.ending()
+    }
+
+    fn entry(&self, id: u16) -> ValueRef<'_> {
+        self.scheduler.plan().entry(id)
+    }
+
+    fn misses(&self) -> u64 {
+        self.scheduler.misses()
+    }
+
+    fn read(&self, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>)) {
+        self.read(signal, to);
+    }
+
+    fn set(&mut self, entry: &str, text: &str) -> Result<Value, SetError> {
+        self.set(entry, text)
+    }
+
+    fn at(&mut self, at: Instant, request: Request) -> Result<RequestId, RequestError> {
+        self.at(at, request)
+    }
+
+    fn set_rest(&mut self, rest: Duration) {
+        self.set_rest(rest);
+    }
+
+    fn tick(
+        &mut self,
+        limit: Instant,
+        gate: &mut dyn Gate,
+        to: &mut [&mut dyn Observer],
+    ) -> Result<Go, StartError> {
+        self.tick(limit, gate, to)
+    }
+
+    fn run(
+        &mut self,
+        until: Instant,
+        gate: &mut dyn Gate,
+        to: &mut [&mut dyn Observer],
+    ) -> Result<Go, StartError> {
+        self.run(until, gate, to)
+    }
+
+    fn stop(&mut self, to: &mut [&mut dyn Observer]) {
+        self.stop(to);
+    }
+
+    fn abort(&mut self, fault: Fault, to: &mut [&mut dyn Observer]) {
+        self.abort(fault, to);
+    }
+
+    fn end(&mut self) -> Figures {
+        self.end()
+    }
+
+    fn trace(&self) -> TraceHash {
+        self.trace()
+    }
+
+    fn requests(&self) -> &[(Instant, Request)] {
+        self.requests()
+    }
+}

@@ -1,0 +1,201 @@
+//! What is asked of a session from outside.
+
+#[cfg(feature = "load")]
+use afp::load::{Injection, LoadedPlan, NotActive};
+use afp_core::devices::{ControlId, Devices, FaultId, controls, faults};
+use afp_core::rt::{NamedPlan, Plan};
+use afp_core::trace::ComponentId;
+#[cfg(feature = "load")]
+use afp_core::trace::Names;
+use afp_core::{Duration, Instant, Value, Wake};
+
+use super::Session;
+use crate::any::SetError;
+use crate::observer::Observer;
+use crate::record::Keep;
+#[cfg(feature = "load")]
+use crate::record::Kept;
+use crate::request::{Request, RequestError, RequestId};
+use crate::robot::Robot;
+
+/// What only loaded plans can do, as functions over them.
+pub(super) struct Testing<P> {
+    #[cfg(feature = "load")]
+    inject: fn(&mut P, Option<u16>, &Injection) -> Result<(), NotActive>,
+    idle: fn(&mut P, Option<ComponentId>) -> bool,
+}
+
+#[cfg(feature = "load")]
+impl<R: Robot + 'static> Session<LoadedPlan<R>, R, Kept> {
+    /// A loaded plan on a robot: its components can be made to report outcomes, or to do nothing.
+    pub fn loaded(plan: LoadedPlan<R>, robot: R) -> Self {
+        let testing = Testing { inject: LoadedPlan::inject, idle: LoadedPlan::idle };
+        let mut session = Session::new(plan, robot);
+        session.testing = Some(testing);
+        session
+    }
+}
+
+impl<P, R, S> Session<P, R, S>
+where
+    P: NamedPlan + Plan<R>,
+    R: Robot,
+    S: Keep,
+{
+    /// Asks for something at an instant. It is checked now and done then; what cannot be done then is told to
+    /// observers.
+    ///
+    /// # Errors
+    /// It can never be done.
+    pub fn at(&mut self, at: Instant, request: Request) -> Result<RequestId, RequestError> {
+        let now = self.robot.now();
+        if at < now {
+            return Err(RequestError::Over { at, now });
+        }
+        self.check(&request)?;
+        self.asked.push((at, request.clone()));
+        Ok(self.requests.add(at, request))
+    }
+
+    /// What was asked for so far, with the instants.
+    pub fn requests(&self) -> &[(Instant, Request)] {
+        &self.asked
+    }
+
+    /// Whether a request can be met at all.
+    fn check(&self, request: &Request) -> Result<(), RequestError> {
+        let of_plan = !matches!(request, Request::Press(..) | Request::Break(..));
+        if of_plan && self.scheduler.ending().is_some() {
+            return Err(RequestError::Ended);
+        }
+        match request {
+            Request::Write(entry, value) => {
+                self.scheduler.plan().accepts(*entry, value).map_err(RequestError::Write)
+            }
+            Request::Press(id, _) => self.check_control(*id),
+            Request::Break(id, amount, _) => self.check_fault(*id, *amount),
+            #[cfg(feature = "load")]
+            Request::Inject(_) => self.testing.as_ref().map(|_| ()).ok_or(RequestError::Compiled),
+            Request::Idle(_) => self.testing.as_ref().map(|_| ()).ok_or(RequestError::Compiled),
+            Request::Stop => Ok(()),
+        }
+    }
+
+    fn check_control(&self, id: ControlId) -> Result<(), RequestError> {
+        let found = controls(self.table()).find(|(known, ..)| *known == id);
+        let (_, device, _) = found.ok_or(RequestError::NoControl)?;
+        lacks::<R>(device.name, "")
+    }
+
+    fn check_fault(&self, id: FaultId, amount: Option<f64>) -> Result<(), RequestError> {
+        let found = faults(self.table()).find(|(known, ..)| *known == id);
+        let (_, device, row) = found.ok_or(RequestError::NoFault)?;
+        lacks::<R>(device.name, row.name)?;
+        match (R::Devices::fault(id, amount), amount) {
+            (Some(_), _) => Ok(()),
+            (None, Some(amount)) => Err(RequestError::Amount(amount)),
+            (None, None) => Err(RequestError::NoFault),
+        }
+    }
+
+    /// Does what is due, and lets faults begin and end.
+    pub(super) fn apply_due(&mut self, now: Instant, to: &mut [&mut dyn Observer]) {
+        let mut broken = None;
+        while let Some((id, request)) = self.requests.take_due(now) {
+            if matches!(request, Request::Break(..)) {
+                broken = Some(id);
+            }
+            if let Err(why) = self.apply(request, now) {
+                to.iter_mut().for_each(|each| each.on_refused(now, id, &why));
+            }
+        }
+        if broken.is_some() || self.faults.next_change() <= now {
+            let set = self.robot.set_faults(&self.faults.advance(now));
+            if let (Err(_), Some(id)) = (set, broken) {
+                to.iter_mut().for_each(|each| each.on_refused(now, id, &RequestError::Refused));
+            }
+        }
+    }
+
+    fn apply(&mut self, request: Request, now: Instant) -> Result<(), RequestError> {
+        match request {
+            Request::Write(entry, value) => self.write(entry, value).map_err(RequestError::Write),
+            Request::Press(id, held) => {
+                let control = R::Devices::control(id).ok_or(RequestError::NoControl)?;
+                self.robot.press(control, held).map_err(|_| RequestError::Refused)
+            }
+            Request::Break(id, amount, lasting) => {
+                let fault = R::Devices::fault(id, amount).ok_or(RequestError::NoFault)?;
+                self.faults.add(fault, now, until(now, lasting));
+                Ok(())
+            }
+            #[cfg(feature = "load")]
+            Request::Inject(injection) => self.inject(&injection),
+            Request::Idle(element) => {
+                let testing = self.testing.as_ref().ok_or(RequestError::Compiled)?;
+                match (testing.idle)(self.scheduler.plan_mut(), element) {
+                    true => Ok(()),
+                    false => Err(RequestError::NoElement),
+                }
+            }
+            Request::Stop => {
+                self.scheduler.request_stop();
+                // It does not wait for the plan's next step.
+                self.wake = self.wake.map(|_| Wake::At(now));
+                Ok(())
+            }
+        }
+    }
+
+    #[cfg(feature = "load")]
+    fn inject(&mut self, injection: &Injection) -> Result<(), RequestError> {
+        let testing = self.testing.as_ref().ok_or(RequestError::Compiled)?;
+        let active = self.scheduler.active();
+        let done = (testing.inject)(self.scheduler.plan_mut(), active, injection);
+        done.map_err(|_| {
+            let path = self.names.component(injection.component).path;
+            RequestError::NotActive(path.to_owned())
+        })
+    }
+
+    /// Writes an entry: before the start an `in` entry at once, later with the next step.
+    fn write(&mut self, entry: u16, value: Value) -> Result<(), afp_core::WriteError> {
+        match self.wake {
+            None => self.scheduler.plan_mut().set_input(entry, &value),
+            Some(_) => self.scheduler.write(entry, value),
+        }
+    }
+
+    /// Writes an entry as people write it, `35 cm`: before the start an `in` entry, later with the next step. Gives
+    /// the value.
+    ///
+    /// # Errors
+    /// An entry that is not there or cannot be written, a value that does not fit.
+    pub fn set(&mut self, entry: &str, text: &str) -> Result<Value, SetError> {
+        let plan = self.scheduler.plan();
+        let id = plan.entry_named(entry).ok_or(SetError::Unknown)?;
+        let value = plan.read(id, text).map_err(|why| SetError::Unreadable {
+            why,
+            units: plan.units(id).map(|unit| unit.name.to_owned()).collect(),
+        })?;
+        match self.write(id, value.clone()) {
+            Ok(()) => Ok(value),
+            Err(afp_core::WriteError::ReadOnly) => Err(SetError::NotIn),
+            Err(why) => Err(SetError::Refused(why)),
+        }
+    }
+}
+
+/// Whether a robot has what its devices declare.
+fn lacks<R: Robot>(device: &str, part: &str) -> Result<(), RequestError> {
+    let missing = R::LACKS.iter().find(|known| match known.split_once('.') {
+        None => **known == device,
+        Some((of, what)) => of == device && what == part,
+    });
+    missing.map_or(Ok(()), |what| Err(RequestError::Lacks(what)))
+}
+
+/// The end of what lasts so long.
+fn until(now: Instant, lasting: Duration) -> Instant {
+    now + lasting
+}

@@ -1,0 +1,102 @@
+//! What observers and measures are told.
+
+use std::fmt::Write;
+
+use afp_core::devices::SignalId;
+use afp_core::rt::{NamedPlan, Plan};
+use afp_core::trace::{ComponentId, Ending, Line, Names};
+use afp_core::{Instant, Scheduler, ValueRef};
+
+use super::Session;
+use crate::observer::{Inside, NamedRecord, Observer, View};
+use crate::record::{Keep, is_clear};
+use crate::robot::Robot;
+use crate::sample::{SampleRef, Samples, Turn};
+
+/// What a view of a session shows.
+struct Looked<'a, P: NamedPlan, R> {
+    scheduler: &'a Scheduler<P>,
+    robot: &'a R,
+    names: &'a P::Names,
+}
+
+impl<P: NamedPlan, R: Robot> Inside for Looked<'_, P, R> {
+    fn entry(&self, id: u16) -> ValueRef<'_> {
+        self.scheduler.plan().entry(id)
+    }
+
+    fn active(&self) -> Option<ComponentId> {
+        active(self.scheduler)
+    }
+
+    fn ending(&self) -> Option<Ending> {
+        self.scheduler.ending()
+    }
+
+    fn names(&self) -> &dyn Names {
+        self.names
+    }
+
+    fn read(&self, at: Instant, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>)) {
+        self.robot.sample(&mut Samples::of_one(at, signal, to));
+    }
+}
+
+/// The active element of the outermost plan.
+pub(super) fn active<P: NamedPlan>(scheduler: &Scheduler<P>) -> Option<ComponentId> {
+    scheduler.active().map(|element| ComponentId(u32::from(element) + 1))
+}
+
+impl<P, R, S> Session<P, R, S>
+where
+    P: NamedPlan + Plan<R>,
+    R: Robot,
+    S: Keep,
+{
+    /// Tells everybody what happened in the step that is over.
+    pub(super) fn tell_records(&mut self, to: &mut [&mut dyn Observer]) {
+        let Session { robot, names, sink, trace, line, measures, .. } = self;
+        let records = sink.take();
+        for owned in &records {
+            let (at, record) = (owned.at, owned.get());
+            line.clear();
+            let clear = is_clear(&record);
+            if !clear {
+                // Writing to a text cannot fail.
+                let _ = write!(line, "{}", Line { at, record: &record, names: &*names });
+                trace.line(line);
+            }
+            let named = NamedRecord { at, record: &record, names: &*names, line };
+            if !clear {
+                measures.iter_mut().for_each(|measure| measure.on_record(&named, robot));
+            }
+            for observer in to.iter_mut().filter(|each| !clear || each.wants_clear_polls()) {
+                observer.on_record(&named);
+            }
+        }
+        sink.give_back(records);
+    }
+
+    /// Tells everybody that a step is over, and gives samples to those that follow the robot.
+    pub(super) fn tell_step(&mut self, now: Instant, to: &mut [&mut dyn Observer]) {
+        self.take_samples(now, Turn::Step, to);
+        let Session { scheduler, robot, names, .. } = self;
+        let looked = Looked { scheduler, robot, names };
+        let view = View { now, inside: &looked };
+        to.iter_mut().for_each(|observer| observer.after_step(&view));
+    }
+
+    pub(super) fn take_samples(&self, now: Instant, turn: Turn, to: &mut [&mut dyn Observer]) {
+        if turn == Turn::Step && !to.iter().any(|each| each.sampling().follows()) {
+            return;
+        }
+        let mut samples = Samples::of_turn(now, to, turn);
+        self.robot.sample(&mut samples);
+        samples.finish();
+    }
+
+    /// What a signal is now.
+    pub fn read(&self, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>)) {
+        self.robot.sample(&mut Samples::of_one(self.robot.now(), signal, to));
+    }
+}

@@ -1,0 +1,333 @@
+//! What holds for every session: the order at an instant, requests, samples, and how it ends.
+
+mod support;
+
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+use afp_core::devices::{ControlId, FaultId, SignalId};
+use afp_core::trace::{Ending, Record, Verdict};
+use afp_core::{Duration, Fault, Instant, Platform, Text, Value, WriteError};
+use afp_session::{
+    AnySession, Figure, Go, Measure, NamedRecord, Observer, Open, Request, RequestError, RequestId,
+    SampleRef, Sampling, Session, SetError, View,
+};
+use support::{POSITION, Toy, plan};
+
+/// Rolls until the bumper is pressed, then waits, then ends.
+const PLAN: &str = "use toy
+use std
+plan Bump {
+    in name: string = \"\"
+    in speed: speed = 10 cm/s
+    start go
+    actor go: Roll(speed = speed) {
+        supervise touch: CheckBumper { Pressed -> rest }
+        Never -> terminate
+    }
+    actor rest: Wait(duration = 1 s) { Elapsed -> terminate }
+}";
+
+const FRONT: ControlId = ControlId(0);
+const HONK: ControlId = ControlId(1);
+const SLIP: FaultId = FaultId(0);
+const LOST: FaultId = FaultId(1);
+
+fn at(millis: u64) -> Instant {
+    Instant::ZERO + Duration::from_millis(millis)
+}
+
+type Loaded = Session<afp::load::LoadedPlan<Toy>, Toy>;
+
+fn session() -> Loaded {
+    Session::loaded(plan(PLAN), Toy::new())
+}
+
+/// Writes down what it is told.
+#[derive(Default)]
+struct Notes {
+    lines: Vec<String>,
+    clear_polls: Option<u64>,
+    steps: Vec<Instant>,
+    sampling: Option<Sampling>,
+    samples: Vec<(Instant, f64)>,
+    refused: Vec<(Instant, RequestId, RequestError)>,
+}
+
+impl Observer for Notes {
+    fn on_record(&mut self, record: &NamedRecord<'_>) {
+        match record.record {
+            Record::Polled { verdict: Verdict::Clear, .. } => {
+                assert_eq!(record.line, "");
+                *self.clear_polls.get_or_insert(0) += 1;
+            }
+            _ => self.lines.push(record.line.to_owned()),
+        }
+    }
+
+    fn wants_clear_polls(&self) -> bool {
+        self.clear_polls.is_some()
+    }
+
+    fn after_step(&mut self, view: &View<'_>) {
+        self.steps.push(view.now());
+    }
+
+    fn sampling(&self) -> Sampling {
+        self.sampling.unwrap_or(Sampling::Never)
+    }
+
+    fn wants(&self, _: Instant, signal: SignalId) -> bool {
+        signal == POSITION
+    }
+
+    fn on_sample(&mut self, at: Instant, _: SignalId, value: SampleRef<'_>) {
+        let SampleRef::Pose(of) = value else { panic!("{value:?}") };
+        self.samples.push((at, of.pose.x));
+    }
+
+    fn on_refused(&mut self, at: Instant, request: RequestId, why: &RequestError) {
+        self.refused.push((at, request, why.clone()));
+    }
+}
+
+impl Notes {
+    fn has(&self, line: &str) -> bool {
+        self.lines.iter().any(|known| known == line)
+    }
+}
+
+#[test]
+fn a_press_at_the_start_is_seen_by_the_first_look() {
+    let mut session = session();
+    let mut notes = Notes::default();
+    session.at(Instant::ZERO, Request::Press(FRONT, true)).unwrap();
+    session.run(at(500), &mut Open, &mut [&mut notes]).unwrap();
+    assert!(notes.has("0.000000 go diverted by go.touch"), "{:#?}", notes.lines);
+}
+
+#[test]
+fn requests_come_in_order_before_the_step_of_their_instant() {
+    let mut session = session();
+    let mut notes = Notes::default();
+    // Made first, done last; of two at one time the one made first comes first.
+    session.at(at(300), Request::Press(FRONT, true)).unwrap();
+    session.at(at(300), Request::Press(FRONT, false)).unwrap();
+    session.at(at(100), Request::Press(FRONT, true)).unwrap();
+    session.at(at(105), Request::Press(FRONT, false)).unwrap();
+    session.run(at(500), &mut Open, &mut [&mut notes]).unwrap();
+    assert!(notes.has("0.100000 go.touch event Pressed -> rest"), "{:#?}", notes.lines);
+    let asked: Vec<_> =
+        session.requests().iter().map(|(at, _)| at.as_nanos() / 1_000_000).collect();
+    assert_eq!(asked, [300, 300, 100, 105]);
+}
+
+#[test]
+fn faults_are_a_set_that_the_last_begun_rules() {
+    let mut session = session();
+    let second = Duration::from_secs(1);
+    session.at(at(1000), Request::Break(SLIP, Some(0.0), second + second)).unwrap();
+    session.at(at(2000), Request::Break(SLIP, None, second + second)).unwrap();
+    let position = |session: &Session<_, Toy>| (session.robot().position * 1e3).round() / 1e3;
+    for (until, way) in [(1000, 0.1), (2000, 0.1), (3000, 0.15), (4000, 0.2), (5000, 0.3)] {
+        session.run(at(until), &mut Open, &mut []).unwrap();
+        assert_eq!(position(&session), way, "{until} ms");
+    }
+    session.at(at(5000), Request::Break(LOST, None, Duration::MAX)).unwrap();
+    session.at(at(5000), Request::Press(FRONT, true)).unwrap();
+    session.run(at(6000), &mut Open, &mut []).unwrap();
+    assert_eq!(position(&session), 0.4);
+}
+
+#[test]
+fn what_can_never_be_is_refused_at_once_and_what_cannot_be_then_is_told() {
+    let mut session = session();
+    let mut notes = Notes::default();
+    for (request, why) in [
+        (Request::Press(HONK, true), RequestError::Lacks("horn")),
+        (Request::Press(ControlId(9), true), RequestError::NoControl),
+        (Request::Break(FaultId(9), None, Duration::MAX), RequestError::NoFault),
+        (Request::Break(SLIP, Some(2.0), Duration::MAX), RequestError::Amount(2.0)),
+        (Request::Write(1, Value::Bool(true)), RequestError::Write(WriteError::Type)),
+    ] {
+        assert_eq!(session.at(at(10), request), Err(why));
+    }
+    // `rest` does not run yet.
+    let injection = afp::load::Injection {
+        component: component(&session, "rest"),
+        outcome: 0,
+        outputs: Vec::new(),
+    };
+    let id = session.at(at(50), Request::Inject(injection)).unwrap();
+    session.run(at(100), &mut Open, &mut [&mut notes]).unwrap();
+    assert_eq!(notes.refused, [(at(50), id, RequestError::NotActive("rest".to_owned()))]);
+    let late = session.at(at(50), Request::Stop);
+    assert_eq!(late, Err(RequestError::Over { at: at(50), now: at(100) }));
+    session.stop(&mut []);
+    assert_eq!(session.at(at(200), Request::Stop), Err(RequestError::Ended));
+}
+
+fn component(session: &Loaded, path: &str) -> afp_core::trace::ComponentId {
+    let names = AnySession::names(session);
+    let mut ids = (0..names.components()).map(afp_core::trace::ComponentId);
+    ids.find(|id| names.component(*id).path == path).unwrap()
+}
+
+#[test]
+fn an_entry_is_set_before_the_start_and_written_later() {
+    let mut session = session();
+    assert_eq!(session.set("speed", "20 cm/s"), Ok(Value::Float(0.2)));
+    assert_eq!(session.set("pace", "20 cm/s"), Err(SetError::Unknown));
+    let Err(SetError::Unreadable { units, .. }) = session.set("speed", "fast") else {
+        panic!("a speed is no word");
+    };
+    assert!(units.iter().any(|unit| unit == "cm/s"), "{units:?}");
+    session
+        .at(Instant::ZERO, Request::Write(0, Value::Text(Text::try_from("a").unwrap())))
+        .unwrap();
+    let mut notes = Notes::default();
+    session.run(at(1000), &mut Open, &mut [&mut notes]).unwrap();
+    assert!((session.robot().position - 0.2).abs() < 1e-9);
+    assert!(notes.has("0.000000 Bump commits name: unset -> \"a\""), "{:#?}", notes.lines);
+    assert!(session.plan_mut().is_none(), "a running plan is only written to");
+    session.set("name", "b").unwrap();
+    session.run(at(1020), &mut Open, &mut [&mut notes]).unwrap();
+    assert!(notes.has("1.010000 outside commits name: \"a\" -> \"b\""), "{:#?}", notes.lines);
+}
+
+#[test]
+fn samples_have_a_grid_of_their_own_that_the_plan_does_not_notice() {
+    let mut quiet = session();
+    quiet.run(at(200), &mut Open, &mut []).unwrap();
+    for sampling in
+        [Sampling::Every(Duration::from_millis(7)), Sampling::Following(Duration::from_millis(7))]
+    {
+        let mut session = session();
+        let mut notes =
+            Notes { sampling: Some(sampling), clear_polls: Some(0), ..Notes::default() };
+        session.run(at(200), &mut Open, &mut [&mut notes]).unwrap();
+        assert_eq!(session.trace(), quiet.trace());
+        let times: Vec<_> = notes.samples.iter().map(|(at, _)| at.as_nanos() / 1_000_000).collect();
+        let grid: Vec<u64> = match sampling {
+            Sampling::Following(_) => (0..=200).filter(|ms| ms % 7 == 0 || ms % 10 == 0).collect(),
+            _ => (0..=200).step_by(7).collect(),
+        };
+        assert_eq!(times, grid, "{sampling:?}");
+        assert_eq!(notes.clear_polls, Some(21));
+        assert_eq!(notes.steps.len(), 21);
+    }
+}
+
+#[test]
+fn pieces_make_the_same_run_as_the_whole() {
+    let mut whole = session();
+    whole.run(at(3000), &mut Open, &mut []).unwrap();
+    let mut parts: Box<dyn AnySession> = Box::new(session());
+    let mut closed = false;
+    let mut gate = |target: Instant, _: Instant| match target > at(700) && !closed {
+        true => Go::Stop,
+        false => Go::On,
+    };
+    assert_eq!(parts.run(at(3000), &mut gate, &mut []), Ok(Go::Stop));
+    assert!(parts.now() <= at(700));
+    closed = true;
+    let mut notes =
+        Notes { sampling: Some(Sampling::Every(Duration::from_millis(3))), ..Notes::default() };
+    let mut gate = |_: Instant, _: Instant| if closed { Go::On } else { Go::Stop };
+    assert_eq!(parts.run(at(1100), &mut gate, &mut [&mut notes]), Ok(Go::On));
+    assert_eq!(parts.run(at(3000), &mut gate, &mut []), Ok(Go::On));
+    assert_eq!((parts.trace(), parts.now()), (whole.trace(), at(3000)));
+}
+
+#[test]
+fn a_run_goes_on_for_its_rest_and_begins_where_the_platform_is() {
+    let begin = at(5003);
+    let mut session = Session::loaded(plan(PLAN), Toy::at(begin));
+    session.set_rest(Duration::from_millis(250));
+    session.at(begin, Request::Press(FRONT, true)).unwrap();
+    let mut notes = Notes::default();
+    assert_eq!(session.run(at(60_000), &mut Open, &mut [&mut notes]), Ok(Go::On));
+    assert_eq!(notes.steps.first(), Some(&begin));
+    assert_eq!(session.ending(), Some(Ending::Ok));
+    assert_eq!(session.robot().now(), at(6003 + 250));
+    assert_eq!(session.due(), Instant::MAX);
+}
+
+#[test]
+fn a_stop_makes_a_step_of_its_own() {
+    let mut session = session();
+    session.at(at(55), Request::Stop).unwrap();
+    let mut notes = Notes::default();
+    session.run(at(1000), &mut Open, &mut [&mut notes]).unwrap();
+    assert!(notes.has("0.055000 Bump ended Interrupted"), "{:#?}", notes.lines);
+}
+
+#[test]
+fn every_way_out_stops_the_robot() {
+    let broken = PLAN.replace("speed = speed", "speed = speed, fragile = true");
+    let ways: [(&str, fn(&mut Loaded)); 4] = [
+        ("dropped before the start", |_| {}),
+        ("dropped while it runs", |session| {
+            assert!(session.run(at(100), &mut Open, &mut []).is_ok())
+        }),
+        ("ended", |session| drop(session.end())),
+        ("aborted", |session| session.abort(Fault::INTERNAL, &mut [])),
+    ];
+    for (way, go) in ways {
+        let toy = Toy::new();
+        let stops = Arc::clone(&toy.stops);
+        let mut session = Session::loaded(plan(PLAN), toy);
+        go(&mut session);
+        drop(session);
+        assert!(stops.load(Ordering::Relaxed) > 0, "{way}");
+    }
+    let toy = Toy::new();
+    let stops = Arc::clone(&toy.stops);
+    let mut session = Session::loaded(plan(&broken), toy);
+    let mut notes = Notes::default();
+    session.run(at(5000), &mut Open, &mut [&mut notes]).unwrap();
+    assert_eq!(session.ending(), Some(Ending::Error(Fault::PANIC)));
+    assert!(stops.load(Ordering::Relaxed) > 0, "a panic");
+    assert!(notes.lines.last().unwrap().ends_with("Bump ended Error(panic)"), "{:#?}", notes.lines);
+}
+
+/// Counts what it is shown.
+#[derive(Default)]
+struct Tally {
+    looks: u64,
+    events: u64,
+}
+
+impl Measure<Toy> for Tally {
+    fn on_record(&mut self, record: &NamedRecord<'_>, robot: &Toy) {
+        if matches!(record.record, Record::Event { .. }) {
+            assert!(robot.position > 0.0);
+            self.events += 1;
+        }
+    }
+
+    fn on_sample(&mut self, at: Instant, robot: &Toy) {
+        assert_eq!(at, robot.now());
+        self.looks += 1;
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        let value = afp_session::FigureValue::Numbers(vec![
+            ("looks", self.looks as f64),
+            ("events", self.events as f64),
+        ]);
+        vec![Figure { name: "tally", value, text: String::new() }]
+    }
+}
+
+#[test]
+fn measures_see_the_robot_and_come_out_as_figures() {
+    let mut session = session();
+    session.add_measure(Box::new(Tally::default()));
+    session.at(at(33), Request::Press(FRONT, true)).unwrap();
+    session.run(at(1000), &mut Open, &mut []).unwrap();
+    let figures = session.end();
+    assert_eq!(figures.number("tally", "looks"), Some(51.0));
+    assert_eq!(figures.number("tally", "events"), Some(1.0));
+    assert!(figures.number("way", "way_m").unwrap() > 0.0);
+}
