@@ -8,7 +8,7 @@ mod bindings;
 mod callee;
 mod constant;
 mod convert;
-mod edges;
+pub(crate) mod edges;
 mod endings;
 mod entries;
 pub(crate) mod enums;
@@ -20,7 +20,7 @@ mod recursion;
 mod resources;
 pub(crate) mod scenario;
 mod scope;
-mod signature;
+pub(crate) mod signature;
 pub(crate) mod size;
 pub(crate) mod text;
 pub(crate) mod timing;
@@ -33,6 +33,8 @@ use crate::files::relative;
 use crate::flow::{self, Model};
 use crate::gather::PlanFile;
 use crate::graph::{self, Graph};
+use crate::index::{Meanings, Recorder};
+use crate::outline::{self, Material, Outline};
 use crate::scenario::Scenario;
 use crate::source::Span;
 use crate::syntax::ast::{self, Item, Name};
@@ -41,6 +43,7 @@ use crate::words;
 
 use entries::EntryDraft;
 use names::Places;
+pub(crate) use plan::{Made, MadeParts};
 use scope::FileScope;
 use signature::Signatures;
 
@@ -58,6 +61,8 @@ pub(crate) struct Program<'a> {
     pub sub_plans: Vec<Vec<(usize, Span)>>,
     /// The ports and outcomes of all that plans can use.
     pub signatures: Signatures,
+    /// What is found out about names.
+    pub record: &'a Recorder,
 }
 
 /// A compilation as one of its files sees it.
@@ -102,13 +107,15 @@ pub(crate) enum Flow {
     Unchecked,
 }
 
-/// What plan files without errors come to.
+/// What plan files come to; without graph and scenarios where there are errors.
 #[derive(Default)]
 pub(crate) struct Checked {
     /// The graph of the plan that runs.
     pub graph: Option<Graph>,
     /// The scenarios of the first file.
     pub scenarios: Vec<Scenario>,
+    /// What stands in the files, with or without errors.
+    pub outline: Outline,
 }
 
 /// Checks plan files and builds the graph of the plan `main` of the first file, or of its first
@@ -125,10 +132,16 @@ pub(crate) fn check(
         imports::check_order(&file.tree, diags);
         imports::check_no_templates(&file.tree, diags);
     }
-    let program = scope::program(files, toolboxes, diags);
+    let record = Recorder::default();
+    let program = scope::program(files, toolboxes, &record, diags);
     let order = recursion::order(&program, diags);
-    let (plans, users): (Vec<_>, Vec<_>) =
-        (0..program.plans.len()).map(|place| plan::check(&program, place, diags)).unzip();
+    let (mut plans, mut users, mut made) = (Vec::new(), Vec::new(), Vec::new());
+    for place in 0..program.plans.len() {
+        let checked = plan::check(&program, place, diags);
+        plans.push(checked.plan);
+        users.push(checked.users);
+        made.push(checked.made);
+    }
     resources::check(&program.plans, &users, &order, diags);
     size::check(&program, &plans, &order, diags);
     if flow == Flow::Checked {
@@ -137,8 +150,28 @@ pub(crate) fn check(
     let ready = scenario::Plans { plans: &plans, order: &order };
     let scenarios = scenario::check(&program, files, &ready, diags);
     let main = files.first().and_then(|file| select(&program, file, main, diags));
-    let Some(main) = main.filter(|_| !diags.has_errors()) else { return Checked::default() };
-    Checked { graph: assemble::graph(&program, plans, &order, main), scenarios }
+    note_files(files, &record);
+    let meanings = Meanings::new(record.take());
+    let material = Material { program: &program, files, made: &made, meanings: &meanings, main };
+    let outline = outline::build(&material);
+    let Some(main) = main.filter(|_| !diags.has_errors()) else {
+        return Checked { outline, ..Checked::default() };
+    };
+    Checked { graph: assemble::graph(&program, plans, &order, main), scenarios, outline }
+}
+
+/// Says what the paths behind `use` mean.
+fn note_files(files: &[PlanFile], record: &Recorder) {
+    for file in files {
+        let paths = file.tree.items().into_iter().filter_map(|item| match item {
+            Item::Use(line) => line.path(),
+            _ => None,
+        });
+        paths.for_each(|path| record.unknown(path.span));
+        for (path, used) in &file.paths {
+            record.file(*path, files[*used].index);
+        }
+    }
 }
 
 /// Checks the flow of every plan that has no error so far.

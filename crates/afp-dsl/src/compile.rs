@@ -7,6 +7,7 @@ use crate::diagnostics::Diagnostics;
 use crate::files::{Files, below_all, normalised};
 use crate::gather;
 use crate::graph::Graph;
+use crate::outline::Outline;
 use crate::scenario::Scenario;
 use crate::source::{Source, Sources};
 use crate::timing;
@@ -19,6 +20,8 @@ pub struct Compiled {
     pub graph: Option<Graph>,
     /// The scenarios of the file; none while there are errors.
     pub scenarios: Vec<Scenario>,
+    /// What stands in the plan files, with or without errors.
+    pub outline: Outline,
     /// Everything there is to say, ordered by place.
     pub diags: Diagnostics,
     /// The files that spans belong to: the toolboxes', then the plan files.
@@ -87,13 +90,15 @@ fn compile_with(
     let mut sources = toolboxes.sources().clone();
     let first = sources.len();
     let gathered = gather::gather(source, files, toolboxes, &mut sources, &mut diags);
-    let Checked { graph, scenarios } = check::check(&gathered, toolboxes, plan, flow, &mut diags);
+    let Checked { graph, scenarios, mut outline } =
+        check::check(&gathered, toolboxes, plan, flow, &mut diags);
     if let Some(graph) = graph.as_ref().filter(|_| flow == Flow::Checked) {
         timing::check_responses(graph, &mut diags);
     }
     diags.sort();
+    outline.attach(&diags);
     let plan_files = first..sources.len();
     let graph = graph.filter(|_| !diags.has_errors());
     let scenarios = if graph.is_some() { scenarios } else { Vec::new() };
-    Compiled { graph, scenarios, diags, sources, plan_files }
+    Compiled { graph, scenarios, outline, diags, sources, plan_files }
 }

@@ -146,6 +146,11 @@ impl Diagnostics {
         self.list.len()
     }
 
+    /// One of them, by its place.
+    pub fn get(&self, place: u32) -> Option<&Diagnostic> {
+        self.list.get(place as usize)
+    }
+
     /// All of them.
     pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
         self.list.iter()

@@ -27,6 +27,8 @@ pub(crate) struct PlanFile {
     pub index: u16,
     /// The files that it uses, by their places among the gathered ones, as written.
     pub uses: Vec<usize>,
+    /// The paths behind `use` that lead to files, with these places.
+    pub paths: Vec<(Span, usize)>,
     /// Whether a file that it wants to use is missing.
     pub incomplete: bool,
 }
@@ -91,8 +93,9 @@ impl Gathering<'_> {
     fn add(&mut self, path: String, source: Arc<Source>, index: u16, tree: &Parse) -> usize {
         let place = self.found.len();
         self.known.insert(path.clone(), Ok(place));
-        let (tree, uses) = (tree.file(), Vec::new());
-        self.found.push(PlanFile { path, source, tree, index, uses, incomplete: false });
+        let (tree, uses, paths) = (tree.file(), Vec::new(), Vec::new());
+        let file = PlanFile { path, source, tree, index, uses, paths, incomplete: false };
+        self.found.push(file);
         place
     }
 
@@ -106,6 +109,7 @@ impl Gathering<'_> {
                 self.found[user].incomplete = true;
                 continue;
             };
+            self.found[user].paths.push((written.span, used));
             if let Some((_, first)) = lines.iter().find(|(known, _)| *known == used) {
                 let message = format!("{} is used twice", written.text.replace('"', "'"));
                 self.diags.push(

@@ -26,6 +26,8 @@ pub struct Toolbox {
     pub objects: Vec<Arc<Object>>,
     /// The Rust crate (a path such as `afp_carbot`) that implements it.
     pub rust_path: String,
+    /// The name in the text.
+    pub span: Span,
 }
 
 /// One actor, supervisor or computation that plans can use.

@@ -44,6 +44,8 @@ pub struct Enum {
     pub toolbox: Option<String>,
     /// The names of its values.
     pub variants: Vec<String>,
+    /// These names in the text.
+    pub variant_spans: Vec<Span>,
     /// The name in the text.
     pub span: Span,
 }

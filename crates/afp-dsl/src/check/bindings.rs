@@ -19,10 +19,9 @@ use generic::{Generic, actual};
 
 /// The checked bindings of a component.
 pub(crate) struct Bound {
-    /// One formula for each input port.
-    pub inputs: Vec<Formula>,
-    /// The connected outputs.
-    pub outputs: Vec<Output>,
+    /// One formula for each input port and the connected outputs; `None` when something is wrong
+    /// with them.
+    pub sound: Option<(Vec<Formula>, Vec<Output>)>,
     /// The type that stands for `any` or `number`.
     pub generic: Option<Type>,
 }
@@ -35,15 +34,15 @@ pub(crate) struct Site {
     pub broken: bool,
 }
 
-/// Checks the bindings of one component; `None` when something is wrong with them.
+/// Checks the bindings of one component.
 pub(crate) fn check(
     scope: &Scope<'_>,
     signature: &Signature,
     binds: &[Bind],
     site: &Site,
     diags: &mut Diagnostics,
-) -> Option<Bound> {
-    let ports = find_ports(signature, binds, diags);
+) -> Bound {
+    let ports = find_ports(scope, signature, binds, diags);
     let inferred: Vec<_> = ports
         .inputs
         .iter()
@@ -52,10 +51,11 @@ pub(crate) fn check(
     let generic = generic::decide(scope, signature, &inferred, &ports, diags);
     let inputs = inputs(scope, signature, inferred, &generic, site, diags);
     let outputs = outputs::check(scope, signature, &ports, &generic, diags);
-    let generic = match generic {
-        Generic::None => None,
-        Generic::Is(ty) => Some(ty),
-        Generic::Unknown => return None,
+    let sound = inputs.zip(outputs);
+    match generic {
+        Generic::None => Bound { sound, generic: None },
+        Generic::Is(ty) => Bound { sound, generic: Some(ty) },
+        Generic::Unknown => Bound { sound: None, generic: None },
         Generic::Undecided => {
             if !site.broken {
                 let message = format!("nothing decides the type of '{}'", signature.name);
@@ -64,10 +64,9 @@ pub(crate) fn check(
                         .help("bind one of its ports to a value or an entry"),
                 );
             }
-            return None;
+            Bound { sound: None, generic: None }
         }
-    };
-    Some(Bound { inputs: inputs?, outputs: outputs?, generic })
+    }
 }
 
 /// The bindings, sorted by port.
@@ -80,12 +79,54 @@ struct Ports<'a> {
     complete: bool,
 }
 
-fn find_ports<'a>(signature: &Signature, binds: &'a [Bind], diags: &mut Diagnostics) -> Ports<'a> {
+/// Finds out what the names in bindings mean whose component is made from nothing that is known.
+pub(crate) fn names_only(scope: &Scope<'_>, binds: &[Bind], diags: &mut Diagnostics) {
+    for bind in binds {
+        let (Bind::In { port, .. } | Bind::Out { port, .. }) = bind;
+        scope.record.unknown(port.span);
+        match bind {
+            Bind::In { formula: Some(formula), .. } => {
+                scope.check(formula, None, diags);
+            }
+            _ => bound_names(scope, bind),
+        }
+    }
+}
+
+/// Finds out what a binding is bound to that does not count.
+fn bound_names(scope: &Scope<'_>, bind: &Bind) {
+    match bind {
+        Bind::In { formula, .. } => formula.iter().for_each(|formula| scope.names_only(formula)),
+        Bind::Out { entry, formula, .. } => {
+            entry.iter().for_each(|entry| {
+                scope.entry(entry);
+            });
+            formula.iter().for_each(|formula| scope.names_only(formula));
+        }
+    }
+}
+
+fn find_ports<'a>(
+    scope: &Scope<'_>,
+    signature: &Signature,
+    binds: &'a [Bind],
+    diags: &mut Diagnostics,
+) -> Ports<'a> {
     let mut ports =
         Ports { inputs: vec![None; signature.inputs.len()], outputs: Vec::new(), complete: true };
     let mut seen: Vec<&Name> = Vec::new();
     for bind in binds {
         let (Bind::In { port, sign, .. } | Bind::Out { port, sign, .. }) = bind;
+        let input = signature.inputs.iter().position(|input| input.name == port.text);
+        let output = signature.outputs.iter().position(|output| output.name == port.text);
+        let declared = match (input, output) {
+            (Some(place), _) => Some(signature.inputs[place].span),
+            (None, place) => place.map(|place| signature.outputs[place].span),
+        };
+        match declared {
+            Some(definition) => scope.record.definition(port.span, definition),
+            None => scope.record.unknown(port.span),
+        }
         if let Some(first) = seen.iter().find(|known| known.text == port.text) {
             diags.push(
                 Diagnostic::new(Code::E0226, port.span, format!("'{}' is bound twice", port.text))
@@ -93,11 +134,10 @@ fn find_ports<'a>(signature: &Signature, binds: &'a [Bind], diags: &mut Diagnost
                     .help("remove one of them"),
             );
             ports.complete = false;
+            bound_names(scope, bind);
             continue;
         }
         seen.push(port);
-        let input = signature.inputs.iter().position(|input| input.name == port.text);
-        let output = signature.outputs.iter().position(|output| output.name == port.text);
         match (bind, input, output) {
             (Bind::In { formula, .. }, Some(place), _) => {
                 ports.inputs[place] = Some(formula.as_ref());
@@ -106,14 +146,17 @@ fn find_ports<'a>(signature: &Signature, binds: &'a [Bind], diags: &mut Diagnost
                 ports.outputs.push((place, entry.as_ref(), formula.as_ref()));
             }
             (_, None, None) => {
+                bound_names(scope, bind);
                 ports.complete = false;
                 diags.push(unknown_port(signature, bind, port));
             }
             (Bind::In { .. }, None, Some(_)) => {
+                bound_names(scope, bind);
                 ports.complete = false;
                 diags.push(mixed_up(*sign, port, "an output", "=>"));
             }
             (Bind::Out { .. }, Some(_), None) => {
+                bound_names(scope, bind);
                 ports.complete = false;
                 diags.push(mixed_up(*sign, port, "an input", "="));
             }

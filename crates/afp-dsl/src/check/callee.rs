@@ -39,6 +39,10 @@ impl Context<'_> {
     ) -> Option<Rc<Signature>> {
         let name = reference.name()?;
         let home = reference.home();
+        let record = self.program.record;
+        if let Some(home) = &home {
+            self.file.types.qualifier(home, record);
+        }
         let mut found = self.candidates(&name, home.as_ref());
         let fits = |each: &Candidate<'_>| each.signature.kind.keyword() == wanted.keyword;
         // The keyword decides between a plan and a template of the same name.
@@ -46,13 +50,15 @@ impl Context<'_> {
             found.retain(fits);
         }
         if found.len() > 1 {
+            record.several(name.span);
             let plans = found.iter().all(|each| each.home.is_none());
             let what = if plans { "a plan" } else { "a template" };
             let places: Vec<_> = found.iter().map(|each| (each.home, each.span)).collect();
             diags.push(ambiguous(what, &name.text, reference.span(), &places));
             return None;
         }
-        let Some(Candidate { signature, .. }) = found.pop() else {
+        let Some(Candidate { signature, span, .. }) = found.pop() else {
+            record.unknown(name.span);
             // It may be in the toolbox or file that is missing.
             let subplan = wanted.keyword == "subplan";
             if if subplan { self.file.incomplete } else { self.file.types.incomplete } {
@@ -61,6 +67,7 @@ impl Context<'_> {
             diags.push(self.not_found(&name, home.as_ref(), reference.span(), wanted));
             return None;
         };
+        record.definition(name.span, span);
         if signature.kind.keyword() == wanted.keyword {
             return Some(signature);
         }

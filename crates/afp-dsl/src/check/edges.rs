@@ -4,6 +4,7 @@ use crate::check::names::{Places, unknown};
 use crate::check::signature::{Signature, SignatureKind};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{EdgeSpans, ElementId, Target};
+use crate::index::{Recorder, Word};
 use crate::source::Span;
 use crate::syntax::ast::{Edge, Name};
 use crate::words;
@@ -38,16 +39,28 @@ pub(crate) struct Origin<'a> {
 }
 
 /// The elements of a plan by name.
-pub(crate) struct Elements {
+pub(crate) struct Elements<'a> {
     names: Vec<Option<Name>>,
     places: Places,
+    record: &'a Recorder,
 }
 
-impl Elements {
+impl<'a> Elements<'a> {
     /// Takes the names of a plan's elements by place.
-    pub fn new(names: Vec<Option<Name>>) -> Elements {
+    pub fn new(names: Vec<Option<Name>>, record: &'a Recorder) -> Elements<'a> {
         let texts = names.iter().map(|name| name.as_ref().map(|name| name.text.as_str()));
-        Elements { places: Places::of(texts), names }
+        Elements { places: Places::of(texts), names, record }
+    }
+
+    /// Whether a target is a word of the language.
+    fn is_word(&self, to: &Name) -> bool {
+        let word = match to.text.as_str() {
+            "terminate" => Word::Terminate,
+            "ignore" => Word::Ignore,
+            _ => return false,
+        };
+        self.record.word(to.span, word);
+        true
     }
 
     /// The names that are there, as written.
@@ -60,7 +73,7 @@ impl Elements {
 pub(crate) fn check(
     origin: &Origin<'_>,
     edges: &[Edge],
-    elements: &Elements,
+    elements: &Elements<'_>,
     diags: &mut Diagnostics,
 ) -> Connected {
     let signature = origin.signature;
@@ -70,7 +83,12 @@ pub(crate) fn check(
     let mut seen: Vec<Name> = Vec::new();
     let extra = if origin.supervisor { DEADLINE_MISSED } else { ERROR };
     for edge in edges {
-        let Some(name) = edge.name() else { continue };
+        let Some(name) = edge.name() else {
+            leads_to(edge, origin.supervisor, elements);
+            continue;
+        };
+        let place = signature.outcomes.iter().position(|outcome| *outcome == name.text);
+        outcome(signature, place, &name, origin.supervisor, elements.record);
         if let Some(first) = seen.iter().find(|known| known.text == name.text) {
             diags.push(
                 Diagnostic::new(
@@ -81,12 +99,13 @@ pub(crate) fn check(
                 .note(first.span, "first connected here")
                 .help("remove one of the edges"),
             );
+            leads_to(edge, origin.supervisor, elements);
             continue;
         }
         let to = edge.target();
         let span = to.as_ref().map_or_else(|| edge.span(), |to| name.span.to(to.span));
         let target = to.and_then(|to| target(&to, origin.supervisor, elements, diags));
-        match signature.outcomes.iter().position(|outcome| *outcome == name.text) {
+        match place {
             Some(place) => {
                 connected.outcomes[place] = target;
                 connected.spans.outcomes[place] = Some(span);
@@ -108,6 +127,65 @@ pub(crate) fn check(
     connected
 }
 
+/// Finds out what the names of edges mean whose component is made from nothing that is known.
+pub(crate) fn names_only(
+    edges: &[Edge],
+    supervisor: bool,
+    elements: &Elements<'_>,
+    diags: &mut Diagnostics,
+) {
+    let special = if supervisor { DEADLINE_MISSED } else { ERROR };
+    for edge in edges {
+        if let Some(name) = edge.name() {
+            match word(&name.text).filter(|_| name.text == special) {
+                Some(word) => elements.record.word(name.span, word),
+                None => elements.record.unknown(name.span),
+            }
+        }
+        match edge.target() {
+            Some(to) if !elements.is_word(&to) => {
+                find(&to, elements, diags);
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Finds out where an edge leads that does not count.
+fn leads_to(edge: &Edge, supervisor: bool, elements: &Elements<'_>) {
+    if let Some(to) = edge.target() {
+        target(&to, supervisor, elements, &mut Diagnostics::default());
+    }
+}
+
+/// Says which state or event an edge is for.
+fn outcome(
+    signature: &Signature,
+    place: Option<usize>,
+    name: &Name,
+    supervisor: bool,
+    record: &Recorder,
+) {
+    let special = if supervisor { DEADLINE_MISSED } else { ERROR };
+    let known = place.is_some() || name.text == special;
+    match (place.and_then(|place| signature.outcome_span(place)), word(&name.text)) {
+        (Some(definition), _) => record.definition(name.span, definition),
+        (None, Some(word)) if known => record.word(name.span, word),
+        _ => record.unknown(name.span),
+    }
+}
+
+/// The states and events that no template declares.
+pub(crate) fn word(name: &str) -> Option<Word> {
+    Some(match name {
+        "OK" => Word::Ok,
+        "Interrupted" => Word::Interrupted,
+        ERROR => Word::Error,
+        DEADLINE_MISSED => Word::DeadlineMissed,
+        _ => return None,
+    })
+}
+
 fn unknown_outcome(origin: &Origin<'_>, name: &Name, extra: &str) -> Diagnostic {
     let word = if origin.supervisor { "event" } else { "state" };
     let message = format!("'{}' has no {word} '{}'", origin.signature.name, name.text);
@@ -118,9 +196,10 @@ fn unknown_outcome(origin: &Origin<'_>, name: &Name, extra: &str) -> Diagnostic 
 fn target(
     to: &Name,
     supervisor: bool,
-    elements: &Elements,
+    elements: &Elements<'_>,
     diags: &mut Diagnostics,
 ) -> Option<Target> {
+    elements.is_word(to);
     match to.text.as_str() {
         "terminate" => return Some(Target::Terminate),
         "ignore" if supervisor => return Some(Target::Ignore),
@@ -137,14 +216,22 @@ fn target(
 }
 
 /// The element of that name; reports when there is none.
-pub(crate) fn find(to: &Name, elements: &Elements, diags: &mut Diagnostics) -> Option<ElementId> {
+pub(crate) fn find(
+    to: &Name,
+    elements: &Elements<'_>,
+    diags: &mut Diagnostics,
+) -> Option<ElementId> {
     let Some(place) = elements.places.find(&to.text) else {
+        elements.record.unknown(to.span);
         let names = elements.names();
         let message = format!("the plan has no element '{}'", to.text);
         let none = "add an element of that name, or write 'terminate'";
         diags.push(unknown(Code::E0216, to.span, message, &to.text, names, none));
         return None;
     };
+    if let Some(name) = &elements.names[place] {
+        elements.record.definition(to.span, name.span);
+    }
     u16::try_from(place).ok().map(ElementId)
 }
 

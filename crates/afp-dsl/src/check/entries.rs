@@ -6,6 +6,7 @@ use crate::check::names::Places;
 use crate::check::types::Types;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{EntryKind, Formula};
+use crate::index::Recorder;
 use crate::syntax::ast;
 use crate::toolbox::Constant;
 use crate::types::Type;
@@ -35,30 +36,36 @@ pub(crate) fn read(
     plan: &ast::Plan,
     types: &Types,
     text: &str,
+    record: &Recorder,
     diags: &mut Diagnostics,
 ) -> (Vec<EntryDraft>, Places) {
+    let (written, nameless): (Vec<_>, Vec<_>) =
+        plan.entries().into_iter().partition(|entry| entry.name().is_some());
     let written: Vec<_> =
-        plan.entries().into_iter().filter_map(|entry| Some((entry.name()?, entry))).collect();
+        written.into_iter().filter_map(|entry| Some((entry.name()?, entry))).collect();
     let mut drafts: Vec<_> = written
         .iter()
         .map(|(name, entry)| EntryDraft {
             name: name.clone(),
             doc: entry.doc(),
             kind: kind(entry),
-            ty: entry.ty().and_then(|ty| types.resolve(&ty, diags)),
+            ty: entry.ty().and_then(|ty| types.resolve(&ty, record, diags)),
             init: None,
             has_init: entry.init().is_some(),
             value: None,
         })
         .collect();
     let places = Places::of(written.iter().map(|(name, _)| Some(name.text.as_str())));
-    let site = Site { places: &places, types, text };
+    let site = Site { places: &places, types, text, record };
     for kinds in [&[EntryKind::Const][..], &[EntryKind::In], &[EntryKind::Var, EntryKind::Out]] {
         for place in 0..drafts.len() {
             if kinds.contains(&drafts[place].kind) {
                 initialise(place, &written[place].1, &mut drafts, &site, diags);
             }
         }
+    }
+    for entry in nameless {
+        site.names_only(&entry, &drafts);
     }
     (drafts, places)
 }
@@ -68,6 +75,29 @@ struct Site<'a> {
     places: &'a Places,
     types: &'a Types,
     text: &'a str,
+    record: &'a Recorder,
+}
+
+impl Site<'_> {
+    /// Finds out what the names in an entry mean that has no name itself.
+    fn names_only(&self, entry: &ast::Entry, entries: &[EntryDraft]) {
+        if let Some(ty) = entry.ty() {
+            self.types.resolve(&ty, self.record, &mut Diagnostics::default());
+        }
+        if let Some(init) = entry.init() {
+            self.scope(entries, &|_| true, "").names_only(&init);
+        }
+    }
+
+    fn scope<'s>(
+        &'s self,
+        entries: &'s [EntryDraft],
+        readable: &'s dyn Fn(usize) -> bool,
+        unreadable: &'s str,
+    ) -> Scope<'s> {
+        let Site { places, types, text, record } = *self;
+        Scope { types, entries, places, readable, unreadable, text, record }
+    }
 }
 
 fn kind(entry: &ast::Entry) -> EntryKind {
@@ -86,13 +116,13 @@ fn initialise(
     site: &Site<'_>,
     diags: &mut Diagnostics,
 ) {
-    let Site { places, types, text } = *site;
     let own = &drafts[place];
     let (kind, ty) = (own.kind, own.ty.clone());
     let Some(formula) = entry.init() else {
         return missing(own, entry, diags);
     };
     if let Some(Type::Object(home)) = &ty {
+        site.scope(drafts, &|_| true, "").names_only(&formula);
         let message = format!("a '{}' cannot be written down", home.name);
         diags.push(
             Diagnostic::new(Code::E0242, formula.span(), message)
@@ -113,8 +143,7 @@ fn initialise(
         EntryKind::Var | EntryKind::Out => "an initial value may use 'const' and 'in' entries",
     };
     // A type that is written and unknown is reported once; the value is still looked at.
-    let scope = Scope { types, entries: drafts, places, readable: &readable, unreadable, text };
-    let checked = scope.check(&formula, ty.as_ref(), diags);
+    let checked = site.scope(drafts, &readable, unreadable).check(&formula, ty.as_ref(), diags);
     let needs_type = matches!(kind, EntryKind::In | EntryKind::Out) && entry.ty().is_none();
     if needs_type {
         untyped(own, entry, diags);

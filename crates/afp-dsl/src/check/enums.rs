@@ -36,6 +36,7 @@ pub(crate) fn read(
     Some(Arc::new(Enum {
         doc: node.doc(),
         toolbox: toolbox.map(str::to_owned),
+        variant_spans: variants.iter().map(|variant| variant.span).collect(),
         variants: variants.into_iter().map(|variant| variant.text).collect(),
         span: name.span,
         name: name.text,

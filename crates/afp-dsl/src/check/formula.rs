@@ -12,6 +12,7 @@ use crate::check::names::{Places, ambiguous, unknown};
 use crate::check::types::Types;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{EntryId, EntryKind, Formula, FormulaKind};
+use crate::index::{Recorder, Word};
 use crate::source::Span;
 use crate::syntax::ast;
 use crate::toolbox::Constant;
@@ -35,6 +36,8 @@ pub(crate) struct Scope<'a> {
     pub unreadable: &'a str,
     /// The text of the file.
     pub text: &'a str,
+    /// What is found out about names.
+    pub record: &'a Recorder,
 }
 
 impl Scope<'_> {
@@ -48,6 +51,21 @@ impl Scope<'_> {
     ) -> Option<(Formula, Option<Constant>)> {
         let typed = self.infer(formula, diags)?;
         self.finish(typed, want, diags)
+    }
+
+    /// Finds out what the names in a formula mean where nothing can be said about its type.
+    pub fn names_only(&self, formula: &ast::Formula) {
+        self.infer(formula, &mut Diagnostics::default());
+    }
+
+    /// The entry of that name, by its place.
+    pub fn entry(&self, name: &ast::Name) -> Option<usize> {
+        let place = self.places.find(&name.text);
+        match place {
+            Some(place) => self.record.definition(name.span, self.entries[place].name.span),
+            None => self.record.unknown(name.span),
+        }
+        place
     }
 
     /// The formula without a wanted type and without looking for its value.
@@ -122,6 +140,7 @@ impl Typer<'_> {
     ) -> Option<Formula> {
         self.size.set(self.size.get() + 1);
         if self.size.get() > MAX_SIZE {
+            self.names(formula);
             return None;
         }
         let span = formula.span();
@@ -147,13 +166,42 @@ impl Typer<'_> {
                 Some(Formula { kind: FormulaKind::Text(text), ty: Type::Text, span })
             }
             ast::FormulaKind::Bool(value) => {
+                self.scope.record.word(span, Word::Truth);
                 Some(Formula { kind: FormulaKind::Bool(value), ty: Type::Bool, span })
             }
-            ast::FormulaKind::Ref(reference) => match reference.home() {
-                Some(home) => self.choice(&home, &reference.name()?, span, diags),
-                None => self.entry(&reference.name()?, diags),
-            },
+            ast::FormulaKind::Ref(reference) => self.reference(&reference, span, diags),
             ast::FormulaKind::Hole => None,
+        }
+    }
+
+    /// Finds out what the names in a formula mean that is too large to be typed.
+    fn names(&self, formula: &ast::Formula) {
+        match formula.kind() {
+            ast::FormulaKind::Chain(first, rest) => {
+                let operands = first.into_iter().chain(rest.into_iter().filter_map(|(_, o)| o));
+                operands.for_each(|operand| self.names(&operand));
+            }
+            ast::FormulaKind::Negation(Some(inner)) | ast::FormulaKind::Brackets(Some(inner)) => {
+                self.names(&inner);
+            }
+            ast::FormulaKind::Bool(_) => self.scope.record.word(formula.span(), Word::Truth),
+            ast::FormulaKind::Ref(reference) => {
+                self.reference(&reference, formula.span(), &mut Diagnostics::default());
+            }
+            _ => {}
+        }
+    }
+
+    fn reference(
+        &self,
+        reference: &ast::Ref,
+        span: Span,
+        diags: &mut Diagnostics,
+    ) -> Option<Formula> {
+        let name = reference.name()?;
+        match reference.home() {
+            Some(home) => self.choice(&home, &name, span, diags),
+            None => self.entry(&name, diags),
         }
     }
 
@@ -196,8 +244,7 @@ impl Typer<'_> {
 
     fn entry(&self, name: &ast::Name, diags: &mut Diagnostics) -> Option<Formula> {
         let scope = self.scope;
-        let place = scope.places.find(&name.text);
-        let Some(place) = place else {
+        let Some(place) = scope.entry(name) else {
             diags.push(self.unknown_entry(name));
             return None;
         };
@@ -241,8 +288,12 @@ impl Typer<'_> {
         span: Span,
         diags: &mut Diagnostics,
     ) -> Option<Formula> {
+        let record = self.scope.record;
         let enums = || self.scope.types.enums.iter().filter(|(_, each)| each.name == home.text);
+        // Unless it is found below.
+        record.unknown(name.span);
         if enums().count() > 1 {
+            record.several(home.span);
             let places: Vec<_> = enums().map(|(home, each)| (home.as_deref(), each.span)).collect();
             let error = ambiguous("an enum", &home.text, home.span, &places);
             // Values of enums are written without the toolbox.
@@ -252,6 +303,7 @@ impl Typer<'_> {
             return None;
         }
         let Some((_, found)) = enums().next() else {
+            record.unknown(home.span);
             if self.scope.types.incomplete {
                 return None;
             }
@@ -261,6 +313,7 @@ impl Typer<'_> {
             diags.push(unknown(Code::E0239, home.span, message, &home.text, known, none));
             return None;
         };
+        record.definition(home.span, found.span);
         let Some(place) = found.variants.iter().position(|variant| *variant == name.text) else {
             let known = found.variants.iter().map(String::as_str);
             let message = format!("'{}' has no value '{}'", found.name, name.text);
@@ -268,6 +321,9 @@ impl Typer<'_> {
             diags.push(unknown(Code::E0239, name.span, message, &name.text, known, none));
             return None;
         };
+        if let Some(definition) = found.variant_spans.get(place) {
+            record.definition(name.span, *definition);
+        }
         let kind = FormulaKind::Choice(u16::try_from(place).ok()?);
         Some(Formula { kind, ty: Type::Enum(found.clone()), span })
     }

@@ -5,6 +5,8 @@ use std::sync::Arc;
 use crate::check::names::unknown;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::ToolboxId;
+use crate::index::Recorder;
+use crate::source::Span;
 use crate::syntax::ast::{File, Item, Name, Use};
 use crate::toolbox::{Toolbox, Toolboxes};
 
@@ -12,6 +14,8 @@ use crate::toolbox::{Toolbox, Toolboxes};
 pub(crate) struct Import {
     /// The name that qualifies what is in it.
     pub qualifier: String,
+    /// Where that name is declared: behind `as`, or in the toolbox.
+    pub span: Span,
     /// The toolbox.
     pub toolbox: Arc<Toolbox>,
     /// Its place among those that the files of the compilation use.
@@ -24,16 +28,17 @@ pub(crate) fn read(
     file: &File,
     toolboxes: &Toolboxes,
     linked: &mut Vec<Arc<Toolbox>>,
+    record: &Recorder,
     diags: &mut Diagnostics,
 ) -> (Vec<Import>, bool) {
     let mut failed = false;
-    let mut imports: Vec<(Import, crate::source::Span)> = Vec::new();
+    let mut imports: Vec<(Import, Span)> = Vec::new();
     let uses = file.items().into_iter().filter_map(|item| match item {
         Item::Use(line) => line.toolbox().map(|name| (line, name)),
         _ => None,
     });
     for (line, name) in uses {
-        let Some(import) = one(&line, name, toolboxes, linked, diags) else {
+        let Some(import) = one(&line, name, toolboxes, linked, record, diags) else {
             failed = true;
             continue;
         };
@@ -65,11 +70,16 @@ fn one(
     name: Name,
     toolboxes: &Toolboxes,
     linked: &mut Vec<Arc<Toolbox>>,
+    record: &Recorder,
     diags: &mut Diagnostics,
 ) -> Option<Import> {
     let Some(toolbox) = toolboxes.get(&name.text) else {
+        match toolboxes.broken(&name.text) {
+            Some(definition) => record.definition(name.span, definition),
+            None => record.unknown(name.span),
+        }
         // A toolbox with errors of its own has been reported with them.
-        if !toolboxes.is_broken(&name.text) {
+        if toolboxes.broken(&name.text).is_none() {
             let known = toolboxes.iter().map(|toolbox| toolbox.name.as_str());
             let message = format!("there is no toolbox '{}'", name.text);
             diags.push(unknown(
@@ -83,13 +93,19 @@ fn one(
         }
         return None;
     };
-    let qualifier = line.alias().map_or(name.text, |alias| alias.text);
+    record.definition(name.span, toolbox.span);
+    let alias = line.alias().unwrap_or(Name { text: name.text, span: toolbox.span });
     let known = linked.iter().position(|known| Arc::ptr_eq(known, toolbox));
     let place = known.unwrap_or(linked.len());
     if known.is_none() {
         linked.push(toolbox.clone());
     }
-    Some(Import { qualifier, toolbox: toolbox.clone(), id: ToolboxId(u16::try_from(place).ok()?) })
+    Some(Import {
+        qualifier: alias.text,
+        span: alias.span,
+        toolbox: toolbox.clone(),
+        id: ToolboxId(u16::try_from(place).ok()?),
+    })
 }
 
 /// Reports items in places where they cannot stand: `use` below others, plans in a toolbox.

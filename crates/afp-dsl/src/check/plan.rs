@@ -9,23 +9,41 @@ use crate::check::resources::Users;
 use crate::check::{Context, PlanHead, Program, edges, size};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{self, Element, ElementId, Supervisor, SupervisorId};
+use crate::index::Recorder;
 use crate::rows::Table;
 use crate::source::Span;
 use crate::syntax::ast;
 
 use component::Components;
 
-/// Checks a plan; `None` when its graph would have holes. [`graph::Component::SubPlan`] carries the
-/// place in [`Program::plans`] for now.
-pub(crate) fn check(
-    program: &Program<'_>,
-    place: usize,
-    diags: &mut Diagnostics,
-) -> (Option<graph::Plan>, Users) {
+pub(crate) use component::Made;
+
+/// A plan, as far as it could be checked.
+pub(crate) struct CheckedPlan {
+    /// What the graph has of it; `None` when that would have holes. [`graph::Component::SubPlan`]
+    /// carries the place in [`Program::plans`] for now.
+    pub plan: Option<graph::Plan>,
+    /// What its components command.
+    pub users: Users,
+    /// What its components are made from.
+    pub made: MadeParts,
+}
+
+/// What the components of a plan are made from, all as written.
+#[derive(Default)]
+pub(crate) struct MadeParts {
+    /// The global supervisors.
+    pub globals: Vec<Made>,
+    /// The elements, each with its own supervisors.
+    pub elements: Vec<(Made, Vec<Made>)>,
+}
+
+/// Checks a plan.
+pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics) -> CheckedPlan {
     let head = &program.plans[place];
     let context = Context { program, file: &program.files[head.file] };
     let elements = head.node.elements();
-    let names = declare(head, &elements, diags);
+    let names = declare(head, &elements, program.record, diags);
     let scope = Scope {
         types: &context.file.types,
         entries: &head.entries,
@@ -33,28 +51,33 @@ pub(crate) fn check(
         readable: &|_| true,
         unreadable: "",
         text: context.file.text,
+        record: program.record,
     };
     let components = Components { context, scope: &scope, elements: &names };
     let mut users = Users::default();
+    let mut made = MadeParts::default();
     let mut supervisors = Vec::new();
     for guard in head.node.guards() {
-        let (supervisor, user) = components.supervisor(&guard, None, diags);
-        supervisors.push(supervisor);
-        users.globals.extend(user);
+        let checked = components.supervisor(&guard, None, diags);
+        supervisors.push(checked.built);
+        users.globals.extend(checked.user);
+        made.globals.push(checked.made);
     }
     let globals = supervisors.len();
     let mut drawn = Vec::new();
     for (at, node) in elements.iter().enumerate() {
-        let (element, user) = components.element(node, diags);
+        let element = components.element(node, diags);
         let first = supervisors.len();
-        let mut guards = Vec::new();
+        let (mut guards, mut own_made) = (Vec::new(), Vec::new());
         for guard in node.guards() {
-            let (supervisor, user) = components.supervisor(&guard, id(at).map(ElementId), diags);
-            supervisors.push(supervisor);
-            guards.extend(user);
+            let checked = components.supervisor(&guard, id(at).map(ElementId), diags);
+            supervisors.push(checked.built);
+            guards.extend(checked.user);
+            own_made.push(checked.made);
         }
-        users.elements.extend(user.map(|user| (user, guards)));
-        drawn.push(element.and_then(|element| own(element, first, supervisors.len())));
+        made.elements.push((element.made, own_made));
+        users.elements.extend(element.user.map(|user| (user, guards)));
+        drawn.push(element.built.and_then(|element| own(element, first, supervisors.len())));
     }
     let start = start(&head.node, &names, diags);
     let written = [
@@ -64,7 +87,7 @@ pub(crate) fn check(
     ];
     size::too_many_rows(head.name.as_ref(), written, diags);
     let plan = finish(context, head, drawn, supervisors, globals, start);
-    (plan, users)
+    CheckedPlan { plan, users, made }
 }
 
 fn id(place: usize) -> Option<u16> {
@@ -113,7 +136,12 @@ fn finish(
 }
 
 /// Checks the names of the plan's scope and gives the elements.
-fn declare(head: &PlanHead, elements: &[ast::Element], diags: &mut Diagnostics) -> Elements {
+fn declare<'a>(
+    head: &PlanHead,
+    elements: &[ast::Element],
+    record: &'a Recorder,
+    diags: &mut Diagnostics,
+) -> Elements<'a> {
     let mut scope = Names::default();
     for entry in &head.entries {
         scope.declare(&entry.name, diags);
@@ -136,12 +164,12 @@ fn declare(head: &PlanHead, elements: &[ast::Element], diags: &mut Diagnostics) 
             }
         }
     }
-    Elements::new(elements.iter().map(ast::Element::name).collect())
+    Elements::new(elements.iter().map(ast::Element::name).collect(), record)
 }
 
 fn start(
     plan: &ast::Plan,
-    elements: &Elements,
+    elements: &Elements<'_>,
     diags: &mut Diagnostics,
 ) -> Option<(ElementId, Span)> {
     let starts = plan.starts();
@@ -168,6 +196,9 @@ fn start(
                 .note(first.span(), "the first one")
                 .help("remove one of them"),
         );
+        if let Some(target) = other.target() {
+            edges::find(&target, elements, &mut Diagnostics::default());
+        }
     }
     let target = first.target()?;
     Some((edges::find(&target, elements, diags)?, target.span))

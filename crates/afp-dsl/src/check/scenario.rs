@@ -153,6 +153,19 @@ fn plan(context: Context<'_>, reference: &ast::Ref, diags: &mut Diagnostics) -> 
     let name = reference.name()?;
     let known = &context.file.plans;
     let found = known.get(&name.text).map_or(&[][..], Vec::as_slice);
+    let record = context.program.record;
+    match (found, reference.home()) {
+        ([place], None) => {
+            let head = &context.program.plans[*place];
+            let span = head.name.as_ref().map_or_else(|| head.node.span(), |name| name.span);
+            record.definition(name.span, span);
+        }
+        ([_, _, ..], None) => record.several(name.span),
+        (_, home) => {
+            record.unknown(name.span);
+            home.iter().for_each(|home| context.file.types.qualifier(home, record));
+        }
+    }
     match (found, reference.home()) {
         ([place], None) => Some(*place),
         ([_, _, ..], None) => {
@@ -212,7 +225,7 @@ impl Checker<'_> {
                 let at = self.instant(&at, diags);
                 let action = self.action(&action, diags);
                 if let (Some(at), Some(action)) = (at, action) {
-                    let (text, span) = (line.text(), line.span());
+                    let (text, span) = (line.in_one_line(), line.span());
                     scenario.stimuli.push(Stimulus { at, action, text, span });
                 }
             }
@@ -260,6 +273,7 @@ impl Checker<'_> {
             readable: &known,
             unreadable: "write a value; a scenario knows those of 'const' entries alone",
             text: self.context.file.text,
+            record: self.context.program.record,
         };
         let (formula, value) = scope.check(formula, Some(ty), diags)?;
         Some((formula, value?))

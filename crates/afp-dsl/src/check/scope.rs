@@ -11,6 +11,7 @@ use crate::check::types::Types;
 use crate::check::{PlanHead, Program, endings, entries, enums, recursion, shadows};
 use crate::diagnostics::Diagnostics;
 use crate::gather::PlanFile;
+use crate::index::Recorder;
 use crate::source::Span;
 use crate::syntax::ast::{Item, Name};
 use crate::toolbox::{Toolbox, Toolboxes};
@@ -39,18 +40,19 @@ pub(crate) struct FileScope<'a> {
 pub(super) fn program<'a>(
     files: &'a [PlanFile],
     toolboxes: &'a Toolboxes,
+    record: &'a Recorder,
     diags: &mut Diagnostics,
 ) -> Program<'a> {
     let enums: Vec<_> = files.iter().map(|file| own_enums(file, diags)).collect();
     let mut linked = Vec::new();
     let places = files.iter().enumerate();
     let mut scopes: Vec<_> =
-        places.map(|file| scope(file, toolboxes, &enums, &mut linked, diags)).collect();
+        places.map(|file| scope(file, toolboxes, &enums, &mut linked, record, diags)).collect();
     let mut plans = Vec::new();
     let mut own: Vec<HashMap<String, usize>> = Vec::new();
     for (place, file) in files.iter().enumerate() {
         let first = plans.len();
-        plans.extend(heads(file, place, &scopes[place].types, diags));
+        plans.extend(heads(file, place, &scopes[place].types, record, diags));
         let mut names = HashMap::new();
         for (at, head) in plans.iter().enumerate().skip(first) {
             if let Some(name) = &head.name {
@@ -68,7 +70,7 @@ pub(super) fn program<'a>(
     }
     let signatures = Signatures::of(&linked, &plans);
     let sub_plans = plans.iter().map(|head| recursion::sub_plans(head, &scopes)).collect();
-    Program { toolboxes, linked, files: scopes, plans, sub_plans, signatures }
+    Program { toolboxes, linked, files: scopes, plans, sub_plans, signatures, record }
 }
 
 /// A scope without plans. `enums` has those of all files.
@@ -77,14 +79,16 @@ fn scope<'a>(
     toolboxes: &Toolboxes,
     enums: &[Vec<Arc<Enum>>],
     linked: &mut Vec<Arc<Toolbox>>,
+    record: &Recorder,
     diags: &mut Diagnostics,
 ) -> FileScope<'a> {
-    let (imports, failed) = imports::read(&file.tree, toolboxes, linked, diags);
+    let (imports, failed) = imports::read(&file.tree, toolboxes, linked, record, diags);
     let mut types = Types { incomplete: failed || file.incomplete, ..Types::default() };
     let seen = std::iter::once(&place).chain(&file.uses).flat_map(|seen| &enums[*seen]);
     types.enums.extend(seen.map(|each| (None, each.clone())));
     for import in &imports {
         let qualifier = || Some(import.qualifier.clone());
+        types.homes.push((import.qualifier.clone(), import.span));
         types.enums.extend(import.toolbox.enums.iter().map(|each| (qualifier(), each.clone())));
         types.objects.extend(import.toolbox.objects.iter().map(|each| (qualifier(), each.clone())));
     }
@@ -117,14 +121,20 @@ fn own_enums(file: &PlanFile, diags: &mut Diagnostics) -> Vec<Arc<Enum>> {
 }
 
 /// The plans of a file, without what they are made of.
-fn heads(file: &PlanFile, place: usize, types: &Types, diags: &mut Diagnostics) -> Vec<PlanHead> {
+fn heads(
+    file: &PlanFile,
+    place: usize,
+    types: &Types,
+    record: &Recorder,
+    diags: &mut Diagnostics,
+) -> Vec<PlanHead> {
     let nodes = file.tree.items().into_iter().filter_map(|item| match item {
         Item::Plan(plan) => Some(plan),
         _ => None,
     });
     let heads: Vec<_> = nodes
         .map(|node| {
-            let (entries, places) = entries::read(&node, types, &file.source.text, diags);
+            let (entries, places) = entries::read(&node, types, &file.source.text, record, diags);
             let interrupting = endings::interrupting(&node);
             PlanHead { name: node.name(), file: place, entries, places, interrupting, node }
         })

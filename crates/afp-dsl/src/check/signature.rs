@@ -59,6 +59,8 @@ pub(crate) struct OutputPort {
     pub name: String,
     /// Its type; `None` when its declaration is broken.
     pub ty: Option<Type>,
+    /// Its declaration.
+    pub span: Span,
 }
 
 /// The signatures of all that plans can use, made once.
@@ -109,7 +111,11 @@ impl Signature {
             outputs: template
                 .outputs
                 .iter()
-                .map(|port| OutputPort { name: port.name.clone(), ty: Some(port.ty.clone()) })
+                .map(|port| OutputPort {
+                    name: port.name.clone(),
+                    ty: Some(port.ty.clone()),
+                    span: port.span,
+                })
                 .collect(),
             outcomes: template.outcomes.iter().map(|outcome| outcome.name.clone()).collect(),
             interrupting: None,
@@ -134,7 +140,11 @@ impl Signature {
                 })
                 .collect(),
             outputs: of_kind(EntryKind::Out)
-                .map(|entry| OutputPort { name: entry.name.text.clone(), ty: entry.ty.clone() })
+                .map(|entry| OutputPort {
+                    name: entry.name.text.clone(),
+                    ty: entry.ty.clone(),
+                    span: entry.name.span,
+                })
                 .collect(),
             outcomes: vec!["OK".to_owned(), "Interrupted".to_owned()],
             template: None,
@@ -146,6 +156,11 @@ impl Signature {
     pub fn template(&self) -> Option<&Template> {
         let (id, toolbox) = self.template.as_ref()?;
         toolbox.templates.get(usize::from(id.index))
+    }
+
+    /// Where a state or event is declared, by its place; `None` for those that every plan has.
+    pub fn outcome_span(&self, outcome: usize) -> Option<Span> {
+        self.template()?.outcomes.get(outcome).map(|outcome| outcome.span)
     }
 
     /// What an element made from it is; `None` for a supervisor.

@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use crate::check::names::{ambiguous, unknown};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::index::{Recorder, Word};
+use crate::source::Span;
 use crate::syntax::ast::{self, Factor};
 use crate::types::{Dimension, Enum, Object, Type};
 
@@ -17,6 +19,8 @@ pub(crate) struct Types {
     pub objects: Vec<(Option<String>, Arc<Object>)>,
     /// Whether `any` and `number` can be written.
     pub generic: bool,
+    /// What qualifies them, with the name that each means.
+    pub homes: Vec<(String, Span)>,
     /// Whether a toolbox is missing, so that an unknown name may be one of its.
     pub incomplete: bool,
 }
@@ -33,19 +37,24 @@ impl Types {
     }
 
     /// The meaning of a written type; reports what has none.
-    pub fn resolve(&self, ty: &ast::Type, diags: &mut Diagnostics) -> Option<Type> {
+    pub fn resolve(
+        &self,
+        ty: &ast::Type,
+        record: &Recorder,
+        diags: &mut Diagnostics,
+    ) -> Option<Type> {
         let factors = ty.factors();
         if let [only] = factors.as_slice()
             && only.exponent == Some(1)
             && let Some(reference) = &only.reference
         {
-            return self.named(reference, diags);
+            return self.named(reference, record, diags);
         }
         let mut product = Some(Dimension::NONE);
         let mut named = false;
         for factor in &factors {
             named |= factor.reference.is_some();
-            let dimension = self.factor(factor, diags);
+            let dimension = self.factor(factor, record, diags);
             product = match (product, dimension) {
                 (Some(product), Some(dimension)) => {
                     let joined = product.times(dimension);
@@ -68,10 +77,16 @@ impl Types {
         product.map(Type::Quantity)
     }
 
-    fn named(&self, reference: &ast::Ref, diags: &mut Diagnostics) -> Option<Type> {
+    fn named(
+        &self,
+        reference: &ast::Ref,
+        record: &Recorder,
+        diags: &mut Diagnostics,
+    ) -> Option<Type> {
         let name = reference.name()?;
         let home = reference.home();
-        if home.is_none() {
+        if home.is_none() && Types::is_built_in(&name.text) {
+            record.word(name.span, Word::Type);
             match name.text.as_str() {
                 "bool" => return Some(Type::Bool),
                 "int" => return Some(Type::Int),
@@ -93,7 +108,15 @@ impl Types {
                 return Some(Type::Quantity(dimension));
             }
         }
-        self.declared(reference, &name, home.as_ref(), diags)
+        self.declared(reference, &name, home.as_ref(), record, diags)
+    }
+
+    /// Says what qualifies a name.
+    pub fn qualifier(&self, home: &ast::Name, record: &Recorder) {
+        match self.homes.iter().find(|(known, _)| *known == home.text) {
+            Some((_, definition)) => record.definition(home.span, *definition),
+            None => record.unknown(home.span),
+        }
     }
 
     /// An enum or object type.
@@ -102,8 +125,12 @@ impl Types {
         reference: &ast::Ref,
         name: &ast::Name,
         home: Option<&ast::Name>,
+        record: &Recorder,
         diags: &mut Diagnostics,
     ) -> Option<Type> {
+        if let Some(home) = home {
+            self.qualifier(home, record);
+        }
         let fits = |qualifier: &Option<String>| {
             home.is_none_or(|home| qualifier.as_deref() == Some(home.text.as_str()))
         };
@@ -114,9 +141,16 @@ impl Types {
             self.objects.iter().filter(|(home, each)| fits(home) && each.name == name.text);
         found.extend(objects.map(|(home, each)| (home, Type::Object(each.clone()))));
         match found.as_slice() {
-            [(_, ty)] => Some(ty.clone()),
-            [] if self.incomplete => None,
+            [(_, ty)] => {
+                record.definition(name.span, declaration(ty).unwrap_or(name.span));
+                Some(ty.clone())
+            }
+            [] if self.incomplete => {
+                record.unknown(name.span);
+                None
+            }
             [] => {
+                record.unknown(name.span);
                 let mut known: Vec<&str> = Vec::new();
                 known.extend(PLAIN);
                 known.extend(self.enums.iter().map(|(_, each)| each.name.as_str()));
@@ -131,13 +165,9 @@ impl Types {
                 None
             }
             several => {
+                record.several(name.span);
                 let places = several.iter().map(|(home, ty)| {
-                    let span = match ty {
-                        Type::Enum(home) => home.span,
-                        Type::Object(home) => home.span,
-                        _ => reference.span(),
-                    };
-                    (home.as_deref(), span)
+                    (home.as_deref(), declaration(ty).unwrap_or_else(|| reference.span()))
                 });
                 let places: Vec<_> = places.collect();
                 diags.push(ambiguous("a type", &name.text, reference.span(), &places));
@@ -147,13 +177,21 @@ impl Types {
     }
 
     /// A factor of a product: a dimension, or a number without one.
-    fn factor(&self, factor: &Factor, diags: &mut Diagnostics) -> Option<Dimension> {
+    fn factor(
+        &self,
+        factor: &Factor,
+        record: &Recorder,
+        diags: &mut Diagnostics,
+    ) -> Option<Dimension> {
         let Some(exponent) = factor.exponent else {
             too_high(factor, diags);
+            if let Some(reference) = &factor.reference {
+                self.named(reference, record, &mut Diagnostics::default());
+            }
             return None;
         };
         let base = match (&factor.reference, &factor.number) {
-            (Some(reference), _) => match self.named(reference, diags)? {
+            (Some(reference), _) => match self.named(reference, record, diags)? {
                 Type::Quantity(dimension) => dimension,
                 _ => {
                     diags.push(
@@ -184,6 +222,15 @@ impl Types {
             too_high(factor, diags);
         }
         raised
+    }
+}
+
+/// Where a type of a file or toolbox is declared.
+fn declaration(ty: &Type) -> Option<Span> {
+    match ty {
+        Type::Enum(home) => Some(home.span),
+        Type::Object(home) => Some(home.span),
+        _ => None,
     }
 }
 

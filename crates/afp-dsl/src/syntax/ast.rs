@@ -46,6 +46,11 @@ macro_rules! views {
             pub fn span(&self) -> crate::source::Span {
                 crate::syntax::node_span(&self.node, self.file)
             }
+
+            /// Its text as written, in one line and without comments.
+            pub fn in_one_line(&self) -> String {
+                crate::syntax::ast::in_one_line(&self.node)
+            }
         }
     )*};
 }
@@ -138,6 +143,11 @@ impl Enum {
     /// Its `///` lines.
     pub fn doc(&self) -> String {
         doc(&self.node)
+    }
+
+    /// The comment above it.
+    pub fn note(&self) -> String {
+        note(&self.node)
     }
 
     /// The names of its values.
@@ -280,6 +290,56 @@ fn tokens(node: &Node, kind: Kind, file: u16) -> Vec<Name> {
 /// The first word of the grammar in a node.
 fn keyword(node: &Node) -> String {
     token(node, Kind::Keyword, 0).map(|token| token.text).unwrap_or_default()
+}
+
+/// The text of a node in one line: what separates its tokens becomes a blank.
+fn in_one_line(node: &Node) -> String {
+    let all = node.text().to_string();
+    let trimmed = all.trim();
+    if !["\n", "\t", "  ", "//", "/*"].iter().any(|gap| trimmed.contains(gap)) {
+        return trimmed.to_owned();
+    }
+    let mut text = String::new();
+    let mut apart = false;
+    for token in node.descendants_with_tokens().filter_map(|each| each.into_token()) {
+        if token.kind().is_trivia() {
+            apart = !text.is_empty();
+            continue;
+        }
+        if std::mem::take(&mut apart) {
+            text.push(' ');
+        }
+        text += token.text();
+    }
+    text
+}
+
+/// Whether nothing stands before a node on its line.
+fn begins_line(node: &Node) -> bool {
+    let before = node.first_token().and_then(|first| first.prev_token());
+    before.is_none_or(|before| before.text().contains('\n'))
+}
+
+/// The `//` lines directly above an item, without the slashes and one blank behind them. A comment
+/// on the line of what stands before the item is none of them.
+fn note(node: &Node) -> String {
+    let first = node.green().children().next().map(|first| Afp::kind_from_raw(first.kind()));
+    let mut below = first == Some(Kind::Comment) && begins_line(node);
+    let mut lines: Vec<String> = Vec::new();
+    for element in node.green().children() {
+        let Some(token) = element.into_token() else { break };
+        match Afp::kind_from_raw(token.kind()) {
+            Kind::Comment if below => {
+                let text = token.text().trim_start_matches('/');
+                lines.push(text.strip_prefix(' ').unwrap_or(text).trim_end().to_owned());
+            }
+            Kind::Whitespace => below |= token.text().contains('\n'),
+            Kind::Doc => below = true,
+            kind if kind.is_trivia() => {}
+            _ => break,
+        }
+    }
+    lines.join("\n")
 }
 
 /// The `///` lines in front of an item, without the slashes and one blank behind them.

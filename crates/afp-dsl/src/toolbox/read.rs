@@ -9,12 +9,15 @@ use crate::check::names::Names;
 use crate::check::types::Types;
 use crate::check::{enums, imports, shadows, size, text};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::index::Recorder;
 use crate::rows::MAX_ROWS;
 use crate::source::{Source, Span};
 use crate::syntax::ast::{File, Item, Name};
 use crate::syntax::parse;
 use crate::toolbox::{Template, Toolbox};
 use crate::types::Object;
+
+use ports::Site;
 
 impl Toolbox {
     /// Reads a toolbox file. `file` is the index that spans shall carry, `rust_path` the path of
@@ -24,16 +27,17 @@ impl Toolbox {
     pub fn parse(source: &Source, file: u16, rust_path: &str) -> (Option<Toolbox>, Diagnostics) {
         let mut diags = Diagnostics::default();
         let tree = parse(&source.text, file, &mut diags).file();
-        let toolbox = read(&tree, source, file, rust_path, &mut diags);
+        let record = Recorder::default();
+        let toolbox = read(&tree, source, file, rust_path, &record, &mut diags);
         diags.sort();
         (toolbox.filter(|_| !diags.has_errors()), diags)
     }
 
     /// The name of the toolbox in a file, however broken the rest of it is.
-    pub(crate) fn name_in(source: &Source) -> Option<String> {
-        let tree = parse(&source.text, 0, &mut Diagnostics::default()).file();
+    pub(crate) fn name_in(source: &Source, file: u16) -> Option<Name> {
+        let tree = parse(&source.text, file, &mut Diagnostics::default()).file();
         tree.items().into_iter().find_map(|item| match item {
-            Item::Toolbox(head) => head.name().map(|name| name.text),
+            Item::Toolbox(head) => head.name(),
             _ => None,
         })
     }
@@ -44,6 +48,7 @@ fn read(
     source: &Source,
     file: u16,
     rust_path: &str,
+    record: &Recorder,
     diags: &mut Diagnostics,
 ) -> Option<Toolbox> {
     imports::check_version(tree, diags);
@@ -81,10 +86,12 @@ fn read(
         enums: Vec::new(),
         objects: Vec::new(),
         rust_path: rust_path.to_owned(),
+        span: name.span,
         name: name.text,
     };
     let types = declare(&items, &mut toolbox, diags);
-    toolbox.templates = templates(&items, &types, &source.text, diags);
+    let site = Site { types: &types, source: &source.text, record };
+    toolbox.templates = templates(&items, &site, diags);
     let spans = toolbox.templates.iter().map(|template| template.span);
     size::at_most(
         MAX_ROWS,
@@ -152,10 +159,10 @@ fn declare(items: &[Item], toolbox: &mut Toolbox, diags: &mut Diagnostics) -> Ty
     types
 }
 
-fn templates(items: &[Item], types: &Types, text: &str, diags: &mut Diagnostics) -> Vec<Template> {
+fn templates(items: &[Item], site: &Site<'_>, diags: &mut Diagnostics) -> Vec<Template> {
     let nodes = items.iter().filter_map(|item| match item {
         Item::Template(node) => Some(node),
         _ => None,
     });
-    nodes.filter_map(|node| template::read(node, types, text, diags)).collect()
+    nodes.filter_map(|node| template::read(node, site, diags)).collect()
 }

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use crate::diagnostics::Diagnostics;
-use crate::source::{Source, Sources};
+use crate::source::{Source, Sources, Span};
+use crate::syntax::ast::Name;
 use crate::toolbox::Toolbox;
 
 /// Toolboxes by name, with their texts.
@@ -12,7 +13,7 @@ use crate::toolbox::Toolbox;
 #[derive(Clone, Debug, Default)]
 pub struct Toolboxes {
     list: Vec<Arc<Toolbox>>,
-    broken: Vec<String>,
+    broken: Vec<Name>,
     sources: Sources,
     diags: Diagnostics,
 }
@@ -32,7 +33,7 @@ impl Toolboxes {
                 self.list.retain(|known| known.name != toolbox.name);
                 self.list.push(Arc::new(toolbox));
             }
-            None => self.broken.extend(Toolbox::name_in(&source)),
+            None => self.broken.extend(Toolbox::name_in(&source, file)),
         }
         self.diags.extend(diags);
     }
@@ -57,9 +58,9 @@ impl Toolboxes {
         &self.sources
     }
 
-    /// Whether a toolbox of that name was added and has errors.
-    pub(crate) fn is_broken(&self, name: &str) -> bool {
-        self.broken.iter().any(|known| known == name)
+    /// Where a toolbox that was added under that name and has errors says its name.
+    pub(crate) fn broken(&self, name: &str) -> Option<Span> {
+        self.broken.iter().find(|known| known.text == name).map(|known| known.span)
     }
 }
 

@@ -4,6 +4,7 @@ mod errors;
 mod explanations;
 mod graph;
 mod limits;
+mod outline;
 mod scale;
 mod support;
 mod timing;

@@ -36,6 +36,7 @@ pub fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
         return Compiled {
             graph: None,
             scenarios: Vec::new(),
+            outline: Default::default(),
             diags,
             sources: sources.clone(),
             plan_files: 0..0,
@@ -47,6 +48,7 @@ pub fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
     if let (Some(name), Some(graph)) = (target, &compiled.graph) {
         compiled.diags.extend(check_target(graph, &Target::built_in(name).unwrap()));
         compiled.diags.sort();
+        compiled.outline.attach(&compiled.diags);
         compiled.graph = compiled.graph.filter(|_| !compiled.diags.has_errors());
     }
     compiled

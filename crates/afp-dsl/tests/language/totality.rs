@@ -4,10 +4,11 @@
 use std::sync::LazyLock;
 
 use afp_dsl::diagnostics::Severity;
+use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
 use proptest::prelude::*;
 
-use crate::support;
+use crate::{outline, support};
 
 static TOOLBOXES: LazyLock<Toolboxes> = LazyLock::new(support::toolboxes);
 
@@ -32,6 +33,9 @@ fn examine(text: &str) {
             let range = fix.span.start as usize..fix.span.end as usize;
             assert!(source.text.get(range).is_some(), "{diagnostic:?}");
         }
+    }
+    if !toolbox {
+        outline::examine(&Texts::in_one(text).0, &compiled);
     }
     if let Some(graph) = &compiled.graph {
         graph.dump();

@@ -25,6 +25,7 @@ pub(super) fn check(
     let mut written: Vec<&Name> = Vec::new();
     for (place, entry, formula) in &ports.outputs {
         if let Some(formula) = formula {
+            scope.names_only(formula);
             let name = &signature.outputs[*place].name;
             diags.push(
                 Diagnostic::new(
@@ -46,6 +47,7 @@ pub(super) fn check(
                     .note(first.span, "the other one")
                     .help("use another entry for one of them"),
             );
+            scope.entry(entry);
             continue;
         }
         written.push(entry);
@@ -65,7 +67,7 @@ fn output(
     entry: &Name,
     diags: &mut Diagnostics,
 ) -> Option<Output> {
-    let Some(place) = scope.places.find(&entry.text) else {
+    let Some(place) = scope.entry(entry) else {
         let writable =
             scope.entries.iter().filter(|e| matches!(e.kind, EntryKind::Var | EntryKind::Out));
         let known = writable.map(|known| known.name.text.as_str());

@@ -1,5 +1,7 @@
 //! One element or supervisor of a plan.
 
+use std::rc::Rc;
+
 use crate::check::Context;
 use crate::check::bindings::{self, Site};
 use crate::check::callee::Wanted;
@@ -10,8 +12,32 @@ use crate::check::signature::{Signature, SignatureKind};
 use crate::check::timing;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{Element, ElementId, Supervisor};
+use crate::outline::Times;
 use crate::source::Span;
 use crate::syntax::ast::{self, ElementKind};
+use crate::toolbox::Template;
+use crate::types::Type;
+
+/// A component, as far as it could be checked.
+pub(super) struct Checked<T> {
+    /// What the graph has of it; `None` where something is wrong.
+    pub built: Option<T>,
+    /// What it commands.
+    pub user: Option<User>,
+    /// What it is made from.
+    pub made: Made,
+}
+
+/// What a component is made from, as far as that is known.
+#[derive(Default)]
+pub(crate) struct Made {
+    /// Its template or plan.
+    pub signature: Option<Rc<Signature>>,
+    /// The type that stands for `any` or `number`.
+    pub generic: Option<Type>,
+    /// When it is polled; supervisors only.
+    pub times: Option<Times>,
+}
 
 /// What the components of one plan are checked against.
 pub(super) struct Components<'a> {
@@ -20,16 +46,12 @@ pub(super) struct Components<'a> {
     /// What formulas can name.
     pub scope: &'a Scope<'a>,
     /// The elements that edges can lead to.
-    pub elements: &'a Elements,
+    pub elements: &'a Elements<'a>,
 }
 
 impl Components<'_> {
     /// Checks an element without its supervisors.
-    pub fn element(
-        &self,
-        node: &ast::Element,
-        diags: &mut Diagnostics,
-    ) -> (Option<Element>, Option<User>) {
+    pub fn element(&self, node: &ast::Element, diags: &mut Diagnostics) -> Checked<Element> {
         if node.kind() == ElementKind::Computation {
             unguarded(node, diags);
         }
@@ -43,9 +65,9 @@ impl Components<'_> {
         let signature =
             reference.as_ref().and_then(|reference| self.context.callee(reference, &wanted, diags));
         let (Some(signature), Some(reference)) = (signature, reference) else {
-            self.targets_only(&node.edges(), diags);
-            self.formulas_only(&node.binds(), diags);
-            return (None, None);
+            edges::names_only(&node.edges(), false, self.elements, diags);
+            bindings::names_only(self.scope, &node.binds(), diags);
+            return Checked { built: None, user: None, made: Made::default() };
         };
         let name = node.name();
         let broken = diags.syntax_errors_within(node.span()).next().is_some();
@@ -56,7 +78,12 @@ impl Components<'_> {
             Origin { signature: &signature, name: name.as_ref(), span, broken, supervisor: false };
         let connected = edges::check(&origin, &node.edges(), self.elements, diags);
         let user = name.as_ref().map(|name| user(&name.text, span, &signature));
-        (self.build_element(node, &signature, name, bound, connected), user)
+        let made = Made {
+            signature: Some(signature.clone()),
+            generic: bound.generic.clone(),
+            times: None,
+        };
+        Checked { built: self.build_element(node, &signature, name, bound, connected), user, made }
     }
 
     fn build_element(
@@ -64,16 +91,16 @@ impl Components<'_> {
         node: &ast::Element,
         signature: &Signature,
         name: Option<ast::Name>,
-        bound: Option<bindings::Bound>,
+        bound: bindings::Bound,
         connected: Connected,
     ) -> Option<Element> {
-        let (name, bound) = (name?, bound?);
+        let (name, (inputs, outputs)) = (name?, bound.sound?);
         Some(Element {
             doc: node.doc(),
             component: signature.component()?,
             generic: bound.generic,
-            inputs: bound.inputs,
-            outputs: bound.outputs,
+            inputs,
+            outputs,
             states: connected.outcomes,
             on_error: connected.extra,
             supervisors: Vec::new(),
@@ -89,16 +116,17 @@ impl Components<'_> {
         node: &ast::Guard,
         owner: Option<ElementId>,
         diags: &mut Diagnostics,
-    ) -> (Option<Supervisor>, Option<User>) {
+    ) -> Checked<Supervisor> {
         let written = times(node, diags);
         let wanted = Wanted { keyword: "supervise", span: None };
         let reference = node.template();
         let signature =
             reference.as_ref().and_then(|reference| self.context.callee(reference, &wanted, diags));
         let (Some(signature), Some(reference)) = (signature, reference) else {
-            self.targets_only(&node.edges(), diags);
-            self.formulas_only(&node.binds(), diags);
-            return (None, None);
+            edges::names_only(&node.edges(), true, self.elements, diags);
+            bindings::names_only(self.scope, &node.binds(), diags);
+            let times = Some(effective(None, &written, diags));
+            return Checked { built: None, user: None, made: Made { times, ..Made::default() } };
         };
         let name = node.name();
         let broken = diags.syntax_errors_within(node.span()).next().is_some();
@@ -109,8 +137,14 @@ impl Components<'_> {
             Origin { signature: &signature, name: name.as_ref(), span, broken, supervisor: true };
         let connected = edges::check(&origin, &node.edges(), self.elements, diags);
         let user = name.as_ref().map(|name| user(&name.text, span, &signature));
-        let times = effective(&signature, &written, diags);
-        (self.build_supervisor(node, owner, &signature, bound, connected, times), user)
+        let times = effective(signature.template(), &written, diags);
+        let made = Made {
+            signature: Some(signature.clone()),
+            generic: bound.generic.clone(),
+            times: Some(times),
+        };
+        let built = self.build_supervisor(node, owner, &signature, bound, connected, times);
+        Checked { built, user, made }
     }
 
     fn build_supervisor(
@@ -118,19 +152,19 @@ impl Components<'_> {
         node: &ast::Guard,
         owner: Option<ElementId>,
         signature: &Signature,
-        bound: Option<bindings::Bound>,
+        bound: bindings::Bound,
         connected: Connected,
         times: Times,
     ) -> Option<Supervisor> {
-        let (name, bound) = (node.name()?, bound?);
+        let (name, (inputs, outputs)) = (node.name()?, bound.sound?);
         let (template, _) = signature.template.as_ref()?;
         Some(Supervisor {
             doc: node.doc(),
             owner,
             template: *template,
             generic: bound.generic,
-            inputs: bound.inputs,
-            outputs: bound.outputs,
+            inputs,
+            outputs,
             events: connected.outcomes.into_iter().collect::<Option<_>>()?,
             on_miss: connected.extra,
             every: times.every,
@@ -140,24 +174,6 @@ impl Components<'_> {
             span: name.span,
             name: name.text,
         })
-    }
-
-    /// Looks at the targets of a component whose template is unknown.
-    fn targets_only(&self, edges: &[ast::Edge], diags: &mut Diagnostics) {
-        for target in edges.iter().filter_map(ast::Edge::target) {
-            if !matches!(target.text.as_str(), "terminate" | "ignore") {
-                edges::find(&target, self.elements, diags);
-            }
-        }
-    }
-
-    /// Looks at the formulas of a component whose template is unknown.
-    fn formulas_only(&self, binds: &[ast::Bind], diags: &mut Diagnostics) {
-        for bind in binds {
-            if let ast::Bind::In { formula: Some(formula), .. } = bind {
-                self.scope.check(formula, None, diags);
-            }
-        }
     }
 }
 
@@ -217,17 +233,9 @@ fn times(node: &ast::Guard, diags: &mut Diagnostics) -> Written {
     written
 }
 
-/// When a supervisor is polled.
-struct Times {
-    every: u64,
-    deadline: u64,
-    every_span: Option<Span>,
-}
-
 /// Period and deadline: what is written here, else what the template says. A template's deadline
 /// never outlasts a period that is written here.
-fn effective(signature: &Signature, written: &Written, diags: &mut Diagnostics) -> Times {
-    let template = signature.template();
+fn effective(template: Option<&Template>, written: &Written, diags: &mut Diagnostics) -> Times {
     let declared = template.map_or(timing::DEFAULT_EVERY, |template| template.every);
     let every = written.values[0].map_or(declared, |(every, _)| every);
     let every_span = written.values[0].map(|(_, span)| span);
@@ -236,8 +244,8 @@ fn effective(signature: &Signature, written: &Written, diags: &mut Diagnostics) 
         if written.words[0].is_none() || written.values[0].is_some() {
             timing::deadline_fits(deadline, every, span, diags);
         }
-        return Times { every, deadline, every_span };
+        return Times { every, deadline, every_span, deadline_span: Some(span) };
     }
     let deadline = template.and_then(|template| template.deadline).unwrap_or(every);
-    Times { every, deadline: deadline.min(every), every_span }
+    Times { every, deadline: deadline.min(every), every_span, deadline_span: None }
 }

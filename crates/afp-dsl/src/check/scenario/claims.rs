@@ -23,7 +23,7 @@ impl Checker<'_> {
         let claim = self.claim(node, diags)?;
         let window = window?;
         let wanted = wanted(never, &claim, bounds, diags)?;
-        Some(Expectation { claim, wanted, window, text: line.text(), span: line.span() })
+        Some(Expectation { claim, wanted, window, text: line.in_one_line(), span: line.span() })
     }
 
     fn claim(&self, node: &ast::Claim, diags: &mut Diagnostics) -> Option<Claim> {

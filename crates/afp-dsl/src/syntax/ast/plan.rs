@@ -1,6 +1,6 @@
 //! Plans in the typed view.
 
-use super::{Formula, Name, Ref, Timing, Type, child, children, doc, keyword, token, views};
+use super::{Formula, Name, Ref, Timing, Type, child, children, doc, keyword, note, token, views};
 use crate::source::Span;
 use crate::syntax::kind::Kind;
 use crate::syntax::{Node, node_span};
@@ -67,6 +67,11 @@ impl Plan {
         doc(&self.node)
     }
 
+    /// The comment above it.
+    pub fn note(&self) -> String {
+        note(&self.node)
+    }
+
     /// Its entries as written.
     pub fn entries(&self) -> Vec<Entry> {
         children(&self.node, Kind::Entry).map(|node| Entry::new(node, self.file)).collect()
@@ -102,6 +107,11 @@ impl Entry {
     /// Its `///` lines.
     pub fn doc(&self) -> String {
         doc(&self.node)
+    }
+
+    /// The comment above it.
+    pub fn note(&self) -> String {
+        note(&self.node)
     }
 
     /// Its type, where written.
@@ -147,6 +157,11 @@ impl Element {
         doc(&self.node)
     }
 
+    /// The comment above it.
+    pub fn note(&self) -> String {
+        note(&self.node)
+    }
+
     /// What it is made from.
     pub fn template(&self) -> Option<Ref> {
         child(&self.node, Kind::Ref).map(|node| Ref::new(node, self.file))
@@ -189,6 +204,11 @@ impl Guard {
         doc(&self.node)
     }
 
+    /// The comment above it.
+    pub fn note(&self) -> String {
+        note(&self.node)
+    }
+
     /// What it is made from.
     pub fn template(&self) -> Option<Ref> {
         child(&self.node, Kind::Ref).map(|node| Ref::new(node, self.file))
@@ -224,6 +244,11 @@ impl Edge {
     /// The state or event.
     pub fn name(&self) -> Option<Name> {
         token(&self.node, Kind::Name, self.file)
+    }
+
+    /// The place of its arrow.
+    pub fn arrow(&self) -> Option<Span> {
+        token(&self.node, Kind::Arrow, self.file).map(|token| token.span)
     }
 
     /// Where it leads.

@@ -134,17 +134,6 @@ impl Line {
         }
     }
 
-    /// Its text as written, in one line and without comments.
-    pub fn text(&self) -> String {
-        let tokens = self.node.descendants_with_tokens().filter_map(|each| each.into_token());
-        let text = tokens.map(|token| match token.kind() {
-            Kind::Whitespace => " ".to_owned(),
-            kind if kind.is_trivia() => String::new(),
-            _ => token.text().to_owned(),
-        });
-        text.collect::<String>().split_whitespace().collect::<Vec<_>>().join(" ")
-    }
-
     /// The word that it begins with.
     pub fn keyword(&self) -> String {
         keyword(&self.node)

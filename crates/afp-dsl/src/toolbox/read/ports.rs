@@ -5,6 +5,7 @@ use crate::check::names::Places;
 use crate::check::names::{Names, unknown};
 use crate::check::types::Types;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::index::Recorder;
 use crate::source::Span;
 use crate::syntax::ast::{self, Formula};
 use crate::toolbox::{Constant, InPort, OutPort, Outcome, TemplateKind};
@@ -15,12 +16,14 @@ use crate::words;
 pub(super) fn input(
     node: &ast::InPort,
     kind: TemplateKind,
-    types: &Types,
-    source: &str,
+    site: &Site<'_>,
     names: &mut Names,
     diags: &mut Diagnostics,
 ) -> Option<InPort> {
-    let name = node.name()?;
+    let Some(name) = node.name() else {
+        site.names_only(node);
+        return None;
+    };
     names.declare(&name, diags);
     if let Some(live) = node.live().filter(|_| kind == TemplateKind::Computation) {
         diags.push(
@@ -29,8 +32,12 @@ pub(super) fn input(
                 .replace(""),
         );
     }
-    let ty = types.resolve(&node.ty()?, diags)?;
-    let values = Values { types, source, ty: &ty };
+    let ty = node.ty().and_then(|ty| site.types.resolve(&ty, site.record, diags));
+    let Some(ty) = ty else {
+        site.names_only(node);
+        return None;
+    };
+    let values = Values { site, ty: &ty };
     let range = node
         .range()
         .and_then(|(least, greatest, span)| values.range(&least, &greatest, span, diags));
@@ -50,18 +57,25 @@ pub(super) fn input(
 pub(super) fn output(
     node: &ast::OutPort,
     outcomes: &[Outcome],
-    types: &Types,
+    site: &Site<'_>,
     names: &mut Names,
     diags: &mut Diagnostics,
 ) -> Option<OutPort> {
-    let name = node.name()?;
-    names.declare(&name, diags);
+    let Site { types, record, .. } = *site;
+    let name = node.name();
+    if let Some(name) = &name {
+        names.declare(name, diags);
+    }
     let mut on: Vec<u16> = Vec::new();
     let all = 0..u16::try_from(outcomes.len()).unwrap_or(u16::MAX);
     for state in node.on().unwrap_or_default() {
         match outcomes.iter().position(|outcome| outcome.name == state.text) {
-            Some(place) => on.extend(u16::try_from(place)),
+            Some(place) => {
+                record.definition(state.span, outcomes[place].span);
+                on.extend(u16::try_from(place));
+            }
             None => {
+                record.unknown(state.span);
                 let known = outcomes.iter().map(|outcome| outcome.name.as_str());
                 let message = format!("the template has no state or event '{}'", state.text);
                 let none = "declare it in the template";
@@ -74,19 +88,39 @@ pub(super) fn output(
     }
     on.sort_unstable();
     on.dedup();
-    let ty = types.resolve(&node.ty()?, diags)?;
+    let ty = types.resolve(&node.ty()?, record, diags);
+    let (name, ty) = (name?, ty?);
     Some(OutPort { doc: node.doc(), on, span: name.span, name: name.text, ty })
 }
 
-/// Values that stand in the declaration of one port.
-struct Values<'a> {
-    types: &'a Types,
-    source: &'a str,
-    ty: &'a Type,
+/// Where ports are read.
+pub(super) struct Site<'a> {
+    /// The types of the toolbox.
+    pub types: &'a Types,
+    /// The text of its file.
+    pub source: &'a str,
+    /// What is found out about names.
+    pub record: &'a Recorder,
 }
 
-impl Values<'_> {
-    fn constant(&self, formula: &Formula, diags: &mut Diagnostics) -> Option<Constant> {
+impl Site<'_> {
+    /// Finds out what the names in an input mean of which nothing else can be said.
+    fn names_only(&self, node: &ast::InPort) {
+        if let Some(ty) = node.ty() {
+            self.types.resolve(&ty, self.record, &mut Diagnostics::default());
+        }
+        let range = node.range().map(|(least, greatest, _)| [least, greatest]);
+        for formula in node.default().into_iter().chain(range.into_iter().flatten()) {
+            self.formula(&formula, None, &mut Diagnostics::default());
+        }
+    }
+
+    fn formula(
+        &self,
+        formula: &Formula,
+        ty: Option<&Type>,
+        diags: &mut Diagnostics,
+    ) -> Option<Constant> {
         let scope = Scope {
             types: self.types,
             entries: &[],
@@ -94,8 +128,21 @@ impl Values<'_> {
             readable: &|_| false,
             unreadable: "",
             text: self.source,
+            record: self.record,
         };
-        scope.check(formula, Some(self.ty), diags)?.1
+        scope.check(formula, ty, diags)?.1
+    }
+}
+
+/// Values that stand in the declaration of one port.
+struct Values<'a> {
+    site: &'a Site<'a>,
+    ty: &'a Type,
+}
+
+impl Values<'_> {
+    fn constant(&self, formula: &Formula, diags: &mut Diagnostics) -> Option<Constant> {
+        self.site.formula(formula, Some(self.ty), diags)
     }
 
     fn default(
@@ -113,6 +160,7 @@ impl Values<'_> {
         if let Some(why) = refused {
             let message = format!("the port can have no default: {why}");
             diags.push(Diagnostic::new(Code::E0514, span, message).help("remove the default"));
+            self.site.formula(formula, None, &mut Diagnostics::default());
             return None;
         }
         let value = self.constant(formula, diags)?;
@@ -140,6 +188,9 @@ impl Values<'_> {
                 Diagnostic::new(Code::E0513, span, "only ints, floats and quantities have a range")
                     .help("remove 'from ... to ...'"),
             );
+            for end in [least, greatest] {
+                self.site.formula(end, None, &mut Diagnostics::default());
+            }
             return None;
         }
         let (from, to) = (self.constant(least, diags), self.constant(greatest, diags));

@@ -1,20 +1,19 @@
 //! One template: its parts, each where it belongs and as often as it may stand.
 
 use crate::check::names::Names;
-use crate::check::types::Types;
 use crate::check::{size, text, timing};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::index::Word;
 use crate::rows::{MAX_EVENTS, MAX_ROWS, MAX_STATES};
 use crate::source::Span;
 use crate::syntax::ast::{self, Name, Part};
-use crate::toolbox::read::ports;
+use crate::toolbox::read::ports::{self, Site};
 use crate::toolbox::{Outcome, Template, TemplateKind};
 
 /// Reads a template; `None` without a name.
 pub(super) fn read(
     node: &ast::Template,
-    types: &Types,
-    source: &str,
+    site: &Site<'_>,
     diags: &mut Diagnostics,
 ) -> Option<Template> {
     let name = node.name()?;
@@ -43,13 +42,18 @@ pub(super) fn read(
                 seen.once("icon", *span, diags);
                 template.icon = quoted.as_ref().map(|quoted| text::unquote(quoted, diags));
             }
-            Part::Uses(resource, span) => uses(resource.as_ref(), *span, &mut template, diags),
+            Part::Uses(resource, span) => {
+                if let Some(resource) = resource {
+                    site.record.word(resource.span, Word::Resource);
+                }
+                uses(resource.as_ref(), *span, &mut template, diags);
+            }
             Part::In(port) => {
-                let port = ports::input(port, template.kind, types, source, &mut names, diags);
+                let port = ports::input(port, template.kind, site, &mut names, diags);
                 template.inputs.extend(port);
             }
             Part::Out(port) => {
-                let port = ports::output(port, &template.outcomes, types, &mut names, diags);
+                let port = ports::output(port, &template.outcomes, site, &mut names, diags);
                 template.outputs.extend(port);
             }
             Part::Timing(time) => set_time(time, &mut template, &mut seen, diags),

@@ -90,6 +90,7 @@ fn values_of_each_type_are_read() {
         doc: String::new(),
         toolbox: None,
         variants: vec!["left".to_owned(), "right".to_owned()],
+        variant_spans: Vec::new(),
         span: Span::default(),
     }));
     assert_eq!(parse_value("Side.right", &side), Ok(Constant::Choice(1)));

@@ -1,0 +1,104 @@
+//! What the check says of names while it resolves them.
+//!
+//! A definition is known by the span of its own name, which the check has at hand wherever it
+//! resolves something, so recording costs a push. The index gives them numbers at the end.
+
+use std::cell::RefCell;
+
+use crate::source::Span;
+
+use super::Word;
+
+/// What a written name means, as the check has found it. The order says which of two findings about
+/// one name counts: the last one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Found {
+    /// Nothing that is known.
+    Unknown,
+    /// A word of the language, or of the robot.
+    Word(Word),
+    /// Several definitions.
+    Several,
+    /// A file, by [`Span::file`].
+    File(u16),
+    /// The definition whose name stands there.
+    Definition(Span),
+}
+
+/// Everything that was recorded.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Records {
+    /// Names as written, each with its meaning, in no order.
+    pub names: Vec<(Span, Found)>,
+}
+
+/// Takes down what names mean. It is handed around as a shared reference, since what resolves names
+/// changes nothing else.
+#[derive(Debug, Default)]
+pub(crate) struct Recorder(RefCell<Records>);
+
+impl Recorder {
+    /// A name means the definition whose own name stands at `definition`.
+    pub fn definition(&self, name: Span, definition: Span) {
+        self.record(name, Found::Definition(definition));
+    }
+
+    /// A name may mean any of several definitions.
+    pub fn several(&self, name: Span) {
+        self.record(name, Found::Several);
+    }
+
+    /// A name means a file.
+    pub fn file(&self, name: Span, file: u16) {
+        self.record(name, Found::File(file));
+    }
+
+    /// A name is a word of the language, or of the robot.
+    pub fn word(&self, name: Span, word: Word) {
+        self.record(name, Found::Word(word));
+    }
+
+    /// A name means nothing that is known.
+    pub fn unknown(&self, name: Span) {
+        self.record(name, Found::Unknown);
+    }
+
+    /// Takes everything so far.
+    pub fn take(&self) -> Records {
+        self.0.take()
+    }
+
+    fn record(&self, name: Span, found: Found) {
+        self.0.borrow_mut().names.push((name, found));
+    }
+}
+
+/// What was recorded, in the order of the names.
+#[derive(Debug, Default)]
+pub(crate) struct Meanings {
+    /// Each name once.
+    pub names: Vec<(Span, Found)>,
+}
+
+impl Meanings {
+    /// Puts records in order.
+    pub fn new(records: Records) -> Meanings {
+        let Records { mut names } = records;
+        names.sort_unstable();
+        // Of several findings the last one counts.
+        names.dedup_by(|next, kept| {
+            let same = next.0 == kept.0;
+            if same {
+                kept.1 = next.1;
+            }
+            same
+        });
+        Meanings { names }
+    }
+
+    /// What the name at a place means.
+    pub fn get(&self, name: Span) -> Option<Found> {
+        let place = self.names.binary_search_by_key(&name, |(known, _)| *known).ok()?;
+        Some(self.names[place].1)
+    }
+}

@@ -1,0 +1,288 @@
+//! Reads the outline from the trees, with what the check has found out about names and types.
+
+use std::collections::HashMap;
+
+use super::component::Reader;
+use super::{
+    Component, ComponentKind, Destination, ElementId, Entry, EntryId, Enum, File, Findings,
+    Outline, Plan, PlanId, Scenario, Start, Target, Use, Value,
+};
+use crate::check::{MadeParts, PlanHead, Program};
+use crate::edit::Item;
+use crate::gather::PlanFile;
+use crate::graph::EntryKind;
+use crate::index::{Found, Meanings, Word};
+use crate::source::Span;
+use crate::syntax::ast::{self, ElementKind, Name};
+
+/// What the outline is made of.
+pub(crate) struct Material<'a> {
+    /// Everything that was read.
+    pub program: &'a Program<'a>,
+    /// The files.
+    pub files: &'a [PlanFile],
+    /// What the components of each plan are made from.
+    pub made: &'a [MadeParts],
+    /// What names mean.
+    pub meanings: &'a Meanings,
+    /// The plan that was asked for.
+    pub main: Option<usize>,
+}
+
+/// Reads the outline of all files.
+pub(crate) fn build(material: &Material<'_>) -> Outline {
+    let heads = material.program.plans.iter();
+    let names = heads.enumerate().filter_map(|(at, head)| Some((head.name.as_ref()?.span, at)));
+    let names: HashMap<Span, usize> = names.collect();
+    let mut outline = Outline { main: material.main.map(PlanId::new), ..Outline::default() };
+    for (at, file) in material.files.iter().enumerate() {
+        outline.files.push(self::file(material, at, file, &names));
+        let heads = material.program.plans.iter().zip(material.made);
+        let heads: Vec<_> = heads.filter(|(head, _)| head.file == at).collect();
+        let plans = heads.iter().map(|(head, _)| head.name.as_ref());
+        let items: Vec<_> = numbered(plans).collect();
+        for ((head, made), name) in heads.into_iter().zip(items) {
+            outline.plans.push(plan(material, head, made, name));
+        }
+    }
+    outline
+}
+
+fn file(material: &Material<'_>, at: usize, file: &PlanFile, plans: &HashMap<Span, usize>) -> File {
+    let mut read = File { file: file.index, path: file.path.clone(), ..File::default() };
+    let heads = material.program.plans.iter().enumerate();
+    read.plans = heads.filter(|(_, h)| h.file == at).map(|(at, _)| PlanId::new(at)).collect();
+    let mut enums = Vec::new();
+    for item in file.tree.items() {
+        match item {
+            ast::Item::Use(line) => read.uses.push(used(material, &line)),
+            ast::Item::Enum(node) => enums.push(node),
+            ast::Item::Scenario(node) => {
+                let reference = node.plan().and_then(|plan| plan.name());
+                let found = reference.and_then(|name| material.meanings.get(name.span));
+                let plan = match found {
+                    Some(Found::Definition(span)) => plans.get(&span).copied().map(PlanId::new),
+                    _ => None,
+                };
+                let (name, span) = (node.name(), node.span());
+                read.scenarios.push(Scenario { name, span, plan, findings: Findings::default() });
+            }
+            _ => {}
+        }
+    }
+    let names: Vec<_> = enums.iter().map(ast::Enum::name).collect();
+    let items = numbered(names.iter().map(Option::as_ref));
+    read.enums = items
+        .zip(&enums)
+        .zip(&names)
+        .map(|((item, node), name)| Enum {
+            item: Item::enumeration(item),
+            name: name.clone(),
+            doc: node.doc(),
+            note: node.note(),
+            span: node.span(),
+            variants: node.variants(),
+            findings: Findings::default(),
+        })
+        .collect();
+    read
+}
+
+fn used(material: &Material<'_>, line: &ast::Use) -> Use {
+    let path = line.path();
+    let file = match path.as_ref().and_then(|path| material.meanings.get(path.span)) {
+        Some(Found::File(file)) => Some(file),
+        _ => None,
+    };
+    Use { span: line.span(), toolbox: line.toolbox(), alias: line.alias(), path, file }
+}
+
+fn plan(material: &Material<'_>, head: &PlanHead, made: &MadeParts, item: String) -> Plan {
+    let node = &head.node;
+    let (entries, guards, elements) = (node.entries(), node.guards(), node.elements());
+    let names: [Vec<_>; 3] = [
+        entries.iter().map(|each| (each.name(), each.span().start)).collect(),
+        guards.iter().map(|each| (each.name(), each.span().start)).collect(),
+        elements.iter().map(|each| (each.name(), each.span().start)).collect(),
+    ];
+    let [entry_items, guard_items, element_items] = inner_items(&names);
+    let [entry_names, guard_names, element_names] =
+        names.map(|names| names.into_iter().map(|(name, _)| name).collect::<Vec<_>>());
+    let places = Places {
+        meanings: material.meanings,
+        elements: spans(&element_names),
+        entries: spans(&entry_names),
+    };
+    let reader = Reader { places: &places, plan: &item };
+    let entries = entries.iter().zip(entry_names).zip(entry_items);
+    let guards = guards.iter().zip(&made.globals).zip(guard_names.into_iter().zip(guard_items));
+    let elements =
+        elements.iter().zip(&made.elements).zip(element_names.into_iter().zip(element_items));
+    Plan {
+        entries: entries
+            .map(|((node, name), own)| entry(head, &places, node, name, Item::inner(&item, own)))
+            .collect(),
+        starts: node.starts().iter().map(|start| places.start(start)).collect(),
+        supervisors: guards
+            .map(|((node, made), (name, own))| {
+                reader.guard(node, made, name, Item::inner(&item, own))
+            })
+            .collect(),
+        elements: elements
+            .map(|((node, (made, guards)), (name, own))| {
+                let supervisors = locals(&reader, node, guards, &own);
+                let read = reader.element(node, made, name, Item::inner(&item, own));
+                Component { supervisors, ..read }
+            })
+            .collect(),
+        name: head.name.clone(),
+        doc: node.doc(),
+        note: node.note(),
+        span: node.span(),
+        interruptible: head.interrupting.is_some(),
+        findings: Findings::default(),
+        item: Item::plan(item),
+    }
+}
+
+/// The supervisors of an element.
+fn locals(
+    reader: &Reader<'_>,
+    node: &ast::Element,
+    made: &[crate::check::Made],
+    owner: &str,
+) -> Vec<Component> {
+    let guards = node.guards();
+    let names: Vec<_> = guards.iter().map(ast::Guard::name).collect();
+    let items: Vec<_> = numbered(names.iter().map(Option::as_ref)).collect();
+    let guards = guards.iter().zip(made).zip(names.into_iter().zip(items));
+    guards
+        .map(|((node, made), (name, own))| {
+            reader.guard(node, made, name, Item::local(reader.plan, owner, own))
+        })
+        .collect()
+}
+
+fn entry(
+    head: &PlanHead,
+    places: &Places<'_>,
+    node: &ast::Entry,
+    name: Option<Name>,
+    item: Item,
+) -> Entry {
+    let draft = name.as_ref().and_then(|name| {
+        let place = head.entries.binary_search_by_key(&name.span, |draft| draft.name.span).ok()?;
+        head.entries.get(place)
+    });
+    let written_type = node.ty().map(|ty| Name { text: ty.in_one_line(), span: ty.span() });
+    Entry {
+        item,
+        kind: match node.keyword().as_str() {
+            "in" => EntryKind::In,
+            "out" => EntryKind::Out,
+            "const" => EntryKind::Const,
+            _ => EntryKind::Var,
+        },
+        name,
+        doc: node.doc(),
+        note: node.note(),
+        span: node.span(),
+        written_type,
+        ty: draft.and_then(|draft| draft.ty.clone()),
+        init: node.init().map(|init| places.value(&init)),
+        findings: Findings::default(),
+    }
+}
+
+/// What names mean inside of one plan.
+pub(super) struct Places<'a> {
+    pub meanings: &'a Meanings,
+    /// The names of elements, in order, with their places.
+    elements: Vec<(Span, usize)>,
+    /// The names of entries, in order, with their places.
+    entries: Vec<(Span, usize)>,
+}
+
+impl Places<'_> {
+    /// Where a name of an edge or `start` leads.
+    pub fn target(&self, name: Name) -> Target {
+        let to = match self.meanings.get(name.span) {
+            Some(Found::Word(Word::Terminate)) => Destination::Terminate,
+            Some(Found::Word(Word::Ignore)) => Destination::Ignore,
+            Some(Found::Definition(span)) => find(&self.elements, span)
+                .map_or(Destination::Unknown, |place| Destination::Element(ElementId::new(place))),
+            _ => Destination::Unknown,
+        };
+        Target { text: name.text, span: name.span, to }
+    }
+
+    /// The entry that a name means.
+    pub fn entry(&self, name: Span) -> Option<EntryId> {
+        match self.meanings.get(name)? {
+            Found::Definition(span) => find(&self.entries, span).map(EntryId::new),
+            _ => None,
+        }
+    }
+
+    /// A formula.
+    pub fn value(&self, formula: &ast::Formula) -> Value {
+        let span = formula.span();
+        Value { text: formula.in_one_line(), span, entry: self.entry(span) }
+    }
+
+    fn start(&self, start: &ast::Start) -> Start {
+        let target = start.target().map(|target| self.target(target));
+        Start { span: start.span(), target, findings: Findings::default() }
+    }
+}
+
+fn spans(names: &[Option<Name>]) -> Vec<(Span, usize)> {
+    let names = names.iter().enumerate();
+    names.filter_map(|(place, name)| Some((name.as_ref()?.span, place))).collect()
+}
+
+fn find(known: &[(Span, usize)], span: Span) -> Option<usize> {
+    let place = known.binary_search_by_key(&span, |(known, _)| *known).ok()?;
+    Some(known[place].1)
+}
+
+/// The names of items of one scope in their paths: the second of a name has `#2` behind it.
+fn numbered<'n>(names: impl Iterator<Item = Option<&'n Name>>) -> impl Iterator<Item = String> {
+    let mut seen: HashMap<&str, u32> = HashMap::new();
+    names.map(move |name| path_name(name, &mut seen))
+}
+
+fn path_name<'n>(name: Option<&'n Name>, seen: &mut HashMap<&'n str, u32>) -> String {
+    let text = name.map_or("", |name| name.text.as_str());
+    let count = seen.entry(text).or_default();
+    *count += 1;
+    match count {
+        1 if !text.is_empty() => text.to_owned(),
+        _ => format!("{text}#{count}"),
+    }
+}
+
+/// The names of entries, global supervisors and elements, which share one scope, in their paths.
+/// Each comes with where it begins.
+fn inner_items(names: &[Vec<(Option<Name>, u32)>; 3]) -> [Vec<String>; 3] {
+    let mut order: Vec<(u32, usize, usize)> = Vec::new();
+    for (list, names) in names.iter().enumerate() {
+        order.extend(names.iter().enumerate().map(|(at, (_, start))| (*start, list, at)));
+    }
+    order.sort_unstable();
+    let mut seen = HashMap::new();
+    let mut items = [Vec::new(), Vec::new(), Vec::new()];
+    for (_, list, at) in order {
+        items[list].push(path_name(names[list][at].0.as_ref(), &mut seen));
+    }
+    items
+}
+
+/// What the keyword of an element says.
+pub(super) fn kind(kind: ElementKind) -> ComponentKind {
+    match kind {
+        ElementKind::Actor => ComponentKind::Actor,
+        ElementKind::Computation => ComponentKind::Computation,
+        ElementKind::SubPlan => ComponentKind::SubPlan,
+    }
+}

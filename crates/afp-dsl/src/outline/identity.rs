@@ -1,0 +1,150 @@
+//! From places in the text to items and parts of them, and back.
+
+use super::{Component, Outline, Plan};
+use crate::edit::Item;
+use crate::source::Span;
+
+/// An item of a file, or a part of one.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Identity {
+    /// The file, as [`Span::file`] says it.
+    pub file: u16,
+    /// The item.
+    pub item: Item,
+    /// What of it.
+    pub part: Part,
+}
+
+/// What of an item is meant.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Part {
+    /// All of it.
+    Whole,
+    /// The `start` line of a plan, the first or another one.
+    Start(u16),
+    /// What an input is bound to.
+    Input {
+        /// The port.
+        name: String,
+        /// Which binding of it, from 1.
+        nth: u16,
+    },
+    /// What an output is bound to.
+    Output {
+        /// The port.
+        name: String,
+        /// Which binding of it, from 1.
+        nth: u16,
+    },
+    /// The edge of a state or event.
+    Exit {
+        /// The state or event.
+        name: String,
+        /// Which edge of it, from 1.
+        nth: u16,
+    },
+}
+
+impl Outline {
+    /// The smallest item or part that covers a byte, its last border included.
+    pub fn identity_at(&self, file: u16, offset: u32) -> Option<Identity> {
+        let place = Span { file, start: offset, end: offset };
+        let covers = |span: Span| span.contains(place);
+        let made = |(item, part): (&Item, Part)| Identity { file, item: item.clone(), part };
+        let enums = self.files.iter().filter(|each| each.file == file).flat_map(|each| &each.enums);
+        if let Some(found) = enums.into_iter().find(|each| covers(each.span)) {
+            return Some(made((&found.item, Part::Whole)));
+        }
+        let plan = self.plans.iter().find(|plan| covers(plan.span))?;
+        let starts = (1..).zip(&plan.starts).find(|(_, start)| covers(start.span));
+        if let Some((nth, _)) = starts {
+            return Some(made((&plan.item, Part::Start(nth))));
+        }
+        if let Some(entry) = plan.entries.iter().find(|entry| covers(entry.span)) {
+            return Some(made((&entry.item, Part::Whole)));
+        }
+        // A supervisor of an element comes behind it, so the last one is the smallest.
+        let components: Vec<_> = plan.components().filter(|each| covers(each.span)).collect();
+        let found = match components.last() {
+            Some(component) => (&component.item, part_at(component, covers)),
+            None => (&plan.item, Part::Whole),
+        };
+        Some(made(found))
+    }
+
+    /// The place of an item or part: of the whole of it, without comments around it.
+    pub fn span_of(&self, identity: &Identity) -> Option<Span> {
+        let Identity { file, item, part } = identity;
+        if let Item::Enum { .. } = item {
+            let own = self.files.iter().find(|each| each.file == *file)?;
+            return own.enums.iter().find(|each| each.item == *item).map(|each| each.span);
+        }
+        let plan = self.plan_of(*file, item)?;
+        match part {
+            Part::Start(nth) => {
+                let place = usize::from(*nth).checked_sub(1)?;
+                plan.starts.get(place).map(|start| start.span)
+            }
+            Part::Whole if plan.item == *item => Some(plan.span),
+            Part::Whole => {
+                let entry = plan.entries.iter().find(|entry| entry.item == *item);
+                let span = entry.map(|entry| entry.span);
+                span.or_else(|| plan.component(item).map(|component| component.span))
+            }
+            part => part_span(plan.component(item)?, part),
+        }
+    }
+
+    /// The plan that an item of a file is or is in.
+    pub fn plan_of(&self, file: u16, item: &Item) -> Option<&Plan> {
+        let name = item.plan_name();
+        self.plans.iter().find(|plan| plan.file() == file && plan.item.name() == name)
+    }
+}
+
+impl Plan {
+    /// An element or supervisor.
+    pub fn component(&self, item: &Item) -> Option<&Component> {
+        self.components().find(|component| component.item == *item)
+    }
+}
+
+fn part_at(component: &Component, covers: impl Fn(Span) -> bool) -> Part {
+    for input in &component.inputs {
+        if input.binding.as_ref().is_some_and(|binding| covers(binding.span)) {
+            return Part::Input { name: input.name.clone(), nth: input.nth };
+        }
+    }
+    for output in &component.outputs {
+        if output.binding.as_ref().is_some_and(|binding| covers(binding.span)) {
+            return Part::Output { name: output.name.clone(), nth: output.nth };
+        }
+    }
+    for exit in &component.exits {
+        if exit.edge.as_ref().is_some_and(|edge| covers(edge.span)) {
+            return Part::Exit { name: exit.name.clone(), nth: exit.nth };
+        }
+    }
+    Part::Whole
+}
+
+fn part_span(component: &Component, part: &Part) -> Option<Span> {
+    match part {
+        Part::Input { name, nth } => {
+            let mut inputs = component.inputs.iter();
+            let found = inputs.find(|input| input.name == *name && input.nth == *nth)?;
+            found.binding.as_ref().map(|binding| binding.span)
+        }
+        Part::Output { name, nth } => {
+            let mut outputs = component.outputs.iter();
+            let found = outputs.find(|output| output.name == *name && output.nth == *nth)?;
+            found.binding.as_ref().map(|binding| binding.span)
+        }
+        Part::Exit { name, nth } => {
+            let mut exits = component.exits.iter();
+            let found = exits.find(|exit| exit.name == *name && exit.nth == *nth)?;
+            found.edge.as_ref().map(|edge| edge.span)
+        }
+        Part::Whole | Part::Start(_) => None,
+    }
+}

@@ -1,0 +1,257 @@
+//! Plans, many of them broken, each with its outline behind it; and what holds for any text.
+//!
+//! `AFP_BLESS=1` rewrites the outlines; read the diff like code.
+
+use crate::support;
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+use afp_dsl::Compiled;
+use afp_dsl::outline::{
+    Binding, Component, Destination, Findings, Identity, MadeFrom, Outline, Part, Plan, Target,
+};
+use afp_dsl::syntax::{Node, kind::Kind};
+
+const MARK: &str = "\n// Outline:\n";
+
+#[test]
+fn every_case_has_the_outline_it_should() {
+    let toolboxes = support::toolboxes();
+    let mut wrong = Vec::new();
+    for path in support::files("tests/outline") {
+        let case = support::read(&path);
+        let text = case.split(MARK).next().unwrap();
+        let compiled = support::compile(text, &toolboxes);
+        let dump: String = dump(&compiled).lines().map(|line| format!("//  {line}\n")).collect();
+        wrong.extend(support::compare(&path, &case, &format!("{text}{MARK}{dump}")));
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// An outline as text: what is wrong stands behind `!`.
+fn dump(compiled: &Compiled) -> String {
+    let outline = &compiled.outline;
+    let mut text = String::new();
+    let said = |findings: &Findings| {
+        let codes = findings.list.iter().map(|at| compiled.diags.get(*at).unwrap().code.as_str());
+        codes.map(|code| format!(" !{code}")).collect::<String>()
+    };
+    for file in &outline.files {
+        let _ = writeln!(text, "file {}{}", file.path, said(&file.findings));
+        for line in &file.uses {
+            let name = line.toolbox.as_ref().or(line.path.as_ref()).map_or("", |name| &name.text);
+            let alias = line.alias.iter().map(|alias| format!(" as {}", alias.text));
+            let found = line.file.map_or("", |_| " (found)");
+            let _ = writeln!(text, "  use {name}{}{found}", alias.collect::<String>());
+        }
+        for each in &file.enums {
+            let values: Vec<_> = each.variants.iter().map(|value| value.text.as_str()).collect();
+            let said = said(&each.findings);
+            let _ = writeln!(text, "  enum {}: {}{said}", each.item, values.join(" "));
+        }
+        for scenario in &file.scenarios {
+            let name = scenario.name.as_ref().map_or("", |name| &name.text);
+            let plan = scenario.plan.map_or("?", |plan| outline.plan(plan).item.name());
+            let _ = writeln!(text, "  scenario {name} for {plan}{}", said(&scenario.findings));
+        }
+        for plan in &file.plans {
+            self::plan(&mut text, outline, outline.plan(*plan), &said);
+        }
+    }
+    let main = outline.main.map_or("none", |plan| outline.plan(plan).item.name());
+    text + &format!("main: {main}\n")
+}
+
+fn plan(text: &mut String, outline: &Outline, plan: &Plan, said: &dyn Fn(&Findings) -> String) {
+    let mut line = |depth: usize, content: String| {
+        let _ = writeln!(text, "{:width$}{content}", "", width = 2 * depth);
+    };
+    let interruptible = if plan.interruptible { " (interruptible)" } else { "" };
+    line(1, format!("plan {}{interruptible}{}", plan.item, said(&plan.findings)));
+    for entry in &plan.entries {
+        let ty = entry.ty.as_ref().map_or("?".to_owned(), ToString::to_string);
+        let written = entry.written_type.as_ref().map_or("", |ty| &ty.text);
+        let init = entry.init.iter().map(|init| format!(" = {}", init.text)).collect::<String>();
+        let said = said(&entry.findings);
+        line(2, format!("{:?} {}: {ty} ({written}){init}{said}", entry.kind, entry.item));
+    }
+    for start in &plan.starts {
+        let target = start.target.as_ref().map_or("?".to_owned(), |to| target(plan, to));
+        line(2, format!("start {target}{}", said(&start.findings)));
+    }
+    for component in plan.components() {
+        let depth = 2 + usize::from(matches!(component.item, afp_dsl::edit::Item::Local { .. }));
+        let Component { item, kind, findings, .. } = component;
+        let made = made_from(outline, component);
+        line(depth, format!("{} {item}: {made}{}", kind.keyword(), said(findings)));
+        for doc in [&component.doc, &component.note].into_iter().filter(|text| !text.is_empty()) {
+            line(depth + 1, format!("says {doc:?}"));
+        }
+        if let Some(times) = component.times {
+            line(depth + 1, format!("every {} deadline {} ns", times.every, times.deadline));
+        }
+        for input in &component.inputs {
+            let ty = input.ty.as_ref().map_or("?".to_owned(), ToString::to_string);
+            let value = match (&input.binding, &input.default) {
+                (Some(binding), _) => bound(plan, binding),
+                (None, Some(default)) => format!("({default:?})"),
+                (None, None) if input.required => "HOLE".to_owned(),
+                (None, None) => "(given)".to_owned(),
+            };
+            let known = if input.declared.is_some() { "" } else { "unknown " };
+            let said = said(&input.findings);
+            line(
+                depth + 1,
+                format!("{known}in {}: {ty} = {value}{said}", key(&input.name, input.nth)),
+            );
+        }
+        for output in &component.outputs {
+            let ty = output.ty.as_ref().map_or("?".to_owned(), ToString::to_string);
+            let value = output.binding.as_ref().map_or("-".to_owned(), |b| bound(plan, b));
+            let known = if output.declared.is_some() { "" } else { "unknown " };
+            let said = said(&output.findings);
+            line(
+                depth + 1,
+                format!("{known}out {}: {ty} => {value}{said}", key(&output.name, output.nth)),
+            );
+        }
+        for exit in &component.exits {
+            let to = exit.edge.as_ref().map(|edge| edge.target.as_ref());
+            let to = match to {
+                Some(Some(to)) => target(plan, to),
+                Some(None) => "?".to_owned(),
+                None if exit.required => "HOLE".to_owned(),
+                None => "-".to_owned(),
+            };
+            let known = if exit.known { "" } else { "unknown " };
+            let said = said(&exit.findings);
+            let name = key(&exit.name, exit.nth);
+            line(depth + 1, format!("{known}{:?} {name} -> {to}{said}", exit.kind));
+        }
+    }
+}
+
+fn key(name: &str, nth: u16) -> String {
+    if nth == 1 { name.to_owned() } else { format!("{name}#{nth}") }
+}
+
+fn made_from(outline: &Outline, component: &Component) -> String {
+    let Some(template) = &component.template else { return "nothing".to_owned() };
+    let made = match &template.made_from {
+        Some(MadeFrom::Template { toolbox, index }) => {
+            format!("{}.{}", toolbox.name, toolbox.templates[*index].name)
+        }
+        Some(MadeFrom::Plan(plan)) => format!("plan {}", outline.plan(*plan).item),
+        None => "unknown".to_owned(),
+    };
+    format!("{} ({made})", template.text)
+}
+
+fn bound(plan: &Plan, binding: &Binding) -> String {
+    let Some(value) = &binding.value else { return "?".to_owned() };
+    let entry = value.entry.map(|id| format!(" ({})", plan.entries[id.index()].item));
+    format!("{}{}", value.text, entry.unwrap_or_default())
+}
+
+fn target(plan: &Plan, target: &Target) -> String {
+    match target.to {
+        Destination::Element(id) => plan.elements[id.index()].item.to_string(),
+        Destination::Terminate | Destination::Ignore => target.text.clone(),
+        Destination::Unknown => format!("{} (unknown)", target.text),
+    }
+}
+
+/// The items and parts of all plan files, with their places.
+fn identities(outline: &Outline) -> Vec<Identity> {
+    let mut all = Vec::new();
+    let mut add = |file, item: &afp_dsl::edit::Item, part| {
+        all.push(Identity { file, item: item.clone(), part });
+    };
+    for file in &outline.files {
+        file.enums.iter().for_each(|each| add(file.file, &each.item, Part::Whole));
+    }
+    for plan in &outline.plans {
+        let file = plan.file();
+        add(file, &plan.item, Part::Whole);
+        (1..).zip(&plan.starts).for_each(|(nth, _)| add(file, &plan.item, Part::Start(nth)));
+        plan.entries.iter().for_each(|entry| add(file, &entry.item, Part::Whole));
+        for component in plan.components() {
+            let item = &component.item;
+            add(file, item, Part::Whole);
+            for input in component.inputs.iter().filter(|input| input.binding.is_some()) {
+                add(file, item, Part::Input { name: input.name.clone(), nth: input.nth });
+            }
+            for output in component.outputs.iter().filter(|output| output.binding.is_some()) {
+                add(file, item, Part::Output { name: output.name.clone(), nth: output.nth });
+            }
+            for exit in component.exits.iter().filter(|exit| exit.edge.is_some()) {
+                add(file, item, Part::Exit { name: exit.name.clone(), nth: exit.nth });
+            }
+        }
+    }
+    all
+}
+
+/// How many nodes of a kind stand in the plans of a file.
+fn count(root: &Node, kind: Kind) -> usize {
+    let plans = root.children().filter(|node| node.kind() == Kind::Plan);
+    let inside = plans.flat_map(|plan| plan.descendants().collect::<Vec<_>>());
+    inside.filter(|node| node.kind() == kind && !in_error(node)).count()
+}
+
+fn in_error(node: &Node) -> bool {
+    node.ancestors().any(|each| each.kind() == Kind::Error)
+}
+
+/// Checks that nothing which parses is missing from an outline, that its identities differ, and
+/// that they and their places belong together.
+pub fn examine(text: &str, compiled: &Compiled) {
+    let outline = &compiled.outline;
+    let Some(first) = outline.files.first() else { return };
+    let root = afp_dsl::syntax::parse(text, 0, &mut Default::default()).root();
+    let plans: Vec<_> = first.plans.iter().map(|plan| outline.plan(*plan)).collect();
+    let elements: usize = plans.iter().map(|plan| plan.elements.len()).sum();
+    assert_eq!(elements, count(&root, Kind::Element), "elements of\n{text}");
+    let guards: usize = plans.iter().map(|plan| plan.all_supervisors().count()).sum();
+    assert_eq!(guards, count(&root, Kind::Guard), "supervisors of\n{text}");
+    let entries: usize = plans.iter().map(|plan| plan.entries.len()).sum();
+    assert_eq!(entries, count(&root, Kind::Entry), "entries of\n{text}");
+    let components = || plans.iter().flat_map(|plan| plan.components());
+    let edges = components().flat_map(|each| &each.exits).filter(|exit| exit.edge.is_some());
+    assert_eq!(edges.count(), count(&root, Kind::Edge), "edges of\n{text}");
+    let all = identities(outline);
+    let distinct: BTreeSet<_> = all.iter().collect();
+    assert_eq!(distinct.len(), all.len(), "identities of\n{text}");
+    for identity in &all {
+        let span = outline.span_of(identity).unwrap();
+        let at = outline.identity_at(span.file, span.start);
+        let found = outline.span_of(&at.unwrap()).unwrap();
+        assert!(span.contains(found) || span.start == found.end, "{identity:?} of\n{text}");
+    }
+    let given = outline.files.iter().map(|file| file.findings.list.len()).sum::<usize>()
+        + all_findings(outline).map(|findings| findings.list.len()).sum::<usize>();
+    let files: BTreeSet<_> = outline.files.iter().map(|file| file.file).collect();
+    let said = compiled.diags.iter().filter(|each| files.contains(&each.span.file)).count();
+    assert_eq!(given, said, "diagnostics of\n{text}");
+}
+
+fn all_findings(outline: &Outline) -> impl Iterator<Item = &Findings> {
+    let files = outline.files.iter().flat_map(|file| {
+        let enums = file.enums.iter().map(|each| &each.findings);
+        enums.chain(file.scenarios.iter().map(|each| &each.findings))
+    });
+    let plans = outline.plans.iter().flat_map(|plan| {
+        let own = std::iter::once(&plan.findings);
+        let entries = plan.entries.iter().map(|each| &each.findings);
+        let starts = plan.starts.iter().map(|each| &each.findings);
+        let components = plan.components().flat_map(|each| {
+            let inputs = each.inputs.iter().map(|input| &input.findings);
+            let outputs = each.outputs.iter().map(|output| &output.findings);
+            let exits = each.exits.iter().map(|exit| &exit.findings);
+            std::iter::once(&each.findings).chain(inputs).chain(outputs).chain(exits)
+        });
+        own.chain(entries).chain(starts).chain(components)
+    });
+    files.chain(plans)
+}
