@@ -44,6 +44,8 @@ impl fmt::Display for LogError {
             LogError::NotALog { path } => {
                 write!(f, "'{}' is not an MCAP log", path.display())
             }
+            // What it says of its own is 'I/O error', for a full disk too.
+            LogError::Mcap(mcap::McapError::Io(error)) => write!(f, "the log failed: {error}"),
             LogError::Mcap(error) => write!(f, "the log failed: {error}"),
             LogError::Writer => f.write_str("the thread that writes the log died"),
         }

@@ -1,15 +1,16 @@
 //! Makes a whole log out of one that was cut short.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::fs::File;
 use std::path::{Path, PathBuf};
 
+use afp_output::Output;
+use mcap::Attachment;
 use mcap::records::Record;
-use mcap::{Attachment, Compression, WriteOptions, Writer};
 
 use crate::error::LogError;
 use crate::scan::{load, scan};
+use crate::write::{LogWriter, begin, end};
 
 /// What could be saved.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,14 +37,15 @@ pub fn recovered_name(path: &Path) -> PathBuf {
 /// Copies everything that is intact at the front of a log into a new, whole one.
 ///
 /// # Errors
-/// The old log cannot be opened, the new one cannot be written.
+/// The old log cannot be opened, the new one cannot be written. There is no new one then.
 pub fn recover(from: &Path, to: &Path) -> Result<Recovered, LogError> {
     let bytes = load(from)?;
+    // The old log may be the part of the new one. A lock keeps it from being written over; where
+    // there are no locks, the one who makes it is done with it.
+    let old = File::open(from).map_err(|error| LogError::Open { path: from.to_owned(), error })?;
+    let _ = old.try_lock_shared();
     let failed = |error| LogError::Create { path: to.to_owned(), error };
-    let mut part = to.as_os_str().to_owned();
-    part.push(".part");
-    let part = PathBuf::from(part);
-    let mut copy = Copy::new(File::create(&part).map_err(failed)?)?;
+    let mut copy = Copy::new(Output::create(to).map_err(failed)?)?;
     let mut broken = None;
     let scanned = scan(&bytes, |record| {
         // A failed write must not pass for damage of the old log.
@@ -55,16 +57,15 @@ pub fn recover(from: &Path, to: &Path) -> Result<Recovered, LogError> {
     if let Some(error) = broken {
         return Err(error);
     }
-    copy.writer.finish()?;
-    let mut file = copy.writer.into_inner();
-    file.flush().map_err(failed)?;
-    fs::rename(&part, to).map_err(failed)?;
+    let messages = copy.messages;
+    let (output, _) = end(copy.writer)?;
+    output.finish().map_err(failed)?;
     let damage = scanned.err().map(|error| error.to_string());
-    Ok(Recovered { path: to.to_owned(), messages: copy.messages, damage })
+    Ok(Recovered { path: to.to_owned(), messages, damage })
 }
 
 struct Copy {
-    writer: Writer<BufWriter<File>>,
+    writer: LogWriter,
     schemas: BTreeMap<u16, u16>,
     channels: BTreeMap<u16, u16>,
     messages: u64,
@@ -72,11 +73,8 @@ struct Copy {
 }
 
 impl Copy {
-    fn new(file: File) -> Result<Self, LogError> {
-        let writer = WriteOptions::new()
-            .compression(Some(Compression::Lz4))
-            .library(concat!("afp ", env!("CARGO_PKG_VERSION")))
-            .create(BufWriter::new(file))?;
+    fn new(output: Output) -> Result<Self, LogError> {
+        let writer = begin(output, None)?;
         let (schemas, channels) = (BTreeMap::new(), BTreeMap::new());
         Ok(Copy { writer, schemas, channels, messages: 0, over: false })
     }

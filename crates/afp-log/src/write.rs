@@ -1,13 +1,14 @@
 //! The file side of a log: schemas, channels, attachments, and one method per kind of message.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, Seek};
 use std::path::{Path, PathBuf};
 
 use afp_core::Instant;
 use afp_core::trace::{Author, Names, Record, TraceEntryId};
+use afp_output::Output;
 use mcap::records::{MessageHeader, Metadata};
+use mcap::write::NoSeek;
 use mcap::{Attachment, Compression, WriteOptions, Writer};
 use prost::Message;
 
@@ -48,12 +49,42 @@ const CHANNELS: [(&str, &str, &[u8]); 9] = [
     ("/log", "foxglove.Log", FOXGLOVE_SET),
 ];
 
+/// A file of records. It need not be one that can go back: a pipe takes a log too.
+pub(crate) type LogWriter = Writer<NoSeek<BufWriter<Output>>>;
+
+/// Begins a file of records.
+///
+/// # Errors
+/// The header cannot be written.
+pub(crate) fn begin(output: Output, chunk: Option<u64>) -> Result<LogWriter, LogError> {
+    let options = WriteOptions::new()
+        .compression(Some(Compression::Lz4))
+        .disable_seeking(true)
+        .library(concat!("afp ", env!("CARGO_PKG_VERSION")));
+    let options = match chunk {
+        Some(bytes) => options.chunk_size(Some(bytes)),
+        None => options,
+    };
+    Ok(options.create(NoSeek::new(BufWriter::new(output)))?)
+}
+
+/// Writes the index and what is left in memory; gives the file and its size in bytes.
+///
+/// # Errors
+/// The disk is full or fails.
+pub(crate) fn end(mut writer: LogWriter) -> Result<(Output, u64), LogError> {
+    writer.finish()?;
+    let mut file = writer.into_inner();
+    let bytes = file.stream_position().map_err(mcap::McapError::from)?;
+    let output = file.into_inner().into_inner();
+    Ok((output.map_err(|failed| mcap::McapError::from(failed.into_error()))?, bytes))
+}
+
 /// A log that is being written, under its name with `.part` appended.
 pub(crate) struct LogFile {
-    writer: Writer<BufWriter<File>>,
+    writer: LogWriter,
     ids: [u16; CHANNELS.len()],
     counts: [u32; CHANNELS.len()],
-    part: PathBuf,
     path: PathBuf,
     names: NameTable,
     entries: Vec<Entry>,
@@ -64,24 +95,14 @@ pub(crate) struct LogFile {
 
 impl LogFile {
     pub(crate) fn create(path: &Path, about: &About, names: NameTable) -> Result<Self, LogError> {
-        let mut part = path.as_os_str().to_owned();
-        part.push(".part");
-        let part = PathBuf::from(part);
         let failed = |error| LogError::Create { path: path.to_owned(), error };
-        let file = File::create(&part).map_err(failed)?;
-        let writer = WriteOptions::new()
-            .compression(Some(Compression::Lz4))
-            .chunk_size(Some(CHUNK))
-            .disable_seeking(true)
-            .library(concat!("afp ", env!("CARGO_PKG_VERSION")))
-            .create(BufWriter::new(file))?;
+        let writer = begin(Output::create(path).map_err(failed)?, Some(CHUNK))?;
         let unset = |id| event::entry(&names, TraceEntryId(id), afp_core::ValueRef::Unset);
         let entries = (0..names.entries()).map(unset).collect();
         let mut log = LogFile {
             writer,
             ids: [0; CHANNELS.len()],
             counts: [0; CHANNELS.len()],
-            part,
             path: path.to_owned(),
             names,
             entries,
@@ -221,16 +242,13 @@ impl LogFile {
         if untold > 0 {
             self.lost(last, untold)?;
         }
-        self.writer.finish()?;
-        let mut file = self.writer.into_inner();
-        let failed = |error| LogError::Create { path: self.path.clone(), error };
-        file.flush().map_err(failed)?;
-        file.get_ref().sync_data().map_err(failed)?;
-        if in_order {
-            fs::rename(&self.part, &self.path).map_err(failed)?;
+        let (output, bytes) = end(self.writer)?;
+        let part = output.path().to_owned();
+        if !in_order {
+            return Ok((part, bytes));
         }
-        let path = if in_order { self.path.clone() } else { self.part.clone() };
-        let bytes = fs::metadata(&path).map_err(failed)?.len();
-        Ok((path, bytes))
+        let failed = |error| LogError::Create { path: self.path.clone(), error };
+        output.finish().map_err(failed)?;
+        Ok((self.path, bytes))
     }
 }

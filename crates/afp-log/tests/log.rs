@@ -2,6 +2,8 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::thread;
 
 use afp_core::trace::{
     Author, Cause, ComponentId, ComponentName, Ending, EntryKind, EntryName, Kind, Names, Record,
@@ -274,4 +276,59 @@ fn a_full_queue_is_counted_and_told() {
     let kept = log.events.iter().filter(|event| event.kind() == plan_event::Kind::Polled).count();
     assert_eq!(kept as u64 + lost, 200_000);
     assert!(doctor(&path).unwrap()[0].contains("were lost"));
+}
+
+#[test]
+fn a_log_may_be_recovered_under_the_name_that_its_run_was_to_give_it() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = written(dir.path());
+    let part = dir.path().join("a.mcap.part");
+    let bytes = fs::read(&path).unwrap();
+    fs::write(&part, &bytes[..bytes.len() / 2]).unwrap();
+    let saved = recover(&part, &path).unwrap();
+    assert!(saved.messages > 0 && saved.damage.is_some());
+    assert_eq!(doctor(&path).unwrap(), [""; 0]);
+    assert_eq!(fs::read(&part).unwrap(), &bytes[..bytes.len() / 2], "the old one is kept");
+}
+
+#[test]
+fn two_logs_of_one_name_at_once_are_both_whole() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.mcap");
+    let [mut one, mut two] = [create(&path), create(&path)];
+    run(&mut two);
+    assert_eq!(two.finish().unwrap().path, path);
+    assert_eq!(read(&path).unwrap().events.len(), 2008);
+    one.record(at(0), &Record::StopRequested);
+    assert_eq!(one.finish().unwrap().path, path);
+    assert_eq!(read(&path).unwrap().events.len(), 1);
+    assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
+}
+
+#[test]
+#[cfg(unix)]
+fn a_log_goes_through_a_pipe() {
+    let dir = tempfile::tempdir().unwrap();
+    let [pipe, copy] = ["pipe", "copy.mcap"].map(|name| dir.path().join(name));
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    for make in [
+        |pipe: &Path, _: &Path| {
+            let mut log = create(pipe);
+            run(&mut log);
+            assert!(log.finish().unwrap().bytes > 1000);
+        },
+        |pipe: &Path, copy: &Path| {
+            let saved = recover(copy, pipe).unwrap();
+            assert_eq!(saved.damage, None);
+        },
+    ] {
+        let reader = thread::spawn({
+            let pipe = pipe.clone();
+            move || fs::read(pipe).unwrap()
+        });
+        make(&pipe, &copy);
+        fs::write(&copy, reader.join().unwrap()).unwrap();
+        assert_eq!(doctor(&copy).unwrap(), [""; 0]);
+        assert_eq!(read(&copy).unwrap().events.len(), 2008);
+    }
 }

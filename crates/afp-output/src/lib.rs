@@ -1,0 +1,157 @@
+//! Files that appear under their name only when they are whole.
+//!
+//! An output is written beside its file, under the same name with `.part` appended, and takes the
+//! file's place at the end. Whoever reads sees the old file or the new one, also after a power
+//! failure. Links are followed and permissions kept.
+//!
+//! Not everything can be replaced. Devices and pipes are written straight into, and so is a file
+//! in a folder that takes no new ones. A file with several names, or of another owner, would be
+//! cut off from them: it gets the bytes of the whole new file instead.
+
+mod part;
+mod target;
+
+use std::fs::{self, File};
+use std::io::{self, Seek, Write};
+use std::path::{Path, PathBuf};
+
+use part::Part;
+use target::Target;
+
+/// A file that is being written.
+///
+/// Dropped without [`Output::finish`] or [`Output::discard`], as by a crash, it leaves what was
+/// written at [`Output::path`].
+#[derive(Debug)]
+pub struct Output {
+    file: File,
+    /// Where the bytes go.
+    path: PathBuf,
+    /// What `path` becomes in the end; `None` where it is the end.
+    becomes: Option<PathBuf>,
+}
+
+impl Output {
+    /// Begins to write the file `path`.
+    ///
+    /// Opening a named pipe waits for its reader. Two outputs of one name at once get parts of
+    /// their own (`run.mcap.part`, `run.2.mcap.part`); the one that ends last gives the file.
+    ///
+    /// # Errors
+    /// The folder is not there or not writable, the file is not writable, or is a folder.
+    pub fn create(path: &Path) -> io::Result<Output> {
+        let target = match Target::of(path)? {
+            Target::File(target) => target,
+            Target::Stream => {
+                let file = File::options().write(true).open(path)?;
+                return Ok(Output { file, path: path.to_owned(), becomes: None });
+            }
+        };
+        match Part::create(&target) {
+            Ok(Part { file, path }) => Ok(Output { file, path, becomes: Some(target) }),
+            Err(error) if takes_no_files(&error) && target.exists() => {
+                let file = File::options().write(true).truncate(true).open(&target)?;
+                Ok(Output { file, path: target, becomes: None })
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Where the bytes are until [`Output::finish`].
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Puts the file in its place.
+    ///
+    /// # Errors
+    /// The disk is full or fails; what was written stays at [`Output::path`].
+    pub fn finish(mut self) -> io::Result<()> {
+        self.file.flush()?;
+        let Some(target) = &self.becomes else {
+            // Devices and pipes have nothing that could be synchronised.
+            return if self.file.metadata()?.is_file() { self.file.sync_all() } else { Ok(()) };
+        };
+        self.file.sync_all()?;
+        if !target::is_replaceable(target, &self.file)? {
+            fill(target, &mut self.file)?;
+            return fs::remove_file(&self.path);
+        }
+        fs::rename(&self.path, target)?;
+        sync_folder(target::folder(target))
+    }
+
+    /// Gives up; nothing of what was written stays, and an old file is as it was.
+    pub fn discard(self) {
+        if self.becomes.is_some() {
+            // There is a failure to tell of already, which matters more.
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}
+
+impl Write for Output {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+/// Writes a file at once.
+///
+/// # Errors
+/// The folder is not there or not writable, the disk is full. No file of that name is left half
+/// written then, and an old one stays as it was.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut output = Output::create(path)?;
+    match output.write_all(bytes) {
+        Ok(()) => output.finish(),
+        Err(error) => {
+            output.discard();
+            Err(error)
+        }
+    }
+}
+
+/// Finds out early whether a file can be written later. Devices and pipes are taken at their word.
+///
+/// # Errors
+/// As of [`Output::create`].
+pub fn check_writable(path: &Path) -> io::Result<()> {
+    let Target::File(target) = Target::of(path)? else { return Ok(()) };
+    match Part::create(&target) {
+        Ok(part) => fs::remove_file(part.path),
+        Err(error) if takes_no_files(&error) && target.exists() => Ok(()),
+        Err(error) => Err(error),
+    }
+}
+
+/// Whether a folder, but not necessarily a file in it, refuses to be written.
+fn takes_no_files(error: &io::Error) -> bool {
+    matches!(error.kind(), io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem)
+}
+
+/// Gives a file the bytes of another. It is cut to its length last, so that a full disk is noticed
+/// while the other one is still there.
+fn fill(target: &Path, from: &mut File) -> io::Result<()> {
+    from.rewind()?;
+    let mut file = File::options().write(true).open(target)?;
+    let bytes = io::copy(from, &mut file)?;
+    file.set_len(bytes)?;
+    file.sync_all()
+}
+
+/// Makes a new name last through a power failure.
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    use io::ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
+    match File::open(folder).and_then(|folder| folder.sync_all()) {
+        // Not every system can do this, nor every folder be opened.
+        Err(error) if matches!(error.kind(), InvalidInput | PermissionDenied | Unsupported) => {
+            Ok(())
+        }
+        done => done,
+    }
+}

@@ -1,0 +1,104 @@
+//! The file beside an output, under whose name it is written until it is whole.
+
+use std::ffi::OsString;
+use std::fs::{self, File, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A part of our own: locked as long as it is open.
+pub(crate) struct Part {
+    pub(crate) file: File,
+    pub(crate) path: PathBuf,
+}
+
+impl Part {
+    /// Creates an empty part for a file. What a dead process left of one is overwritten.
+    ///
+    /// # Errors
+    /// The folder is not there or not writable.
+    pub(crate) fn create(target: &Path) -> io::Result<Part> {
+        let mut number = 1;
+        loop {
+            let path = name(target, number);
+            if fs::symlink_metadata(&path).is_ok_and(|there| !there.is_file()) {
+                number += 1;
+                continue;
+            }
+            let file =
+                File::options().read(true).write(true).create(true).truncate(false).open(&path)?;
+            if let Err(TryLockError::WouldBlock) = file.try_lock() {
+                number += 1;
+                continue;
+            }
+            // Where locks are not to be had, two at once are on their own. The one who had the
+            // lock may have given the part its final name just now.
+            if is_at(&file, &path)? {
+                file.set_len(0)?;
+                permit_as(target, &file)?;
+                return Ok(Part { file, path });
+            }
+        }
+    }
+}
+
+/// Gives a part the permissions of the old file: what is private is private from the beginning.
+fn permit_as(target: &Path, file: &File) -> io::Result<()> {
+    match fs::metadata(target) {
+        Ok(old) if old.permissions() != file.metadata()?.permissions() => {
+            file.set_permissions(old.permissions())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The name of the part of a file: `run.mcap.part`, then `run.2.mcap.part`, whose other endings
+/// stay what they are.
+fn name(target: &Path, number: u32) -> PathBuf {
+    let mut name = OsString::new();
+    match (number, target.extension()) {
+        (1, _) => name.push(target.file_name().unwrap_or_default()),
+        (_, None) => {
+            name.push(target.file_name().unwrap_or_default());
+            name.push(format!(".{number}"));
+        }
+        (_, Some(extension)) => {
+            name.push(target.file_stem().unwrap_or_default());
+            name.push(format!(".{number}."));
+            name.push(extension);
+        }
+    }
+    name.push(".part");
+    target.with_file_name(name)
+}
+
+/// Whether an open file still has this name.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> io::Result<bool> {
+    use std::os::unix::fs::MetadataExt;
+    let open = file.metadata()?;
+    Ok(fs::symlink_metadata(path)
+        .is_ok_and(|there| (there.dev(), there.ino()) == (open.dev(), open.ino())))
+}
+
+#[cfg(not(unix))]
+fn is_at(_: &File, path: &Path) -> io::Result<bool> {
+    Ok(path.exists())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_are_numbered_before_the_ending() {
+        let cases = [
+            ("runs/run.mcap", 1, "runs/run.mcap.part"),
+            ("runs/run.mcap", 2, "runs/run.2.mcap.part"),
+            ("plan", 1, "plan.part"),
+            ("plan", 3, "plan.3.part"),
+        ];
+        for (target, number, wanted) in cases {
+            assert_eq!(name(Path::new(target), number), Path::new(wanted));
+        }
+    }
+}

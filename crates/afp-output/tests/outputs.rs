@@ -1,0 +1,252 @@
+//! What may stand where an output goes, and what becomes of it.
+
+#![cfg(unix)]
+
+use std::fs::{self, File, Permissions};
+use std::io::{ErrorKind, Read, Write};
+use std::os::unix::fs::{MetadataExt, PermissionsExt, chown, symlink};
+use std::os::unix::process::CommandExt;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::thread;
+
+use afp_output::{Output, check_writable, write_whole};
+use tempfile::TempDir;
+
+fn folder() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+fn files(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<_> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+fn text(path: &Path) -> String {
+    fs::read_to_string(path).unwrap()
+}
+
+fn mode(path: &Path) -> u32 {
+    fs::metadata(path).unwrap().mode() & 0o777
+}
+
+#[test]
+fn a_file_is_the_old_one_until_the_new_one_is_whole() {
+    let folder = folder();
+    let path = folder.path().join("a.svg");
+    fs::write(&path, "old").unwrap();
+    fs::set_permissions(&path, Permissions::from_mode(0o751)).unwrap();
+    let mut output = Output::create(&path).unwrap();
+    output.write_all(b"new").unwrap();
+    assert_eq!(text(&path), "old");
+    assert_eq!(text(output.path()), "new");
+    assert_eq!(mode(output.path()), 0o751, "what is private is so from the beginning");
+    output.finish().unwrap();
+    assert_eq!((text(&path).as_str(), mode(&path)), ("new", 0o751));
+    assert_eq!(files(folder.path()), ["a.svg"]);
+}
+
+#[test]
+fn a_new_file_has_the_permissions_of_any_new_file() {
+    let folder = folder();
+    let [path, other] = ["a.svg", "b.svg"].map(|name| folder.path().join(name));
+    write_whole(&path, b"new").unwrap();
+    fs::write(&other, "").unwrap();
+    assert_eq!((text(&path).as_str(), mode(&path)), ("new", mode(&other)));
+}
+
+#[test]
+fn what_is_given_up_leaves_nothing_and_what_is_dropped_its_part() {
+    let folder = folder();
+    let path = folder.path().join("a.svg");
+    fs::write(&path, "old").unwrap();
+    let mut output = Output::create(&path).unwrap();
+    output.write_all(b"new").unwrap();
+    output.discard();
+    assert_eq!((text(&path).as_str(), files(folder.path())), ("old", vec!["a.svg".to_owned()]));
+    let mut output = Output::create(&path).unwrap();
+    output.write_all(b"new").unwrap();
+    drop(output);
+    assert_eq!(text(&path), "old");
+    assert_eq!(text(&folder.path().join("a.svg.part")), "new");
+    write_whole(&path, b"n").unwrap();
+    assert_eq!((text(&path).as_str(), files(folder.path())), ("n", vec!["a.svg".to_owned()]));
+}
+
+#[test]
+fn links_are_followed() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    fs::create_dir(path("far")).unwrap();
+    fs::write(path("far/a.svg"), "old").unwrap();
+    symlink("far/a.svg", path("near")).unwrap();
+    symlink("near", path("nearer")).unwrap();
+    symlink("far/not_yet.svg", path("dangling")).unwrap();
+    for (link, file) in [("nearer", "far/a.svg"), ("dangling", "far/not_yet.svg")] {
+        write_whole(&path(link), b"new").unwrap();
+        assert!(fs::symlink_metadata(path(link)).unwrap().is_symlink());
+        assert_eq!(text(&path(file)), "new");
+    }
+    assert_eq!(files(&path("far")), ["a.svg", "not_yet.svg"]);
+    symlink("round", path("round")).unwrap();
+    write_whole(&path("round"), b"new").unwrap_err();
+}
+
+#[test]
+fn a_file_with_two_names_keeps_both() {
+    let folder = folder();
+    let [path, other] = ["a.afp", "b.afp"].map(|name| folder.path().join(name));
+    for (old, new) in [("older and longer", "new"), ("old", "newer and longer")] {
+        fs::write(&path, old).unwrap();
+        let _ = fs::hard_link(&path, &other);
+        let mut output = Output::create(&path).unwrap();
+        output.write_all(new.as_bytes()).unwrap();
+        assert_eq!(text(&other), old);
+        output.finish().unwrap();
+        assert_eq!((text(&path).as_str(), text(&other).as_str()), (new, new));
+        assert_eq!(fs::metadata(&path).unwrap().nlink(), 2);
+        assert_eq!(files(folder.path()), ["a.afp", "b.afp"]);
+    }
+}
+
+#[test]
+fn a_device_stays_one() {
+    let null = Path::new("/dev/null");
+    check_writable(null).unwrap();
+    write_whole(null, b"new").unwrap();
+    assert!(!fs::metadata(null).unwrap().is_file());
+    assert!(!Path::new("/dev/null.part").exists());
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_is_an_error() {
+    let full = Path::new("/dev/full");
+    assert_eq!(write_whole(full, b"new").unwrap_err().kind(), ErrorKind::StorageFull);
+    let folder = folder();
+    let link = folder.path().join("link");
+    symlink(full, &link).unwrap();
+    assert_eq!(write_whole(&link, b"new").unwrap_err().kind(), ErrorKind::StorageFull);
+    assert_eq!(files(folder.path()), ["link"]);
+}
+
+#[test]
+fn a_pipe_is_written_into() {
+    let folder = folder();
+    let pipe = folder.path().join("pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    check_writable(&pipe).unwrap();
+    let reader = thread::spawn({
+        let pipe = pipe.clone();
+        move || {
+            let mut text = String::new();
+            File::open(pipe).unwrap().read_to_string(&mut text).unwrap();
+            text
+        }
+    });
+    write_whole(&pipe, b"new").unwrap();
+    assert_eq!(reader.join().unwrap(), "new");
+    assert_eq!(files(folder.path()), ["pipe"]);
+}
+
+#[test]
+fn two_at_once_do_not_share_a_part() {
+    let folder = folder();
+    let path = folder.path().join("run.mcap");
+    let [mut one, mut two] = [(), ()].map(|()| Output::create(&path).unwrap());
+    one.write_all(b"one").unwrap();
+    two.write_all(b"two, longer").unwrap();
+    assert_eq!(two.path(), folder.path().join("run.2.mcap.part"));
+    two.finish().unwrap();
+    assert_eq!(text(&path), "two, longer");
+    one.finish().unwrap();
+    assert_eq!((text(&path).as_str(), files(folder.path())), ("one", vec!["run.mcap".to_owned()]));
+}
+
+#[test]
+fn many_at_once_each_write_a_whole_file() {
+    let folder = folder();
+    let path = folder.path().join("run.mcap");
+    thread::scope(|scope| {
+        for letter in [b'a', b'b', b'c', b'd'] {
+            let path = &path;
+            scope.spawn(move || {
+                for length in 1..100 {
+                    write_whole(path, &vec![letter; length * 100]).unwrap();
+                    let seen = fs::read(path).unwrap();
+                    assert!(!seen.is_empty() && seen.len().is_multiple_of(100), "{} bytes", seen.len());
+                    assert!(seen.iter().all(|byte| *byte == seen[0]), "a mixture");
+                }
+            });
+        }
+    });
+    assert_eq!(files(folder.path()), ["run.mcap"]);
+}
+
+#[test]
+fn a_part_that_is_a_link_is_left_alone() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    fs::write(path("precious"), "mine").unwrap();
+    symlink("precious", path("a.svg.part")).unwrap();
+    write_whole(&path("a.svg"), b"new").unwrap();
+    assert_eq!((text(&path("precious")).as_str(), text(&path("a.svg")).as_str()), ("mine", "new"));
+}
+
+#[test]
+fn a_check_leaves_everything_as_it_is() {
+    let folder = folder();
+    let path = folder.path().join("a.svg");
+    check_writable(&path).unwrap();
+    assert_eq!(files(folder.path()), [""; 0]);
+    fs::write(&path, "old").unwrap();
+    check_writable(&path).unwrap();
+    assert_eq!((text(&path).as_str(), files(folder.path())), ("old", vec!["a.svg".to_owned()]));
+    let kind = |path: PathBuf| check_writable(&path).unwrap_err().kind();
+    assert_eq!(kind(folder.path().to_owned()), ErrorKind::IsADirectory);
+    assert_eq!(kind(folder.path().join("no/folder/a.svg")), ErrorKind::NotFound);
+}
+
+/// The folder of [`a_folder_that_takes_no_files`], for its second half.
+const FOLDER: &str = "AFP_OUTPUT_TEST_FOLDER";
+
+/// Permissions mean nothing to root, who therefore hands the second half over to somebody else.
+#[test]
+fn a_folder_that_takes_no_files() {
+    if let Some(folder) = std::env::var_os(FOLDER) {
+        return written_by_who_may_not(Path::new(&folder));
+    }
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    for (name, permissions) in [("old", 0o644), ("fixed", 0o444)] {
+        fs::write(path(name), "older and longer").unwrap();
+        fs::set_permissions(path(name), Permissions::from_mode(permissions)).unwrap();
+    }
+    fs::set_permissions(folder.path(), Permissions::from_mode(0o555)).unwrap();
+    let mut again = Command::new(std::env::current_exe().unwrap());
+    again.args(["--exact", "a_folder_that_takes_no_files"]).env(FOLDER, folder.path());
+    if fs::metadata(folder.path()).unwrap().uid() == 0 {
+        let nobody = 65534;
+        for path in [folder.path(), &path("old"), &path("fixed")] {
+            chown(path, Some(nobody), Some(nobody)).unwrap();
+        }
+        again.uid(nobody).gid(nobody);
+    }
+    let done = again.output().unwrap();
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stdout));
+    assert_eq!((text(&path("old")).as_str(), files(folder.path()).len()), ("new", 2));
+    fs::set_permissions(folder.path(), Permissions::from_mode(0o755)).unwrap();
+}
+
+fn written_by_who_may_not(folder: &Path) {
+    check_writable(&folder.join("old")).unwrap();
+    write_whole(&folder.join("old"), b"new").unwrap();
+    for path in ["fixed", "not_there"].map(|name| folder.join(name)) {
+        for done in [check_writable(&path), write_whole(&path, b"new")] {
+            assert_eq!(done.unwrap_err().kind(), ErrorKind::PermissionDenied);
+        }
+    }
+}
