@@ -12,6 +12,7 @@ mod keys;
 pub mod options;
 mod output;
 mod pace;
+mod picture;
 mod report;
 pub mod rig;
 mod robot;
@@ -32,8 +33,9 @@ use crate::options::RunOptions;
 pub use error::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, EXIT_USAGE, RunError};
 pub use hash::hash;
 pub use output::write_whole;
+pub use picture::{PictureFormat, Rasterizer};
 pub use report::{line, timeline};
-pub use run::run;
+pub use run::{run, run_with};
 pub use stop::StopFlag;
 pub use svg::{draw_film, draw_log, draw_sonar};
 

@@ -54,7 +54,7 @@ pub struct RunOptions {
     #[arg(long)]
     pub camera: bool,
 
-    /// Where the picture goes; 'none' for no picture [default: target/afp/runs/<plan>.svg]
+    /// Where the picture goes, an SVG or, from afpc, a PNG; 'none' for no picture [default: target/afp/runs/<plan>.svg]
     #[arg(long, value_name = "FILE", value_parser = parse::destination)]
     pub svg: Option<Destination>,
 

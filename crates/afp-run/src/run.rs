@@ -15,6 +15,7 @@ use crate::judge::Judge;
 use crate::options::{Destination, RunOptions, Speed};
 use crate::output::{check_writable, write_whole};
 use crate::pace::Pace;
+use crate::picture::{PictureFormat, Rasterizer};
 use crate::report::{Figures, Ran, Report, StoppedBy, Summary};
 use crate::rig::{Go, Rig};
 use crate::stop::StopFlag;
@@ -25,12 +26,28 @@ use crate::{Program, inputs};
 /// Where logs and pictures go unless told otherwise.
 const RUNS: &str = "target/afp/runs";
 
-/// Runs a plan on the simulated robot; gives the exit code.
+/// Runs a plan on the simulated robot; gives the exit code. Pictures are SVG.
 ///
 /// # Errors
 /// Wrong options, a world or an output that does not work. What a plan does wrong is no error but
 /// an exit code.
-pub fn run<P>(program: &Program<'_>, mut plan: P, options: &RunOptions) -> Result<u8, RunError>
+pub fn run<P>(program: &Program<'_>, plan: P, options: &RunOptions) -> Result<u8, RunError>
+where
+    P: NamedPlan + Plan<Simulation>,
+{
+    run_with(program, plan, options, None)
+}
+
+/// As [`run`], with PNG pictures too.
+///
+/// # Errors
+/// As of [`run`].
+pub fn run_with<P>(
+    program: &Program<'_>,
+    mut plan: P,
+    options: &RunOptions,
+    rasterizer: Option<Rasterizer<'_>>,
+) -> Result<u8, RunError>
 where
     P: NamedPlan + Plan<Simulation>,
 {
@@ -49,6 +66,7 @@ where
     }
     let names = plan.names();
     let paths = Paths::new(program, options)?;
+    let raster = paths.raster(rasterizer)?;
     let log = match &paths.log {
         None => None,
         Some(path) => {
@@ -72,7 +90,8 @@ where
     attendants.report.head(&head(program, options, &world));
     let stopped_by = drive(&mut rig, &mut attendants, options.end())
         .map_err(|error| inputs::missing(error, &names))?;
-    finish(rig, attendants, &paths, &Setting { program, options, world: &world, stopped_by })
+    let setting = Setting { program, options, world: &world, stopped_by };
+    finish(rig, attendants, &paths, &setting, raster)
 }
 
 /// Runs the plan to its end, or until it is stopped. The motors stand afterwards.
@@ -111,6 +130,7 @@ fn finish<P>(
     attendants: Attendants,
     paths: &Paths,
     setting: &Setting<'_>,
+    raster: Option<Rasterizer<'_>>,
 ) -> Result<u8, RunError>
 where
     P: NamedPlan + Plan<Simulation>,
@@ -139,7 +159,12 @@ where
             marks: &judge.marks,
             figures: figures.for_picture(),
         };
-        write_whole("cannot write the picture", path, svg::draw(&picture, rig.names()))?;
+        let svg = svg::draw(&picture, rig.names());
+        let bytes = match raster {
+            Some(raster) => raster(&svg)?,
+            None => svg.into_bytes(),
+        };
+        write_whole("cannot write the picture", path, bytes)?;
     }
     let lost = written.as_ref().map_or(0, |written: &Written| written.lost);
     let log = written.map(|written| written.path);
@@ -181,6 +206,19 @@ impl Paths {
             check_writable("cannot write the picture", path)?;
         }
         Ok(paths)
+    }
+
+    /// What makes the picture's bytes of an SVG; `None` where it is one.
+    fn raster<'a>(&self, all: Option<Rasterizer<'a>>) -> Result<Option<Rasterizer<'a>>, RunError> {
+        let Some(path) = &self.svg else { return Ok(None) };
+        match (PictureFormat::of(path)?, all) {
+            (PictureFormat::Svg, _) => Ok(None),
+            (PictureFormat::Png, Some(raster)) => Ok(Some(raster)),
+            (PictureFormat::Png, None) => Err(RunError::usage(
+                "this program draws SVG alone",
+                "'afpc log RUN.mcap --svg PICTURE.png' draws its log as a PNG",
+            )),
+        }
     }
 }
 
@@ -238,5 +276,22 @@ fn plan_hash(program: &Program<'_>) -> String {
         texts => {
             hash(&texts.iter().map(|(path, text)| format!("{path}\0{text}\0")).collect::<String>())
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_take_a_program_that_can_make_them() {
+        let raster: Rasterizer<'_> = &|_| Ok(Vec::new());
+        let of = |name: &str, raster| {
+            let made = Paths { log: None, svg: Some(name.into()) }.raster(raster);
+            made.map(|made| made.is_some()).map_err(|error| error.code())
+        };
+        let usage = crate::EXIT_USAGE;
+        assert_eq!((of("a.svg", None), of("a.svg", Some(raster))), (Ok(false), Ok(false)));
+        assert_eq!((of("a.png", None), of("a.png", Some(raster))), (Err(usage), Ok(true)));
     }
 }

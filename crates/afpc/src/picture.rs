@@ -6,57 +6,17 @@ mod png;
 use std::path::Path;
 
 use afp_dsl::draw::Theme;
-use afp_run::{RunError, write_whole};
+use afp_run::{PictureFormat, RunError, write_whole};
 
 /// Pixels of a PNG for each one of the SVG, where nothing is said: sharp on today's screens.
 pub const DEFAULT_SCALE: f32 = 2.0;
 
-/// What a picture's file is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// For browsers and papers.
-    Svg,
-    /// Pixels, with fonts of its own.
-    Png,
-}
-
-impl Format {
-    /// What the name of a file asks for; `None` for anything else.
-    pub fn of(path: &Path) -> Option<Format> {
-        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
-        match ending.as_str() {
-            "svg" => Some(Format::Svg),
-            "png" => Some(Format::Png),
-            _ => None,
-        }
+/// The colours of a picture, where nothing is said: a PNG cannot ask the system of its reader.
+pub fn theme(format: PictureFormat) -> Theme {
+    match format {
+        PictureFormat::Svg => Theme::Auto,
+        PictureFormat::Png => Theme::Light,
     }
-
-    /// The colours, where nothing is said: a PNG cannot ask the system of its reader.
-    pub fn theme(self) -> Theme {
-        match self {
-            Format::Svg => Theme::Auto,
-            Format::Png => Theme::Light,
-        }
-    }
-
-    /// The ending of its files.
-    pub fn ending(self) -> &'static str {
-        match self {
-            Format::Svg => "svg",
-            Format::Png => "png",
-        }
-    }
-}
-
-/// What the name of a picture asks for.
-///
-/// # Errors
-/// It ends neither in `.svg` nor in `.png`.
-pub fn format(path: &Path) -> Result<Format, RunError> {
-    Format::of(path).ok_or_else(|| {
-        let message = format!("'{}' is neither an SVG nor a PNG", path.display());
-        RunError::usage(message, "give it a name that ends in '.svg' or '.png'")
-    })
 }
 
 /// Writes a picture as its name asks for.
@@ -64,9 +24,10 @@ pub fn format(path: &Path) -> Result<Format, RunError> {
 /// # Errors
 /// The name's ending, pixels that cannot be made, a file that cannot be written.
 pub fn write(path: &Path, svg: &str) -> Result<(), RunError> {
-    match format(path)? {
-        Format::Svg => write_whole("cannot write the picture", path, svg),
-        Format::Png => write_whole("cannot write the picture", path, pixels(svg, DEFAULT_SCALE)?),
+    let what = "cannot write the picture";
+    match PictureFormat::of(path)? {
+        PictureFormat::Svg => write_whole(what, path, svg),
+        PictureFormat::Png => write_whole(what, path, pixels(svg, DEFAULT_SCALE)?),
     }
 }
 

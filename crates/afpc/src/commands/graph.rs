@@ -9,7 +9,7 @@ use afp_dsl::graph::Graph;
 use afp_dsl::layout_file::Layout;
 use afp_dsl::source::{Source, Sources};
 use afp_dsl::toolbox::Toolbox;
-use afp_run::{EXIT_OK, RunError, write_whole};
+use afp_run::{EXIT_OK, PictureFormat, RunError, write_whole};
 use clap::{Args, ValueEnum};
 
 use super::print;
@@ -130,7 +130,7 @@ pub(super) fn with_usage(
         sources: Some(sources),
         icons: Some(&icons),
         positions: &positions(sources, graph),
-        theme: picture::format(path)?.theme(),
+        theme: picture::theme(PictureFormat::of(path)?),
         usage: Some(usage),
         ..Options::default()
     };

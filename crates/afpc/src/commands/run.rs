@@ -5,6 +5,7 @@ use afp_run::options::RunOptions;
 use clap::Args;
 
 use crate::cli::PlanArgument;
+use crate::picture;
 use crate::plan_file::{NoPlan, PlanFile};
 use crate::{Linked, register, runner};
 
@@ -31,5 +32,6 @@ pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
     let texts = file.compiled.plan_texts();
     let texts: Vec<_> = texts.iter().map(|(path, text)| (path.as_str(), text.as_str())).collect();
     let program = Program { name: &graph.main().name, file: &path, texts: &texts };
-    Ok(afp_run::run(&program, plan, &arguments.options)?)
+    let pixels = |svg: &str| picture::pixels(svg, picture::DEFAULT_SCALE);
+    Ok(afp_run::run_with(&program, plan, &arguments.options, Some(&pixels))?)
 }

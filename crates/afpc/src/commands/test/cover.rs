@@ -3,12 +3,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use afp_run::RunError;
+use afp_run::{PictureFormat, RunError};
 use afp_test::Coverage;
 
 use super::Case;
 use crate::commands::graph;
-use crate::picture::{self, Format};
+use crate::picture;
 use crate::plan_file::NoPlan;
 
 /// Draws one plan into a file, or each into a folder.
@@ -25,19 +25,19 @@ pub(super) fn draw_all(plans: &[(&Case<'_>, Coverage)], output: &Path) -> Result
         return draw(case, coverage, output);
     }
     fs::create_dir_all(output).map_err(RunError::file("cannot make the folder", output))?;
-    for (place, (case, coverage)) in plans.iter().enumerate() {
-        draw(case, coverage, &file_of(plans, place, output))?;
+    for (index, (case, coverage)) in plans.iter().enumerate() {
+        draw(case, coverage, &file_of(plans, index, output))?;
     }
     Ok(())
 }
 
 /// `cover/patrol.svg`; with a number where two plans have one name.
-fn file_of(plans: &[(&Case<'_>, Coverage)], place: usize, folder: &Path) -> PathBuf {
+fn file_of(plans: &[(&Case<'_>, Coverage)], index: usize, folder: &Path) -> PathBuf {
     let name = |(_, coverage): &(&Case<'_>, Coverage)| coverage.plan.clone();
-    let own = name(&plans[place]);
-    let before = plans[..place].iter().filter(|other| name(other) == own).count();
+    let own = name(&plans[index]);
+    let before = plans[..index].iter().filter(|other| name(other) == own).count();
     let number = if before > 0 { format!("_{}", before + 1) } else { String::new() };
-    folder.join(format!("{own}{number}.{}", Format::Svg.ending()))
+    folder.join(format!("{own}{number}.{}", PictureFormat::Svg.ending()))
 }
 
 fn draw(case: &Case<'_>, coverage: &Coverage, path: &Path) -> Result<(), NoPlan> {
