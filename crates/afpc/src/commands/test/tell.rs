@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 use std::io::IsTerminal;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use afp_core::Ending;
@@ -23,12 +24,14 @@ pub(super) struct Teller {
     done: AtomicUsize,
     json: bool,
     progress: bool,
+    /// Why a line could not be printed.
+    failure: Mutex<Option<NoPlan>>,
 }
 
 impl Teller {
     pub fn new(all: usize, json: bool) -> Self {
         let progress = std::io::stderr().is_terminal();
-        Teller { all, done: AtomicUsize::new(0), json, progress }
+        Teller { all, done: AtomicUsize::new(0), json, progress, failure: Mutex::default() }
     }
 
     /// A scenario is done; called from all threads.
@@ -37,8 +40,11 @@ impl Teller {
         if self.progress {
             anstream::eprint!("\r\x1b[K");
         }
-        if !self.json {
-            anstream::println!("{}", line(case, done));
+        if !self.json
+            && let Err(failure) = print(&format!("{}\n", line(case, done)))
+            && let Ok(mut first) = self.failure.lock()
+        {
+            first.get_or_insert(failure);
         }
         if self.progress && number < self.all {
             anstream::eprint!("{QUIET}{number} of {}{QUIET:#}", self.all);
@@ -46,7 +52,13 @@ impl Teller {
     }
 
     /// All are done: in the order of the files, what broke.
+    ///
+    /// # Errors
+    /// Something could not be printed, now or earlier.
     pub fn end(&self, cases: &[Case<'_>], done: &[Done], seconds: f64) -> Result<(), NoPlan> {
+        if let Some(failure) = self.failure.lock().ok().and_then(|mut first| first.take()) {
+            return Err(failure);
+        }
         let mut text = String::new();
         for (case, done) in cases.iter().zip(done) {
             if self.json {
@@ -58,7 +70,7 @@ impl Teller {
         if !self.json {
             let failed = done.iter().filter(|done| !done.passed()).count();
             let verdicts = done.iter().filter_map(|done| done.verdict.as_ref().ok());
-            let simulated: f64 = verdicts.map(|verdict| verdict.length().as_secs_f64()).sum();
+            let simulated = verdicts.fold(0.0, |sum, it| sum + it.length().as_secs_f64());
             let style = if failed == 0 { GOOD } else { BAD };
             let _ = writeln!(
                 text,
