@@ -177,7 +177,11 @@ fn many_at_once_each_write_a_whole_file() {
                 for length in 1..100 {
                     write_whole(path, &vec![letter; length * 100]).unwrap();
                     let seen = fs::read(path).unwrap();
-                    assert!(!seen.is_empty() && seen.len().is_multiple_of(100), "{} bytes", seen.len());
+                    assert!(
+                        !seen.is_empty() && seen.len().is_multiple_of(100),
+                        "{} bytes",
+                        seen.len()
+                    );
                     assert!(seen.iter().all(|byte| *byte == seen[0]), "a mixture");
                 }
             });

@@ -1,20 +1,33 @@
 //! The Escape key of the terminal as the robot's escape button.
 
 #[cfg(unix)]
-pub(crate) use terminal::Keys;
+pub(crate) use terminal::{Keys, give_back};
 
 #[cfg(unix)]
 mod terminal {
     use std::io::{self, IsTerminal};
+    use std::sync::{Mutex, MutexGuard, PoisonError};
+    use std::thread;
+    use std::time::Duration;
 
+    use rustix::process::{Signal, getpgrp, kill_current_process_group};
     use rustix::termios::{
-        LocalModes, OptionalActions, SpecialCodeIndex, Termios, tcgetattr, tcsetattr,
+        LocalModes, OptionalActions, SpecialCodeIndex, Termios, tcgetattr, tcgetpgrp, tcsetattr,
     };
 
-    /// Standard input without line editing and echo, for as long as this lives.
-    pub(crate) struct Keys {
-        before: Termios,
-    }
+    const ESCAPE: u8 = 0x1b;
+    /// A special code that no key has.
+    const NO_KEY: u8 = if cfg!(target_os = "linux") { 0 } else { 0xff };
+    /// A process that suspends itself is still awake for so long at most.
+    const FALLING_ASLEEP: Duration = Duration::from_millis(50);
+
+    /// How the terminal was before it was taken; `None` while it is not. The process has one
+    /// terminal, and whoever ends the process must be able to give it back.
+    static BEFORE: Mutex<Option<Termios>> = Mutex::new(None);
+
+    /// Standard input without line editing and echo, for as long as this lives and the process is
+    /// in the foreground.
+    pub(crate) struct Keys(());
 
     impl Keys {
         /// Takes over standard input; `None` when it is no terminal.
@@ -22,32 +35,75 @@ mod terminal {
             if !io::stdin().is_terminal() {
                 return None;
             }
-            let before = tcgetattr(io::stdin()).ok()?;
-            let mut raw = before.clone();
-            // Signals stay: Ctrl-C must go on working.
-            raw.local_modes.remove(LocalModes::ICANON | LocalModes::ECHO);
-            raw.special_codes[SpecialCodeIndex::VMIN] = 0;
-            raw.special_codes[SpecialCodeIndex::VTIME] = 0;
-            tcsetattr(io::stdin(), OptionalActions::Now, &raw).ok()?;
-            Some(Keys { before })
+            take();
+            Some(Keys(()))
         }
 
-        /// Whether Escape was pressed since the last time; does not wait.
+        /// Whether Escape was pressed since the last time. Does not wait, unless the key that
+        /// suspends the process was pressed.
         pub(crate) fn escape_pressed(&self) -> bool {
+            let Some(suspend_key) = take() else { return false };
             let mut bytes = [0; 32];
-            match rustix::io::read(rustix::stdio::stdin(), &mut bytes) {
-                // A longer text that begins with Escape is an arrow or function key.
-                Ok(read) => read == 1 && bytes[0] == 0x1b,
-                Err(_) => false,
+            let Ok(read) = rustix::io::read(rustix::stdio::stdin(), &mut bytes) else {
+                return false;
+            };
+            let typed = &bytes[..read];
+            if suspend_key != NO_KEY && typed.contains(&suspend_key) {
+                suspend();
             }
+            // A longer text that begins with Escape is an arrow or function key.
+            typed == [ESCAPE]
         }
     }
 
     impl Drop for Keys {
         fn drop(&mut self) {
-            // Nothing can be done about a terminal that is gone.
-            let _ = tcsetattr(io::stdin(), OptionalActions::Now, &self.before);
+            give_back();
         }
+    }
+
+    /// Gives the terminal back as it was, if it is taken.
+    pub(crate) fn give_back() {
+        if let Some(before) = before().take() {
+            // Nothing can be done about a terminal that is gone.
+            let _ = tcsetattr(io::stdin(), OptionalActions::Now, &before);
+        }
+    }
+
+    fn before() -> MutexGuard<'static, Option<Termios>> {
+        BEFORE.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Takes the terminal unless it is taken; gives the key that suspends the process. `None` in
+    /// the background, where the terminal is somebody else's.
+    fn take() -> Option<u8> {
+        // One that is not ours to control is always in the foreground.
+        let mut taken = before();
+        if tcgetpgrp(io::stdin()).is_ok_and(|group| group != getpgrp()) {
+            *taken = None;
+            return None;
+        }
+        if taken.is_none() {
+            let now = tcgetattr(io::stdin()).ok()?;
+            let mut raw = now.clone();
+            // Signals stay: Ctrl-C must go on working. But before the process is suspended, it
+            // gives the terminal back, so it reads that key itself.
+            raw.local_modes.remove(LocalModes::ICANON | LocalModes::ECHO);
+            raw.special_codes[SpecialCodeIndex::VSUSP] = NO_KEY;
+            raw.special_codes[SpecialCodeIndex::VMIN] = 0;
+            raw.special_codes[SpecialCodeIndex::VTIME] = 0;
+            tcsetattr(io::stdin(), OptionalActions::Now, &raw).ok()?;
+            *taken = Some(now);
+        }
+        taken.as_ref().map(|before| before.special_codes[SpecialCodeIndex::VSUSP])
+    }
+
+    /// Does what the terminal does on that key; returns when the process is to go on.
+    fn suspend() {
+        give_back();
+        // The signal goes to the pipeline that the process is part of, too.
+        let _ = kill_current_process_group(Signal::TSTP);
+        thread::sleep(FALLING_ASLEEP);
     }
 }
 

@@ -8,28 +8,21 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub struct StopFlag(Arc<AtomicBool>);
 
 impl StopFlag {
-    /// A flag that Ctrl-C and SIGTERM raise. A second one ends the process at once.
-    #[cfg(unix)]
+    /// The flag that Ctrl-C and SIGTERM raise, one for the process. A second signal ends the
+    /// process at once, whatever it is at; its terminal is given back.
     ///
     /// # Errors
     /// Signals cannot be handled.
+    #[cfg(unix)]
     pub fn on_signals() -> std::io::Result<Self> {
-        use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-        use signal_hook::flag;
-        let stop = StopFlag::default();
-        for signal in [SIGINT, SIGTERM, SIGHUP] {
-            // The order matters: the first signal finds the flag down and raises it.
-            flag::register_conditional_shutdown(signal, 130, Arc::clone(&stop.0))?;
-            flag::register(signal, Arc::clone(&stop.0))?;
-        }
-        Ok(stop)
+        signals::flag()
     }
 
     /// A flag that nothing raises: there are no signals here.
-    #[cfg(not(unix))]
     ///
     /// # Errors
     /// None.
+    #[cfg(not(unix))]
     pub fn on_signals() -> std::io::Result<Self> {
         Ok(StopFlag::default())
     }
@@ -42,5 +35,56 @@ impl StopFlag {
     /// The flag itself, for other threads to look at.
     pub fn flag(&self) -> &AtomicBool {
         &self.0
+    }
+}
+
+#[cfg(unix)]
+mod signals {
+    use std::io;
+    use std::sync::atomic::Ordering;
+    use std::sync::{Mutex, PoisonError};
+    use std::thread;
+
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM};
+    use signal_hook::iterator::Signals;
+    use signal_hook::low_level;
+
+    use super::StopFlag;
+    use crate::keys;
+
+    /// The exit code after a second signal.
+    const EXIT_SIGNAL: i32 = 130;
+
+    static FLAG: Mutex<Option<StopFlag>> = Mutex::new(None);
+
+    /// The flag; the first call makes it and the thread that raises it.
+    pub(super) fn flag() -> io::Result<StopFlag> {
+        let mut made = FLAG.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(flag) = &*made {
+            return Ok(flag.clone());
+        }
+        let signals = Signals::new([SIGINT, SIGTERM, SIGHUP, SIGQUIT])?;
+        let flag = StopFlag::default();
+        let raised = flag.clone();
+        thread::Builder::new()
+            .name("afp-signals".into())
+            .spawn(move || handle(signals, &raised))?;
+        *made = Some(flag.clone());
+        Ok(flag)
+    }
+
+    /// A thread of its own may do what the handler of a signal may not, and does it also while the
+    /// others hang.
+    fn handle(mut signals: Signals, flag: &StopFlag) {
+        for signal in signals.forever() {
+            if signal == SIGQUIT {
+                keys::give_back();
+                // There is no other end than this one; nothing is to be done about a failure.
+                let _ = low_level::emulate_default_handler(signal);
+            } else if flag.0.swap(true, Ordering::Relaxed) {
+                keys::give_back();
+                low_level::exit(EXIT_SIGNAL);
+            }
+        }
     }
 }
