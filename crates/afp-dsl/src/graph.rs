@@ -13,6 +13,8 @@ use crate::source::Span;
 use crate::toolbox::{Template, Toolbox};
 use crate::types::{Conversion, Type};
 
+pub use crate::syntax::ast::Operator;
+
 macro_rules! index {
     ($($(#[$doc:meta])* $name:ident),* $(,)?) => {$(
         $(#[$doc])*
@@ -262,21 +264,6 @@ pub enum FormulaKind {
     Binary(Operator, Box<Formula>, Box<Formula>),
     /// A conversion.
     Convert(Conversion, Box<Formula>),
-}
-
-/// An operation on two operands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Operator {
-    /// `+`
-    Add,
-    /// `-`
-    Sub,
-    /// `*`
-    Mul,
-    /// `/`, always on floats
-    Div,
-    /// `%`, with the sign of the dividend
-    Rem,
 }
 
 impl Graph {

@@ -7,6 +7,7 @@ use crate::source::Span;
 use crate::types::{Enum, Object, Type};
 use std::sync::Arc;
 
+pub use crate::syntax::ast::TemplateKind;
 pub use set::Toolboxes;
 
 /// A checked toolbox file.
@@ -59,17 +60,6 @@ pub struct Template {
     pub stop: Option<u64>,
     /// The name in the text.
     pub span: Span,
-}
-
-/// What a template is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum TemplateKind {
-    /// Acts over time, ends in a state.
-    Actor,
-    /// Watches, reports events.
-    Supervisor,
-    /// Computes at once, ends in a state.
-    Computation,
 }
 
 /// An input port.

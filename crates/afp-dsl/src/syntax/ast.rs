@@ -14,7 +14,7 @@ use crate::source::Span;
 use crate::syntax::kind::{Afp, Kind};
 use crate::syntax::{Node, node_span};
 
-pub use formula::{Formula, FormulaKind, Sign};
+pub use formula::{Formula, FormulaKind, Operator, Sign};
 pub use plan::{Bind, Edge, Element, ElementKind, Entry, Guard, Plan, Start};
 pub use scenario::{Action, Bound, Claim, ClaimKind, Line, LineKind, Path, Scenario};
 pub use toolbox::{InPort, OutPort, Outcome, Part, Template, TemplateKind, Timing, Toolbox};

@@ -1,7 +1,6 @@
 //! Formulas in the typed view.
 
 use super::{Name, Ref, find_token, token, views};
-use crate::graph::Operator;
 use crate::source::Span;
 use crate::syntax::kind::Kind;
 use crate::syntax::{Node, token_span};
@@ -48,6 +47,21 @@ pub struct Sign {
     pub operator: Operator,
     /// Where it stands.
     pub span: Span,
+}
+
+/// An operation on two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operator {
+    /// `+`
+    Add,
+    /// `-`
+    Sub,
+    /// `*`
+    Mul,
+    /// `/`, always on floats
+    Div,
+    /// `%`, with the sign of the dividend
+    Rem,
 }
 
 impl Formula {

@@ -4,8 +4,6 @@ use super::{Formula, Name, Type, child, doc, keyword, token, tokens, views};
 use crate::source::Span;
 use crate::syntax::kind::Kind;
 
-pub use crate::toolbox::TemplateKind;
-
 views! {
     /// The head of a toolbox.
     Toolbox
@@ -19,6 +17,17 @@ views! {
     Outcome
     /// `every 10 ms` or another time.
     Timing
+}
+
+/// What a template is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TemplateKind {
+    /// Acts over time, ends in a state.
+    Actor,
+    /// Watches, reports events.
+    Supervisor,
+    /// Computes at once, ends in a state.
+    Computation,
 }
 
 /// A part of a template.
