@@ -22,7 +22,6 @@ pub(crate) mod scenario;
 mod scope;
 pub(crate) mod signature;
 pub(crate) mod size;
-pub(crate) mod text;
 pub(crate) mod timing;
 pub(crate) mod types;
 

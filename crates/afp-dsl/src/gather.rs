@@ -7,11 +7,11 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use crate::check::text::unquote;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::files::{Files, joined, normalised};
 use crate::source::{Source, Sources, Span};
 use crate::syntax::ast::{File, Item, Name};
+use crate::syntax::unquote;
 use crate::syntax::{self, Parse};
 use crate::toolbox::Toolboxes;
 

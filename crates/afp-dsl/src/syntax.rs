@@ -7,6 +7,7 @@ pub mod ast;
 pub mod kind;
 mod lexer;
 mod parser;
+mod text;
 
 use rowan::{GreenNode, GreenNodeData, GreenTokenData, Language, NodeOrToken};
 
@@ -15,7 +16,7 @@ use crate::source::Span;
 
 pub use kind::{Afp, Kind};
 
-pub(crate) use lexer::unit_of_token;
+pub use text::unquote;
 
 /// A node of the tree.
 pub type Node = rowan::SyntaxNode<Afp>;

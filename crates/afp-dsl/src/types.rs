@@ -4,6 +4,7 @@ pub mod dimension;
 pub mod literal;
 pub mod readable;
 pub mod units;
+pub mod value;
 
 use std::fmt;
 use std::sync::Arc;

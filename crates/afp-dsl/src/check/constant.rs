@@ -5,7 +5,7 @@
 
 use crate::graph::{Formula, FormulaKind, Operator};
 use crate::toolbox::Constant;
-use crate::types::literal::{MAX_TEXT, parse_value};
+use crate::types::value::{MAX_TEXT, parse_value};
 use crate::types::{Conversion, Type};
 
 /// Why a formula has no value.

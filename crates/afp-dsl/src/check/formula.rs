@@ -17,7 +17,7 @@ use crate::source::Span;
 use crate::syntax::ast;
 use crate::toolbox::Constant;
 use crate::types::Type;
-use crate::types::literal::MAX_TEXT;
+use crate::types::value::MAX_TEXT;
 
 /// Greatest number of literals, entries and operations in one formula.
 const MAX_SIZE: usize = 256;
@@ -158,7 +158,7 @@ impl Typer<'_> {
                 literal::number(&number, unit.as_ref(), whole, span, inside, diags)
             }
             ast::FormulaKind::Text(quoted) => {
-                let text = crate::check::text::unquote(&quoted, diags);
+                let text = crate::syntax::unquote(&quoted, diags);
                 if text.len() > MAX_TEXT {
                     diags.push(fault_diagnostic(Fault::TooLong, span));
                     return None;

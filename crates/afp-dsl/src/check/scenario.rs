@@ -14,7 +14,6 @@ use std::sync::Arc;
 
 use crate::check::formula::Scope;
 use crate::check::names::{ambiguous, unknown};
-use crate::check::text::unquote;
 use crate::check::{Context, PlanHead, Program, assemble};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::gather::PlanFile;
@@ -22,6 +21,7 @@ use crate::graph::{self, EntryKind, Formula};
 use crate::scenario::{Scenario, Start, Stimulus};
 use crate::source::Span;
 use crate::syntax::ast::{self, Item, Line, LineKind, Name};
+use crate::syntax::unquote;
 use crate::toolbox::Constant;
 use crate::types::{Dimension, Type};
 use crate::words;

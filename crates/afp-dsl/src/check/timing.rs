@@ -2,7 +2,6 @@
 
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::syntax::ast::{Formula, FormulaKind, Timing};
-use crate::syntax::unit_of_token;
 use crate::types::literal::Literal;
 use crate::words::a_dimension;
 
@@ -37,7 +36,8 @@ pub(crate) fn time(value: &Formula, diags: &mut Diagnostics) -> Option<u64> {
         );
         return None;
     };
-    let dimension = unit_of_token(&unit.text)?.dimension;
+    let literal = Literal::of_tokens(&number.text, Some(&unit.text))?;
+    let dimension = literal.dimension();
     if dimension.name() != "duration" {
         let message = format!("expected a duration, found {}", a_dimension(dimension));
         diags.push(
@@ -47,9 +47,7 @@ pub(crate) fn time(value: &Formula, diags: &mut Diagnostics) -> Option<u64> {
         );
         return None;
     }
-    // The lexer took the digits and the unit, so the text is a literal.
-    let spelled = Literal::parse(&format!("{} {}", number.text, ours(&unit.text))).ok()?;
-    match spelled.nanoseconds() {
+    match literal.nanoseconds() {
         Some(time @ 0..=LONGEST) => Some(time),
         Some(_) => refuse(value, "a time is at most one hour", diags),
         None => refuse(value, "a time is a whole number of nanoseconds of at most one hour", diags),
@@ -62,11 +60,6 @@ fn refuse(value: &Formula, message: &str, diags: &mut Diagnostics) -> Option<u64
             .help("write a time from '1 ns' to '1 h', such as '10 ms'"),
     );
     None
-}
-
-/// The unit in our spelling; a foreign one has been reported.
-fn ours(unit: &str) -> String {
-    unit.replace(['\u{b5}', '\u{3bc}'], "u").replace('°', "deg")
 }
 
 /// Reports a deadline that lies behind the next release.

@@ -6,8 +6,8 @@
 use crate::graph::{Formula, FormulaKind, Operator, Plan};
 use crate::source::Sources;
 use crate::toolbox::Constant;
-use crate::types::literal::parse_value;
 use crate::types::units::{RADIANS_PER_DEGREE, Unit};
+use crate::types::value::parse_value;
 use crate::types::{Conversion, Dimension, Type};
 
 /// A formula of `plan` as text.

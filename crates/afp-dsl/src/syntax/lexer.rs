@@ -5,8 +5,6 @@
 
 mod unit;
 
-pub(crate) use unit::of_token as unit_of_token;
-
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::source::Span;
 use crate::syntax::kind::Kind;

@@ -7,13 +7,14 @@ use std::sync::Arc;
 
 use crate::check::names::Names;
 use crate::check::types::Types;
-use crate::check::{enums, imports, shadows, size, text};
+use crate::check::{enums, imports, shadows, size};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::index::Recorder;
 use crate::rows::MAX_ROWS;
 use crate::source::{Source, Span};
 use crate::syntax::ast::{File, Item, Name};
 use crate::syntax::parse;
+use crate::syntax::unquote;
 use crate::toolbox::{Template, Toolbox};
 use crate::types::Object;
 
@@ -80,7 +81,7 @@ fn read(
     let name = head.name()?;
     Names::default().declare(&name, diags);
     let mut toolbox = Toolbox {
-        version: head.version().map(|version| text::unquote(&version, diags)).unwrap_or_default(),
+        version: head.version().map(|version| unquote(&version, diags)).unwrap_or_default(),
         doc: head.doc(),
         templates: Vec::new(),
         enums: Vec::new(),

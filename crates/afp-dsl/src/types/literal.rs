@@ -3,9 +3,8 @@
 //! A literal becomes the double nearest to its exact decimal value in SI units: `35 cm` is 0.35,
 //! not `35.0 * 0.01`. Degrees are the double product with pi/180, since no decimal is exact there.
 
-use crate::toolbox::Constant;
+use crate::types::Dimension;
 use crate::types::units::{RADIANS_PER_DEGREE, Unit};
-use crate::types::{Dimension, Type};
 
 /// A number with or without a unit, not yet a double.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,54 +39,21 @@ pub enum LiteralError {
     NoLiteral,
 }
 
-/// Greatest length of a text in bytes of UTF-8.
-pub const MAX_TEXT: usize = 64;
-
 /// Digits of a quotient that decide every double: the longest exact midpoint has fewer than 770.
 const QUOTIENT_DIGITS: usize = 800;
 
-/// Reads a value of type `ty`, as on a command line (`35cm`, `left`, `true`) or from a text entry.
-///
-/// Numbers and quantities are written as in a plan, with an optional sign, unit included; nothing
-/// may follow them. A text stands for itself.
-///
-/// # Errors
-/// Says which rule of the type the text breaks.
-pub fn parse_value(text: &str, ty: &Type) -> Result<Constant, LiteralError> {
-    match ty {
-        Type::Bool => match text.trim() {
-            "true" => Ok(Constant::Bool(true)),
-            "false" => Ok(Constant::Bool(false)),
-            _ => Err(LiteralError::Malformed),
-        },
-        Type::Int => {
-            let literal = Literal::parse(text)?;
-            if literal.unit.is_some() || text.contains(['.', 'e', 'E']) {
-                return Err(LiteralError::Malformed);
-            }
-            // White space may stand behind the sign, as in a formula.
-            let digits: String = text.split_whitespace().collect();
-            digits.parse().map(Constant::Int).map_err(|_| LiteralError::TooLarge)
-        }
-        Type::Quantity(dimension) => {
-            Literal::parse(text)?.quantity(*dimension).map(Constant::Float)
-        }
-        Type::Text if text.len() > MAX_TEXT => Err(LiteralError::TooLong),
-        Type::Text => Ok(Constant::Text(text.to_owned())),
-        Type::Enum(home) => {
-            let name = text.trim();
-            let name = name.strip_prefix(&format!("{}.", home.name)).unwrap_or(name);
-            let place = home.variants.iter().position(|variant| variant == name);
-            place
-                .and_then(|place| u16::try_from(place).ok())
-                .map(Constant::Choice)
-                .ok_or(LiteralError::UnknownChoice)
-        }
-        Type::Object(_) | Type::Any | Type::Number => Err(LiteralError::NoLiteral),
-    }
-}
-
 impl Literal {
+    /// A number and its unit as they stand in the tree, foreign spellings of units included; `None`
+    /// where the unit is none.
+    pub fn of_tokens(number: &str, unit: Option<&str>) -> Option<Literal> {
+        let mut literal = Literal::parse(&number.replace(',', ".")).ok()?;
+        literal.unit = match unit {
+            Some(unit) => Some(Unit::of_token(unit)?),
+            None => None,
+        };
+        Some(literal)
+    }
+
     /// Reads an optional sign, a number and an optional unit; white space may stand between number
     /// and unit and at both ends.
     ///

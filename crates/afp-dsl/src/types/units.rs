@@ -73,6 +73,16 @@ const SINGLES: &[Single] = &[
     single("MHz", "frequency", 1, 6),
 ];
 
+/// Spellings that people use and the language does not: each with what to write instead.
+pub(crate) const FOREIGN: &[(&str, &str)] = &[
+    ("°C", "degC"),
+    ("°", "deg"),
+    ("\u{b5}s", "us"),
+    ("\u{3bc}s", "us"),
+    ("\u{b5}m", "um"),
+    ("\u{3bc}m", "um"),
+];
+
 impl Unit {
     /// The symbols of all single units.
     pub fn symbols() -> impl Iterator<Item = &'static str> {
@@ -83,6 +93,15 @@ impl Unit {
     pub fn parse(text: &str) -> Option<Unit> {
         let (unit, length) = Unit::scan(text)?;
         (length == text.len()).then_some(unit)
+    }
+
+    /// The unit that a token of the tree spells, foreign spellings included, which the lexer has
+    /// reported.
+    pub fn of_token(text: &str) -> Option<Unit> {
+        match FOREIGN.iter().find(|(sign, _)| text.starts_with(sign)) {
+            Some((foreign, ours)) => Unit::parse(&format!("{ours}{}", &text[foreign.len()..])),
+            None => Unit::parse(text),
+        }
     }
 
     /// The longest unit at the start of `text` and its length in bytes.

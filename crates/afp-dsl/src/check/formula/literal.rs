@@ -4,7 +4,6 @@ use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{Formula, FormulaKind};
 use crate::source::Span;
 use crate::syntax::ast::Name;
-use crate::syntax::unit_of_token;
 use crate::types::Type;
 use crate::types::literal::Literal;
 
@@ -28,7 +27,7 @@ pub(super) fn number(
         };
         return Some(Formula { kind: FormulaKind::Int(value), ty: Type::Int, span });
     }
-    let literal = read(number, unit)?;
+    let literal = Literal::of_tokens(&number.text, unit.map(|unit| unit.text.as_str()))?;
     if inside && literal.unit.is_some_and(|unit| unit.celsius) {
         diags.push(
             Diagnostic::new(Code::E0235, span, "a temperature in 'degC' cannot be computed with")
@@ -59,19 +58,10 @@ pub(super) fn negative(
         let value: i64 = format!("-{}", number.text).parse().ok()?;
         return (value == i64::MIN).then_some((FormulaKind::Int(value), Type::Int));
     }
-    let literal = read(number, unit)?;
+    let literal = Literal::of_tokens(&number.text, unit.map(|unit| unit.text.as_str()))?;
     if inside || !literal.unit.is_some_and(|unit| unit.celsius) {
         return None;
     }
     let value = literal.negated().value()?;
     Some((FormulaKind::Float(value), Type::Quantity(literal.dimension())))
-}
-
-fn read(number: &Name, unit: Option<&Name>) -> Option<Literal> {
-    let mut literal = Literal::parse(&number.text.replace(',', ".")).ok()?;
-    literal.unit = match unit {
-        Some(unit) => Some(unit_of_token(&unit.text)?),
-        None => None,
-    };
-    Some(literal)
 }

@@ -3,7 +3,6 @@
 use super::Checker;
 use super::paths::{Found, Part};
 use crate::check::names::unknown;
-use crate::check::text::unquote;
 use crate::check::timing;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{Component, EntryKind, Target};
@@ -11,6 +10,7 @@ use crate::scenario::devices::{self, Control, DEVICES, Failure};
 use crate::scenario::{Action, Injection, Outcome};
 use crate::source::Span;
 use crate::syntax::ast::{self, Bind, Formula, FormulaKind, Name};
+use crate::syntax::unquote;
 use crate::toolbox::Constant;
 use crate::types::{Dimension, Type};
 use crate::words;

@@ -3,17 +3,7 @@
 use super::{Lexer, is_word, run};
 use crate::diagnostics::{Code, Diagnostic};
 use crate::syntax::kind::Kind;
-use crate::types::units::Unit;
-
-/// Spellings that people use and the language does not: each with what to write instead.
-const FOREIGN: &[(&str, &str)] = &[
-    ("°C", "degC"),
-    ("°", "deg"),
-    ("\u{b5}s", "us"),
-    ("\u{3bc}s", "us"),
-    ("\u{b5}m", "um"),
-    ("\u{3bc}m", "um"),
-];
+use crate::types::units::{FOREIGN, Unit};
 
 impl Lexer<'_, '_> {
     /// Takes the unit behind the number that has just been taken, if there is one on its line.
@@ -59,12 +49,4 @@ impl Lexer<'_, '_> {
 fn is_bound(behind: &str) -> bool {
     let behind = behind.trim_start();
     behind.starts_with("->") || (behind.starts_with('=') && !behind.starts_with("=="))
-}
-
-/// The unit that a unit token spells, foreign spellings included.
-pub(crate) fn of_token(text: &str) -> Option<Unit> {
-    match FOREIGN.iter().find(|(sign, _)| text.starts_with(sign)) {
-        Some((foreign, ours)) => Unit::parse(&format!("{ours}{}", &text[foreign.len()..])),
-        None => Unit::parse(text),
-    }
 }

@@ -1,12 +1,13 @@
 //! One template: its parts, each where it belongs and as often as it may stand.
 
 use crate::check::names::Names;
-use crate::check::{size, text, timing};
+use crate::check::{size, timing};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::index::Word;
 use crate::rows::{MAX_EVENTS, MAX_ROWS, MAX_STATES};
 use crate::source::Span;
 use crate::syntax::ast::{self, Name, Part};
+use crate::syntax::unquote;
 use crate::toolbox::read::ports::{self, Site};
 use crate::toolbox::{Outcome, Template, TemplateKind};
 
@@ -40,7 +41,7 @@ pub(super) fn read(
         match part {
             Part::Icon(quoted, span) => {
                 seen.once("icon", *span, diags);
-                template.icon = quoted.as_ref().map(|quoted| text::unquote(quoted, diags));
+                template.icon = quoted.as_ref().map(|quoted| unquote(quoted, diags));
             }
             Part::Uses(resource, span) => {
                 if let Some(resource) = resource {

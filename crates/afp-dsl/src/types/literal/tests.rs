@@ -1,12 +1,7 @@
 //! Values of literals.
 
-use std::sync::Arc;
-
-use super::{Literal, LiteralError, parse_value};
-use crate::source::Span;
-use crate::toolbox::Constant;
+use super::Literal;
 use crate::types::units::RADIANS_PER_DEGREE;
-use crate::types::{Dimension, Enum, Type};
 
 fn value(text: &str) -> f64 {
     Literal::parse(text).unwrap().value().unwrap()
@@ -62,38 +57,4 @@ fn times_are_whole_nanoseconds() {
     assert_eq!(nanoseconds("1 m"), None);
     assert_eq!(nanoseconds("-1 s"), None);
     assert_eq!(nanoseconds("1e30 s"), None);
-}
-
-#[test]
-fn values_of_each_type_are_read() {
-    let length = Type::Quantity(Dimension::named("length").unwrap());
-    assert_eq!(parse_value("35cm", &length), Ok(Constant::Float(0.35)));
-    assert_eq!(parse_value("35", &length), Err(LiteralError::UnitMissing("cm".to_owned())));
-    let seconds = Err(LiteralError::WrongDimension(Dimension::named("duration").unwrap()));
-    assert_eq!(parse_value("3 s", &length), seconds);
-    assert_eq!(parse_value("3 cmm", &length), Err(LiteralError::UnknownUnit("cmm".to_owned())));
-    assert_eq!(parse_value("3 cm x", &length), Err(LiteralError::UnknownUnit("cm x".to_owned())));
-    assert_eq!(parse_value("-7", &Type::Int), Ok(Constant::Int(-7)));
-    assert_eq!(parse_value(" - 7 ", &Type::Int), Ok(Constant::Int(-7)));
-    assert_eq!(parse_value("7 7", &Type::Int), Err(LiteralError::UnknownUnit("7".to_owned())));
-    assert_eq!(parse_value("+7", &Type::Int), Err(LiteralError::Malformed));
-    assert_eq!(parse_value("- 3 cm", &length), Ok(Constant::Float(-0.03)));
-    assert_eq!(parse_value("-9223372036854775808", &Type::Int), Ok(Constant::Int(i64::MIN)));
-    assert_eq!(parse_value("9223372036854775808", &Type::Int), Err(LiteralError::TooLarge));
-    assert_eq!(parse_value("7.0", &Type::Int), Err(LiteralError::Malformed));
-    assert_eq!(parse_value("7", &Type::FLOAT), Ok(Constant::Float(7.0)));
-    assert_eq!(parse_value("true", &Type::Bool), Ok(Constant::Bool(true)));
-    assert_eq!(parse_value("1", &Type::Bool), Err(LiteralError::Malformed));
-    assert_eq!(parse_value(&"x".repeat(65), &Type::Text), Err(LiteralError::TooLong));
-    let side = Type::Enum(Arc::new(Enum {
-        name: "Side".to_owned(),
-        doc: String::new(),
-        toolbox: None,
-        variants: vec!["left".to_owned(), "right".to_owned()],
-        variant_spans: Vec::new(),
-        span: Span::default(),
-    }));
-    assert_eq!(parse_value("Side.right", &side), Ok(Constant::Choice(1)));
-    assert_eq!(parse_value("left", &side), Ok(Constant::Choice(0)));
-    assert_eq!(parse_value("up", &side), Err(LiteralError::UnknownChoice));
 }

@@ -6,7 +6,7 @@ use crate::syntax::ast::Name;
 /// The text without quotes and with its escapes resolved; reports escapes that do not exist.
 ///
 /// Escapes are `\"`, `\\`, `\n` and `\t`.
-pub(crate) fn unquote(quoted: &Name, diags: &mut Diagnostics) -> String {
+pub fn unquote(quoted: &Name, diags: &mut Diagnostics) -> String {
     let inner = quoted.text.strip_prefix('"').unwrap_or(&quoted.text);
     let mut text = String::with_capacity(inner.len());
     let mut rest = inner.char_indices();
