@@ -27,6 +27,7 @@ pub(crate) mod types;
 
 use std::sync::Arc;
 
+use crate::diagnostics::words;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::files::relative;
 use crate::flow::{self, Model};
@@ -38,7 +39,6 @@ use crate::scenario::Scenario;
 use crate::source::Span;
 use crate::syntax::ast::{self, Item, Name};
 use crate::toolbox::{Toolbox, Toolboxes};
-use crate::words;
 
 use entries::EntryDraft;
 use names::Places;

@@ -6,6 +6,7 @@
 mod codes;
 mod json;
 mod render;
+pub mod words;
 
 use crate::source::Span;
 

@@ -24,7 +24,6 @@ pub mod timing;
 pub mod toolbox;
 pub mod types;
 pub mod unfold;
-mod words;
 
 pub use compile::{Compiled, compile, compile_plan, compile_unchecked};
 pub use format::format;

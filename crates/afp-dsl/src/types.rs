@@ -3,6 +3,7 @@
 pub mod dimension;
 pub mod literal;
 pub mod readable;
+pub mod text;
 pub mod units;
 pub mod value;
 

@@ -7,13 +7,14 @@ mod outputs;
 use crate::check::formula::{Scope, of_constant};
 use crate::check::names::unknown;
 use crate::check::signature::{Input, Signature};
+use crate::diagnostics::words;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{Formula, Output};
 use crate::source::Span;
 use crate::syntax::ast::{self, Bind, Name};
 use crate::toolbox::Constant;
 use crate::types::Type;
-use crate::words;
+use crate::types::text;
 
 use generic::{Generic, actual};
 
@@ -262,8 +263,8 @@ pub(crate) fn check_range(
     if (least..=greatest).contains(&number) {
         return;
     }
-    let (least, greatest) = (words::value(least, ty), words::value(greatest, ty));
-    let message = format!("'{}' is out of the range of '{}'", words::value(number, ty), input.name);
+    let (least, greatest) = (text::value(least, ty), text::value(greatest, ty));
+    let message = format!("'{}' is out of the range of '{}'", text::value(number, ty), input.name);
     diags.push(
         Diagnostic::new(Code::E0224, formula.span, message)
             .note(input.span, "the range is declared here")

@@ -3,8 +3,8 @@
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{Formula, FormulaKind};
 use crate::source::Span;
+use crate::types::text::{a_dimension, a_type};
 use crate::types::{Conversion, Dimension, Type};
-use crate::words::{a_dimension, a_type};
 
 /// How a value of type `from` becomes one of type `to`: `Ok(None)` without doing anything, `Err`
 /// not at all.

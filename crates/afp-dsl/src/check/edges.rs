@@ -2,12 +2,12 @@
 
 use crate::check::names::{Places, unknown};
 use crate::check::signature::{Signature, SignatureKind};
+use crate::diagnostics::words;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{EdgeSpans, ElementId, Target};
 use crate::index::{Recorder, Word};
 use crate::source::Span;
 use crate::syntax::ast::{Edge, Name};
-use crate::words;
 
 /// The two edges that need no declaration.
 pub(crate) const ERROR: &str = "Error";

@@ -94,7 +94,7 @@ pub(crate) fn ambiguous(
 ) -> Diagnostic {
     let full = found.iter().filter_map(|(home, _)| home.map(|home| format!("{home}.{name}")));
     let full: Vec<_> = full.collect();
-    let write = crate::words::list(full.iter().map(String::as_str), "or");
+    let write = crate::diagnostics::words::list(full.iter().map(String::as_str), "or");
     let files = found.iter().filter(|(home, _)| home.is_none());
     let (who, help) = match (full.len(), found.len() - full.len()) {
         (_, 0) => ("toolboxes", format!("write {write}")),
@@ -131,13 +131,13 @@ pub(crate) fn unknown<'a>(
 ) -> Diagnostic {
     let known: Vec<&str> = known.into_iter().collect();
     let diagnostic = Diagnostic::new(code, span, message);
-    match crate::words::nearest(name, known.iter().copied()) {
+    match crate::diagnostics::words::nearest(name, known.iter().copied()) {
         Some(meant) => diagnostic.help(format!("write '{meant}'")).replace(meant),
         None if known.is_empty() => diagnostic.help(none),
         None if known.len() > 12 => {
-            let some = crate::words::list(known.into_iter().take(12), "or");
+            let some = crate::diagnostics::words::list(known.into_iter().take(12), "or");
             diagnostic.help(format!("write one of {some}, among others"))
         }
-        None => diagnostic.help(format!("write {}", crate::words::list(known, "or"))),
+        None => diagnostic.help(format!("write {}", crate::diagnostics::words::list(known, "or"))),
     }
 }

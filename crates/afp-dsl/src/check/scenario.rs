@@ -15,6 +15,7 @@ use std::sync::Arc;
 use crate::check::formula::Scope;
 use crate::check::names::{ambiguous, unknown};
 use crate::check::{Context, PlanHead, Program, assemble};
+use crate::diagnostics::words;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::gather::PlanFile;
 use crate::graph::{self, EntryKind, Formula};
@@ -24,7 +25,6 @@ use crate::syntax::ast::{self, Item, Line, LineKind, Name};
 use crate::syntax::unquote;
 use crate::toolbox::Constant;
 use crate::types::{Dimension, Type};
-use crate::words;
 
 use paths::Paths;
 

@@ -3,7 +3,8 @@
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::syntax::ast::{Formula, FormulaKind, Timing};
 use crate::types::literal::Literal;
-use crate::words::a_dimension;
+use crate::types::text::a_dimension;
+use crate::types::text::duration;
 
 /// Poll period where none is written, in nanoseconds.
 pub(crate) const DEFAULT_EVERY: u64 = 10_000_000;
@@ -73,17 +74,7 @@ pub(crate) fn deadline_fits(
         let message = "the deadline is longer than the period";
         diags.push(
             Diagnostic::new(Code::E0402, span, message)
-                .help(format!("write at most '{}'", spell(every))),
+                .help(format!("write at most '{}'", duration(every))),
         );
-    }
-}
-
-/// Nanoseconds in the largest unit that needs no fraction.
-pub(crate) fn spell(nanoseconds: u64) -> String {
-    let units = [(1_000_000_000, "s"), (1_000_000, "ms"), (1_000, "us")];
-    let fits = units.iter().find(|(size, _)| nanoseconds.is_multiple_of(*size));
-    match fits {
-        Some((size, unit)) => format!("{} {unit}", nanoseconds / size),
-        None => format!("{nanoseconds} ns"),
     }
 }

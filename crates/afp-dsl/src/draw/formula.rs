@@ -1,14 +1,9 @@
 //! Formulas as text: as written where the source is at hand, else printed from the graph.
-//!
-//! The graph holds SI values only, so a printed quantity gets the unit that makes it shortest and
-//! reads back as the very same double.
 
 use crate::graph::{Formula, FormulaKind, Operator, Plan};
 use crate::source::Sources;
-use crate::toolbox::Constant;
-use crate::types::units::{RADIANS_PER_DEGREE, Unit};
-use crate::types::value::parse_value;
-use crate::types::{Conversion, Dimension, Type};
+use crate::types::text::{number, quantity};
+use crate::types::{Conversion, Type};
 
 /// A formula of `plan` as text.
 ///
@@ -23,63 +18,6 @@ pub fn text(formula: &Formula, plan: &Plan, sources: Option<&Sources>) -> String
     } else {
         written.to_owned()
     }
-}
-
-/// A value in SI units with the unit that makes the text shortest, the usual one where two do.
-///
-/// ```
-/// use afp_dsl::draw::formula::quantity;
-/// use afp_dsl::types::Dimension;
-///
-/// let length = Dimension::named("length").unwrap();
-/// assert_eq!(quantity(0.3, length), "30 cm");
-/// assert_eq!(quantity(100.0, length), "100 m");
-/// ```
-pub fn quantity(value: f64, dimension: Dimension) -> String {
-    if dimension == Dimension::NONE {
-        return number(value);
-    }
-    let singles = Unit::symbols().map(str::to_owned);
-    let units = [dimension.usual_unit(), dimension.si_unit()].into_iter().chain(singles);
-    let texts = units.filter_map(|unit| in_unit(value, dimension, &unit));
-    let shortest = texts.min_by_key(String::len);
-    shortest.unwrap_or_else(|| format!("{} {}", number(value), dimension.si_unit()))
-}
-
-/// A span of time in nanoseconds.
-pub(super) fn duration(nanoseconds: u64) -> String {
-    let units = [(1_000_000_000, "s"), (1_000_000, "ms"), (1_000, "us")];
-    let whole = units.iter().find(|(length, _)| nanoseconds.is_multiple_of(*length));
-    whole.map_or_else(
-        || format!("{nanoseconds} ns"),
-        |(length, unit)| format!("{} {unit}", nanoseconds / length),
-    )
-}
-
-fn in_unit(value: f64, dimension: Dimension, unit_text: &str) -> Option<String> {
-    let unit = Unit::parse(unit_text)?;
-    if unit.dimension != dimension || unit.celsius {
-        return None;
-    }
-    let mut factor = unit.numerator as f64 / unit.denominator as f64;
-    let power = 10_f64.powi(unit.exponent.abs());
-    factor = if unit.exponent < 0 { factor / power } else { factor * power };
-    for _ in 0..unit.degrees.unsigned_abs() {
-        factor *= if unit.degrees > 0 { RADIANS_PER_DEGREE } else { 1.0 / RADIANS_PER_DEGREE };
-    }
-    // Fifteen digits undo the rounding of the division; whether they do is checked.
-    let rounded: f64 = format!("{:.14e}", value / factor).parse().ok()?;
-    let text = format!("{} {unit_text}", number(rounded));
-    let ty = Type::Quantity(dimension);
-    let back = parse_value(&text, &ty).ok()?;
-    (back == Constant::Float(value)).then_some(text)
-}
-
-/// A plain number in the spelling of literals.
-fn number(value: f64) -> String {
-    let plain = value.to_string();
-    let short = format!("{value:e}");
-    if plain.len() > 12 && short.len() < plain.len() { short } else { plain }
 }
 
 fn printed(formula: &Formula, plan: &Plan) -> String {
@@ -149,20 +87,6 @@ fn choice(place: u16, ty: &Type) -> String {
     match home.variants.get(usize::from(place)) {
         Some(variant) => format!("{}.{variant}", home.name),
         None => place.to_string(),
-    }
-}
-
-/// The name of a type in the spelling of the language.
-pub(super) fn type_name(ty: &Type) -> String {
-    match ty {
-        Type::Bool => "bool".to_owned(),
-        Type::Int => "int".to_owned(),
-        Type::Quantity(dimension) => dimension.name(),
-        Type::Text => "string".to_owned(),
-        Type::Enum(home) => home.name.clone(),
-        Type::Object(object) => object.name.clone(),
-        Type::Any => "any".to_owned(),
-        Type::Number => "number".to_owned(),
     }
 }
 

@@ -114,7 +114,7 @@ fn entries(view: &View) -> Value {
         put(&mut object, "name", json!(entry.name));
         put(&mut object, "doc", json!(entry.doc));
         put(&mut object, "kind", json!(entry_kind_name(entry.kind)));
-        put(&mut object, "type", json!(formula::type_name(&entry.ty)));
+        put(&mut object, "type", json!(entry.ty.to_string()));
         put(&mut object, "init", json!(init));
         Value::Object(object)
     });

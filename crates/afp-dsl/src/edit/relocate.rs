@@ -146,6 +146,6 @@ fn check_entries(component: &Node, plan: &Node, name: &str) -> Result<(), Refuse
     if missing.is_empty() {
         return Ok(());
     }
-    let list = crate::words::list(missing, "and");
+    let list = crate::diagnostics::words::list(missing, "and");
     Err(Refused::new(format!("'{name}' has no entry {list}")))
 }

@@ -194,7 +194,7 @@ impl<'a, 'b> Quick<'a, 'b> {
         let conditions: Vec<_> = cycle.iter().filter(|edge| self.is_condition(edge)).collect();
         let labels: Vec<_> =
             conditions.iter().take(MAX_NAMES).map(|edge| self.view.label(edge.cause)).collect();
-        let all = crate::words::list(labels.iter().map(String::as_str), "and");
+        let all = crate::diagnostics::words::list(labels.iter().map(String::as_str), "and");
         let more = if conditions.len() > MAX_NAMES { " and others" } else { "" };
         let message = match labels.len() {
             1 => format!("{all} holding on ends the run in a livelock"),

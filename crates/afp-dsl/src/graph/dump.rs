@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use crate::check::timing::spell;
 use crate::graph::{
     Component, Element, Entry, EntryKind, Formula, FormulaKind, Graph, Operator, Output, Plan,
     Supervisor, Target, TemplateId,
 };
+use crate::types::text::duration;
 use crate::types::{Conversion, Type};
 
 impl Graph {
@@ -110,8 +110,8 @@ impl Dump<'_> {
                 "supervise {}: {}{generic} every {} deadline {}",
                 supervisor.name,
                 named.head,
-                spell(supervisor.every),
-                spell(supervisor.deadline)
+                duration(supervisor.every),
+                duration(supervisor.deadline)
             ),
         );
         self.binds(&named, &supervisor.inputs, &supervisor.outputs);

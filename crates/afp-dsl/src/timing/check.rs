@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use crate::check::timing::spell;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::flow::view::View;
 use crate::graph::{Component, Graph};
+use crate::types::text::duration;
 
 use super::level::{Levels, Outside};
 use super::{Response, SupervisorTiming, Target, model, readable, timing};
@@ -73,9 +73,9 @@ fn ticks(graph: &Graph, target: &Target, tick: u64, diags: &mut Diagnostics) {
     let mut report = |span, name: &str, every: u64, help: &str| {
         let message = format!(
             "'{name}' is polled every {}, but '{}' ticks every {}",
-            spell(every),
+            duration(every),
             target.name,
-            spell(tick)
+            duration(tick)
         );
         diags.push(Diagnostic::new(Code::E0403, span, message).help(help));
     };
@@ -83,7 +83,7 @@ fn ticks(graph: &Graph, target: &Target, tick: u64, diags: &mut Diagnostics) {
         for view in views {
             for supervisor in view.supervisors().filter(|supervisor| supervisor.every < tick) {
                 let span = supervisor.every_span.unwrap_or(supervisor.span);
-                let help = format!("write at least 'every {}'", spell(tick));
+                let help = format!("write at least 'every {}'", duration(tick));
                 report(span, &supervisor.name, supervisor.every, &help);
             }
             for (_, element) in view.elements() {

@@ -7,7 +7,7 @@ use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::Formula;
 use crate::source::Span;
 use crate::types::Type;
-use crate::words::a_type;
+use crate::types::text::a_type;
 
 /// What stands for `any` or `number` in one instance.
 pub(super) enum Generic {

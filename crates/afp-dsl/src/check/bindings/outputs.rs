@@ -10,7 +10,7 @@ use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{EntryId, EntryKind, Output};
 use crate::syntax::ast::Name;
 use crate::types::Type;
-use crate::words::a_type;
+use crate::types::text::a_type;
 
 /// The outputs that are bound; `None` when something is wrong with one of them.
 pub(super) fn check(

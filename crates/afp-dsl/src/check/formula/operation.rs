@@ -6,8 +6,8 @@ use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{Formula, FormulaKind, Operator};
 use crate::source::Span;
 use crate::syntax::ast::Sign;
+use crate::types::text::{a_dimension, a_type};
 use crate::types::{Conversion, Dimension, Type};
-use crate::words::{a_dimension, a_type};
 
 /// `left operator right`
 pub(super) fn binary(

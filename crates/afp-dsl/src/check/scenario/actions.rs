@@ -4,6 +4,7 @@ use super::Checker;
 use super::paths::{Found, Part};
 use crate::check::names::unknown;
 use crate::check::timing;
+use crate::diagnostics::words;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{Component, EntryKind, Target};
 use crate::scenario::devices::{self, Control, DEVICES, Failure};
@@ -13,7 +14,6 @@ use crate::syntax::ast::{self, Bind, Formula, FormulaKind, Name};
 use crate::syntax::unquote;
 use crate::toolbox::Constant;
 use crate::types::{Dimension, Type};
-use crate::words;
 
 /// Everything that can happen.
 const VERBS: &[&str] = &["press", "release", "fail", "fire", "finish", "idle", "set"];

@@ -168,7 +168,7 @@ impl Checker<'_> {
         let help = match others.as_slice() {
             [] => "look at the plan's edges, or expect another element".to_owned(),
             others => {
-                let list = crate::words::list(others.iter().map(String::as_str), "or");
+                let list = crate::diagnostics::words::list(others.iter().map(String::as_str), "or");
                 format!("what leads there is {list}")
             }
         };

@@ -1,11 +1,12 @@
 //! When things happen and are looked at.
 
 use super::Checker;
-use crate::check::timing::{self, spell};
+use crate::check::timing;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::scenario::{DEFAULT_UNTIL, Window};
 use crate::source::Span;
 use crate::syntax::ast::{Bound, Formula, Line, LineKind};
+use crate::types::text::duration;
 
 /// When a scenario ends, and where it says so.
 pub(super) fn until(lines: &[Line], diags: &mut Diagnostics) -> (u64, Option<Span>) {
@@ -30,7 +31,7 @@ impl Checker<'_> {
     }
 
     fn too_late(&self, span: Span) -> Diagnostic {
-        let message = format!("the scenario has ended by then, at '{}'", spell(self.until));
+        let message = format!("the scenario has ended by then, at '{}'", duration(self.until));
         let error = Diagnostic::new(Code::E0605, span, message);
         match self.until_span {
             Some(until) => error

@@ -104,7 +104,7 @@ fn pill(view: &View, id: usize, entry: &Entry) -> (String, Class) {
 
 /// Type and initial value.
 fn declaration(view: &View, entry: &Entry) -> String {
-    let ty = formula::type_name(&entry.ty);
+    let ty = entry.ty.to_string();
     match &entry.init {
         None => ty,
         Some(init) => {

@@ -1,6 +1,5 @@
 //! Supervisors that lean on the right side of a box.
 
-use super::super::formula::duration;
 use super::super::metrics::width;
 use super::super::sketch::{Anchor, Frame, Glyph, Label, Picture, Rect, Shape, Sketch};
 use super::super::usage::{Class, Use, times};
@@ -10,6 +9,7 @@ use super::parts::{
 };
 use super::{Card, REACH, bound};
 use crate::graph::{Supervisor, Target};
+use crate::types::text::duration;
 
 /// Sizes of texts in pixels.
 const NAME: f64 = 12.0;

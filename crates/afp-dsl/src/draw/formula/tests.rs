@@ -1,9 +1,8 @@
 //! Tests of formulas as text.
 
-use super::{duration, quantity, text};
+use super::text;
 use crate::draw::sample::compiled;
 use crate::graph::Formula;
-use crate::types::Dimension;
 
 /// The text of a formula as printed from the graph, then with the sources at hand.
 fn shown(written: &str) -> (String, String) {
@@ -15,32 +14,6 @@ fn shown(written: &str) -> (String, String) {
     let graph = compiled.graph.unwrap();
     let formula: &Formula = &graph.main().elements[0].inputs[0];
     (text(formula, graph.main(), None), text(formula, graph.main(), Some(&compiled.sources)))
-}
-
-#[test]
-fn quantities_get_a_unit_that_suits_their_size() {
-    for (name, value, expected) in [
-        ("length", 0.3, "30 cm"),
-        ("length", 0.35, "35 cm"),
-        ("length", -100.0, "-100 m"),
-        ("length", 0.002, "2 mm"),
-        ("angle", -60.0 * core::f64::consts::PI / 180.0, "-60 deg"),
-        ("speed", 0.2, "20 cm/s"),
-        ("duration", 0.001, "1 ms"),
-        ("duration", 2.5, "2.5 s"),
-        ("force", 3.0, "3 N"),
-        ("float", 1.5, "1.5"),
-    ] {
-        let dimension = Dimension::named(name).unwrap_or(Dimension::NONE);
-        assert_eq!(quantity(value, dimension), expected);
-    }
-}
-
-#[test]
-fn a_value_without_a_short_decimal_keeps_all_its_digits() {
-    let length = Dimension::named("length").unwrap();
-    let shown = quantity(1.0 / 3.0, length);
-    assert!(shown.contains("33333333333333"), "{shown}");
 }
 
 #[test]
@@ -72,12 +45,4 @@ fn what_was_written_is_kept() {
     assert_eq!((printed.as_str(), kept.as_str()), ("100 m", "10000 cm"));
     let (_, broken) = shown("dist + // more\n 2 cm");
     assert_eq!(broken, "dist + 2 cm");
-}
-
-#[test]
-fn durations_are_whole_numbers_of_a_unit() {
-    assert_eq!(duration(1_000_000), "1 ms");
-    assert_eq!(duration(2_000_000_000), "2 s");
-    assert_eq!(duration(1_500_000), "1500 us");
-    assert_eq!(duration(7), "7 ns");
 }

@@ -47,7 +47,7 @@ impl Flow {
 fn one(what: &str, tokens: &[Token]) -> Result<Option<String>, Refused> {
     let names: BTreeSet<_> = tokens.iter().map(|token| token.text().to_owned()).collect();
     if names.len() > 1 {
-        let list = crate::words::list(names.iter().map(String::as_str), "and");
+        let list = crate::diagnostics::words::list(names.iter().map(String::as_str), "and");
         return Err(Refused::new(format!("{what} {list}, but a sub-plan has one way for that")));
     }
     Ok(names.into_iter().next())

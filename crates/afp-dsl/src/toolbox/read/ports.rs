@@ -10,7 +10,7 @@ use crate::source::Span;
 use crate::syntax::ast::{self, Formula};
 use crate::toolbox::{Constant, InPort, OutPort, Outcome, TemplateKind};
 use crate::types::Type;
-use crate::words;
+use crate::types::text;
 
 /// Reads an input port; `None` when it has no name or no type.
 pub(super) fn input(
@@ -167,7 +167,7 @@ impl Values<'_> {
         if let (Some((least, greatest)), Some(number)) = (range, number(&value))
             && !(least..=greatest).contains(&number)
         {
-            let (least, greatest) = (words::value(least, self.ty), words::value(greatest, self.ty));
+            let (least, greatest) = (text::value(least, self.ty), text::value(greatest, self.ty));
             diags.push(
                 Diagnostic::new(Code::E0224, span, "the default is out of the port's range")
                     .help(format!("use a value from '{least}' to '{greatest}'")),

@@ -1,0 +1,61 @@
+//! Wording shared by diagnostics: lists, and the name that was probably meant.
+
+/// `'a', 'b' and 'c'`, in single quotes.
+pub fn list<'a>(names: impl IntoIterator<Item = &'a str>, joint: &str) -> String {
+    let quoted: Vec<_> = names.into_iter().map(|name| format!("'{name}'")).collect();
+    match quoted.as_slice() {
+        [] => String::new(),
+        [one] => one.clone(),
+        [front @ .., last] => format!("{} {joint} {last}", front.join(", ")),
+    }
+}
+
+/// The candidate that differs least from `name`, when it is near enough to be a slip.
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let limit = (name.chars().count() / 3).clamp(1, 3);
+    let scored = candidates.into_iter().map(|candidate| (distance(name, candidate), candidate));
+    scored.filter(|(score, _)| *score <= limit).min_by_key(|(score, _)| *score).map(|(_, c)| c)
+}
+
+/// How many letters have to be changed, added, removed or swapped with their neighbour; case
+/// counts for nothing.
+fn distance(left: &str, right: &str) -> usize {
+    let left: Vec<char> = left.to_lowercase().chars().collect();
+    let right: Vec<char> = right.to_lowercase().chars().collect();
+    let mut before: Vec<usize> = Vec::new();
+    let mut row: Vec<usize> = (0..=right.len()).collect();
+    for (i, a) in left.iter().enumerate() {
+        let mut next = vec![i + 1];
+        for (j, b) in right.iter().enumerate() {
+            let changed = row[j] + usize::from(a != b);
+            let mut best = changed.min(row[j + 1] + 1).min(next[j] + 1);
+            let swapped = i > 0 && j > 0 && *a == right[j - 1] && left[i - 1] == *b;
+            if swapped {
+                best = best.min(before[j - 1] + 1);
+            }
+            next.push(best);
+        }
+        before = std::mem::replace(&mut row, next);
+    }
+    row[right.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{list, nearest};
+
+    #[test]
+    fn slips_find_the_name_that_was_meant() {
+        let names = ["Forward", "Turn", "SearchWall"];
+        assert_eq!(nearest("Froward", names), Some("Forward"));
+        assert_eq!(nearest("forward", names), Some("Forward"));
+        assert_eq!(nearest("SearchWal", names), Some("SearchWall"));
+        assert_eq!(nearest("Curve", names), None);
+    }
+
+    #[test]
+    fn lists_read_like_sentences() {
+        assert_eq!(list(["a"], "or"), "'a'");
+        assert_eq!(list(["a", "b", "c"], "or"), "'a', 'b' or 'c'");
+    }
+}

@@ -1,0 +1,172 @@
+//! Types and values as text: with an article in sentences, and in the spelling of literals.
+//!
+//! A quantity, which is in SI units everywhere, gets the unit that makes it shortest and reads back
+//! as the very same double.
+
+use crate::types::literal::Literal;
+use crate::types::units::{RADIANS_PER_DEGREE, Unit};
+use crate::types::{Dimension, Type};
+
+/// A value in SI units with the unit that makes the text shortest, the usual one where two do.
+///
+/// ```
+/// use afp_dsl::types::text::quantity;
+/// use afp_dsl::types::Dimension;
+///
+/// let length = Dimension::named("length").unwrap();
+/// assert_eq!(quantity(0.3, length), "30 cm");
+/// assert_eq!(quantity(100.0, length), "100 m");
+/// ```
+pub fn quantity(value: f64, dimension: Dimension) -> String {
+    if dimension == Dimension::NONE {
+        return number(value);
+    }
+    let singles = Unit::symbols().map(str::to_owned);
+    let units = [dimension.usual_unit(), dimension.si_unit()].into_iter().chain(singles);
+    let texts = units.filter_map(|unit| in_unit(value, dimension, &unit));
+    let shortest = texts.min_by_key(String::len);
+    shortest.unwrap_or_else(|| format!("{} {}", number(value), dimension.si_unit()))
+}
+
+/// Nanoseconds in the largest unit that needs no fraction.
+pub fn duration(nanoseconds: u64) -> String {
+    let units = [(1_000_000_000, "s"), (1_000_000, "ms"), (1_000, "us")];
+    let fits = units.iter().find(|(size, _)| nanoseconds.is_multiple_of(*size));
+    match fits {
+        Some((size, unit)) => format!("{} {unit}", nanoseconds / size),
+        None => format!("{nanoseconds} ns"),
+    }
+}
+
+/// A plain number in the spelling of literals.
+pub fn number(value: f64) -> String {
+    let plain = value.to_string();
+    let short = format!("{value:e}");
+    if plain.len() > 12 && short.len() < plain.len() { short } else { plain }
+}
+
+fn in_unit(value: f64, dimension: Dimension, unit_text: &str) -> Option<String> {
+    let unit = Unit::parse(unit_text)?;
+    if unit.dimension != dimension || unit.celsius {
+        return None;
+    }
+    let mut factor = unit.numerator as f64 / unit.denominator as f64;
+    let power = 10_f64.powi(unit.exponent.abs());
+    factor = if unit.exponent < 0 { factor / power } else { factor * power };
+    for _ in 0..unit.degrees.unsigned_abs() {
+        factor *= if unit.degrees > 0 { RADIANS_PER_DEGREE } else { 1.0 / RADIANS_PER_DEGREE };
+    }
+    // Fifteen digits undo the rounding of the division; whether they do is checked.
+    let rounded: f64 = format!("{:.14e}", value / factor).parse().ok()?;
+    let text = format!("{} {unit_text}", number(rounded));
+    let back = Literal::parse(&text).ok()?.quantity(dimension).ok()?;
+    (back == value).then_some(text)
+}
+
+/// A type with its article, such as `a length` or `an int`.
+pub(crate) fn a_type(ty: &Type) -> String {
+    match ty {
+        Type::Bool => "a bool".to_owned(),
+        Type::Int => "an int".to_owned(),
+        Type::Quantity(dimension) => a_dimension(*dimension),
+        Type::Text => "a text".to_owned(),
+        Type::Enum(home) => format!("a value of '{}'", home.name),
+        Type::Object(home) => format!("a '{}'", home.name),
+        Type::Any => "a value".to_owned(),
+        Type::Number => "a number".to_owned(),
+    }
+}
+
+/// A dimension with its article; none is a bare number.
+pub(crate) fn a_dimension(dimension: Dimension) -> String {
+    if dimension == Dimension::NONE {
+        return "a bare number".to_owned();
+    }
+    let name = dimension.name();
+    let article = if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    format!("{article} {name}")
+}
+
+/// A value in SI units as people write it, such as `31 cm/s` or `2 km`: as drawings do where that is
+/// short, otherwise rounded and in the usual unit.
+pub(crate) fn value(value: f64, ty: &Type) -> String {
+    let Type::Quantity(dimension) = ty else { return plain(value) };
+    let exact = quantity(value, *dimension);
+    // Zero is as short in any unit.
+    if exact.len() <= SHORT && value != 0.0 {
+        return exact;
+    }
+    let symbol = dimension.usual_unit();
+    let one = Literal::parse(&format!("1 {symbol}"));
+    let factor = one.ok().and_then(|literal| literal.value()).unwrap_or(1.0);
+    format!("{} {symbol}", plain(value / factor)).trim_end().to_owned()
+}
+
+/// A longer exact value, in letters, has come from a calculation.
+const SHORT: usize = 14;
+
+/// At most nine decimals, without zeros at the end.
+fn plain(value: f64) -> String {
+    let text = format!("{value:.9}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{duration, quantity, value};
+    use crate::types::{Dimension, Type};
+
+    #[test]
+    fn quantities_get_a_unit_that_suits_their_size() {
+        for (name, value, expected) in [
+            ("length", 0.3, "30 cm"),
+            ("length", 0.35, "35 cm"),
+            ("length", -100.0, "-100 m"),
+            ("length", 0.002, "2 mm"),
+            ("angle", -60.0 * core::f64::consts::PI / 180.0, "-60 deg"),
+            ("speed", 0.2, "20 cm/s"),
+            ("duration", 0.001, "1 ms"),
+            ("duration", 2.5, "2.5 s"),
+            ("force", 3.0, "3 N"),
+            ("float", 1.5, "1.5"),
+        ] {
+            let dimension = Dimension::named(name).unwrap_or(Dimension::NONE);
+            assert_eq!(quantity(value, dimension), expected);
+        }
+    }
+
+    #[test]
+    fn a_value_without_a_short_decimal_keeps_all_its_digits() {
+        let length = Dimension::named("length").unwrap();
+        let shown = quantity(1.0 / 3.0, length);
+        assert!(shown.contains("33333333333333"), "{shown}");
+    }
+
+    #[test]
+    fn durations_are_whole_numbers_of_a_unit() {
+        assert_eq!(duration(1_000_000), "1 ms");
+        assert_eq!(duration(2_000_000_000), "2 s");
+        assert_eq!(duration(1_500_000), "1500 us");
+        assert_eq!(duration(7), "7 ns");
+    }
+
+    #[test]
+    fn values_are_shown_as_people_write_them() {
+        let shown = |number, dimension| {
+            value(number, &Type::Quantity(Dimension::named(dimension).unwrap()))
+        };
+        assert_eq!(shown(0.31, "speed"), "31 cm/s");
+        assert_eq!(shown(2.0, "speed"), "2 m/s");
+        assert_eq!(shown(0.3, "length"), "30 cm");
+        assert_eq!(shown(1.0, "length"), "1 m");
+        assert_eq!(shown(2000.0, "length"), "2 km");
+        assert_eq!(shown(-2.5, "length"), "-2.5 m");
+        assert_eq!(shown(2.0 / 3.0, "length"), "66.666666667 cm");
+        assert_eq!(shown(0.0, "length"), "0 cm");
+        assert_eq!(shown(0.02, "duration"), "20 ms");
+        assert_eq!(shown(60.0, "duration"), "60 s");
+        assert_eq!(shown(std::f64::consts::FRAC_PI_2, "angle"), "90 deg");
+        assert_eq!(shown(std::f64::consts::TAU, "angle"), "360 deg");
+        assert_eq!(value(2.5, &Type::FLOAT), "2.5");
+    }
+}
