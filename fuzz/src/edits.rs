@@ -1,7 +1,8 @@
 //! Edits of any kind on any text: in order, inside the text, and no harm to what could be read.
 
 use afp_dsl::diagnostics::Diagnostics;
-use afp_dsl::edit::{Binding, Change, Item, TextEdit, apply, edit};
+use afp_dsl::edit::{Binding, Change, TextEdit, apply, edit, follow};
+use afp_dsl::item::Item;
 use afp_dsl::layout_file::Layout;
 use afp_dsl::source::Source;
 use afp_dsl::syntax::parse;
@@ -36,7 +37,7 @@ pub fn edits(data: &[u8]) {
     let text = crate::text::text(tail);
     let names = Names::of(&text);
     let Ok(change) = change(&mut Unstructured::new(head), &names) else { return };
-    Layout::read("A.b 1 2\nA.b.c 3 4").0.follow(&change);
+    follow(&mut Layout::read("A.b 1 2\nA.b.c 3 4").0, &change);
     // The second file sees the first one and says much the same.
     let user = format!("use \"fuzzed.afp\"\n{}", text.replace("plan ", "plan other_"));
     let files = [Source::new("fuzzed.afp", text), Source::new("user.afp", user)];

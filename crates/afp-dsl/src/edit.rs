@@ -17,6 +17,7 @@ mod inline;
 mod list;
 mod name;
 mod port;
+mod positions;
 mod project;
 mod refer;
 mod relocate;
@@ -29,40 +30,11 @@ use std::fmt;
 use draft::Draft;
 use project::Desk;
 
+use crate::item::Item;
 use crate::source::Source;
 
 pub use crate::diagnostics::Edit as TextEdit;
-
-/// An item of a file, found by names.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Item {
-    /// A plan.
-    Plan {
-        /// Its name.
-        name: String,
-    },
-    /// An enum.
-    Enum {
-        /// Its name.
-        name: String,
-    },
-    /// An entry, an element or a global supervisor, which share one scope.
-    Inner {
-        /// The plan that it is in.
-        plan: String,
-        /// Its name.
-        name: String,
-    },
-    /// A local supervisor.
-    Local {
-        /// The plan that it is in.
-        plan: String,
-        /// The element that it belongs to.
-        owner: String,
-        /// Its name.
-        name: String,
-    },
-}
+pub use positions::follow;
 
 /// What a port is bound to.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -257,62 +229,6 @@ impl fmt::Display for Refused {
 }
 
 impl std::error::Error for Refused {}
-
-impl Item {
-    /// A plan.
-    pub fn plan(name: impl Into<String>) -> Item {
-        Item::Plan { name: name.into() }
-    }
-
-    /// An enum.
-    pub fn enumeration(name: impl Into<String>) -> Item {
-        Item::Enum { name: name.into() }
-    }
-
-    /// An entry, an element or a global supervisor of a plan.
-    pub fn inner(plan: impl Into<String>, name: impl Into<String>) -> Item {
-        Item::Inner { plan: plan.into(), name: name.into() }
-    }
-
-    /// A local supervisor of an element.
-    pub fn local(
-        plan: impl Into<String>,
-        owner: impl Into<String>,
-        name: impl Into<String>,
-    ) -> Item {
-        Item::Local { plan: plan.into(), owner: owner.into(), name: name.into() }
-    }
-
-    /// Its own name.
-    pub fn name(&self) -> &str {
-        match self {
-            Item::Plan { name }
-            | Item::Enum { name }
-            | Item::Inner { name, .. }
-            | Item::Local { name, .. } => name,
-        }
-    }
-
-    /// The plan that it is in; its own name when it is one; empty for an enum.
-    pub fn plan_name(&self) -> &str {
-        match self {
-            Item::Plan { name } => name,
-            Item::Enum { .. } => "",
-            Item::Inner { plan, .. } | Item::Local { plan, .. } => plan,
-        }
-    }
-}
-
-/// `Plan`, `Enum`, `Plan.element` or `Plan.element.supervisor`
-impl fmt::Display for Item {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Item::Plan { name } | Item::Enum { name } => write!(f, "{name}"),
-            Item::Inner { plan, name } => write!(f, "{plan}.{name}"),
-            Item::Local { plan, owner, name } => write!(f, "{plan}.{owner}.{name}"),
-        }
-    }
-}
 
 /// The edits that make a change of the file `home`, file by file, in order and without overlaps.
 ///

@@ -11,7 +11,7 @@ mod read;
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 
-use crate::edit::{Change, Item};
+use crate::item::Item;
 
 /// Where something is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,7 +99,7 @@ impl Layout {
 
     /// Leaves an item to the automatic layout, and what belongs to it.
     pub fn remove(&mut self, item: &Item) {
-        self.placed.retain(|known, _| !belongs(known, item));
+        self.placed.retain(|known, _| !known.lies_in(item));
     }
 
     /// All items that have a position, in the order of their names.
@@ -107,78 +107,11 @@ impl Layout {
         self.placed.iter().map(|(item, placed)| (item, placed.position))
     }
 
-    /// Gives items their new names, places and plans after a change of the text.
-    ///
-    /// What a change adds has no position. Elements that are extracted keep theirs in the new plan,
-    /// the sub-plan stands where the first of them stood; elements that are inlined are left to the
-    /// automatic layout.
-    pub fn follow(&mut self, change: &Change) {
-        match change {
-            Change::Remove { item } => self.remove(item),
-            Change::Rename { item, to } => self.rename(item, to),
-            Change::Move { item, plan, owner } => {
-                let name = item.name();
-                let to = match owner {
-                    Some(owner) => Item::local(plan, owner, name),
-                    None => Item::inner(plan, name),
-                };
-                self.relocate(|known| moved(known, item, &to));
-            }
-            Change::Extract { plan, elements, new_plan, element } => {
-                let first = elements.iter().find_map(|name| self.get(&Item::inner(plan, name)));
-                for name in elements {
-                    let (from, to) = (Item::inner(plan, name), Item::inner(new_plan, name));
-                    self.relocate(|known| moved(known, &from, &to));
-                }
-                if let Some(position) = first {
-                    self.set(Item::inner(plan, element), position);
-                }
-            }
-            Change::Inline { plan, element } => self.remove(&Item::inner(plan, element)),
-            _ => {}
-        }
-    }
-
-    fn rename(&mut self, item: &Item, to: &str) {
-        let renamed = match item {
-            Item::Plan { .. } => Item::plan(to),
-            Item::Enum { .. } => return,
-            Item::Inner { plan, .. } => Item::inner(plan, to),
-            Item::Local { plan, owner, .. } => Item::local(plan, owner, to),
-        };
-        self.relocate(|known| moved(known, item, &renamed));
-    }
-
-    fn relocate(&mut self, place: impl Fn(&Item) -> Item) {
+    /// Gives an item, and what lies in it, another path.
+    pub fn relocate(&mut self, from: &Item, to: &Item) {
         let old = std::mem::take(&mut self.placed);
-        self.placed = old.into_iter().map(|(item, placed)| (place(&item), placed)).collect();
-    }
-}
-
-/// Whether an item is another one or lies in it.
-fn belongs(known: &Item, item: &Item) -> bool {
-    match (item, known) {
-        (Item::Plan { name }, _) => known.plan_name() == name,
-        (Item::Inner { plan, name }, Item::Local { plan: home, owner, .. }) => {
-            (plan, name) == (home, owner)
-        }
-        _ => known == item,
-    }
-}
-
-/// The new path of an item when `from`, which it may lie in, becomes `to`.
-fn moved(known: &Item, from: &Item, to: &Item) -> Item {
-    match (known, from, to) {
-        _ if !belongs(known, from) => known.clone(),
-        _ if known == from => to.clone(),
-        (Item::Inner { name, .. }, _, Item::Plan { name: plan }) => Item::inner(plan, name),
-        (Item::Local { owner, name, .. }, _, Item::Plan { name: plan }) => {
-            Item::local(plan, owner, name)
-        }
-        (Item::Local { name, .. }, _, Item::Inner { plan, name: owner }) => {
-            Item::local(plan, owner, name)
-        }
-        _ => known.clone(),
+        self.placed =
+            old.into_iter().map(|(item, placed)| (item.moved(from, to), placed)).collect();
     }
 }
 

@@ -14,6 +14,7 @@ mod format;
 mod gather;
 pub mod graph;
 pub mod index;
+pub mod item;
 pub mod layout_file;
 pub mod outline;
 pub mod rows;

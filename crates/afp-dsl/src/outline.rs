@@ -18,7 +18,7 @@ mod identity;
 use std::sync::Arc;
 
 use crate::diagnostics::Severity;
-use crate::edit::Item;
+use crate::item::Item;
 use crate::graph::EntryKind;
 use crate::source::Span;
 use crate::syntax::ast::Name;

@@ -6,11 +6,11 @@ use std::borrow::Cow;
 
 use super::usage::{Count, PlanUsage, times};
 use super::{Options, formula};
-use crate::edit::Item;
 use crate::graph::{
     Component, Element, ElementId, Entry, EntryKind, Formula, FormulaKind, Graph, Output, Plan,
     PlanId, Supervisor, Target, TemplateId,
 };
+use crate::item::Item;
 use crate::layout_file::Position;
 use crate::source::Span;
 use crate::toolbox::{InPort, Template, Toolbox};

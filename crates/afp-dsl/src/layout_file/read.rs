@@ -1,7 +1,7 @@
 //! Reading a layout file, line by line.
 
 use super::{Layout, LayoutError, Placed, Position};
-use crate::edit::Item;
+use crate::item::Item;
 
 /// Reads all lines; those with errors are left out.
 pub(super) fn read(text: &str) -> (Layout, Vec<LayoutError>) {

@@ -8,7 +8,7 @@ use super::{
     Outline, Plan, PlanId, Scenario, Start, Target, Use, Value,
 };
 use crate::check::{MadeParts, PlanHead, Program};
-use crate::edit::Item;
+use crate::item::Item;
 use crate::gather::PlanFile;
 use crate::graph::EntryKind;
 use crate::index::{Found, Meanings, Word};

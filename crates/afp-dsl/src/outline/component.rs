@@ -9,7 +9,7 @@ use super::{
 };
 use crate::check::signature::{Signature, SignatureKind};
 use crate::check::{Made, edges};
-use crate::edit::Item;
+use crate::item::Item;
 use crate::index::Found;
 use crate::source::Span;
 use crate::syntax::ast::{self, Bind, Name};

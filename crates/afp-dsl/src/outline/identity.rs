@@ -1,7 +1,7 @@
 //! From places in the text to items and parts of them, and back.
 
 use super::{Component, Outline, Plan};
-use crate::edit::Item;
+use crate::item::Item;
 use crate::source::Span;
 
 /// An item of a file, or a part of one.

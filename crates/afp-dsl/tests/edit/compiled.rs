@@ -1,8 +1,9 @@
 //! Extracting and inlining on plans that compile: the result compiles too.
 
 use afp_dsl::compile;
-use afp_dsl::edit::{Change, Item, apply};
+use afp_dsl::edit::{Change, apply};
 use afp_dsl::files::Texts;
+use afp_dsl::item::Item;
 use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 

@@ -8,7 +8,8 @@ mod mutate;
 
 use std::collections::BTreeMap;
 
-use afp_dsl::edit::{Binding, Change, Item, Refused, TextEdit, apply};
+use afp_dsl::edit::{Binding, Change, Refused, TextEdit, apply};
+use afp_dsl::item::Item;
 use afp_dsl::source::Source;
 use proptest::prelude::*;
 

@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use afp_dsl::diagnostics::Diagnostics;
-use afp_dsl::edit::{Change, Item};
+use afp_dsl::edit::Change;
+use afp_dsl::item::Item;
 use afp_dsl::source::Span;
 use afp_dsl::syntax::ast::{self, Bind, ElementKind};
 use afp_dsl::syntax::{kind::Kind, parse};

@@ -81,7 +81,7 @@ fn plan(text: &mut String, outline: &Outline, plan: &Plan, said: &dyn Fn(&Findin
         line(2, format!("start {target}{}", said(&start.findings)));
     }
     for component in plan.components() {
-        let depth = 2 + usize::from(matches!(component.item, afp_dsl::edit::Item::Local { .. }));
+        let depth = 2 + usize::from(matches!(component.item, afp_dsl::item::Item::Local { .. }));
         let Component { item, kind, findings, .. } = component;
         let made = made_from(outline, component);
         line(depth, format!("{} {item}: {made}{}", kind.keyword(), said(findings)));
@@ -165,7 +165,7 @@ fn target(plan: &Plan, target: &Target) -> String {
 /// The items and parts of all plan files, with their places.
 fn identities(outline: &Outline) -> Vec<Identity> {
     let mut all = Vec::new();
-    let mut add = |file, item: &afp_dsl::edit::Item, part| {
+    let mut add = |file, item: &afp_dsl::item::Item, part| {
         all.push(Identity { file, item: item.clone(), part });
     };
     for file in &outline.files {

@@ -1,7 +1,8 @@
 //! Changes of meaning as Python names them: a kind, and its parts by name.
 
 use afp_dsl::diagnostics::Diagnostics;
-use afp_dsl::edit::{Binding, Change, Item};
+use afp_dsl::edit::{Binding, Change};
+use afp_dsl::item::Item;
 use afp_dsl::syntax::ast::Item as Node;
 use afp_dsl::syntax::parse;
 use pyo3::exceptions::{PyKeyError, PyValueError};

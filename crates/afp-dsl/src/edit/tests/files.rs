@@ -1,8 +1,9 @@
 //! Changes that reach into other files.
 
 use crate::compile;
-use crate::edit::{Change, Item, apply, edit};
+use crate::edit::{Change, apply, edit};
 use crate::files::{Files, Texts};
+use crate::item::Item;
 use crate::source::Source;
 use crate::toolbox::Toolboxes;
 

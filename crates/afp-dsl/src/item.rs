@@ -1,0 +1,117 @@
+//! Paths of items: names that lead to a plan, an enum, or something in a plan.
+
+use std::fmt;
+
+/// An item of a file, found by names.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Item {
+    /// A plan.
+    Plan {
+        /// Its name.
+        name: String,
+    },
+    /// An enum.
+    Enum {
+        /// Its name.
+        name: String,
+    },
+    /// An entry, an element or a global supervisor, which share one scope.
+    Inner {
+        /// The plan that it is in.
+        plan: String,
+        /// Its name.
+        name: String,
+    },
+    /// A local supervisor.
+    Local {
+        /// The plan that it is in.
+        plan: String,
+        /// The element that it belongs to.
+        owner: String,
+        /// Its name.
+        name: String,
+    },
+}
+
+impl Item {
+    /// A plan.
+    pub fn plan(name: impl Into<String>) -> Item {
+        Item::Plan { name: name.into() }
+    }
+
+    /// An enum.
+    pub fn enumeration(name: impl Into<String>) -> Item {
+        Item::Enum { name: name.into() }
+    }
+
+    /// An entry, an element or a global supervisor of a plan.
+    pub fn inner(plan: impl Into<String>, name: impl Into<String>) -> Item {
+        Item::Inner { plan: plan.into(), name: name.into() }
+    }
+
+    /// A local supervisor of an element.
+    pub fn local(
+        plan: impl Into<String>,
+        owner: impl Into<String>,
+        name: impl Into<String>,
+    ) -> Item {
+        Item::Local { plan: plan.into(), owner: owner.into(), name: name.into() }
+    }
+
+    /// Its own name.
+    pub fn name(&self) -> &str {
+        match self {
+            Item::Plan { name }
+            | Item::Enum { name }
+            | Item::Inner { name, .. }
+            | Item::Local { name, .. } => name,
+        }
+    }
+
+    /// The plan that it is in; its own name when it is one; empty for an enum.
+    pub fn plan_name(&self) -> &str {
+        match self {
+            Item::Plan { name } => name,
+            Item::Enum { .. } => "",
+            Item::Inner { plan, .. } | Item::Local { plan, .. } => plan,
+        }
+    }
+
+    /// Whether it is another item or lies in it.
+    pub fn lies_in(&self, item: &Item) -> bool {
+        match (item, self) {
+            (Item::Plan { name }, _) => self.plan_name() == name,
+            (Item::Inner { plan, name }, Item::Local { plan: home, owner, .. }) => {
+                (plan, name) == (home, owner)
+            }
+            _ => self == item,
+        }
+    }
+
+    /// Its path when `from`, which it may lie in, becomes `to`.
+    pub fn moved(&self, from: &Item, to: &Item) -> Item {
+        match (self, from, to) {
+            _ if !self.lies_in(from) => self.clone(),
+            _ if self == from => to.clone(),
+            (Item::Inner { name, .. }, _, Item::Plan { name: plan }) => Item::inner(plan, name),
+            (Item::Local { owner, name, .. }, _, Item::Plan { name: plan }) => {
+                Item::local(plan, owner, name)
+            }
+            (Item::Local { name, .. }, _, Item::Inner { plan, name: owner }) => {
+                Item::local(plan, owner, name)
+            }
+            _ => self.clone(),
+        }
+    }
+}
+
+/// `Plan`, `Enum`, `Plan.element` or `Plan.element.supervisor`
+impl fmt::Display for Item {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Item::Plan { name } | Item::Enum { name } => write!(f, "{name}"),
+            Item::Inner { plan, name } => write!(f, "{plan}.{name}"),
+            Item::Local { plan, owner, name } => write!(f, "{plan}.{owner}.{name}"),
+        }
+    }
+}
