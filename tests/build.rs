@@ -11,8 +11,8 @@ use std::{env, fs, io};
 use afp_dsl::codegen::{self, Options};
 use afp_dsl::compile_unchecked;
 use afp_dsl::files::Texts;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
+use afp_syntax::source::Source;
 
 /// Random plans where nothing else is asked for.
 const RANDOM_PLANS: u64 = 40;

@@ -4,9 +4,9 @@ use std::hint::black_box;
 
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::source::Source;
-use afp_dsl::syntax::count_tokens;
 use afp_dsl::toolbox::Toolboxes;
+use afp_syntax::count_tokens;
+use afp_syntax::source::Source;
 
 use crate::big_plan;
 use crate::measure::{Race, Times};

@@ -2,8 +2,8 @@
 
 use afp::load::{LoadedPlan, Registry};
 use afp_dsl::files::Texts;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
+use afp_syntax::source::Source;
 
 use crate::board::{Board, templates};
 

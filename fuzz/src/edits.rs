@@ -1,11 +1,11 @@
 //! Edits of any kind on any text: in order, inside the text, and no harm to what could be read.
 
-use afp_dsl::diagnostics::Diagnostics;
 use afp_dsl::edit::{Binding, Change, TextEdit, apply, edit, follow};
-use afp_dsl::item::Item;
 use afp_dsl::layout_file::Layout;
-use afp_dsl::source::Source;
-use afp_dsl::syntax::parse;
+use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::item::Item;
+use afp_syntax::parse;
+use afp_syntax::source::Source;
 use arbitrary::{Result, Unstructured};
 
 use crate::names::Names;

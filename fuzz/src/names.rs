@@ -1,7 +1,7 @@
 //! The names that a text contains, so that made-up edits meet what is there.
 
-use afp_dsl::diagnostics::Diagnostics;
-use afp_dsl::syntax::{kind::Kind, parse};
+use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::{kind::Kind, parse};
 use arbitrary::{Result, Unstructured};
 
 /// How many are looked at.

@@ -2,15 +2,16 @@
 
 use std::borrow::Cow;
 
-use afp_dsl::diagnostics::Diagnostics;
+use afp_dsl::compile;
 use afp_dsl::files::Texts;
 use afp_dsl::layout_file::Layout;
 use afp_dsl::scenario::{Scenario, Window};
-use afp_dsl::source::Source;
-use afp_dsl::syntax::{Node, kind::Kind, parse};
 use afp_dsl::toolbox::Toolboxes;
-use afp_dsl::{compile, format};
 use afp_sim::{Simulation, World};
+use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::format;
+use afp_syntax::source::Source;
+use afp_syntax::{Node, kind::Kind, parse};
 
 /// Bytes as a reader of files gives them on.
 pub(crate) fn text(data: &[u8]) -> Cow<'_, str> {

@@ -4,8 +4,8 @@ use afp::load::{LoadedPlan, Registry};
 use afp_dsl::compile_unchecked;
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
+use afp_syntax::source::Source;
 
 use crate::drive::drive;
 use crate::platform::Platform;

@@ -27,8 +27,6 @@ pub(crate) mod types;
 
 use std::sync::Arc;
 
-use crate::diagnostics::words;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::files::relative;
 use crate::flow::{self, Model};
 use crate::gather::PlanFile;
@@ -36,9 +34,11 @@ use crate::graph::{self, Graph};
 use crate::index::{Meanings, Recorder};
 use crate::outline::{self, Material, Outline};
 use crate::scenario::Scenario;
-use crate::source::Span;
-use crate::syntax::ast::{self, Item, Name};
 use crate::toolbox::{Toolbox, Toolboxes};
+use afp_syntax::ast::{self, Item, Name};
+use afp_syntax::diagnostics::words;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
 use entries::EntryDraft;
 use names::Places;

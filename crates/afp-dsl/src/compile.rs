@@ -3,15 +3,15 @@
 use std::ops::Range;
 
 use crate::check::{self, Checked, Flow};
-use crate::diagnostics::Diagnostics;
 use crate::files::{Files, below_all, normalised};
 use crate::gather;
 use crate::graph::Graph;
 use crate::outline::Outline;
 use crate::scenario::Scenario;
-use crate::source::{Source, Sources};
 use crate::timing;
 use crate::toolbox::Toolboxes;
+use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::source::{Source, Sources};
 
 /// What became of a text.
 #[derive(Clone, Debug)]

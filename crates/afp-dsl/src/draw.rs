@@ -25,8 +25,8 @@ mod tests;
 use std::fmt;
 
 use crate::layout_file::Layout;
-use crate::source::Sources;
 use crate::toolbox::Toolbox;
+use afp_syntax::source::Sources;
 
 pub use dot::dot;
 pub use json::json;
@@ -54,7 +54,7 @@ pub struct Options<'a> {
     /// those places and lays out the rest around them, JSON names them. May be shorter than the
     /// list of files.
     ///
-    /// [`Span::file`]: crate::source::Span::file
+    /// [`Span::file`]: afp_syntax::source::Span::file
     pub positions: &'a [Layout],
     /// Whether entries, formulas and what they are bound to are shown; JSON always has them.
     pub data: bool,

@@ -30,10 +30,10 @@ use std::fmt;
 use draft::Draft;
 use project::Desk;
 
-use crate::item::Item;
-use crate::source::Source;
+use afp_syntax::item::Item;
+use afp_syntax::source::Source;
 
-pub use crate::diagnostics::Edit as TextEdit;
+pub use afp_syntax::diagnostics::Edit as TextEdit;
 pub use positions::follow;
 
 /// What a port is bound to.

@@ -18,9 +18,9 @@ pub(crate) mod view;
 
 use std::sync::Arc;
 
-use crate::diagnostics::Diagnostics;
 use crate::graph::{Plan, TemplateId};
 use crate::toolbox::{Template, Toolbox};
+use afp_syntax::diagnostics::Diagnostics;
 
 pub(crate) use cycles::{count_limit, is_quick};
 use view::View;

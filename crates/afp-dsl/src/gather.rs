@@ -7,13 +7,13 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::files::{Files, joined, normalised};
-use crate::source::{Source, Sources, Span};
-use crate::syntax::ast::{File, Item, Name};
-use crate::syntax::unquote;
-use crate::syntax::{self, Parse};
 use crate::toolbox::Toolboxes;
+use afp_syntax::ast::{File, Item, Name};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::{Source, Sources, Span};
+use afp_syntax::unquote;
+use afp_syntax::{Parse, parse};
 
 /// A plan file of a compilation.
 pub(crate) struct PlanFile {
@@ -86,7 +86,7 @@ impl Gathering<'_> {
         // Beyond 65,536 files spans would be ambiguous; nothing can be said about such a
         // compilation.
         let index = self.sources.add(source.clone()).unwrap_or(u16::MAX);
-        let tree = syntax::parse(&source.text, index, self.diags);
+        let tree = parse(&source.text, index, self.diags);
         self.add(normalised(&source.name), source, index, &tree);
     }
 
@@ -161,7 +161,7 @@ impl Gathering<'_> {
         let source = Arc::new(Source::new(path, text));
         let mut diags = Diagnostics::default();
         let next = u16::try_from(self.sources.len()).unwrap_or(u16::MAX);
-        let tree = syntax::parse(&source.text, next, &mut diags);
+        let tree = parse(&source.text, next, &mut diags);
         let heads = tree.file().items().into_iter().filter_map(|item| match item {
             Item::Toolbox(head) => Some(head),
             _ => None,

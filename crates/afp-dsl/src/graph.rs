@@ -9,11 +9,11 @@ mod dump;
 use std::sync::Arc;
 
 use crate::rows::Rows;
-use crate::source::Span;
 use crate::toolbox::{Template, Toolbox};
 use crate::types::{Conversion, Type};
+use afp_syntax::source::Span;
 
-pub use crate::syntax::ast::Operator;
+pub use afp_syntax::ast::Operator;
 
 macro_rules! index {
     ($($(#[$doc:meta])* $name:ident),* $(,)?) => {$(

@@ -11,7 +11,7 @@ mod read;
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 
-use crate::item::Item;
+use afp_syntax::item::Item;
 
 /// Where something is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

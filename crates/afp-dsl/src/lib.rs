@@ -5,26 +5,20 @@
 mod check;
 pub mod codegen;
 mod compile;
-pub mod diagnostics;
 pub mod draw;
 pub mod edit;
 pub mod files;
 mod flow;
-mod format;
 mod gather;
 pub mod graph;
 pub mod index;
-pub mod item;
 pub mod layout_file;
 pub mod outline;
 pub mod rows;
 pub mod scenario;
-pub mod source;
-pub mod syntax;
 pub mod timing;
 pub mod toolbox;
 pub mod types;
 pub mod unfold;
 
 pub use compile::{Compiled, compile, compile_plan, compile_unchecked};
-pub use format::format;

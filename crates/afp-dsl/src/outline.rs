@@ -17,13 +17,13 @@ mod identity;
 
 use std::sync::Arc;
 
-use crate::diagnostics::Severity;
-use crate::item::Item;
 use crate::graph::EntryKind;
-use crate::source::Span;
-use crate::syntax::ast::Name;
 use crate::toolbox::{Constant, Template, Toolbox};
 use crate::types::Type;
+use afp_syntax::ast::Name;
+use afp_syntax::diagnostics::Severity;
+use afp_syntax::item::Item;
+use afp_syntax::source::Span;
 
 pub(crate) use build::{Material, build};
 pub use identity::{Identity, Part};

@@ -10,9 +10,9 @@ pub mod devices;
 use std::sync::Arc;
 
 use crate::graph::Graph;
-use crate::source::Span;
 use crate::toolbox::Constant;
 use crate::types::Type;
+use afp_syntax::source::Span;
 
 /// How long a scenario lasts unless it says otherwise, nanoseconds.
 pub const DEFAULT_UNTIL: u64 = 60_000_000_000;

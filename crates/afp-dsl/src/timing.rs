@@ -18,7 +18,7 @@ use std::sync::Arc;
 use crate::flow::view::View;
 use crate::flow::{self, Model};
 use crate::graph::Graph;
-use crate::source::Span;
+use afp_syntax::source::Span;
 
 use level::{Levels, Outside};
 

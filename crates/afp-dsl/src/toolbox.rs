@@ -3,11 +3,11 @@
 mod read;
 mod set;
 
-use crate::source::Span;
 use crate::types::{Enum, Object, Type};
+use afp_syntax::source::Span;
 use std::sync::Arc;
 
-pub use crate::syntax::ast::TemplateKind;
+pub use afp_syntax::ast::TemplateKind;
 pub use set::Toolboxes;
 
 /// A checked toolbox file.

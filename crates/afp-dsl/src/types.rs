@@ -1,18 +1,15 @@
 //! Types of entries, ports and formulas.
 
-pub mod dimension;
-pub mod literal;
 pub mod readable;
 pub mod text;
-pub mod units;
 pub mod value;
 
 use std::fmt;
 use std::sync::Arc;
 
-use crate::source::Span;
+use afp_syntax::source::Span;
 
-pub use dimension::Dimension;
+pub use afp_syntax::dimension::Dimension;
 
 /// The type of an entry, a port or a formula.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,8 +5,8 @@ use std::{env, fs};
 
 use afp_dsl::codegen::{self, CrateOptions, Dependency, Options, Origin};
 use afp_dsl::files::Texts;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::{Toolbox, Toolboxes};
+use afp_syntax::source::Source;
 
 fn cases() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/codegen");

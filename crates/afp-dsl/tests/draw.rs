@@ -2,9 +2,9 @@
 
 use afp_dsl::draw::{Options, dot, json};
 use afp_dsl::files::Texts;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 use afp_dsl::{Compiled, compile};
+use afp_syntax::source::Source;
 use serde_json::Value;
 
 const WALL_FOLLOWING: &str = include_str!("../../../plans/wall_following.afp");

@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 use afp_dsl::compile;
 use afp_dsl::draw::{Options, scxml};
 use afp_dsl::files::Texts;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
+use afp_syntax::source::Source;
 use roxmltree::{Document, Node};
 
 const WALL_FOLLOWING: &str = include_str!("../../../plans/wall_following.afp");

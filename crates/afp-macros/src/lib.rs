@@ -10,8 +10,8 @@ mod sources;
 mod tests;
 
 use afp_dsl::codegen::{self, Options};
-use afp_dsl::diagnostics::{Diagnostics, Severity};
-use afp_dsl::source::Sources;
+use afp_syntax::diagnostics::{Diagnostics, Severity};
+use afp_syntax::source::Sources;
 use proc_macro2::TokenStream;
 use quote::quote;
 

@@ -4,9 +4,9 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 use afp_project::{CrateLink, ProjectError, ProjectFile};
+use afp_syntax::source::Source;
 use proc_macro2::TokenStream;
 use quote::quote;
 

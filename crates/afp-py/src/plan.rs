@@ -10,8 +10,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use afp_dsl::Compiled;
 use afp_dsl::draw::{self, Options, Theme};
 use afp_dsl::edit::{self, Change};
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolbox as Declared;
+use afp_syntax::source::Source;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::{PyTraverseError, PyVisit};
@@ -106,7 +106,7 @@ impl Plan {
     /// The text in canonical form; the plan stays as it is.
     fn formatted(&self, py: Python<'_>) -> PyResult<String> {
         let text = self.text();
-        afp_dsl::format(&text).map_err(|_| plan_error(py, &self.compiled(py)))
+        afp_syntax::format(&text).map_err(|_| plan_error(py, &self.compiled(py)))
     }
 
     /// Brings the text into canonical form.

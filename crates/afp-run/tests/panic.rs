@@ -6,12 +6,12 @@ use afp_core::quantity::{AngularSpeed, Speed};
 use afp_core::{Actor, Fault, Instant, Poll};
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 use afp_log::proto::afp::plan_event::{Ending, Kind};
 use afp_run::options::RunOptions;
 use afp_run::{EXIT_PLAN_ERROR, Program, run};
 use afp_sim::Simulation;
+use afp_syntax::source::Source;
 use clap::{Args, Command, FromArgMatches};
 
 mod templates {

@@ -4,10 +4,10 @@ use afp::load::{LoadedPlan, Registry};
 use afp_core::{Duration, Instant};
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 use afp_run::rig::{Company, Go, Rig};
 use afp_sim::{Defect, Fault, Sensor, Simulation, World};
+use afp_syntax::source::Source;
 
 const PLAN: &str = include_str!("../../../plans/wall_following.afp");
 const ROOM: &str = include_str!("../../../worlds/wall_following.toml");

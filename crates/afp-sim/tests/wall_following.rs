@@ -6,9 +6,9 @@ use afp_core::trace::{Kind, Names, Record, Sink};
 use afp_core::{Duration, Instant, Scheduler, StillClock, Wake};
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 use afp_sim::{Simulation, World};
+use afp_syntax::source::Source;
 
 const ROOM: &str = include_str!("../../../worlds/wall_following.toml");
 const PLAN: &str = include_str!("../../../plans/wall_following.afp");

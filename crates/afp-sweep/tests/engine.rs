@@ -8,11 +8,11 @@ use afp_carbot::devices::Navigator;
 use afp_core::{Actor, Duration, Fault, Instant, Poll};
 use afp_dsl::Compiled;
 use afp_dsl::files::Texts;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 use afp_run::RunError;
 use afp_sim::Simulation;
 use afp_sweep::{Ending, Engine, Made, Outcome, Row, Setting, Sweep, axis, seeds};
+use afp_syntax::source::Source;
 
 mod templates {
     #![allow(missing_docs)]

@@ -5,10 +5,10 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use afp::load::Registry;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 use afp_project::ProjectFile;
 use afp_sim::Simulation;
+use afp_syntax::source::Source;
 
 use crate::{Setting, run};
 

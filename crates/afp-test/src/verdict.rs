@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use afp_core::{Duration, Ending, Instant};
-use afp_dsl::source::Span;
+use afp_syntax::source::Span;
 
 use crate::watch::Activation;
 use crate::watch::hits::Hits;

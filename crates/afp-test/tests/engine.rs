@@ -5,9 +5,9 @@ use std::path::Path;
 use afp_dsl::Compiled;
 use afp_dsl::files::Texts;
 use afp_dsl::scenario::Scenario;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 use afp_sim::Fault;
+use afp_syntax::source::Source;
 use afp_test::{Setting, Verdict};
 
 const PLAN: &str = r#"

@@ -14,9 +14,9 @@ use afp_core::rt::Registry as _;
 use afp_dsl::Compiled;
 use afp_dsl::files::Texts;
 use afp_dsl::scenario::{DEFAULT_UNTIL, Scenario};
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 use afp_sim::Simulation;
+use afp_syntax::source::Source;
 use afp_test::{Generated, Setting, Templates, Verdict};
 use templates::forward::{Inputs, Live, State};
 

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 
 use afp_dsl::files::Files;
 use afp_dsl::graph::Graph;
-use afp_dsl::source::Source;
 use afp_dsl::{Compiled, compile_plan};
 use afp_log::LogData;
 use afp_project::{ProjectError, ProjectFile};
 use afp_run::RunError;
+use afp_syntax::source::Source;
 
 use crate::toolboxes::OwnToolboxes;
 

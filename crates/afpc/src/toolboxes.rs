@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use afp_dsl::graph::Graph;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::{Toolbox, Toolboxes};
 use afp_project::{CrateLink, Mistake, ProjectError, ProjectFile, ToolboxFile, shown};
+use afp_syntax::source::Source;
 
 /// A project and the toolboxes that it has beyond the built-in ones.
 #[derive(Debug)]

@@ -7,8 +7,8 @@ use std::sync::OnceLock;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
+use afp_syntax::source::Source;
 
 /// Where plans are, seen from the root of the checkout.
 const FOLDERS: [&str; 2] = ["plans", "tests/worlds/plans"];

@@ -7,14 +7,14 @@ mod outputs;
 use crate::check::formula::{Scope, of_constant};
 use crate::check::names::unknown;
 use crate::check::signature::{Input, Signature};
-use crate::diagnostics::words;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{Formula, Output};
-use crate::source::Span;
-use crate::syntax::ast::{self, Bind, Name};
 use crate::toolbox::Constant;
 use crate::types::Type;
 use crate::types::text;
+use afp_syntax::ast::{self, Bind, Name};
+use afp_syntax::diagnostics::words;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
 use generic::{Generic, actual};
 

@@ -5,11 +5,11 @@ use std::rc::Rc;
 use crate::check::names::{ambiguous, unknown};
 use crate::check::signature::{Signature, SignatureKind};
 use crate::check::{Context, PlanHead};
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::files::relative;
-use crate::source::Span;
-use crate::syntax::ast::{Name, Ref};
 use crate::toolbox::TemplateKind;
+use afp_syntax::ast::{Name, Ref};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
 /// Something of a name.
 struct Candidate<'a> {

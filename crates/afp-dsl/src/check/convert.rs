@@ -1,10 +1,10 @@
 //! Which types become which, and with what warning.
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{Formula, FormulaKind};
-use crate::source::Span;
 use crate::types::text::{a_dimension, a_type};
 use crate::types::{Conversion, Dimension, Type};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
 /// How a value of type `from` becomes one of type `to`: `Ok(None)` without doing anything, `Err`
 /// not at all.

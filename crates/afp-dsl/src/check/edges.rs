@@ -2,12 +2,12 @@
 
 use crate::check::names::{Places, unknown};
 use crate::check::signature::{Signature, SignatureKind};
-use crate::diagnostics::words;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{EdgeSpans, ElementId, Target};
 use crate::index::{Recorder, Word};
-use crate::source::Span;
-use crate::syntax::ast::{Edge, Name};
+use afp_syntax::ast::{Edge, Name};
+use afp_syntax::diagnostics::words;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
 /// The two edges that need no declaration.
 pub(crate) const ERROR: &str = "Error";

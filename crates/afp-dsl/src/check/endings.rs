@@ -2,8 +2,8 @@
 //! `terminate`.
 
 use crate::check::names::Places;
-use crate::source::Span;
-use crate::syntax::ast::{Edge, Element, Guard, Plan};
+use afp_syntax::ast::{Edge, Element, Guard, Plan};
+use afp_syntax::source::Span;
 
 /// The first edge, as written, that ends the plan as `Interrupted`.
 pub(crate) fn interrupting(plan: &Plan) -> Option<Span> {

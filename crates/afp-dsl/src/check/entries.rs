@@ -4,12 +4,12 @@
 use crate::check::formula::Scope;
 use crate::check::names::Places;
 use crate::check::types::Types;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{EntryKind, Formula};
 use crate::index::Recorder;
-use crate::syntax::ast;
 use crate::toolbox::Constant;
 use crate::types::Type;
+use afp_syntax::ast;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// An entry, as far as it is understood.
 #[derive(Clone, Debug)]

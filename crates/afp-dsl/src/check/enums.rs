@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use crate::check::names::Names;
 use crate::check::size;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::rows::MAX_ROWS;
-use crate::syntax::ast;
 use crate::types::Enum;
+use afp_syntax::ast;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// Reads an enum; `None` without a name.
 pub(crate) fn read(

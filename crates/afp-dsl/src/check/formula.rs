@@ -10,14 +10,14 @@ use crate::check::convert::coerce;
 use crate::check::entries::EntryDraft;
 use crate::check::names::{Places, ambiguous, unknown};
 use crate::check::types::Types;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{EntryId, EntryKind, Formula, FormulaKind};
 use crate::index::{Recorder, Word};
-use crate::source::Span;
-use crate::syntax::ast;
 use crate::toolbox::Constant;
 use crate::types::Type;
 use crate::types::value::MAX_TEXT;
+use afp_syntax::ast;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
 /// Greatest number of literals, entries and operations in one formula.
 const MAX_SIZE: usize = 256;
@@ -158,7 +158,7 @@ impl Typer<'_> {
                 literal::number(&number, unit.as_ref(), whole, span, inside, diags)
             }
             ast::FormulaKind::Text(quoted) => {
-                let text = crate::syntax::unquote(&quoted, diags);
+                let text = afp_syntax::unquote(&quoted, diags);
                 if text.len() > MAX_TEXT {
                     diags.push(fault_diagnostic(Fault::TooLong, span));
                     return None;

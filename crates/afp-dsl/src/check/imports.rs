@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use crate::check::names::unknown;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::ToolboxId;
 use crate::index::Recorder;
-use crate::source::Span;
-use crate::syntax::ast::{File, Item, Name, Use};
 use crate::toolbox::{Toolbox, Toolboxes};
+use afp_syntax::ast::{File, Item, Name, Use};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
 /// A toolbox that a file uses.
 pub(crate) struct Import {

@@ -2,10 +2,10 @@
 
 use std::collections::HashMap;
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
-use crate::source::Span;
-use crate::syntax::ast::Name;
-use crate::types::units::Unit;
+use afp_syntax::ast::Name;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
+use afp_syntax::units::Unit;
 
 /// Names that Rust has no raw spelling for, or that mean something else wherever they stand.
 const REFUSED: &[&str] = &["self", "Self", "super", "crate", "true", "false"];
@@ -94,7 +94,7 @@ pub(crate) fn ambiguous(
 ) -> Diagnostic {
     let full = found.iter().filter_map(|(home, _)| home.map(|home| format!("{home}.{name}")));
     let full: Vec<_> = full.collect();
-    let write = crate::diagnostics::words::list(full.iter().map(String::as_str), "or");
+    let write = afp_syntax::diagnostics::words::list(full.iter().map(String::as_str), "or");
     let files = found.iter().filter(|(home, _)| home.is_none());
     let (who, help) = match (full.len(), found.len() - full.len()) {
         (_, 0) => ("toolboxes", format!("write {write}")),
@@ -131,13 +131,15 @@ pub(crate) fn unknown<'a>(
 ) -> Diagnostic {
     let known: Vec<&str> = known.into_iter().collect();
     let diagnostic = Diagnostic::new(code, span, message);
-    match crate::diagnostics::words::nearest(name, known.iter().copied()) {
+    match afp_syntax::diagnostics::words::nearest(name, known.iter().copied()) {
         Some(meant) => diagnostic.help(format!("write '{meant}'")).replace(meant),
         None if known.is_empty() => diagnostic.help(none),
         None if known.len() > 12 => {
-            let some = crate::diagnostics::words::list(known.into_iter().take(12), "or");
+            let some = afp_syntax::diagnostics::words::list(known.into_iter().take(12), "or");
             diagnostic.help(format!("write one of {some}, among others"))
         }
-        None => diagnostic.help(format!("write {}", crate::diagnostics::words::list(known, "or"))),
+        None => {
+            diagnostic.help(format!("write {}", afp_syntax::diagnostics::words::list(known, "or")))
+        }
     }
 }

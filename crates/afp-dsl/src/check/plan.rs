@@ -7,12 +7,12 @@ use crate::check::formula::Scope;
 use crate::check::names::{self, Names};
 use crate::check::resources::Users;
 use crate::check::{Context, PlanHead, Program, edges, size};
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{self, Element, ElementId, Supervisor, SupervisorId};
 use crate::index::Recorder;
 use crate::rows::Table;
-use crate::source::Span;
-use crate::syntax::ast;
+use afp_syntax::ast;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
 use component::Components;
 

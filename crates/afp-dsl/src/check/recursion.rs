@@ -3,9 +3,9 @@
 
 use crate::check::scope::FileScope;
 use crate::check::{PlanHead, Program};
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
-use crate::source::Span;
-use crate::syntax::ast::ElementKind;
+use afp_syntax::ast::ElementKind;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
 /// Reports each cycle once and gives the plans in an order in which sub-plans come before the plans
 /// that use them.

@@ -4,8 +4,8 @@
 //! sub-plan everything inside.
 
 use crate::check::PlanHead;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
-use crate::source::Span;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
 /// A component and what it commands.
 #[derive(Clone, Debug)]

@@ -15,16 +15,16 @@ use std::sync::Arc;
 use crate::check::formula::Scope;
 use crate::check::names::{ambiguous, unknown};
 use crate::check::{Context, PlanHead, Program, assemble};
-use crate::diagnostics::words;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::gather::PlanFile;
 use crate::graph::{self, EntryKind, Formula};
 use crate::scenario::{Scenario, Start, Stimulus};
-use crate::source::Span;
-use crate::syntax::ast::{self, Item, Line, LineKind, Name};
-use crate::syntax::unquote;
 use crate::toolbox::Constant;
 use crate::types::{Dimension, Type};
+use afp_syntax::ast::{self, Item, Line, LineKind, Name};
+use afp_syntax::diagnostics::words;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
+use afp_syntax::unquote;
 
 use paths::Paths;
 

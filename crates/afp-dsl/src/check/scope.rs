@@ -9,13 +9,13 @@ use crate::check::names::Names;
 use crate::check::signature::Signatures;
 use crate::check::types::Types;
 use crate::check::{PlanHead, Program, endings, entries, enums, recursion, shadows};
-use crate::diagnostics::Diagnostics;
 use crate::gather::PlanFile;
 use crate::index::Recorder;
-use crate::source::Span;
-use crate::syntax::ast::{Item, Name};
 use crate::toolbox::{Toolbox, Toolboxes};
 use crate::types::Enum;
+use afp_syntax::ast::{Item, Name};
+use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::source::Span;
 
 /// What the plans of one file can name.
 pub(crate) struct FileScope<'a> {

@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use crate::check::PlanHead;
 use crate::graph::{Component, EntryKind, PlanId, TemplateId, ToolboxId};
-use crate::source::Span;
 use crate::toolbox::{Constant, Template, TemplateKind, Toolbox};
 use crate::types::Type;
+use afp_syntax::source::Span;
 
 /// Ports and outcomes of a template or plan.
 pub(crate) struct Signature {

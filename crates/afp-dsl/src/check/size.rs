@@ -5,11 +5,11 @@
 //! out of memory or stack.
 
 use crate::check::Program;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{Component, Plan};
 use crate::rows::{MAX_ROWS, Table, tables};
-use crate::source::Span;
-use crate::syntax::ast::Name;
+use afp_syntax::ast::Name;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
 /// Greatest number of elements and supervisors of a running plan.
 const MAX_COMPONENTS: u64 = 100_000;

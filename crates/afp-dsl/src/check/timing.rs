@@ -1,10 +1,10 @@
 //! Times that are written in the text: `every`, `deadline`, `budget`, `stop`.
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
-use crate::syntax::ast::{Formula, FormulaKind, Timing};
-use crate::types::literal::Literal;
 use crate::types::text::a_dimension;
 use crate::types::text::duration;
+use afp_syntax::ast::{Formula, FormulaKind, Timing};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::literal::Literal;
 
 /// Poll period where none is written, in nanoseconds.
 pub(crate) const DEFAULT_EVERY: u64 = 10_000_000;
@@ -67,7 +67,7 @@ fn refuse(value: &Formula, message: &str, diags: &mut Diagnostics) -> Option<u64
 pub(crate) fn deadline_fits(
     deadline: u64,
     every: u64,
-    span: crate::source::Span,
+    span: afp_syntax::source::Span,
     diags: &mut Diagnostics,
 ) {
     if deadline > every {

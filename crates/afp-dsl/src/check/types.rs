@@ -4,11 +4,11 @@ use std::collections::HashSet;
 use std::sync::Arc;
 
 use crate::check::names::{ambiguous, unknown};
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::index::{Recorder, Word};
-use crate::source::Span;
-use crate::syntax::ast::{self, Factor};
 use crate::types::{Dimension, Enum, Object, Type};
+use afp_syntax::ast::{self, Factor};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
 /// The types that a text can name: the built-in ones and these.
 #[derive(Default)]

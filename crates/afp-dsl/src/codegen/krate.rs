@@ -9,7 +9,7 @@ use crate::codegen::names::{ident, snake};
 use crate::codegen::places::Places;
 use crate::codegen::plan::{Generated, plan};
 use crate::graph::Graph;
-use crate::source::Span;
+use afp_syntax::source::Span;
 
 /// What a generated crate needs to know about its surroundings.
 #[derive(Clone, Debug)]

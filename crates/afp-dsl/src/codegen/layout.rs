@@ -8,7 +8,7 @@ use proc_macro2::{Group, TokenStream, TokenTree};
 use quote::quote;
 
 use crate::codegen::places::Places;
-use crate::source::Span;
+use afp_syntax::source::Span;
 
 /// How a comment begins that is a place.
 const PLACE: &str = "\u{1}";
@@ -138,7 +138,7 @@ fn separated(before: &str, line: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{at, code, comment, file, file_with_places};
-    use crate::source::Span;
+    use afp_syntax::source::Span;
     use quote::quote;
 
     #[test]

@@ -1,6 +1,6 @@
 //! Which place of a plan each line of a generated file is made from.
 
-use crate::source::Span;
+use afp_syntax::source::Span;
 
 /// The places of a file's lines. A place holds for the item that begins at its line.
 #[derive(Clone, Debug, Default)]

@@ -23,7 +23,7 @@ use crate::codegen::Options;
 use crate::codegen::layout::{comment, doc};
 use crate::codegen::names::camel;
 use crate::graph::{Graph, PlanId};
-use crate::source::Span;
+use afp_syntax::source::Span;
 use context::Context;
 pub(crate) use shared::units_name;
 

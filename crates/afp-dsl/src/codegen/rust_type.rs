@@ -4,8 +4,8 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use crate::codegen::names::{camel, ident};
-use crate::types::units::RADIANS_PER_DEGREE;
 use crate::types::{Dimension, Enum, Object, Type};
+use afp_syntax::units::RADIANS_PER_DEGREE;
 
 /// Where types live, seen from the code that is being made.
 pub struct Home<'a> {
@@ -131,7 +131,7 @@ pub fn variant(choices: &Enum, index: u16) -> proc_macro2::Ident {
 #[cfg(test)]
 mod tests {
     use super::{float, int, round_degrees};
-    use crate::types::units::RADIANS_PER_DEGREE;
+    use afp_syntax::units::RADIANS_PER_DEGREE;
 
     #[test]
     fn literals_are_read_back_as_the_same_number() {

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::source::Source;
 use crate::toolbox::Toolboxes;
 use crate::{Compiled, compile};
+use afp_syntax::source::Source;
 
 /// The plan of the paper.
 pub(super) const WALL_FOLLOWING: &str = include_str!("../../../../plans/wall_following.afp");

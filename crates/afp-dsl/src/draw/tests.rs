@@ -6,8 +6,8 @@ use super::svg::sketch;
 use super::{Count, Options, PlanUsage, Theme, Usage, svg};
 use crate::Compiled;
 use crate::layout_file::Layout;
-use crate::source::Source;
 use crate::toolbox::Toolbox;
+use afp_syntax::source::Source;
 
 /// Two lines nearer than this look like one.
 const APART: f64 = 5.0;

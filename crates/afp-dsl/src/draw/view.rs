@@ -10,10 +10,10 @@ use crate::graph::{
     Component, Element, ElementId, Entry, EntryKind, Formula, FormulaKind, Graph, Output, Plan,
     PlanId, Supervisor, Target, TemplateId,
 };
-use crate::item::Item;
 use crate::layout_file::Position;
-use crate::source::Span;
 use crate::toolbox::{InPort, Template, Toolbox};
+use afp_syntax::item::Item;
+use afp_syntax::source::Span;
 
 /// A plan in its graph, with the options of the drawing.
 #[derive(Clone, Copy)]

@@ -5,8 +5,8 @@ use super::list::{Page, Place};
 use super::name;
 use super::tree::{self, Scope, children, name_of};
 use super::{Refused, fragment};
-use crate::syntax::Node;
-use crate::syntax::kind::Kind;
+use afp_syntax::Node;
+use afp_syntax::kind::Kind;
 
 /// Adds a `use` line below the others.
 pub(super) fn line_of_use(

@@ -4,8 +4,8 @@ use super::draft::Draft;
 use super::list::Page;
 use super::tree::{self, children, edges, name_token, range};
 use super::{Item, Refused, add, name};
-use crate::syntax::Node;
-use crate::syntax::kind::Kind;
+use afp_syntax::Node;
+use afp_syntax::kind::Kind;
 
 /// Connects a state or event, or leads its edge elsewhere.
 pub(super) fn connect(

@@ -4,7 +4,7 @@ use super::draft::{Draft, Splice};
 use super::list::Page;
 use super::tree::{self, range, solid_range, tokens};
 use super::{Item, Refused};
-use crate::syntax::kind::Kind;
+use afp_syntax::kind::Kind;
 
 /// Sets or removes the `///` lines of an item.
 pub(super) fn set(draft: &mut Draft, item: &Item, text: &str) -> Result<(), Refused> {

@@ -5,9 +5,9 @@
 
 use std::ops::Range;
 
-use crate::diagnostics::{Diagnostics, Edit, Severity};
-use crate::source::Span;
-use crate::syntax::{Node, parse};
+use afp_syntax::diagnostics::{Diagnostics, Edit, Severity};
+use afp_syntax::source::Span;
+use afp_syntax::{Node, parse};
 
 /// A replacement of a range of bytes.
 pub(super) type Splice = (Range<usize>, String);

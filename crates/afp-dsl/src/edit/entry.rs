@@ -3,8 +3,8 @@
 use super::draft::Draft;
 use super::tree::{self, children, name_token, range, solid_range};
 use super::{Item, Refused, fragment};
-use crate::syntax::Node;
-use crate::syntax::kind::Kind;
+use afp_syntax::Node;
+use afp_syntax::kind::Kind;
 
 fn find(draft: &Draft, entry: &Item) -> Result<Node, Refused> {
     let node = tree::find(&draft.root(), entry)?;
@@ -74,7 +74,7 @@ fn set_part(
     let text = draft.text();
     let place = old.as_ref().and_then(solid_range);
     if let Some(place) = &place {
-        let is_comment = |token: crate::syntax::Token| {
+        let is_comment = |token: afp_syntax::Token| {
             tree::is_comment(&token) && (behind..place.end).contains(&range(&token).start)
         };
         let root = draft.root();

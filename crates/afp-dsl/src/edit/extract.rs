@@ -11,8 +11,8 @@ use super::list::{Page, indented};
 use super::project::Project;
 use super::tree::{self, Scope, children, is_named, name_of, range};
 use super::{Item, Refused, add, fragment, name, refer, remove};
-use crate::syntax::Node;
-use crate::syntax::kind::Kind;
+use afp_syntax::Node;
+use afp_syntax::kind::Kind;
 
 pub(super) use data::type_of;
 

@@ -4,10 +4,10 @@
 use super::Refused;
 use super::list::dedented;
 use super::tree::{children, is_comment, solid_range};
-use crate::diagnostics::{Diagnostics, Severity};
-use crate::format::format;
-use crate::syntax::kind::Kind;
-use crate::syntax::{Node, parse};
+use afp_syntax::diagnostics::{Diagnostics, Severity};
+use afp_syntax::format;
+use afp_syntax::kind::Kind;
+use afp_syntax::{Node, parse};
 
 /// Checks a formula.
 pub(super) fn formula(text: &str) -> Result<(), Refused> {

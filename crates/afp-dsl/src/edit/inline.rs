@@ -11,8 +11,8 @@ use super::draft::Draft;
 use super::project::{Desk, Project};
 use super::tree::{self, Scope, children, name_of, name_token, range, target};
 use super::{Item, Refused, add, connect, name, refer, remove};
-use crate::syntax::Node;
-use crate::syntax::kind::Kind;
+use afp_syntax::Node;
+use afp_syntax::kind::Kind;
 
 use data::Data;
 

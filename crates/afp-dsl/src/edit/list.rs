@@ -5,8 +5,8 @@ use std::ops::Range;
 use super::Refused;
 use super::draft::Splice;
 use super::tree::{is_comment, own_range, range, solid_after, solid_before, tokens};
-use crate::syntax::kind::Kind;
-use crate::syntax::{Node, Token};
+use afp_syntax::kind::Kind;
+use afp_syntax::{Node, Token};
 
 /// Where an item is put.
 pub(super) enum Place {

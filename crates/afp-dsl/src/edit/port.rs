@@ -4,8 +4,8 @@ use super::draft::{Draft, Splice};
 use super::list::Page;
 use super::tree::{self, binds, children, name_of, name_token, range, solid_range};
 use super::{Binding, Item, Refused, fragment, name};
-use crate::syntax::kind::Kind;
-use crate::syntax::{Node, Token};
+use afp_syntax::kind::Kind;
+use afp_syntax::{Node, Token};
 
 /// Binds a port, or changes what it is bound to.
 pub(super) fn bind(

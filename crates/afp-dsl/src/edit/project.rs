@@ -3,9 +3,9 @@
 use super::draft::Draft;
 use super::{Item, Refused, refer, tree};
 use crate::files::{joined, normalised};
-use crate::source::Source;
-use crate::syntax::kind::Kind;
-use crate::syntax::{Node, Token};
+use afp_syntax::kind::Kind;
+use afp_syntax::source::Source;
+use afp_syntax::{Node, Token};
 
 /// The files that a change may edit.
 pub(super) struct Desk {

@@ -4,8 +4,8 @@ use super::Item;
 use super::port::reads;
 use super::project::Project;
 use super::tree::{self, below, binds, children, name_of, name_token, single, target, tokens};
-use crate::syntax::kind::Kind;
-use crate::syntax::{Node, Token};
+use afp_syntax::kind::Kind;
+use afp_syntax::{Node, Token};
 
 /// The tokens that mean an item of the file `home`, its declaration included, with their files.
 pub(super) fn to(project: &Project, home: usize, item: &Item) -> Vec<(usize, Token)> {

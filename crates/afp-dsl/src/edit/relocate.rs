@@ -7,8 +7,8 @@ use super::list::{Page, Place};
 use super::project::Project;
 use super::tree::{self, Scope, below, binds, children, is_named, name_of, target};
 use super::{Item, Refused, add, name, port, refer, remove};
-use crate::syntax::Node;
-use crate::syntax::kind::Kind;
+use afp_syntax::Node;
+use afp_syntax::kind::Kind;
 
 /// Moves an item above another one of its list, or below its like.
 pub(super) fn reorder(draft: &mut Draft, item: &Item, before: Option<&str>) -> Result<(), Refused> {
@@ -146,6 +146,6 @@ fn check_entries(component: &Node, plan: &Node, name: &str) -> Result<(), Refuse
     if missing.is_empty() {
         return Ok(());
     }
-    let list = crate::diagnostics::words::list(missing, "and");
+    let list = afp_syntax::diagnostics::words::list(missing, "and");
     Err(Refused::new(format!("'{name}' has no entry {list}")))
 }

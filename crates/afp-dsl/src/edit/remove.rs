@@ -6,8 +6,8 @@ use super::project::Project;
 use super::refer;
 use super::tree::{self, below, binds, children, name_of, name_token, target};
 use super::{Item, Refused, port};
-use crate::syntax::Node;
-use crate::syntax::kind::Kind;
+use afp_syntax::Node;
+use afp_syntax::kind::Kind;
 
 /// Removes an item.
 pub(super) fn item(draft: &mut Draft, item: &Item) -> Result<(), Refused> {

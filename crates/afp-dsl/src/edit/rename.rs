@@ -4,8 +4,8 @@ use super::project::Desk;
 use super::tree::{self, range, scope_of};
 use super::{Item, Refused, name, refer};
 use crate::check::types::Types;
-use crate::syntax::Node;
-use crate::syntax::kind::Kind;
+use afp_syntax::Node;
+use afp_syntax::kind::Kind;
 
 /// Renames an item.
 pub(super) fn item(desk: &mut Desk, item: &Item, to: &str) -> Result<(), Refused> {

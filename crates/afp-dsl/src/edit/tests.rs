@@ -7,8 +7,8 @@ mod items;
 mod structure;
 
 use super::{Binding, Change, Item, Refused, TextEdit, apply};
-use crate::format;
-use crate::source::Source;
+use afp_syntax::format;
+use afp_syntax::source::Source;
 
 /// The edits of a file by itself.
 fn edit(text: &str, change: &Change) -> Result<Vec<TextEdit>, Refused> {

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::{Item, Refused};
-use crate::syntax::kind::Kind;
-use crate::syntax::{Node, Token};
+use afp_syntax::kind::Kind;
+use afp_syntax::{Node, Token};
 
 /// Where names of one kind must differ.
 pub(super) enum Scope {

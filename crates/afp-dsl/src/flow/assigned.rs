@@ -7,11 +7,11 @@
 mod reads;
 mod report;
 
-use crate::diagnostics::Diagnostics;
 use crate::flow::lanes::{WIDTH, spread};
 use crate::flow::view::View;
 use crate::flow::{INTERRUPTED, OK};
 use crate::graph::{Entry, EntryId, EntryKind};
+use afp_syntax::diagnostics::Diagnostics;
 
 use reads::Reads;
 use report::Report;

@@ -8,10 +8,10 @@
 mod count;
 mod instant;
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::flow::strong;
 use crate::flow::view::{Cause, Edge, Node, View, takes_time};
 use crate::flow::{INTERRUPTED, OK};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// Greatest number of elements of a cycle that a message names.
 const MAX_NAMES: usize = 8;
@@ -194,7 +194,7 @@ impl<'a, 'b> Quick<'a, 'b> {
         let conditions: Vec<_> = cycle.iter().filter(|edge| self.is_condition(edge)).collect();
         let labels: Vec<_> =
             conditions.iter().take(MAX_NAMES).map(|edge| self.view.label(edge.cause)).collect();
-        let all = crate::diagnostics::words::list(labels.iter().map(String::as_str), "and");
+        let all = afp_syntax::diagnostics::words::list(labels.iter().map(String::as_str), "and");
         let more = if conditions.len() > MAX_NAMES { " and others" } else { "" };
         let message = match labels.len() {
             1 => format!("{all} holding on ends the run in a livelock"),

@@ -1,8 +1,8 @@
 //! Plans that never end, and elements that none of their endings can be reached from.
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::flow::view::View;
 use crate::flow::{INTERRUPTED, OK};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// Warns of a plan that cannot end, notes elements from which it cannot; tells which endings can
 /// come.

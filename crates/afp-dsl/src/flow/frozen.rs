@@ -1,8 +1,8 @@
 //! Inputs of global supervisors that are read once, at the start of the plan, from entries that
 //! change afterwards.
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::flow::view::{View, each_entry};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// Warns of every such input, at the entry that it reads.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {

@@ -1,8 +1,8 @@
 //! Supervisors that are asked for nothing: all of their events are ignored.
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::flow::view::View;
 use crate::graph::Target;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// Warns of each, at its name.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {

@@ -4,9 +4,9 @@
 //! lets one element finish. Elements behind it that only this event leads to are part of the same
 //! recovery, and there it is taken: the recovery begins anew, for ever.
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::flow::lanes::{WIDTH, spread};
 use crate::flow::view::{Cause, View, takes_time};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// Warns of each such event, at its edge.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {

@@ -1,7 +1,7 @@
 //! Elements that no way from `start` leads to.
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::flow::view::View;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// Warns of each, at its name.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {

@@ -1,9 +1,9 @@
 //! Entries that nothing reads. The results of a plan are read by whoever started it.
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::flow::view::{View, each_entry};
 use crate::graph::{EntryId, EntryKind};
-use crate::source::Span;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
 /// Warns of each, at its name.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {

@@ -6,7 +6,7 @@
 
 use crate::flow::{INTERRUPTED, Model, OK, Summary};
 use crate::graph::{Component, Element, ElementId, Output, Plan, Supervisor, SupervisorId, Target};
-use crate::source::Span;
+use afp_syntax::source::Span;
 
 /// A node of a [`View`].
 pub(crate) type Node = usize;

@@ -5,7 +5,7 @@
 
 use std::cell::RefCell;
 
-use crate::source::Span;
+use afp_syntax::source::Span;
 
 use super::Word;
 

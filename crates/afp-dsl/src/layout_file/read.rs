@@ -1,7 +1,7 @@
 //! Reading a layout file, line by line.
 
 use super::{Layout, LayoutError, Placed, Position};
-use crate::item::Item;
+use afp_syntax::item::Item;
 
 /// Reads all lines; those with errors are left out.
 pub(super) fn read(text: &str) -> (Layout, Vec<LayoutError>) {

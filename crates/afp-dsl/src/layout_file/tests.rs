@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::{Layout, LayoutError, Position};
-use crate::item::Item;
+use afp_syntax::item::Item;
 
 const FILE: &str = "\
 # placed by hand

@@ -8,12 +8,12 @@ use super::{
     Outline, Plan, PlanId, Scenario, Start, Target, Use, Value,
 };
 use crate::check::{MadeParts, PlanHead, Program};
-use crate::item::Item;
 use crate::gather::PlanFile;
 use crate::graph::EntryKind;
 use crate::index::{Found, Meanings, Word};
-use crate::source::Span;
-use crate::syntax::ast::{self, ElementKind, Name};
+use afp_syntax::ast::{self, ElementKind, Name};
+use afp_syntax::item::Item;
+use afp_syntax::source::Span;
 
 /// What the outline is made of.
 pub(crate) struct Material<'a> {

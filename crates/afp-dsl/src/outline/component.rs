@@ -9,11 +9,11 @@ use super::{
 };
 use crate::check::signature::{Signature, SignatureKind};
 use crate::check::{Made, edges};
-use crate::item::Item;
 use crate::index::Found;
-use crate::source::Span;
-use crate::syntax::ast::{self, Bind, Name};
 use crate::types::Type;
+use afp_syntax::ast::{self, Bind, Name};
+use afp_syntax::item::Item;
+use afp_syntax::source::Span;
 
 /// Reads the components of one plan.
 pub(super) struct Reader<'a> {

@@ -1,8 +1,8 @@
 //! Gives each diagnostic to the smallest part of a plan that it lies in.
 
 use super::{Component, Findings, Outline};
-use crate::diagnostics::Diagnostics;
-use crate::source::Span;
+use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::source::Span;
 
 impl Outline {
     /// Gives each item and part what there is to say about it. The diagnostics must be sorted, as

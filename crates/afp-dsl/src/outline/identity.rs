@@ -1,8 +1,8 @@
 //! From places in the text to items and parts of them, and back.
 
 use super::{Component, Outline, Plan};
-use crate::item::Item;
-use crate::source::Span;
+use afp_syntax::item::Item;
+use afp_syntax::source::Span;
 
 /// An item of a file, or a part of one.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::flow::view::View;
 use crate::graph::{Component, Graph};
 use crate::types::text::duration;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 use super::level::{Levels, Outside};
 use super::{Response, SupervisorTiming, Target, model, readable, timing};

@@ -8,15 +8,15 @@ use std::sync::Arc;
 use crate::check::names::Names;
 use crate::check::types::Types;
 use crate::check::{enums, imports, shadows, size};
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::index::Recorder;
 use crate::rows::MAX_ROWS;
-use crate::source::{Source, Span};
-use crate::syntax::ast::{File, Item, Name};
-use crate::syntax::parse;
-use crate::syntax::unquote;
 use crate::toolbox::{Template, Toolbox};
 use crate::types::Object;
+use afp_syntax::ast::{File, Item, Name};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::parse;
+use afp_syntax::source::{Source, Span};
+use afp_syntax::unquote;
 
 use ports::Site;
 

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::diagnostics::Diagnostics;
-use crate::source::{Source, Sources, Span};
-use crate::syntax::ast::Name;
 use crate::toolbox::Toolbox;
+use afp_syntax::ast::Name;
+use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::source::{Source, Sources, Span};
 
 /// Toolboxes by name, with their texts.
 ///

@@ -4,7 +4,7 @@
 //! list of all spellings with a scale. Interpreter and generated code take the same list.
 
 use crate::types::Dimension;
-use crate::types::units::{RADIANS_PER_DEGREE, Unit};
+use afp_syntax::units::{RADIANS_PER_DEGREE, Unit};
 
 /// Above this number of spellings only the SI unit is readable.
 const MAX_SPELLINGS: usize = 256;

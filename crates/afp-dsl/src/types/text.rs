@@ -3,9 +3,9 @@
 //! A quantity, which is in SI units everywhere, gets the unit that makes it shortest and reads back
 //! as the very same double.
 
-use crate::types::literal::Literal;
-use crate::types::units::{RADIANS_PER_DEGREE, Unit};
 use crate::types::{Dimension, Type};
+use afp_syntax::literal::Literal;
+use afp_syntax::units::{RADIANS_PER_DEGREE, Unit};
 
 /// A value in SI units with the unit that makes the text shortest, the usual one where two do.
 ///

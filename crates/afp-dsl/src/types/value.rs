@@ -2,7 +2,7 @@
 
 use crate::toolbox::Constant;
 use crate::types::Type;
-use crate::types::literal::{Literal, LiteralError};
+use afp_syntax::literal::{Literal, LiteralError};
 
 /// Greatest length of a text in bytes of UTF-8.
 pub const MAX_TEXT: usize = 64;
@@ -53,10 +53,10 @@ mod tests {
     use std::sync::Arc;
 
     use super::parse_value;
-    use crate::source::Span;
     use crate::toolbox::Constant;
-    use crate::types::literal::LiteralError;
     use crate::types::{Dimension, Enum, Type};
+    use afp_syntax::literal::LiteralError;
+    use afp_syntax::source::Span;
 
     #[test]
     fn values_of_each_type_are_read() {

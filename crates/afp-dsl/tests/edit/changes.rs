@@ -1,7 +1,7 @@
 //! Changes of a file, and what the file says afterwards.
 
 use afp_dsl::edit::{Binding, Change};
-use afp_dsl::item::Item;
+use afp_syntax::item::Item;
 use proptest::sample::Index;
 
 use crate::model::{Model, Place, Plan};

@@ -3,9 +3,9 @@
 use afp_dsl::compile;
 use afp_dsl::edit::{Change, apply};
 use afp_dsl::files::Texts;
-use afp_dsl::item::Item;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
+use afp_syntax::item::Item;
+use afp_syntax::source::Source;
 
 use crate::edit;
 

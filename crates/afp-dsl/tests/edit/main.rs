@@ -4,13 +4,14 @@
 mod changes;
 mod compiled;
 mod model;
+#[path = "../../../afp-syntax/tests/format/mutate.rs"]
 mod mutate;
 
 use std::collections::BTreeMap;
 
 use afp_dsl::edit::{Binding, Change, Refused, TextEdit, apply};
-use afp_dsl::item::Item;
-use afp_dsl::source::Source;
+use afp_syntax::item::Item;
+use afp_syntax::source::Source;
 use proptest::prelude::*;
 
 use changes::{Pick, change};
@@ -34,7 +35,7 @@ const PLANS: &[&str] = &[
 fn text(base: prop::sample::Index, seeds: &[u8]) -> Option<String> {
     let plan = PLANS[base.index(PLANS.len())].split("\n// Graph:").next().unwrap_or_default();
     let text = mutate::mutated(plan, seeds);
-    afp_dsl::format(&text).is_ok().then_some(text)
+    afp_syntax::format(&text).is_ok().then_some(text)
 }
 
 /// How often each comment occurs.
@@ -96,7 +97,7 @@ proptest! {
             prop_assert!(false, "{:?} should be refused\n{}", change, before);
             return Ok(());
         };
-        prop_assert!(afp_dsl::format(&after).is_ok(), "{:?}\n{}\n---\n{}", change, before, after);
+        prop_assert!(afp_syntax::format(&after).is_ok(), "{:?}\n{}\n---\n{}", change, before, after);
         prop_assert_eq!(Model::of(&after), expected, "{:?}\n{}\n---\n{}", change, before, after);
         check_comments(&before, &after, &change)?;
         for edit in &edits {
@@ -130,7 +131,7 @@ proptest! {
         };
         let Ok(edits) = edit(&before, &extract) else { return Ok(()) };
         let extracted = apply(&before, &edits);
-        prop_assert!(afp_dsl::format(&extracted).is_ok(), "{}\n---\n{}", before, extracted);
+        prop_assert!(afp_syntax::format(&extracted).is_ok(), "{}\n---\n{}", before, extracted);
         prop_assert_eq!(counted(&extracted), counted(&before), "{}\n---\n{}", before, extracted);
         let inline = Change::Inline { plan: plan.name.clone(), element: "extracted".into() };
         let Ok(edits) = edit(&extracted, &inline) else { return Ok(()) };
@@ -222,8 +223,8 @@ proptest! {
             prop_assert!(pair[0].span.end <= pair[1].span.start, "{:?}", edits);
         }
         let after = apply(&text, &edits);
-        if afp_dsl::format(&text).is_ok() {
-            prop_assert!(afp_dsl::format(&after).is_ok(), "{:?}\n{}\n---\n{}", change, text, after);
+        if afp_syntax::format(&text).is_ok() {
+            prop_assert!(afp_syntax::format(&after).is_ok(), "{:?}\n{}\n---\n{}", change, text, after);
         }
     }
 }

@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use afp_dsl::diagnostics::Diagnostics;
 use afp_dsl::edit::Change;
-use afp_dsl::item::Item;
-use afp_dsl::source::Span;
-use afp_dsl::syntax::ast::{self, Bind, ElementKind};
-use afp_dsl::syntax::{kind::Kind, parse};
+use afp_syntax::ast::{self, Bind, ElementKind};
+use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::item::Item;
+use afp_syntax::source::Span;
+use afp_syntax::{kind::Kind, parse};
 
 /// A file.
 #[derive(Clone, Debug, PartialEq)]

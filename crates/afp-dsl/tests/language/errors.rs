@@ -7,8 +7,8 @@ use crate::support;
 use std::collections::BTreeSet;
 
 use afp_dsl::Compiled;
-use afp_dsl::diagnostics::{Code, Diagnostic, Severity};
-use afp_dsl::source::Span;
+use afp_syntax::diagnostics::{Code, Diagnostic, Severity};
+use afp_syntax::source::Span;
 
 const MARK: &str = "//~ ";
 

@@ -2,7 +2,7 @@
 
 use crate::support;
 
-use afp_dsl::diagnostics::Code;
+use afp_syntax::diagnostics::Code;
 
 /// The code blocks of a page.
 fn blocks(page: &str) -> Vec<String> {

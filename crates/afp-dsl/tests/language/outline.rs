@@ -11,7 +11,7 @@ use afp_dsl::Compiled;
 use afp_dsl::outline::{
     Binding, Component, Destination, Findings, Identity, MadeFrom, Outline, Part, Plan, Target,
 };
-use afp_dsl::syntax::{Node, kind::Kind};
+use afp_syntax::{Node, kind::Kind};
 
 const MARK: &str = "\n// Outline:\n";
 
@@ -81,7 +81,7 @@ fn plan(text: &mut String, outline: &Outline, plan: &Plan, said: &dyn Fn(&Findin
         line(2, format!("start {target}{}", said(&start.findings)));
     }
     for component in plan.components() {
-        let depth = 2 + usize::from(matches!(component.item, afp_dsl::item::Item::Local { .. }));
+        let depth = 2 + usize::from(matches!(component.item, afp_syntax::item::Item::Local { .. }));
         let Component { item, kind, findings, .. } = component;
         let made = made_from(outline, component);
         line(depth, format!("{} {item}: {made}{}", kind.keyword(), said(findings)));
@@ -165,7 +165,7 @@ fn target(plan: &Plan, target: &Target) -> String {
 /// The items and parts of all plan files, with their places.
 fn identities(outline: &Outline) -> Vec<Identity> {
     let mut all = Vec::new();
-    let mut add = |file, item: &afp_dsl::item::Item, part| {
+    let mut add = |file, item: &afp_syntax::item::Item, part| {
         all.push(Identity { file, item: item.clone(), part });
     };
     for file in &outline.files {
@@ -209,7 +209,7 @@ fn in_error(node: &Node) -> bool {
 pub fn examine(text: &str, compiled: &Compiled) {
     let outline = &compiled.outline;
     let Some(first) = outline.files.first() else { return };
-    let root = afp_dsl::syntax::parse(text, 0, &mut Default::default()).root();
+    let root = afp_syntax::parse(text, 0, &mut Default::default()).root();
     let plans: Vec<_> = first.plans.iter().map(|plan| outline.plan(*plan)).collect();
     let elements: usize = plans.iter().map(|plan| plan.elements.len()).sum();
     assert_eq!(elements, count(&root, Kind::Element), "elements of\n{text}");

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use afp_dsl::Compiled;
 use afp_dsl::files::Texts;
-use afp_dsl::source::{Source, Sources};
 use afp_dsl::timing::{Target, check_target};
 use afp_dsl::toolbox::Toolboxes;
+use afp_syntax::source::{Source, Sources};
 
 /// The built-in toolboxes and those of `tests/toolboxes/`.
 pub fn toolboxes() -> Toolboxes {

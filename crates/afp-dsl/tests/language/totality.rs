@@ -3,9 +3,9 @@
 
 use std::sync::LazyLock;
 
-use afp_dsl::diagnostics::Severity;
 use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
+use afp_syntax::diagnostics::Severity;
 use proptest::prelude::*;
 
 use crate::{outline, support};

@@ -1,10 +1,10 @@
 //! Changes of meaning as Python names them: a kind, and its parts by name.
 
-use afp_dsl::diagnostics::Diagnostics;
 use afp_dsl::edit::{Binding, Change};
-use afp_dsl::item::Item;
-use afp_dsl::syntax::ast::Item as Node;
-use afp_dsl::syntax::parse;
+use afp_syntax::ast::Item as Node;
+use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::item::Item;
+use afp_syntax::parse;
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

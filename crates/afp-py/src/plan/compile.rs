@@ -6,11 +6,11 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 use afp_dsl::{Compiled, compile_plan};
 use afp_project::{CrateLink, ProjectFile, shown};
 use afp_run::{RunError, write_whole};
+use afp_syntax::source::Source;
 use pyo3::prelude::*;
 
 use crate::errors::{error, run_error};

@@ -39,7 +39,7 @@ impl Diagnostic {
 
 /// All that the compiler has to say.
 pub fn diagnostics(compiled: &Compiled) -> Vec<Diagnostic> {
-    let one = |each: &afp_dsl::diagnostics::Diagnostic| {
+    let one = |each: &afp_syntax::diagnostics::Diagnostic| {
         let source = compiled.sources.get(each.span.file);
         let (line, column) = source.map_or((1, 1), |source| source.line_column(each.span.start));
         Diagnostic {

@@ -13,11 +13,11 @@ use afp_core::{
 };
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
 use afp_session::{
     Active, Figure, FigureValue, Pose2, Refused, Robot, SampleRef, Samples, Transform,
 };
+use afp_syntax::source::Source;
 
 mod templates {
     #![allow(missing_docs)]

@@ -4,8 +4,8 @@ use afp_core::trace::{Author, ComponentId, Record, TraceEntryId};
 use afp_core::{Instant, Value, ValueRef};
 use afp_dsl::files::Texts;
 use afp_dsl::scenario::Scenario;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
+use afp_syntax::source::Source;
 
 use super::Watch;
 

@@ -4,9 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use afp_dsl::codegen::{CrateFile, declaration};
-use afp_dsl::source::{Source, Sources, Span};
 use afp_project::shown;
 use afp_run::RunError;
+use afp_syntax::source::{Source, Sources, Span};
 
 use super::message::Message;
 use crate::toolboxes::OwnToolbox;

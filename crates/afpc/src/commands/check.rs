@@ -6,11 +6,11 @@ use std::collections::HashSet;
 use std::path::PathBuf;
 
 use afp_dsl::Compiled;
-use afp_dsl::diagnostics::Code;
 use afp_dsl::files::normalised;
-use afp_dsl::source::Span;
 use afp_dsl::timing::{Target, check_target, timing};
 use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_USAGE};
+use afp_syntax::diagnostics::Code;
+use afp_syntax::source::Span;
 use clap::Args;
 use serde_json::json;
 

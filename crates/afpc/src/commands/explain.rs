@@ -1,7 +1,7 @@
 //! `afpc explain`: what an error code means.
 
-use afp_dsl::diagnostics::Code;
 use afp_run::RunError;
+use afp_syntax::diagnostics::Code;
 use clap::Args;
 
 use super::print;

@@ -4,8 +4,8 @@ use std::fs;
 use std::io::Read;
 use std::path::Path;
 
-use afp_dsl::source::{Source, Sources};
 use afp_run::{EXIT_FAILED, EXIT_OK, RunError, write_whole};
+use afp_syntax::source::{Source, Sources};
 use clap::Args;
 use similar::TextDiff;
 
@@ -86,7 +86,7 @@ fn read(name: &str) -> Result<String, RunError> {
 }
 
 fn formatted(shown: &str, text: &str) -> Result<String, NoPlan> {
-    afp_dsl::format(text).map_err(|diags| {
+    afp_syntax::format(text).map_err(|diags| {
         let mut sources = Sources::default();
         sources.add(Source::new(shown, text).into());
         anstream::eprintln!("{}", diags.render(&sources, true));

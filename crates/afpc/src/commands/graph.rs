@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use afp_dsl::draw::{self, Options, Usage};
 use afp_dsl::graph::Graph;
 use afp_dsl::layout_file::Layout;
-use afp_dsl::source::{Source, Sources};
 use afp_dsl::toolbox::Toolbox;
 use afp_run::{EXIT_OK, PictureFormat, RunError, write_whole};
+use afp_syntax::source::{Source, Sources};
 use clap::{Args, ValueEnum};
 
 use super::print;

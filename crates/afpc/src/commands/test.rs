@@ -10,9 +10,9 @@ use std::time::Instant as Wall;
 
 use afp::load::Registry;
 use afp_dsl::scenario::Scenario;
-use afp_dsl::source::Sources;
 use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, RunError};
 use afp_sim::Simulation;
+use afp_syntax::source::Sources;
 use afp_test::{Coverage, Hits, Setting, Verdict};
 use clap::Args;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 
 use afp_book::Block;
-use afp_dsl::diagnostics::Diagnostics;
+use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::source::Source;
 use afp_dsl::toolbox::Toolboxes;
-use afp_dsl::{compile, format, syntax};
+use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::source::Source;
+use afp_syntax::{format, parse};
 
 use crate::{blocks, toolboxes};
 
@@ -81,7 +82,7 @@ fn check(block: &Block, shown: &mut Shown) -> Option<String> {
 fn fragment(text: &str) -> Option<String> {
     let fits = |(before, after): &(&str, &str)| {
         let mut diags = Diagnostics::default();
-        syntax::parse(&format!("{before}{text}{after}"), 0, &mut diags);
+        parse(&format!("{before}{text}{after}"), 0, &mut diags);
         diags.is_empty()
     };
     (!FRAMES.iter().any(fits)).then(|| "the fragment fits nowhere".to_owned())

@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use afp_dsl::diagnostics::Diagnostics;
-use afp_dsl::syntax::{self, Kind};
+use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::{Kind, parse};
 
 use crate::{blocks, docs};
 use ebnf::Grammar;
@@ -30,7 +30,7 @@ fn the_parser_takes_every_sentence_of_the_grammar() {
     for seed in 0..SENTENCES {
         let text = grammar.sentence("file", seed);
         let mut diags = Diagnostics::default();
-        syntax::parse(&text, 0, &mut diags);
+        parse(&text, 0, &mut diags);
         let found: Vec<_> = diags.iter().map(|each| (each.code, &each.message)).collect();
         assert!(found.is_empty(), "seed {seed}: {found:?} in\n{text}");
     }
@@ -66,7 +66,7 @@ fn the_words_that_the_book_colours_are_those_of_the_grammar() {
 
 /// The words of the language in a text.
 fn keywords(text: &str) -> Vec<String> {
-    let root = syntax::parse(text, 0, &mut Diagnostics::default()).root();
+    let root = parse(text, 0, &mut Diagnostics::default()).root();
     let tokens = root.descendants_with_tokens().filter_map(|each| each.into_token());
     tokens.filter(|token| token.kind() == Kind::Keyword).map(|token| token.to_string()).collect()
 }

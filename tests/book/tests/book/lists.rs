@@ -5,7 +5,7 @@ mod templates;
 use std::fmt::Write;
 use std::fs;
 
-use afp_dsl::diagnostics::Code;
+use afp_syntax::diagnostics::Code;
 
 use crate::{compare, docs};
 

@@ -3,11 +3,11 @@
 use crate::check::bindings::Ports;
 use crate::check::formula::Scope;
 use crate::check::signature::Signature;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::Formula;
-use crate::source::Span;
 use crate::types::Type;
 use crate::types::text::a_type;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
 /// What stands for `any` or `number` in one instance.
 pub(super) enum Generic {

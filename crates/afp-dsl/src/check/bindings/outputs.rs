@@ -6,11 +6,11 @@ use crate::check::convert::{conversion, remark};
 use crate::check::formula::Scope;
 use crate::check::names::unknown;
 use crate::check::signature::Signature;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{EntryId, EntryKind, Output};
-use crate::syntax::ast::Name;
 use crate::types::Type;
 use crate::types::text::a_type;
+use afp_syntax::ast::Name;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// The outputs that are bound; `None` when something is wrong with one of them.
 pub(super) fn check(

@@ -1,11 +1,11 @@
 //! Numbers and quantities in formulas.
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{Formula, FormulaKind};
-use crate::source::Span;
-use crate::syntax::ast::Name;
 use crate::types::Type;
-use crate::types::literal::Literal;
+use afp_syntax::ast::Name;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::literal::Literal;
+use afp_syntax::source::Span;
 
 /// A number with or without a unit; `inside` tells whether it is an operand.
 pub(super) fn number(

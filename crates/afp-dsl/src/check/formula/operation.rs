@@ -2,12 +2,12 @@
 
 use super::Scope;
 use crate::check::convert::{remark, unit_missing};
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{Formula, FormulaKind, Operator};
-use crate::source::Span;
-use crate::syntax::ast::Sign;
 use crate::types::text::{a_dimension, a_type};
 use crate::types::{Conversion, Dimension, Type};
+use afp_syntax::ast::Sign;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
 /// `left operator right`
 pub(super) fn binary(

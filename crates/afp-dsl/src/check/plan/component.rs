@@ -10,13 +10,13 @@ use crate::check::formula::Scope;
 use crate::check::resources::User;
 use crate::check::signature::{Signature, SignatureKind};
 use crate::check::timing;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{Element, ElementId, Supervisor};
 use crate::outline::Times;
-use crate::source::Span;
-use crate::syntax::ast::{self, ElementKind};
 use crate::toolbox::Template;
 use crate::types::Type;
+use afp_syntax::ast::{self, ElementKind};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
 /// A component, as far as it could be checked.
 pub(super) struct Checked<T> {

@@ -4,16 +4,16 @@ use super::Checker;
 use super::paths::{Found, Part};
 use crate::check::names::unknown;
 use crate::check::timing;
-use crate::diagnostics::words;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{Component, EntryKind, Target};
 use crate::scenario::devices::{self, Control, DEVICES, Failure};
 use crate::scenario::{Action, Injection, Outcome};
-use crate::source::Span;
-use crate::syntax::ast::{self, Bind, Formula, FormulaKind, Name};
-use crate::syntax::unquote;
 use crate::toolbox::Constant;
 use crate::types::{Dimension, Type};
+use afp_syntax::ast::{self, Bind, Formula, FormulaKind, Name};
+use afp_syntax::diagnostics::words;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
+use afp_syntax::unquote;
 
 /// Everything that can happen.
 const VERBS: &[&str] = &["press", "release", "fail", "fire", "finish", "idle", "set"];

@@ -4,11 +4,11 @@ use super::Checker;
 use super::often::wanted;
 use super::paths::{Found, Part};
 use crate::check::names::unknown;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{Component, Target};
 use crate::scenario::{Cause, Claim, Comparison, Destination, EndCause, Expectation, Outcome};
-use crate::syntax::ast::{self, Bound, ClaimKind, Formula, Line, Name, Path};
 use crate::types::Type;
+use afp_syntax::ast::{self, Bound, ClaimKind, Formula, Line, Name, Path};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 impl Checker<'_> {
     pub(super) fn expectation(
@@ -168,7 +168,8 @@ impl Checker<'_> {
         let help = match others.as_slice() {
             [] => "look at the plan's edges, or expect another element".to_owned(),
             others => {
-                let list = crate::diagnostics::words::list(others.iter().map(String::as_str), "or");
+                let list =
+                    afp_syntax::diagnostics::words::list(others.iter().map(String::as_str), "or");
                 format!("what leads there is {list}")
             }
         };

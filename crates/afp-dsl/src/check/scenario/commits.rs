@@ -2,10 +2,10 @@
 
 use super::Checker;
 use super::paths::Part;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::graph::{Component, EntryKind};
 use crate::scenario::Claim;
-use crate::syntax::ast::Path;
+use afp_syntax::ast::Path;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 impl Checker<'_> {
     pub(super) fn commit(

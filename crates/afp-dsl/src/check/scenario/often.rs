@@ -1,8 +1,8 @@
 //! How often a claim has to hold: `never`, `always`, `once`, `3 times`.
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::scenario::{Claim, Wanted};
-use crate::syntax::ast::Bound;
+use afp_syntax::ast::Bound;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// How often a claim has to hold; reports words that do not fit it.
 pub(super) fn wanted(

@@ -1,12 +1,12 @@
 //! What the dotted names of a scenario mean: components of the plan, sub-plans unfolded.
 
 use crate::check::names::unknown;
-use crate::diagnostics::{Code, Diagnostic};
 use crate::graph::{Component, ElementId, EntryId, Graph, PlanId, SupervisorId, Target};
 use crate::scenario::Outcome;
-use crate::source::Span;
-use crate::syntax::ast::Name;
 use crate::toolbox::OutPort;
+use afp_syntax::ast::Name;
+use afp_syntax::diagnostics::{Code, Diagnostic};
+use afp_syntax::source::Span;
 
 /// The plan of a scenario, by names.
 pub(super) struct Paths<'a> {

@@ -2,11 +2,11 @@
 
 use super::Checker;
 use crate::check::timing;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::scenario::{DEFAULT_UNTIL, Window};
-use crate::source::Span;
-use crate::syntax::ast::{Bound, Formula, Line, LineKind};
 use crate::types::text::duration;
+use afp_syntax::ast::{Bound, Formula, Line, LineKind};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
 /// When a scenario ends, and where it says so.
 pub(super) fn until(lines: &[Line], diags: &mut Diagnostics) -> (u64, Option<Span>) {

@@ -9,9 +9,9 @@ use crate::codegen::layout::{at, doc};
 use crate::codegen::names::{camel, ident, snake};
 use crate::codegen::rust_type::Home;
 use crate::graph::{Formula, Output};
-use crate::source::Span;
 use crate::toolbox::{InPort, Template, TemplateKind};
 use crate::types::{Conversion, Type};
+use afp_syntax::source::Span;
 
 /// A component as its bindings see it.
 pub struct Bound<'a> {

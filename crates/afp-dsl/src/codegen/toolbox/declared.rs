@@ -1,8 +1,8 @@
 //! From an error in the Rust of a toolbox back to the declaration that it is about.
 
 use crate::codegen::names::{camel, snake};
-use crate::source::Span;
 use crate::toolbox::{Template, Toolbox};
+use afp_syntax::source::Span;
 
 /// The declaration that an error of the Rust compiler is about: a state, an event or a port of a
 /// template, else the template; `None` when it is about none of them.
@@ -43,7 +43,7 @@ fn is_in(names: &[&str], name: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::source::Source;
+    use afp_syntax::source::Source;
 
     const TEXT: &str = "toolbox gripper
 actor Grip {

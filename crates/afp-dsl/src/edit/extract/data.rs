@@ -6,8 +6,8 @@ use super::Selection;
 use crate::edit::port::reads;
 use crate::edit::tree::{self, Scope, binds, children, edges, is_named, keyword, name_of, target};
 use crate::edit::{Refused, name};
-use crate::syntax::Node;
-use crate::syntax::kind::Kind;
+use afp_syntax::Node;
+use afp_syntax::kind::Kind;
 
 /// An entry of the plan that the selection uses.
 struct Used {

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use super::Selection;
 use crate::edit::Refused;
 use crate::edit::tree::{below, children, edges, name_of, name_token, target};
-use crate::syntax::Token;
-use crate::syntax::kind::Kind;
+use afp_syntax::Token;
+use afp_syntax::kind::Kind;
 
 /// How action flows between a selection and the rest of its plan.
 pub(super) struct Flow {
@@ -47,7 +47,7 @@ impl Flow {
 fn one(what: &str, tokens: &[Token]) -> Result<Option<String>, Refused> {
     let names: BTreeSet<_> = tokens.iter().map(|token| token.text().to_owned()).collect();
     if names.len() > 1 {
-        let list = crate::diagnostics::words::list(names.iter().map(String::as_str), "and");
+        let list = afp_syntax::diagnostics::words::list(names.iter().map(String::as_str), "and");
         return Err(Refused::new(format!("{what} {list}, but a sub-plan has one way for that")));
     }
     Ok(names.into_iter().next())

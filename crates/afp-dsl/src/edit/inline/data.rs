@@ -9,8 +9,8 @@ use crate::edit::tree::{
     self, Scope, binds, children, keyword, name_of, range, solid_range, target,
 };
 use crate::edit::{Refused, name};
-use crate::syntax::Node;
-use crate::syntax::kind::Kind;
+use afp_syntax::Node;
+use afp_syntax::kind::Kind;
 
 /// What is written in place of the inner plan's entries.
 pub(super) struct Data {

@@ -4,8 +4,8 @@ use crate::edit::project::{Desk, Project};
 use crate::edit::tree::{self, below, children, single};
 use crate::edit::{Refused, add, refer};
 use crate::files::relative;
-use crate::syntax::Node;
-use crate::syntax::kind::Kind;
+use afp_syntax::Node;
+use afp_syntax::kind::Kind;
 
 /// Adds the `use` lines that the elements of `plan`, a plan of the file `from`, need at home.
 pub(super) fn bring(desk: &mut Desk, plan: &Node, from: usize) -> Result<(), Refused> {

@@ -6,8 +6,8 @@ use crate::edit::draft::Splice;
 use crate::edit::list::{Page, dedented};
 use crate::edit::tree::{self, below, children, is_comment, name_token, own_range, range, target};
 use crate::edit::{Refused, port};
-use crate::syntax::Node;
-use crate::syntax::kind::Kind;
+use afp_syntax::Node;
+use afp_syntax::kind::Kind;
 
 /// All elements, one below the other; the comments of the sub-plan stand above the first.
 pub(super) fn elements(call: &Call, data: &Data, text: &str) -> Result<String, Refused> {
@@ -75,7 +75,7 @@ fn comments(element: &Node) -> String {
     let own = own_range(element);
     let tokens = element.descendants_with_tokens().filter_map(|each| each.into_token());
     let own = tokens.filter(|token| is_comment(token) && own.contains(&tree::range(token).start));
-    let line = |token: crate::syntax::Token| {
+    let line = |token: afp_syntax::Token| {
         let text = token.text().trim_end();
         let text = if token.kind() == Kind::Doc { &text[1..] } else { text };
         format!("{text}\n")

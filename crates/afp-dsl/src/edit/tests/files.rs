@@ -3,9 +3,9 @@
 use crate::compile;
 use crate::edit::{Change, apply, edit};
 use crate::files::{Files, Texts};
-use crate::item::Item;
-use crate::source::Source;
 use crate::toolbox::Toolboxes;
+use afp_syntax::item::Item;
+use afp_syntax::source::Source;
 
 /// The files of the tests, the first one under the name `main.afp`.
 const FILES: &str = "\

@@ -2,7 +2,7 @@
 
 use crate::flow::view::{Node, View, each_entry};
 use crate::graph::{EntryId, Formula, Supervisor};
-use crate::source::Span;
+use afp_syntax::source::Span;
 
 /// One place that reads an entry.
 #[derive(Clone, Copy)]

@@ -1,11 +1,11 @@
 //! Says that an entry may have no value, with a way on which nothing writes it.
 
 use super::reads::{Read, Reads};
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::flow::lanes;
 use crate::flow::view::{Cause, Node, View};
 use crate::flow::{INTERRUPTED, OK};
 use crate::graph::{EntryId, EntryKind};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// Greatest number of other reads that one diagnostic shows.
 const MAX_READS: usize = 3;

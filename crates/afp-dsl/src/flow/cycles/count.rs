@@ -1,8 +1,8 @@
 //! Loops of computations that count further than one step may go.
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::flow::view::{Cause, Node, View};
 use crate::graph::{Component, Element, FormulaKind};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// Edges that may be taken in one step, `MAX_TRANSITIONS_PER_STEP` of the run time.
 const MAX_TRANSITIONS: i64 = 1000;

@@ -4,13 +4,13 @@ use crate::check::formula::Scope;
 use crate::check::names::Places;
 use crate::check::names::{Names, unknown};
 use crate::check::types::Types;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::index::Recorder;
-use crate::source::Span;
-use crate::syntax::ast::{self, Formula};
 use crate::toolbox::{Constant, InPort, OutPort, Outcome, TemplateKind};
 use crate::types::Type;
 use crate::types::text;
+use afp_syntax::ast::{self, Formula};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
 /// Reads an input port; `None` when it has no name or no type.
 pub(super) fn input(

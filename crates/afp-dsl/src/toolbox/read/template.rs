@@ -2,14 +2,14 @@
 
 use crate::check::names::Names;
 use crate::check::{size, timing};
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::index::Word;
 use crate::rows::{MAX_EVENTS, MAX_ROWS, MAX_STATES};
-use crate::source::Span;
-use crate::syntax::ast::{self, Name, Part};
-use crate::syntax::unquote;
 use crate::toolbox::read::ports::{self, Site};
 use crate::toolbox::{Outcome, Template, TemplateKind};
+use afp_syntax::ast::{self, Name, Part};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
+use afp_syntax::unquote;
 
 /// Reads a template; `None` without a name.
 pub(super) fn read(

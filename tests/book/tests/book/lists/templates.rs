@@ -3,8 +3,8 @@
 use std::fmt::Write;
 use std::fs;
 
-use afp_dsl::source::{Sources, Span};
 use afp_dsl::toolbox::{Template, TemplateKind};
+use afp_syntax::source::{Sources, Span};
 
 use crate::{compare, docs, toolboxes};
 

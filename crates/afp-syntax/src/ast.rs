@@ -1,0 +1,355 @@
+//! The typed view of the tree.
+//!
+//! Every part may be missing, since the text may be half typed; whoever reads the view skips holes,
+//! for which the parser has reported an error already.
+
+mod formula;
+mod plan;
+mod scenario;
+mod toolbox;
+
+use rowan::{Language, NodeOrToken};
+
+use crate::kind::{Afp, Kind};
+use crate::source::Span;
+use crate::{Node, node_span};
+
+pub use formula::{Formula, FormulaKind, Operator, Sign};
+pub use plan::{Bind, Edge, Element, ElementKind, Entry, Guard, Plan, Start};
+pub use scenario::{Action, Bound, Claim, ClaimKind, Line, LineKind, Path, Scenario};
+pub use toolbox::{InPort, OutPort, Outcome, Part, Template, TemplateKind, Timing, Toolbox};
+
+/// A name and its place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Name {
+    /// The name.
+    pub text: String,
+    /// Its place.
+    pub span: Span,
+}
+
+macro_rules! views {
+    ($($(#[$doc:meta])* $name:ident)*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Debug)]
+        pub struct $name {
+            node: crate::Node,
+            file: u16,
+        }
+
+        impl $name {
+            pub(crate) fn new(node: crate::Node, file: u16) -> $name {
+                $name { node, file }
+            }
+
+            /// Its place, without comments around it.
+            pub fn span(&self) -> crate::source::Span {
+                crate::node_span(&self.node, self.file)
+            }
+
+            /// Its text as written, in one line and without comments.
+            pub fn in_one_line(&self) -> String {
+                crate::ast::in_one_line(&self.node)
+            }
+        }
+    )*};
+}
+pub(crate) use views;
+
+views! {
+    /// A file.
+    File
+    /// `use carbot as c` or `use "other.afp"`
+    Use
+    /// An enum.
+    Enum
+    /// `object Map`
+    Object
+    /// A type.
+    Type
+    /// `name` or `home.name`
+    Ref
+}
+
+/// What stands at the top of a file.
+#[derive(Clone, Debug)]
+pub enum Item {
+    /// `use ...`
+    Use(Use),
+    /// A plan.
+    Plan(Plan),
+    /// A scenario.
+    Scenario(Scenario),
+    /// An enum.
+    Enum(Enum),
+    /// The head of a toolbox.
+    Toolbox(Toolbox),
+    /// An object type of a toolbox.
+    Object(Object),
+    /// A template of a toolbox.
+    Template(Template),
+}
+
+impl File {
+    /// The items in order.
+    pub fn items(&self) -> Vec<Item> {
+        let file = self.file;
+        let item = |node: Node| {
+            Some(match node.kind() {
+                Kind::Use => Item::Use(Use::new(node, file)),
+                Kind::Plan => Item::Plan(Plan::new(node, file)),
+                Kind::Scenario => Item::Scenario(Scenario::new(node, file)),
+                Kind::Enum => Item::Enum(Enum::new(node, file)),
+                Kind::Toolbox => Item::Toolbox(Toolbox::new(node, file)),
+                Kind::Object => Item::Object(Object::new(node, file)),
+                Kind::Template => Item::Template(Template::new(node, file)),
+                _ => return None,
+            })
+        };
+        self.node.children().filter_map(item).collect()
+    }
+
+    /// The number of `afp 1`.
+    pub fn version(&self) -> Option<Name> {
+        let node = child(&self.node, Kind::Version)?;
+        token(&node, Kind::Int, self.file)
+    }
+}
+
+impl Use {
+    /// The toolbox's name.
+    pub fn toolbox(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+
+    /// The short name behind `as`.
+    pub fn alias(&self) -> Option<Name> {
+        let alias = child(&self.node, Kind::Alias)?;
+        token(&alias, Kind::Name, self.file)
+    }
+
+    /// The file's name, quotes included.
+    pub fn path(&self) -> Option<Name> {
+        token(&self.node, Kind::Text, self.file)
+    }
+}
+
+impl Enum {
+    /// Its name.
+    pub fn name(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+
+    /// Its `///` lines.
+    pub fn doc(&self) -> String {
+        doc(&self.node)
+    }
+
+    /// The comment above it.
+    pub fn note(&self) -> String {
+        note(&self.node)
+    }
+
+    /// The names of its values.
+    pub fn variants(&self) -> Vec<Name> {
+        children(&self.node, Kind::Variant)
+            .filter_map(|node| token(&node, Kind::Name, self.file))
+            .collect()
+    }
+}
+
+impl Object {
+    /// Its name.
+    pub fn name(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+
+    /// Its `///` lines.
+    pub fn doc(&self) -> String {
+        doc(&self.node)
+    }
+}
+
+impl Ref {
+    /// The name before the point; `None` without a point.
+    pub fn home(&self) -> Option<Name> {
+        let mut names = self.names();
+        if names.len() > 1 { Some(names.swap_remove(0)) } else { None }
+    }
+
+    /// The name, behind the point if there is one.
+    pub fn name(&self) -> Option<Name> {
+        self.names().pop()
+    }
+
+    fn names(&self) -> Vec<Name> {
+        tokens(&self.node, Kind::Name, self.file)
+    }
+}
+
+/// A factor of a type.
+#[derive(Clone, Debug)]
+pub struct Factor {
+    /// The name; `None` stands for the number in [`Factor::number`].
+    pub reference: Option<Ref>,
+    /// The number, which should be `1`.
+    pub number: Option<Name>,
+    /// Whether it divides.
+    pub divides: bool,
+    /// The exponent as written, `1` without one; `None` when it does not fit 8 bits.
+    pub exponent: Option<i8>,
+    /// Its place.
+    pub span: Span,
+}
+
+impl Type {
+    /// Its factors in order.
+    pub fn factors(&self) -> Vec<Factor> {
+        let mut divides = false;
+        let mut factors = Vec::new();
+        for element in self.node.children_with_tokens() {
+            match element.kind() {
+                Kind::Star => divides = false,
+                Kind::Slash => divides = true,
+                Kind::Factor => {
+                    factors.extend(element.as_node().map(|node| self.factor(node, divides)));
+                }
+                _ => {}
+            }
+        }
+        factors
+    }
+
+    fn factor(&self, node: &Node, divides: bool) -> Factor {
+        let raised = token(node, Kind::Caret, self.file);
+        let numbers = tokens(node, Kind::Int, self.file);
+        let sign = if token(node, Kind::Minus, self.file).is_some() { "-" } else { "" };
+        let exponent = match (&raised, numbers.last()) {
+            (Some(_), Some(number)) => format!("{sign}{}", number.text).parse().ok(),
+            _ => Some(1),
+        };
+        let reference = child(node, Kind::Ref).map(|node| Ref::new(node, self.file));
+        let number = match reference {
+            None => numbers.into_iter().next(),
+            Some(_) => None,
+        };
+        Factor { reference, number, divides, exponent, span: node_span(node, self.file) }
+    }
+}
+
+fn child(node: &Node, kind: Kind) -> Option<Node> {
+    children(node, kind).next()
+}
+
+fn children(node: &Node, kind: Kind) -> impl Iterator<Item = Node> {
+    node.children().by_kind(move |each| each == kind)
+}
+
+/// Shows the tokens among the children of a node, until one gives something. Reads the tree's own
+/// node, because each step of a cursor costs an allocation.
+fn find_token<R>(
+    node: &Node,
+    file: u16,
+    mut look: impl FnMut(Kind, &str, Span) -> Option<R>,
+) -> Option<R> {
+    let mut end = u32::from(node.text_range().start());
+    node.green().children().find_map(|element| {
+        let start = end;
+        match element {
+            NodeOrToken::Node(node) => {
+                end += u32::from(node.text_len());
+                None
+            }
+            NodeOrToken::Token(token) => {
+                end += u32::from(token.text_len());
+                look(Afp::kind_from_raw(token.kind()), token.text(), Span { file, start, end })
+            }
+        }
+    })
+}
+
+/// The first token of a kind.
+fn token(node: &Node, kind: Kind, file: u16) -> Option<Name> {
+    find_token(node, file, |each, text, span| {
+        (each == kind).then(|| Name { text: text.to_owned(), span })
+    })
+}
+
+/// All tokens of a kind.
+fn tokens(node: &Node, kind: Kind, file: u16) -> Vec<Name> {
+    let mut found = Vec::new();
+    find_token(node, file, |each, text, span| {
+        if each == kind {
+            found.push(Name { text: text.to_owned(), span });
+        }
+        None::<()>
+    });
+    found
+}
+
+/// The first word of the grammar in a node.
+fn keyword(node: &Node) -> String {
+    token(node, Kind::Keyword, 0).map(|token| token.text).unwrap_or_default()
+}
+
+/// The text of a node in one line: what separates its tokens becomes a blank.
+fn in_one_line(node: &Node) -> String {
+    let all = node.text().to_string();
+    let trimmed = all.trim();
+    if !["\n", "\t", "  ", "//", "/*"].iter().any(|gap| trimmed.contains(gap)) {
+        return trimmed.to_owned();
+    }
+    let mut text = String::new();
+    let mut apart = false;
+    for token in node.descendants_with_tokens().filter_map(|each| each.into_token()) {
+        if token.kind().is_trivia() {
+            apart = !text.is_empty();
+            continue;
+        }
+        if std::mem::take(&mut apart) {
+            text.push(' ');
+        }
+        text += token.text();
+    }
+    text
+}
+
+/// Whether nothing stands before a node on its line.
+fn begins_line(node: &Node) -> bool {
+    let before = node.first_token().and_then(|first| first.prev_token());
+    before.is_none_or(|before| before.text().contains('\n'))
+}
+
+/// The `//` lines directly above an item, without the slashes and one blank behind them. A comment
+/// on the line of what stands before the item is none of them.
+fn note(node: &Node) -> String {
+    let first = node.green().children().next().map(|first| Afp::kind_from_raw(first.kind()));
+    let mut below = first == Some(Kind::Comment) && begins_line(node);
+    let mut lines: Vec<String> = Vec::new();
+    for element in node.green().children() {
+        let Some(token) = element.into_token() else { break };
+        match Afp::kind_from_raw(token.kind()) {
+            Kind::Comment if below => {
+                let text = token.text().trim_start_matches('/');
+                lines.push(text.strip_prefix(' ').unwrap_or(text).trim_end().to_owned());
+            }
+            Kind::Whitespace => below |= token.text().contains('\n'),
+            Kind::Doc => below = true,
+            kind if kind.is_trivia() => {}
+            _ => break,
+        }
+    }
+    lines.join("\n")
+}
+
+/// The `///` lines in front of an item, without the slashes and one blank behind them.
+fn doc(node: &Node) -> String {
+    let lines: Vec<_> = tokens(node, Kind::Doc, 0)
+        .into_iter()
+        .map(|token| {
+            let text = token.text.trim_start_matches('/');
+            text.strip_prefix(' ').unwrap_or(text).trim_end().to_owned()
+        })
+        .collect();
+    lines.join("\n")
+}

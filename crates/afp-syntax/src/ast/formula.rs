@@ -1,0 +1,144 @@
+//! Formulas in the typed view.
+
+use super::{Name, Ref, find_token, token, views};
+use crate::kind::Kind;
+use crate::source::Span;
+use crate::{Node, token_span};
+
+views! {
+    /// A formula.
+    Formula
+}
+
+/// What a formula is.
+#[derive(Clone, Debug)]
+pub enum FormulaKind {
+    /// Operands with signs between them, from left to right. Holes are `None`.
+    Chain(Option<Formula>, Vec<(Sign, Option<Formula>)>),
+    /// `-operand`
+    Negation(Option<Formula>),
+    /// `(operand)`
+    Brackets(Option<Formula>),
+    /// A number and, behind it, its unit.
+    Number {
+        /// The digits.
+        number: Name,
+        /// The unit.
+        unit: Option<Name>,
+        /// Whether it has neither point nor exponent.
+        whole: bool,
+        /// Whether something that is no unit stands behind it.
+        broken: bool,
+    },
+    /// A text, quotes included.
+    Text(Name),
+    /// `true` or `false`
+    Bool(bool),
+    /// An entry or a value of an enum.
+    Ref(Ref),
+    /// Nothing that can be understood; reported.
+    Hole,
+}
+
+/// A sign between two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sign {
+    /// What it does.
+    pub operator: Operator,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// An operation on two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operator {
+    /// `+`
+    Add,
+    /// `-`
+    Sub,
+    /// `*`
+    Mul,
+    /// `/`, always on floats
+    Div,
+    /// `%`, with the sign of the dividend
+    Rem,
+}
+
+impl Formula {
+    /// The first formula among the children of a node.
+    pub(super) fn child_of(node: &Node, file: u16) -> Option<Formula> {
+        node.children().by_kind(is_formula).next().map(|node| Formula::new(node, file))
+    }
+
+    /// All formulas among the children of a node.
+    pub(super) fn children_of(node: &Node, file: u16) -> Vec<Formula> {
+        node.children().by_kind(is_formula).map(|node| Formula::new(node, file)).collect()
+    }
+
+    /// What it is.
+    pub fn kind(&self) -> FormulaKind {
+        let only = || Formula::child_of(&self.node, self.file);
+        match self.node.kind() {
+            Kind::Sum | Kind::Product => self.chain(),
+            Kind::Negation => FormulaKind::Negation(only()),
+            Kind::Brackets => FormulaKind::Brackets(only()),
+            Kind::Ref => FormulaKind::Ref(Ref::new(self.node.clone(), self.file)),
+            Kind::Literal => self.literal(),
+            _ => FormulaKind::Hole,
+        }
+    }
+
+    fn chain(&self) -> FormulaKind {
+        let mut first = None;
+        let mut rest: Vec<(Sign, Option<Formula>)> = Vec::new();
+        for element in self.node.children_with_tokens() {
+            if let Some(token) = element.as_token() {
+                let span = token_span(token, self.file);
+                rest.extend(operator(token.kind()).map(|operator| (Sign { operator, span }, None)));
+            } else if let Some(node) = element.into_node().filter(|node| is_formula(node.kind())) {
+                let operand = Formula::new(node, self.file);
+                match rest.last_mut() {
+                    Some((_, place)) => *place = Some(operand),
+                    None => first = Some(operand),
+                }
+            }
+        }
+        FormulaKind::Chain(first, rest)
+    }
+
+    fn literal(&self) -> FormulaKind {
+        let first = find_token(&self.node, self.file, |kind, text, span| {
+            (!kind.is_trivia()).then(|| (kind, Name { text: text.to_owned(), span }))
+        });
+        let Some((kind, name)) = first else { return FormulaKind::Hole };
+        match kind {
+            Kind::Int | Kind::Float => FormulaKind::Number {
+                number: name,
+                unit: token(&self.node, Kind::Unit, self.file),
+                whole: kind == Kind::Int,
+                broken: self.node.children().next().is_some(),
+            },
+            Kind::Text => FormulaKind::Text(name),
+            Kind::Name => FormulaKind::Bool(name.text == "true"),
+            _ => FormulaKind::Hole,
+        }
+    }
+}
+
+fn is_formula(kind: Kind) -> bool {
+    matches!(
+        kind,
+        Kind::Sum | Kind::Product | Kind::Negation | Kind::Brackets | Kind::Ref | Kind::Literal
+    )
+}
+
+fn operator(kind: Kind) -> Option<Operator> {
+    Some(match kind {
+        Kind::Plus => Operator::Add,
+        Kind::Minus => Operator::Sub,
+        Kind::Star => Operator::Mul,
+        Kind::Slash => Operator::Div,
+        Kind::Percent => Operator::Rem,
+        _ => return None,
+    })
+}

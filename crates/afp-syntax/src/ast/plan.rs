@@ -1,0 +1,298 @@
+//! Plans in the typed view.
+
+use super::{Formula, Name, Ref, Timing, Type, child, children, doc, keyword, note, token, views};
+use crate::kind::Kind;
+use crate::source::Span;
+use crate::{Node, node_span};
+
+views! {
+    /// A plan.
+    Plan
+    /// `in`, `out`, `var` or `const`
+    Entry
+    /// `start first`
+    Start
+    /// An actor, a computation or a sub-plan.
+    Element
+    /// A supervisor.
+    Guard
+    /// `State -> target`
+    Edge
+}
+
+/// What the keyword in front of an element says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ElementKind {
+    /// `actor`
+    Actor,
+    /// `computation`
+    Computation,
+    /// `subplan`
+    SubPlan,
+}
+
+/// A port bound to a formula or an entry.
+#[derive(Clone, Debug)]
+pub enum Bind {
+    /// `port = formula`
+    In {
+        /// The port.
+        port: Name,
+        /// The `=`.
+        sign: Span,
+        /// What it gets.
+        formula: Option<Formula>,
+    },
+    /// `port => entry`
+    Out {
+        /// The port.
+        port: Name,
+        /// The `=>`.
+        sign: Span,
+        /// The entry that takes the value.
+        entry: Option<Name>,
+        /// What stands in place of an entry.
+        formula: Option<Formula>,
+    },
+}
+
+impl Plan {
+    /// Its name.
+    pub fn name(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+
+    /// Its `///` lines.
+    pub fn doc(&self) -> String {
+        doc(&self.node)
+    }
+
+    /// The comment above it.
+    pub fn note(&self) -> String {
+        note(&self.node)
+    }
+
+    /// Its entries as written.
+    pub fn entries(&self) -> Vec<Entry> {
+        children(&self.node, Kind::Entry).map(|node| Entry::new(node, self.file)).collect()
+    }
+
+    /// Its `start` lines; there should be one.
+    pub fn starts(&self) -> Vec<Start> {
+        children(&self.node, Kind::Start).map(|node| Start::new(node, self.file)).collect()
+    }
+
+    /// Its global supervisors as written.
+    pub fn guards(&self) -> Vec<Guard> {
+        guards(&self.node, self.file)
+    }
+
+    /// Its elements as written.
+    pub fn elements(&self) -> Vec<Element> {
+        children(&self.node, Kind::Element).map(|node| Element::new(node, self.file)).collect()
+    }
+}
+
+impl Entry {
+    /// `in`, `out`, `var` or `const`.
+    pub fn keyword(&self) -> String {
+        keyword(&self.node)
+    }
+
+    /// Its name.
+    pub fn name(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+
+    /// Its `///` lines.
+    pub fn doc(&self) -> String {
+        doc(&self.node)
+    }
+
+    /// The comment above it.
+    pub fn note(&self) -> String {
+        note(&self.node)
+    }
+
+    /// Its type, where written.
+    pub fn ty(&self) -> Option<Type> {
+        child(&self.node, Kind::Type).map(|node| Type::new(node, self.file))
+    }
+
+    /// Its initial value, where written.
+    pub fn init(&self) -> Option<Formula> {
+        Formula::child_of(&self.node, self.file)
+    }
+}
+
+impl Start {
+    /// The first element.
+    pub fn target(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+}
+
+impl Element {
+    /// What its keyword says.
+    pub fn kind(&self) -> ElementKind {
+        match keyword(&self.node).as_str() {
+            "computation" => ElementKind::Computation,
+            "subplan" => ElementKind::SubPlan,
+            _ => ElementKind::Actor,
+        }
+    }
+
+    /// The place of its keyword.
+    pub fn keyword_span(&self) -> Span {
+        token(&self.node, Kind::Keyword, self.file).map_or_else(|| self.span(), |token| token.span)
+    }
+
+    /// Its name.
+    pub fn name(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+
+    /// Its `///` lines.
+    pub fn doc(&self) -> String {
+        doc(&self.node)
+    }
+
+    /// The comment above it.
+    pub fn note(&self) -> String {
+        note(&self.node)
+    }
+
+    /// What it is made from.
+    pub fn template(&self) -> Option<Ref> {
+        child(&self.node, Kind::Ref).map(|node| Ref::new(node, self.file))
+    }
+
+    /// Its bindings as written.
+    pub fn binds(&self) -> Vec<Bind> {
+        binds(&self.node, self.file)
+    }
+
+    /// Its local supervisors as written.
+    pub fn guards(&self) -> Vec<Guard> {
+        guards(&self.node, self.file)
+    }
+
+    /// Its edges as written.
+    pub fn edges(&self) -> Vec<Edge> {
+        edges(&self.node, self.file)
+    }
+
+    /// The place of the brackets with the bindings.
+    pub fn args_span(&self) -> Option<Span> {
+        child(&self.node, Kind::Args).map(|node| node_span(&node, self.file))
+    }
+
+    /// The place of its closing brace.
+    pub fn end_span(&self) -> Option<Span> {
+        token(&self.node, Kind::CloseBrace, self.file).map(|token| token.span)
+    }
+}
+
+impl Guard {
+    /// Its name.
+    pub fn name(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+
+    /// Its `///` lines.
+    pub fn doc(&self) -> String {
+        doc(&self.node)
+    }
+
+    /// The comment above it.
+    pub fn note(&self) -> String {
+        note(&self.node)
+    }
+
+    /// What it is made from.
+    pub fn template(&self) -> Option<Ref> {
+        child(&self.node, Kind::Ref).map(|node| Ref::new(node, self.file))
+    }
+
+    /// Its bindings as written.
+    pub fn binds(&self) -> Vec<Bind> {
+        binds(&self.node, self.file)
+    }
+
+    /// `every` and `deadline` as written.
+    pub fn timings(&self) -> Vec<Timing> {
+        children(&self.node, Kind::Timing).map(|node| Timing::new(node, self.file)).collect()
+    }
+
+    /// Its edges as written.
+    pub fn edges(&self) -> Vec<Edge> {
+        edges(&self.node, self.file)
+    }
+
+    /// The place of the brackets with the bindings.
+    pub fn args_span(&self) -> Option<Span> {
+        child(&self.node, Kind::Args).map(|node| node_span(&node, self.file))
+    }
+
+    /// The place of its closing brace.
+    pub fn end_span(&self) -> Option<Span> {
+        token(&self.node, Kind::CloseBrace, self.file).map(|token| token.span)
+    }
+}
+
+impl Edge {
+    /// The state or event.
+    pub fn name(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+
+    /// The place of its arrow.
+    pub fn arrow(&self) -> Option<Span> {
+        token(&self.node, Kind::Arrow, self.file).map(|token| token.span)
+    }
+
+    /// Where it leads.
+    pub fn target(&self) -> Option<Name> {
+        let target = child(&self.node, Kind::Target)?;
+        token(&target, Kind::Name, self.file)
+    }
+}
+
+fn guards(node: &Node, file: u16) -> Vec<Guard> {
+    children(node, Kind::Guard).map(|node| Guard::new(node, file)).collect()
+}
+
+fn edges(node: &Node, file: u16) -> Vec<Edge> {
+    children(node, Kind::Edge).map(|node| Edge::new(node, file)).collect()
+}
+
+pub(super) fn binds(node: &Node, file: u16) -> Vec<Bind> {
+    let Some(args) = child(node, Kind::Args) else { return Vec::new() };
+    args.children().filter_map(|node| bind(&node, file)).collect()
+}
+
+fn bind(node: &Node, file: u16) -> Option<Bind> {
+    let port = token(node, Kind::Name, file)?;
+    let sign = |kinds: &[Kind]| {
+        let sign = kinds.iter().find_map(|kind| token(node, *kind, file));
+        sign.map_or(port.span.after(), |token| token.span)
+    };
+    match node.kind() {
+        Kind::BindIn => Some(Bind::In {
+            sign: sign(&[Kind::Equal]),
+            formula: Formula::child_of(node, file),
+            port,
+        }),
+        Kind::BindOut => {
+            let target = child(node, Kind::Target);
+            let entry = target.as_ref().and_then(|target| token(target, Kind::Name, file));
+            Some(Bind::Out {
+                sign: sign(&[Kind::FatArrow, Kind::Arrow]),
+                entry,
+                formula: target.and_then(|target| Formula::child_of(&target, file)),
+                port,
+            })
+        }
+        _ => None,
+    }
+}

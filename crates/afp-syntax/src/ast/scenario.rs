@@ -1,0 +1,252 @@
+//! Scenarios in the typed view.
+
+use super::plan::binds;
+use super::{Bind, Formula, Name, Ref, child, children, find_token, keyword, token, tokens, views};
+use crate::Node;
+use crate::kind::Kind;
+
+views! {
+    /// A scenario.
+    Scenario
+    /// A line of a scenario.
+    Line
+    /// What happens in a scenario.
+    Action
+    /// What a scenario expects.
+    Claim
+    /// `always`, `once`, `within 3 ms` and the like.
+    Bound
+    /// `a.b.c`
+    Path
+}
+
+/// What a line of a scenario is.
+#[derive(Clone, Debug)]
+pub enum LineKind {
+    /// `world "file"`, quotes included.
+    World(Option<Name>),
+    /// `seed 7`
+    Seed(Option<Name>),
+    /// `set path = formula`
+    Set(Option<Path>, Option<Formula>),
+    /// `robot at (x, y) heading angle`, the angle perhaps missing.
+    Robot(Vec<Formula>),
+    /// `at time: action`
+    Stimulus(Option<Formula>, Option<Action>),
+    /// `expect` or, where so marked, `never`.
+    Expect {
+        /// Whether it is `never`.
+        never: bool,
+        /// The claim.
+        claim: Option<Claim>,
+        /// Its bounds.
+        bounds: Vec<Bound>,
+    },
+    /// `until time`
+    Until(Option<Formula>),
+}
+
+/// What a claim says.
+#[derive(Clone, Debug)]
+pub enum ClaimKind {
+    /// `from -> to by cause`; without `to` it leads to `terminate`.
+    Transition {
+        /// The element that is left.
+        from: Path,
+        /// The element that follows.
+        to: Option<Path>,
+        /// Why.
+        by: Option<Path>,
+    },
+    /// `path active`
+    Active(Path),
+    /// `entry == formula`
+    Compare(Path, Name, Option<Formula>),
+    /// `running`
+    Running,
+    /// `end by cause`
+    End(Option<Path>),
+    /// `interrupt of path`
+    Interrupt(Path),
+    /// `commit of entry by author`, one of them perhaps missing.
+    Commit {
+        /// The entry that is written.
+        of: Option<Path>,
+        /// Who writes.
+        by: Option<Path>,
+    },
+    /// A state, an event or a fact of the world.
+    Fact(Path),
+    /// Nothing that can be understood; reported.
+    Hole,
+}
+
+impl Scenario {
+    /// Its name, quotes included.
+    pub fn name(&self) -> Option<Name> {
+        token(&self.node, Kind::Text, self.file)
+    }
+
+    /// The plan behind `for`.
+    pub fn plan(&self) -> Option<Ref> {
+        child(&self.node, Kind::Ref).map(|node| Ref::new(node, self.file))
+    }
+
+    /// Its lines as written.
+    pub fn lines(&self) -> Vec<Line> {
+        let lines = self.node.children().filter(|node| {
+            matches!(
+                node.kind(),
+                Kind::World
+                    | Kind::Seed
+                    | Kind::Set
+                    | Kind::Robot
+                    | Kind::Stimulus
+                    | Kind::Expect
+                    | Kind::Until
+            )
+        });
+        lines.map(|node| Line::new(node, self.file)).collect()
+    }
+}
+
+impl Line {
+    /// What it is.
+    pub fn kind(&self) -> LineKind {
+        let first = || Formula::child_of(&self.node, self.file);
+        match self.node.kind() {
+            Kind::World => LineKind::World(self.token(Kind::Text)),
+            Kind::Seed => LineKind::Seed(self.token(Kind::Int)),
+            Kind::Set => LineKind::Set(path(&self.node, self.file), first()),
+            Kind::Robot => LineKind::Robot(Formula::children_of(&self.node, self.file)),
+            Kind::Stimulus => LineKind::Stimulus(
+                first(),
+                child(&self.node, Kind::Action).map(|node| Action::new(node, self.file)),
+            ),
+            Kind::Until => LineKind::Until(first()),
+            _ => LineKind::Expect {
+                never: keyword(&self.node) == "never",
+                claim: child(&self.node, Kind::Claim).map(|node| Claim::new(node, self.file)),
+                bounds: children(&self.node, Kind::Bound)
+                    .map(|node| Bound::new(node, self.file))
+                    .collect(),
+            },
+        }
+    }
+
+    /// The word that it begins with.
+    pub fn keyword(&self) -> String {
+        keyword(&self.node)
+    }
+
+    fn token(&self, kind: Kind) -> Option<Name> {
+        token(&self.node, kind, self.file)
+    }
+}
+
+impl Action {
+    /// The word that says what is done.
+    pub fn verb(&self) -> Option<Name> {
+        token(&self.node, Kind::Keyword, self.file)
+    }
+
+    /// What it is done to.
+    pub fn path(&self) -> Option<Path> {
+        path(&self.node, self.file)
+    }
+
+    /// The formula of `set`.
+    pub fn value(&self) -> Option<Formula> {
+        Formula::child_of(&self.node, self.file)
+    }
+
+    /// The time behind `for`.
+    pub fn duration(&self) -> Option<Formula> {
+        Formula::child_of(&self.node, self.file).filter(|_| self.has("for"))
+    }
+
+    /// What stands between the brackets.
+    pub fn binds(&self) -> Vec<Bind> {
+        binds(&self.node, self.file)
+    }
+
+    fn has(&self, word: &str) -> bool {
+        tokens(&self.node, Kind::Keyword, self.file).iter().any(|token| token.text == word)
+    }
+}
+
+impl Claim {
+    /// What it says.
+    pub fn kind(&self) -> ClaimKind {
+        let mut paths = children(&self.node, Kind::Path).map(|node| Path::new(node, self.file));
+        let has = |word: &str| {
+            tokens(&self.node, Kind::Keyword, self.file).iter().any(|token| token.text == word)
+        };
+        let by = has("by");
+        if has("running") {
+            return ClaimKind::Running;
+        }
+        if has("end") {
+            return ClaimKind::End(paths.next());
+        }
+        if has("commit") {
+            let of = if has("of") { paths.next() } else { None };
+            let by = if by { paths.next() } else { None };
+            return ClaimKind::Commit { of, by };
+        }
+        if has("interrupt") {
+            return paths.next().map_or(ClaimKind::Hole, ClaimKind::Interrupt);
+        }
+        let Some(first) = paths.next() else { return ClaimKind::Hole };
+        if token(&self.node, Kind::Arrow, self.file).is_some() {
+            let to = if has("terminate") { None } else { paths.next() };
+            let whole = to.is_some() || has("terminate");
+            let by = if by { paths.next() } else { None };
+            return match whole {
+                true => ClaimKind::Transition { from: first, to, by },
+                false => ClaimKind::Hole,
+            };
+        }
+        let comparison = find_token(&self.node, self.file, |kind, text, span| {
+            kind.is_comparison().then(|| Name { text: text.to_owned(), span })
+        });
+        match comparison {
+            Some(sign) => ClaimKind::Compare(first, sign, Formula::child_of(&self.node, self.file)),
+            None if has("active") => ClaimKind::Active(first),
+            None => ClaimKind::Fact(first),
+        }
+    }
+}
+
+impl Bound {
+    /// `always`, `once`, `times`, `within`, `before` or `after`.
+    pub fn word(&self) -> String {
+        keyword(&self.node)
+    }
+
+    /// The number before `times`.
+    pub fn number(&self) -> Option<Name> {
+        token(&self.node, Kind::Int, self.file)
+    }
+
+    /// Its time.
+    pub fn time(&self) -> Option<Formula> {
+        Formula::child_of(&self.node, self.file)
+    }
+}
+
+impl Path {
+    /// Its names.
+    pub fn names(&self) -> Vec<Name> {
+        tokens(&self.node, Kind::Name, self.file)
+    }
+
+    /// The names, joined by points.
+    pub fn text(&self) -> String {
+        self.names().iter().map(|name| name.text.as_str()).collect::<Vec<_>>().join(".")
+    }
+}
+
+fn path(node: &Node, file: u16) -> Option<Path> {
+    child(node, Kind::Path).map(|node| Path::new(node, file))
+}

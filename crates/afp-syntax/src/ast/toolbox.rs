@@ -1,0 +1,195 @@
+//! Toolboxes in the typed view.
+
+use super::{Formula, Name, Type, child, doc, keyword, token, tokens, views};
+use crate::kind::Kind;
+use crate::source::Span;
+
+views! {
+    /// The head of a toolbox.
+    Toolbox
+    /// A template.
+    Template
+    /// An input port.
+    InPort
+    /// An output port.
+    OutPort
+    /// A state or an event.
+    Outcome
+    /// `every 10 ms` or another time.
+    Timing
+}
+
+/// What a template is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TemplateKind {
+    /// Acts over time, ends in a state.
+    Actor,
+    /// Watches, reports events.
+    Supervisor,
+    /// Computes at once, ends in a state.
+    Computation,
+}
+
+/// A part of a template.
+#[derive(Clone, Debug)]
+pub enum Part {
+    /// `icon "name"`: the name with its quotes.
+    Icon(Option<Name>, Span),
+    /// `uses navigator`
+    Uses(Option<Name>, Span),
+    /// An input port.
+    In(InPort),
+    /// An output port.
+    Out(OutPort),
+    /// A state or an event.
+    Outcome(Outcome),
+    /// A time.
+    Timing(Timing),
+}
+
+impl Toolbox {
+    /// Its name.
+    pub fn name(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+
+    /// Its version, quotes included.
+    pub fn version(&self) -> Option<Name> {
+        token(&self.node, Kind::Text, self.file)
+    }
+
+    /// Its `///` lines.
+    pub fn doc(&self) -> String {
+        doc(&self.node)
+    }
+}
+
+impl Template {
+    /// What its keyword says.
+    pub fn kind(&self) -> TemplateKind {
+        match keyword(&self.node).as_str() {
+            "supervisor" => TemplateKind::Supervisor,
+            "computation" => TemplateKind::Computation,
+            _ => TemplateKind::Actor,
+        }
+    }
+
+    /// Its name.
+    pub fn name(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+
+    /// Its `///` lines.
+    pub fn doc(&self) -> String {
+        doc(&self.node)
+    }
+
+    /// Its parts as written.
+    pub fn parts(&self) -> Vec<Part> {
+        let file = self.file;
+        let part = |node: crate::Node| {
+            let span = token(&node, Kind::Keyword, file).map(|token| token.span);
+            let span = span.unwrap_or_else(|| self.span());
+            let name = |kind| token(&node, kind, file);
+            Some(match node.kind() {
+                Kind::Icon => Part::Icon(name(Kind::Text), span),
+                Kind::Uses => Part::Uses(name(Kind::Name), span),
+                Kind::InPort => Part::In(InPort::new(node, file)),
+                Kind::OutPort => Part::Out(OutPort::new(node, file)),
+                Kind::Outcome => Part::Outcome(Outcome::new(node, file)),
+                Kind::Timing => Part::Timing(Timing::new(node, file)),
+                _ => return None,
+            })
+        };
+        self.node.children().filter_map(part).collect()
+    }
+}
+
+impl InPort {
+    /// Its name.
+    pub fn name(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+
+    /// Its `///` lines.
+    pub fn doc(&self) -> String {
+        doc(&self.node)
+    }
+
+    /// The place of `live`, where written.
+    pub fn live(&self) -> Option<Span> {
+        let mut words = tokens(&self.node, Kind::Keyword, self.file).into_iter().skip(1);
+        words.find(|word| word.text == "live").map(|word| word.span)
+    }
+
+    /// Its type.
+    pub fn ty(&self) -> Option<Type> {
+        child(&self.node, Kind::Type).map(|node| Type::new(node, self.file))
+    }
+
+    /// The value of an unbound port.
+    pub fn default(&self) -> Option<Formula> {
+        Formula::child_of(&self.node, self.file)
+    }
+
+    /// Least and greatest value, and the place of both.
+    pub fn range(&self) -> Option<(Formula, Formula, Span)> {
+        let range = child(&self.node, Kind::Range)?;
+        let mut ends = Formula::children_of(&range, self.file).into_iter();
+        let (from, to) = (ends.next()?, ends.next()?);
+        let span = from.span().to(to.span());
+        Some((from, to, span))
+    }
+}
+
+impl OutPort {
+    /// Its name.
+    pub fn name(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+
+    /// Its `///` lines.
+    pub fn doc(&self) -> String {
+        doc(&self.node)
+    }
+
+    /// Its type.
+    pub fn ty(&self) -> Option<Type> {
+        child(&self.node, Kind::Type).map(|node| Type::new(node, self.file))
+    }
+
+    /// The states or events behind `on`; `None` without one.
+    pub fn on(&self) -> Option<Vec<Name>> {
+        let on = child(&self.node, Kind::On)?;
+        Some(tokens(&on, Kind::Name, self.file))
+    }
+}
+
+impl Outcome {
+    /// `state` or `event`, and its place.
+    pub fn keyword(&self) -> Option<Name> {
+        token(&self.node, Kind::Keyword, self.file)
+    }
+
+    /// Its name.
+    pub fn name(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+
+    /// Its `///` lines.
+    pub fn doc(&self) -> String {
+        doc(&self.node)
+    }
+}
+
+impl Timing {
+    /// `every`, `deadline`, `budget` or `stop`, and its place.
+    pub fn keyword(&self) -> Option<Name> {
+        token(&self.node, Kind::Keyword, self.file)
+    }
+
+    /// The time.
+    pub fn value(&self) -> Option<Formula> {
+        Formula::child_of(&self.node, self.file)
+    }
+}

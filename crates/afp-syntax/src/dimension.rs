@@ -1,0 +1,175 @@
+//! Dimensions of quantities, as exponents of base dimensions.
+
+/// Exponents of the base dimensions; all zero is a plain number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Dimension {
+    /// Metre.
+    pub length: i8,
+    /// Kilogram.
+    pub mass: i8,
+    /// Second.
+    pub time: i8,
+    /// Radian: a dimension of its own, so that turns and lengths cannot be mixed up.
+    pub angle: i8,
+    /// Kelvin.
+    pub temperature: i8,
+    /// Volt: a base dimension here, since plans know no currents.
+    pub voltage: i8,
+}
+
+impl Dimension {
+    /// A plain number.
+    pub const NONE: Dimension =
+        Dimension { length: 0, mass: 0, time: 0, angle: 0, temperature: 0, voltage: 0 };
+}
+
+/// The dimensions that have a name in the language, with the unit in which people write them and
+/// the SI unit.
+const NAMED: &[(&str, Dimension, &str, &str)] = &[
+    ("length", Dimension { length: 1, ..Dimension::NONE }, "cm", "m"),
+    ("angle", Dimension { angle: 1, ..Dimension::NONE }, "deg", "rad"),
+    ("duration", Dimension { time: 1, ..Dimension::NONE }, "s", "s"),
+    ("speed", Dimension { length: 1, time: -1, ..Dimension::NONE }, "cm/s", "m/s"),
+    ("angular_speed", Dimension { angle: 1, time: -1, ..Dimension::NONE }, "deg/s", "rad/s"),
+    ("acceleration", Dimension { length: 1, time: -2, ..Dimension::NONE }, "m/s^2", "m/s^2"),
+    ("mass", Dimension { mass: 1, ..Dimension::NONE }, "kg", "kg"),
+    ("force", Dimension { length: 1, mass: 1, time: -2, ..Dimension::NONE }, "N", "N"),
+    ("voltage", Dimension { voltage: 1, ..Dimension::NONE }, "V", "V"),
+    ("temperature", Dimension { temperature: 1, ..Dimension::NONE }, "K", "K"),
+    ("frequency", Dimension { time: -1, ..Dimension::NONE }, "Hz", "Hz"),
+];
+
+impl Dimension {
+    /// The names of dimensions that types are written with.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        NAMED.iter().map(|(name, ..)| *name)
+    }
+
+    /// The dimension of that name, such as `length` or `force`.
+    pub fn named(name: &str) -> Option<Dimension> {
+        NAMED.iter().find(|(known, ..)| *known == name).map(|(_, dimension, ..)| *dimension)
+    }
+
+    /// The dimension of a product; `None` when an exponent leaves -128..=127.
+    pub fn times(self, other: Dimension) -> Option<Dimension> {
+        self.zip(other, i8::checked_add)
+    }
+
+    /// The dimension of a quotient; `None` when an exponent leaves -128..=127.
+    pub fn over(self, other: Dimension) -> Option<Dimension> {
+        self.zip(other, i8::checked_sub)
+    }
+
+    /// The dimension of a power; `None` when an exponent leaves -128..=127.
+    pub fn power(self, exponent: i8) -> Option<Dimension> {
+        self.zip(self, |own, _| own.checked_mul(exponent))
+    }
+
+    /// A unit in which people write quantities of this dimension; empty for a plain number.
+    pub fn usual_unit(self) -> String {
+        match NAMED.iter().find(|(_, dimension, ..)| *dimension == self) {
+            Some((.., usual, _)) => (*usual).to_owned(),
+            None => self.si_unit(),
+        }
+    }
+
+    /// The SI unit, in the spelling of literals; empty for a plain number.
+    pub fn si_unit(self) -> String {
+        match NAMED.iter().find(|(_, dimension, ..)| *dimension == self) {
+            Some((.., si)) => (*si).to_owned(),
+            None => self.product(["m", "kg", "s", "rad", "K", "V"], false),
+        }
+    }
+
+    /// The name, or the product of names such as `length/duration^2`, in the spelling of types.
+    pub fn name(self) -> String {
+        if self == Dimension::NONE {
+            return "float".to_owned();
+        }
+        match NAMED.iter().find(|(_, dimension, ..)| *dimension == self) {
+            Some((name, ..)) => (*name).to_owned(),
+            None => self
+                .product(["length", "mass", "duration", "angle", "temperature", "voltage"], true),
+        }
+    }
+
+    /// Base words with their exponents; without any positive one it starts with `1/` when
+    /// `leading_one` is set and uses a negative exponent otherwise.
+    fn product(self, words: [&str; 6], leading_one: bool) -> String {
+        let mut text = String::new();
+        let exponents = self.exponents();
+        let powers = || words.iter().zip(exponents);
+        for (word, exponent) in powers().filter(|(_, exponent)| *exponent > 0) {
+            if !text.is_empty() {
+                text.push('*');
+            }
+            text += word;
+            text += &power_text(i32::from(exponent));
+        }
+        if text.is_empty() && leading_one {
+            text.push('1');
+        }
+        for (word, exponent) in powers().filter(|(_, exponent)| *exponent < 0) {
+            let exponent = i32::from(exponent);
+            if text.is_empty() {
+                text = format!("{word}^{exponent}");
+            } else {
+                text += &format!("/{word}{}", power_text(-exponent));
+            }
+        }
+        text
+    }
+
+    fn exponents(self) -> [i8; 6] {
+        [self.length, self.mass, self.time, self.angle, self.temperature, self.voltage]
+    }
+
+    fn zip(self, other: Dimension, with: impl Fn(i8, i8) -> Option<i8>) -> Option<Dimension> {
+        Some(Dimension {
+            length: with(self.length, other.length)?,
+            mass: with(self.mass, other.mass)?,
+            time: with(self.time, other.time)?,
+            angle: with(self.angle, other.angle)?,
+            temperature: with(self.temperature, other.temperature)?,
+            voltage: with(self.voltage, other.voltage)?,
+        })
+    }
+}
+
+fn power_text(exponent: i32) -> String {
+    if exponent == 1 { String::new() } else { format!("^{exponent}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Dimension;
+    use crate::units::Unit;
+
+    #[test]
+    fn products_are_named_where_they_have_a_name() {
+        let length = Dimension::named("length").unwrap();
+        let time = Dimension::named("duration").unwrap();
+        let speed = length.over(time).unwrap();
+        assert_eq!(speed.name(), "speed");
+        assert_eq!(speed.over(time).unwrap().name(), "acceleration");
+        assert_eq!(length.power(2).unwrap().over(time).unwrap().name(), "length^2/duration");
+        assert_eq!(time.power(-2).unwrap().name(), "1/duration^2");
+        assert_eq!(Dimension::NONE.name(), "float");
+    }
+
+    #[test]
+    fn si_units_are_read_back_as_the_same_dimension() {
+        for exponents in [[1, 0, 0], [2, -1, 0], [0, 0, -2], [-1, -1, 3], [0, -1, 0]] {
+            let [length, time, angle] = exponents;
+            let dimension = Dimension { length, time, angle, ..Dimension::NONE };
+            let unit = Unit::parse(&dimension.si_unit()).unwrap();
+            assert_eq!(unit.dimension, dimension);
+        }
+    }
+
+    #[test]
+    fn exponents_do_not_overflow() {
+        let length = Dimension::named("length").unwrap();
+        assert_eq!(length.power(127).unwrap().times(length), None);
+    }
+}

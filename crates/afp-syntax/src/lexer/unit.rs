@@ -1,0 +1,52 @@
+//! Units behind numbers, foreign spellings included.
+
+use super::{Lexer, is_word, run};
+use crate::diagnostics::{Code, Diagnostic};
+use crate::kind::Kind;
+use crate::units::{FOREIGN, Unit};
+
+impl Lexer<'_, '_> {
+    /// Takes the unit behind the number that has just been taken, if there is one on its line.
+    pub(super) fn unit(&mut self) {
+        let rest = &self.text[self.at..];
+        let blank = run(rest, |each| each == ' ' || each == '\t');
+        let behind = &rest[blank..];
+        if let Some((foreign, ours)) = FOREIGN.iter().find(|(sign, _)| behind.starts_with(sign)) {
+            self.blank(blank);
+            self.foreign(foreign, ours);
+        } else if let Some((_, length)) = Unit::scan(behind)
+            && !is_bound(&behind[length..])
+        {
+            self.blank(blank);
+            self.push(Kind::Unit, length);
+        }
+    }
+
+    fn blank(&mut self, length: usize) {
+        if length > 0 {
+            self.push(Kind::Whitespace, length);
+        }
+    }
+
+    fn foreign(&mut self, foreign: &str, ours: &str) {
+        let rest = &self.text[self.at..];
+        // '90°/s' is one unit: what follows is read as if the sign were ours.
+        let tail = &rest[foreign.len()..];
+        let tail = &tail[..run(tail, |each| is_word(each) || "*/^".contains(each))];
+        let spelled = format!("{ours}{tail}");
+        let more = Unit::scan(&spelled).map_or(0, |(_, length)| length - ours.len());
+        let sign = self.span(self.at, self.at + foreign.len());
+        self.push(Kind::Unit, foreign.len() + more);
+        self.diags.push(
+            Diagnostic::new(Code::E0107, sign, format!("the unit '{foreign}' is written '{ours}'"))
+                .help(format!("write '{ours}'"))
+                .replace(ours),
+        );
+    }
+}
+
+/// Whether what looks like a unit is a name: something is bound to it.
+fn is_bound(behind: &str) -> bool {
+    let behind = behind.trim_start();
+    behind.starts_with("->") || (behind.starts_with('=') && !behind.starts_with("=="))
+}

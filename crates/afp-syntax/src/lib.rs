@@ -1,0 +1,24 @@
+//! Texts of Action Flow Plans: a lossless tree of them, what is wrong with them, and their
+//! canonical form.
+//!
+//! It knows the grammar and nothing of what a text means. It does no I/O and depends on nothing else
+//! in the workspace.
+
+pub mod ast;
+pub mod diagnostics;
+pub mod dimension;
+mod format;
+pub mod item;
+pub mod kind;
+mod lexer;
+pub mod literal;
+mod parser;
+pub mod source;
+mod text;
+mod tree;
+pub mod units;
+
+pub use format::format;
+pub use kind::{Afp, Kind};
+pub use text::unquote;
+pub use tree::{Node, Parse, Token, count_tokens, node_span, parse, token_span};

@@ -1,0 +1,112 @@
+//! The items of a file, whichever kind of file it is.
+
+use rowan::Language;
+
+use super::Parser;
+use crate::diagnostics::{Code, Diagnostic};
+use crate::kind::{Afp, Kind};
+
+impl Parser<'_, '_> {
+    pub(super) fn file(&mut self) {
+        self.builder.start_node(Afp::kind_to_raw(Kind::File));
+        if self.word(0) == "afp" && self.nth(1) == Kind::Int {
+            self.open_item(Kind::Version);
+            self.keyword();
+            self.bump();
+            self.close_item();
+        }
+        while !self.at_end() {
+            self.repeat(Self::top_item);
+        }
+        self.trivia();
+        self.builder.finish_node();
+    }
+
+    fn top_item(&mut self) {
+        self.misplaced &= !self.at_top_item();
+        match self.word(0) {
+            "use" => self.use_item(),
+            "plan" => self.plan(),
+            "scenario" => self.scenario(),
+            "toolbox" => self.toolbox(),
+            "enum" => self.enumeration(),
+            "object" => self.object(),
+            "actor" | "supervisor" | "computation" if self.nth(2) == Kind::OpenBrace => {
+                self.template();
+            }
+            "actor" | "computation" | "subplan" | "supervise" | "in" | "out" | "var" | "const"
+            | "start" => self.misplaced(),
+            _ => {
+                self.skip(
+                    "'use', 'plan', 'scenario', 'enum' or 'toolbox'",
+                    "remove it, or put it into a plan",
+                    |p| p.leaves_body() || p.at_tool(),
+                );
+            }
+        }
+    }
+
+    /// Parses an item of a plan that stands outside of one.
+    fn misplaced(&mut self) {
+        let word = self.word(0);
+        let here = self.next_span();
+        // Behind a brace too much everything is outside; that is one mistake.
+        if !std::mem::replace(&mut self.misplaced, true) {
+            self.error(
+                Diagnostic::new(Code::E0114, here, format!("'{word}' stands outside of a plan"))
+                    .help("move it between the braces of a plan; perhaps a '}' above is too much"),
+            );
+        }
+        self.open(Kind::Error);
+        self.plan_item();
+        self.close();
+    }
+
+    /// Whether an item of a file can begin here; two tokens decide, since names may be words.
+    pub(super) fn at_top_item(&self) -> bool {
+        match self.word(0) {
+            "use" => matches!(self.nth(1), Kind::Name | Kind::Text),
+            "scenario" => self.nth(1) == Kind::Text,
+            "plan" | "enum" => {
+                let braces = 1 + usize::from(self.nth(1) == Kind::Name);
+                self.nth(braces) == Kind::OpenBrace
+            }
+            "toolbox" => self.nth(1) == Kind::Name && !self.word(2).is_empty(),
+            _ => false,
+        }
+    }
+
+    fn use_item(&mut self) {
+        self.open_item(Kind::Use);
+        self.keyword();
+        let named = !self.eat(Kind::Text) && self.name("name a toolbox, such as 'use carbot'");
+        if named && self.at_word("as") {
+            self.open(Kind::Alias);
+            self.keyword();
+            self.name("give the short name, such as 'use carbot as c'");
+            self.close();
+        }
+        self.close_item();
+    }
+
+    fn enumeration(&mut self) {
+        self.open_item(Kind::Enum);
+        self.keyword();
+        self.name("give the enum a name");
+        let opened = self.here();
+        if self.expect(Kind::OpenBrace, "list the values in braces") {
+            while self.at(Kind::Name) && !self.at_top_item() {
+                self.open_item(Kind::Variant);
+                self.take_name();
+                self.close_item();
+            }
+            if !self.at(Kind::CloseBrace) && !self.at_end() && !self.at_top_item() {
+                self.skip("a value or '}'", "write only names between the braces", |p| {
+                    p.at(Kind::CloseBrace) || p.at_top_item()
+                });
+            }
+            self.close_bracket(Kind::CloseBrace, opened);
+        }
+        self.close_item();
+    }
+}

@@ -1,0 +1,279 @@
+//! Formulas, types, references and quantities.
+//!
+//! Sums and products are flat nodes, so that a long chain of terms makes no deep tree.
+
+use super::{MAX_DEPTH, Parser};
+use crate::diagnostics::{Code, Diagnostic};
+use crate::kind::Kind;
+
+/// Words that may stand behind a number on its line and are no misspelt unit.
+const WORDS_BEHIND_NUMBERS: &[&str] = &[
+    "actor",
+    "after",
+    "always",
+    "at",
+    "before",
+    "budget",
+    "by",
+    "computation",
+    "const",
+    "deadline",
+    "enum",
+    "event",
+    "every",
+    "expect",
+    "for",
+    "from",
+    "heading",
+    "icon",
+    "in",
+    "never",
+    "object",
+    "on",
+    "once",
+    "out",
+    "plan",
+    "robot",
+    "scenario",
+    "seed",
+    "set",
+    "start",
+    "state",
+    "stop",
+    "subplan",
+    "supervise",
+    "supervisor",
+    "times",
+    "to",
+    "until",
+    "use",
+    "uses",
+    "var",
+    "within",
+    "world",
+];
+
+impl Parser<'_, '_> {
+    /// `term {("+" | "-") term}`
+    pub(super) fn formula(&mut self) {
+        self.chain(Kind::Sum, &[Kind::Plus, Kind::Minus], |parser| {
+            parser.chain(Kind::Product, &[Kind::Star, Kind::Slash, Kind::Percent], Self::unary);
+        });
+    }
+
+    fn chain(&mut self, kind: Kind, signs: &[Kind], operand: impl Fn(&mut Self)) {
+        let start = self.checkpoint();
+        operand(self);
+        if !signs.contains(&self.nth(0)) {
+            return;
+        }
+        while signs.contains(&self.nth(0)) {
+            self.bump();
+            operand(self);
+        }
+        self.wrap(start, kind);
+    }
+
+    fn unary(&mut self) {
+        if self.depth >= MAX_DEPTH {
+            return self.too_deep();
+        }
+        self.depth += 1;
+        match self.nth(0) {
+            _ if !self.on_same_line() && self.begins_item() => self.no_formula(),
+            Kind::Minus => {
+                self.open(Kind::Negation);
+                self.bump();
+                self.unary();
+                self.close();
+            }
+            Kind::OpenParen => self.brackets(),
+            Kind::Int | Kind::Float => self.number(),
+            Kind::Text => self.literal(),
+            Kind::Name if matches!(self.word(0), "true" | "false") && !self.names_something(0) => {
+                self.literal();
+            }
+            // A name that is bound begins the next item; the operand is missing.
+            Kind::Name if !self.names_something(0) || self.nth(1) == Kind::Colon => {
+                self.reference()
+            }
+            Kind::Dot if self.nth(1) == Kind::Int => self.bare_fraction(),
+            Kind::Plus => {
+                let here = self.here();
+                self.error(
+                    Diagnostic::new(Code::E0102, here, "a formula has no '+' in front of it")
+                        .help("remove the '+'")
+                        .replace(""),
+                );
+                self.open(Kind::Error);
+                self.bump();
+                self.close();
+                self.unary();
+            }
+            _ => self.no_formula(),
+        }
+        self.depth -= 1;
+    }
+
+    fn no_formula(&mut self) {
+        self.expected("a formula", "write a number, a quantity, a text or an entry");
+    }
+
+    fn literal(&mut self) {
+        self.open(Kind::Literal);
+        self.bump();
+        self.close();
+    }
+
+    fn brackets(&mut self) {
+        self.open(Kind::Brackets);
+        let opened = self.here();
+        self.bump();
+        self.formula();
+        self.close_bracket(Kind::CloseParen, opened);
+        self.close();
+    }
+
+    /// A number with its unit, if it has one.
+    pub(super) fn number(&mut self) {
+        self.open(Kind::Literal);
+        self.bump();
+        if !self.eat(Kind::Unit) {
+            self.unknown_unit();
+        }
+        self.close();
+    }
+
+    fn unknown_unit(&mut self) {
+        let word = self.word(0);
+        let strange = !word.is_empty()
+            && self.on_same_line()
+            && !self.names_something(0)
+            && (self.is_adjacent() || !WORDS_BEHIND_NUMBERS.contains(&word));
+        if !strange {
+            return;
+        }
+        let here = self.here();
+        self.error(
+            Diagnostic::new(Code::E0236, here, format!("'{word}' is not a unit"))
+                .help("use one of the units m cm mm km, deg rad, s ms min h, kg, N, V, K, Hz or a product such as 'cm/s'"),
+        );
+        self.open(Kind::Error);
+        self.bump();
+        self.close();
+    }
+
+    /// `.5`
+    fn bare_fraction(&mut self) {
+        let here = self.here();
+        self.error(
+            Diagnostic::new(Code::E0115, here, "a number begins with a digit")
+                .help("write '0' before the point")
+                .fix(here.before(), "0"),
+        );
+        self.open(Kind::Error);
+        self.bump();
+        self.number();
+        self.close();
+    }
+
+    /// Reports the nesting once and takes the rest of the brackets flat.
+    fn too_deep(&mut self) {
+        let here = self.here();
+        self.error(
+            Diagnostic::new(
+                Code::E0111,
+                here,
+                format!("more than {MAX_DEPTH} brackets or signs around this"),
+            )
+            .help("compute a part of it in an entry of its own"),
+        );
+        self.open(Kind::Error);
+        let mut depth = 0_usize;
+        loop {
+            match self.nth(0) {
+                Kind::OpenParen => depth += 1,
+                Kind::CloseParen if depth > 0 => depth -= 1,
+                Kind::Minus | Kind::Plus | Kind::Star | Kind::Slash | Kind::Percent => {}
+                Kind::Int | Kind::Float | Kind::Unit | Kind::Text | Kind::Dot => {}
+                Kind::Name if !self.names_something(0) && (depth > 0 || self.on_same_line()) => {}
+                _ => break,
+            }
+            self.bump();
+        }
+        self.close();
+    }
+
+    /// `NAME ["." NAME]`
+    pub(super) fn reference(&mut self) {
+        self.open(Kind::Ref);
+        self.name("write a name");
+        if self.at(Kind::Dot) && self.nth(1) == Kind::Name {
+            self.bump();
+            self.bump();
+        } else if self.at(Kind::Dot) {
+            self.bump();
+            self.expected("a name", "write a name behind the '.'");
+        }
+        self.close();
+    }
+
+    /// `NAME {"." NAME}`
+    pub(super) fn path(&mut self) {
+        self.open(Kind::Path);
+        if !self.on_same_line() && self.at_line() {
+            self.expected("a name", "write the name of an element or entry");
+            return self.close();
+        }
+        self.name("write the name of an element or entry");
+        while self.eat(Kind::Dot) {
+            self.name("write a name behind the '.'");
+        }
+        self.close();
+    }
+
+    /// `dim {("*" | "/") dim}`
+    pub(super) fn ty(&mut self) {
+        self.open(Kind::Type);
+        self.factor();
+        while self.at(Kind::Star) || self.at(Kind::Slash) {
+            self.bump();
+            self.factor();
+        }
+        self.close();
+    }
+
+    fn factor(&mut self) {
+        self.open(Kind::Factor);
+        match self.nth(0) {
+            Kind::Int => self.bump(),
+            Kind::Name => self.reference(),
+            _ => self.expected(
+                "a type",
+                "write a type such as 'length', 'float' or 'length/duration^2'",
+            ),
+        }
+        if self.eat(Kind::Caret) {
+            self.eat(Kind::Minus);
+            self.expect(Kind::Int, "write a whole number behind the '^'");
+        }
+        self.close();
+    }
+
+    /// A number with a unit, where the grammar wants a time.
+    pub(super) fn quantity(&mut self, help: &str) {
+        match self.nth(0) {
+            Kind::Int | Kind::Float => self.number(),
+            Kind::Minus => {
+                self.open(Kind::Negation);
+                self.bump();
+                match self.nth(0) {
+                    Kind::Int | Kind::Float => self.number(),
+                    _ => self.expected("a duration", help),
+                }
+                self.close();
+            }
+            _ => self.expected("a duration", help),
+        }
+    }
+}

@@ -1,0 +1,278 @@
+//! Plans: entries, elements, supervisors, edges and bindings.
+
+use super::Parser;
+use crate::diagnostics::{Code, Diagnostic};
+use crate::kind::Kind;
+
+const ITEMS: &str = "an item of the plan";
+const ITEM_HELP: &str =
+    "write 'in', 'out', 'var', 'const', 'start', 'supervise', 'actor', 'computation' or 'subplan'";
+
+impl Parser<'_, '_> {
+    pub(super) fn plan(&mut self) {
+        self.open_item(Kind::Plan);
+        self.keyword();
+        self.name("give the plan a name");
+        let opened = self.here();
+        if self.expect(Kind::OpenBrace, "put the plan's items in braces") {
+            while !self.at_end() && !self.at(Kind::CloseBrace) && !self.at_top_item() {
+                self.repeat(|parser| {
+                    if parser.at_plan_item() {
+                        parser.plan_item();
+                    } else {
+                        parser.skip(ITEMS, ITEM_HELP, |p| {
+                            p.at_plan_item() || p.at(Kind::CloseBrace) || p.at_top_item()
+                        });
+                    }
+                });
+            }
+            self.close_bracket(Kind::CloseBrace, opened);
+        }
+        self.close_item();
+    }
+
+    fn at_plan_item(&self) -> bool {
+        matches!(
+            self.word(0),
+            "in" | "out"
+                | "var"
+                | "const"
+                | "start"
+                | "supervise"
+                | "actor"
+                | "computation"
+                | "subplan"
+        ) && (!self.names_something(0) || self.nth(1) == Kind::Colon)
+    }
+
+    pub(super) fn plan_item(&mut self) {
+        match self.word(0) {
+            "start" => {
+                self.open_item(Kind::Start);
+                self.keyword();
+                if self.on_same_line() {
+                    self.name("name the first element");
+                } else {
+                    self.expected("a name", "name the first element");
+                }
+                self.close_item();
+            }
+            "supervise" => self.guard(),
+            "actor" | "computation" | "subplan" => self.element(),
+            _ => self.entry(),
+        }
+    }
+
+    fn entry(&mut self) {
+        self.open_item(Kind::Entry);
+        self.keyword();
+        self.name("give the entry a name");
+        if self.eat(Kind::Colon) {
+            self.ty();
+        }
+        if self.eat(Kind::Equal) {
+            self.formula();
+        }
+        self.close_item();
+    }
+
+    fn element(&mut self) {
+        self.open_item(Kind::Element);
+        self.keyword();
+        self.head("an actor's template, a computation's or a plan");
+        let opened = self.here();
+        if self.expect(Kind::OpenBrace, "put supervisors and edges in braces") {
+            while !self.at_end() && !self.at(Kind::CloseBrace) && !self.leaves_body() {
+                self.repeat(|parser| {
+                    if parser.at_word("supervise") {
+                        parser.guard();
+                    } else {
+                        parser.edge_or_skip("a supervisor or an edge");
+                    }
+                });
+            }
+            self.close_bracket(Kind::CloseBrace, opened);
+        }
+        self.close_item();
+    }
+
+    fn guard(&mut self) {
+        self.open_item(Kind::Guard);
+        self.keyword();
+        self.head("a supervisor's template");
+        while self.at_word("every") || self.at_word("deadline") {
+            self.timing();
+        }
+        let opened = self.here();
+        if self.expect(Kind::OpenBrace, "put the edges of the events in braces") {
+            while !self.at_end() && !self.at(Kind::CloseBrace) && !self.leaves_body() {
+                if self.at_word("supervise") {
+                    break;
+                }
+                self.repeat(|parser| parser.edge_or_skip("an edge"));
+            }
+            self.close_bracket(Kind::CloseBrace, opened);
+        }
+        self.close_item();
+    }
+
+    /// `NAME ":" ref [args]`
+    fn head(&mut self, what: &str) {
+        self.name("give it a name");
+        if self.expect(Kind::Colon, "write ':' and the template") {
+            if self.at(Kind::Name) && self.on_same_line() {
+                self.reference();
+            } else {
+                self.expected(what, "name the template behind the ':'");
+            }
+        }
+        if self.at(Kind::OpenParen) {
+            self.args();
+        }
+    }
+
+    pub(super) fn timing(&mut self) {
+        self.open(Kind::Timing);
+        self.keyword();
+        self.quantity("write a time such as '10 ms'");
+        self.close();
+    }
+
+    /// Whether an item begins that no body of an element holds: a `}` is missing.
+    pub(super) fn leaves_body(&self) -> bool {
+        let element = matches!(self.word(0), "actor" | "computation" | "subplan")
+            && self.nth(1) == Kind::Name
+            && self.nth(2) == Kind::Colon;
+        let entry = matches!(self.word(0), "in" | "out" | "var" | "const")
+            && self.nth(1) == Kind::Name
+            && matches!(self.nth(2), Kind::Colon | Kind::Equal);
+        element || entry || self.at_top_item()
+    }
+
+    fn edge_or_skip(&mut self, what: &str) {
+        if self.at(Kind::Name) && self.names_something(0) && self.nth(1) != Kind::Colon {
+            return self.edge();
+        }
+        // The name of a state without an arrow: the edge is still being typed.
+        let followed_by_edge = self.nth(1) == Kind::Name && !self.leaves_body();
+        if self.at(Kind::Name) && (self.nth(1) == Kind::CloseBrace || followed_by_edge) {
+            return self.edge();
+        }
+        self.skip(what, "write an edge such as 'State -> target'", |p| {
+            p.at(Kind::CloseBrace)
+                || p.at_word("supervise")
+                || p.leaves_body()
+                || (p.at(Kind::Name) && p.nth(1) == Kind::Arrow)
+        });
+    }
+
+    /// `NAME "->" target`
+    fn edge(&mut self) {
+        self.open_item(Kind::Edge);
+        self.take_name();
+        match self.nth(0) {
+            Kind::Arrow => self.bump(),
+            Kind::FatArrow | Kind::Equal => {
+                self.wrong_arrow("'->' leads from a state or event to what comes next", "->");
+            }
+            _ => {
+                let here = self.behind();
+                self.error(
+                    Diagnostic::new(Code::E0109, here, "the edge leads nowhere")
+                        .help("write '->' and the name of an element, or 'terminate'"),
+                );
+                self.close_item();
+                return;
+            }
+        }
+        if self.at(Kind::Name) && self.on_same_line() {
+            self.open(Kind::Target);
+            self.take_name();
+            self.close();
+        } else {
+            let here = self.behind();
+            self.error(
+                Diagnostic::new(Code::E0109, here, "no target on the line of its '->'")
+                    .help("name an element of the plan, or write 'terminate'"),
+            );
+        }
+        self.close_item();
+    }
+
+    fn wrong_arrow(&mut self, message: &str, right: &str) {
+        let here = self.here();
+        self.error(
+            Diagnostic::new(Code::E0108, here, message)
+                .help(format!("write '{right}'"))
+                .replace(right),
+        );
+        self.bump();
+    }
+
+    /// `"(" {bind [","]} ")"`
+    pub(super) fn args(&mut self) {
+        self.open(Kind::Args);
+        let opened = self.here();
+        self.bump();
+        while !self.ends_args() {
+            self.repeat(|parser| {
+                let named = parser.at(Kind::Name) && parser.names_something(0);
+                if named && parser.nth(1) != Kind::Colon {
+                    parser.bind();
+                } else {
+                    parser.unnamed_bind();
+                }
+            });
+        }
+        self.close_bracket(Kind::CloseParen, opened);
+        self.close();
+    }
+
+    fn ends_args(&self) -> bool {
+        matches!(self.nth(0), Kind::End | Kind::CloseParen | Kind::OpenBrace | Kind::CloseBrace)
+            || self.leaves_body()
+            || (self.word(0) == "supervise"
+                && self.nth(1) == Kind::Name
+                && self.nth(2) == Kind::Colon)
+    }
+
+    fn bind(&mut self) {
+        let kind = if self.nth(1) == Kind::Equal { Kind::BindIn } else { Kind::BindOut };
+        self.open_item(kind);
+        self.take_name();
+        if kind == Kind::BindIn {
+            self.bump();
+            self.formula();
+            self.close_item();
+            return;
+        }
+        if !self.eat(Kind::FatArrow) {
+            self.wrong_arrow("'=>' carries data out to an entry; '->' is the flow of action", "=>");
+        }
+        // A formula here is an error of its own, reported where outputs are checked.
+        self.open(Kind::Target);
+        if self.at(Kind::Name)
+            && !matches!(
+                self.nth(1),
+                Kind::Plus | Kind::Minus | Kind::Star | Kind::Slash | Kind::Percent | Kind::Dot
+            )
+        {
+            self.name("name the entry that takes the value");
+        } else {
+            self.formula();
+        }
+        self.close();
+        self.close_item();
+    }
+
+    /// A value without a port, or text that is no binding at all.
+    fn unnamed_bind(&mut self) {
+        self.skip("a port", "name the port, such as 'distance = 30 cm'", |p| {
+            p.ends_args()
+                || p.at(Kind::Comma)
+                || (p.at(Kind::Name)
+                    && matches!(p.nth(1), Kind::Equal | Kind::FatArrow | Kind::Arrow))
+        });
+        self.eat(Kind::Comma);
+    }
+}

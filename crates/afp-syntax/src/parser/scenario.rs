@@ -1,0 +1,194 @@
+//! Scenarios: world, stimuli and expectations.
+
+use super::Parser;
+use crate::kind::Kind;
+
+const LINE_HELP: &str = "write 'world', 'seed', 'set', 'robot', 'at', 'expect', 'never' or 'until'";
+
+impl Parser<'_, '_> {
+    pub(super) fn scenario(&mut self) {
+        self.open_item(Kind::Scenario);
+        self.keyword();
+        self.expect(Kind::Text, "give the scenario a name in double quotes");
+        if self.eat_word("for") {
+            self.reference();
+        } else {
+            self.expected("'for'", "write 'for' and the name of a plan");
+        }
+        let opened = self.here();
+        if self.expect(Kind::OpenBrace, "put the scenario's lines in braces") {
+            while !self.at_end() && !self.at(Kind::CloseBrace) && !self.at_top_item() {
+                self.repeat(|parser| {
+                    if parser.at_line() {
+                        parser.line();
+                    } else {
+                        parser.skip("a line of the scenario", LINE_HELP, |p| {
+                            p.at_line() || p.at(Kind::CloseBrace) || p.at_top_item()
+                        });
+                    }
+                });
+            }
+            self.close_bracket(Kind::CloseBrace, opened);
+        }
+        self.close_item();
+    }
+
+    pub(super) fn at_line(&self) -> bool {
+        matches!(
+            self.word(0),
+            "world" | "seed" | "set" | "robot" | "at" | "expect" | "never" | "until"
+        )
+    }
+
+    fn line(&mut self) {
+        match self.word(0) {
+            "world" => {
+                self.open_item(Kind::World);
+                self.keyword();
+                self.expect(Kind::Text, "write the world's file in double quotes");
+            }
+            "seed" => {
+                self.open_item(Kind::Seed);
+                self.keyword();
+                self.expect(Kind::Int, "write a whole number");
+            }
+            "set" => {
+                self.open_item(Kind::Set);
+                self.set();
+            }
+            "robot" => self.robot(),
+            "at" => {
+                self.open_item(Kind::Stimulus);
+                self.keyword();
+                self.quantity("write a time such as '2 s'");
+                self.expect(Kind::Colon, "write ':' and what happens then");
+                self.action();
+            }
+            "until" => {
+                self.open_item(Kind::Until);
+                self.keyword();
+                self.quantity("write a time such as '60 s'");
+            }
+            _ => self.expectation(),
+        }
+        self.close_item();
+    }
+
+    fn set(&mut self) {
+        self.keyword();
+        self.path();
+        if self.expect(Kind::Equal, "write '=' and a value") {
+            self.formula();
+        }
+    }
+
+    fn robot(&mut self) {
+        self.open_item(Kind::Robot);
+        self.keyword();
+        if !self.eat_word("at") {
+            self.expected("'at'", "write 'robot at (0.5 m, 2 m) heading 0 deg'");
+        }
+        let opened = self.here();
+        if self.expect(Kind::OpenParen, "write the place in brackets") {
+            self.formula();
+            self.expect(Kind::Comma, "write the second coordinate behind a comma");
+            self.formula();
+            self.close_bracket(Kind::CloseParen, opened);
+        }
+        if self.eat_word("heading") {
+            self.formula();
+        }
+    }
+
+    fn action(&mut self) {
+        self.open(Kind::Action);
+        if self.at_word("set") {
+            self.set();
+        } else if self.at(Kind::Name) && (self.on_same_line() || !self.at_line()) {
+            self.keyword();
+            self.path();
+            if self.at(Kind::OpenParen) {
+                self.args();
+            }
+            if self.eat_word("for") {
+                self.quantity("write a time such as '500 ms'");
+            }
+        } else {
+            self.expected("an action", "write what happens, such as 'press touch'");
+        }
+        self.close();
+    }
+
+    fn expectation(&mut self) {
+        self.open_item(Kind::Expect);
+        self.keyword();
+        self.open(Kind::Claim);
+        self.claim();
+        self.close();
+        loop {
+            match self.word(0) {
+                "always" | "once" => {
+                    self.open(Kind::Bound);
+                    self.keyword();
+                    self.close();
+                }
+                _ if self.at(Kind::Int) && self.word(1) == "times" => {
+                    self.open(Kind::Bound);
+                    self.bump();
+                    self.keyword();
+                    self.close();
+                }
+                "within" | "before" | "after" => {
+                    self.open(Kind::Bound);
+                    self.keyword();
+                    self.quantity("write a time such as '3 ms'");
+                    self.close();
+                }
+                _ => break,
+            }
+        }
+    }
+
+    fn claim(&mut self) {
+        let is_path = matches!(self.nth(1), Kind::Dot | Kind::Arrow) || self.nth(1).is_comparison();
+        if !is_path && self.at_word("running") {
+            return self.keyword();
+        }
+        if !is_path && self.eat_word("end") {
+            return self.by();
+        }
+        match (self.word(0), self.word(1)) {
+            ("interrupt", "of") => {
+                self.keyword();
+                self.keyword();
+                return self.path();
+            }
+            ("commit", "of" | "by") => {
+                self.keyword();
+                if self.eat_word("of") {
+                    self.path();
+                }
+                return self.by();
+            }
+            _ => {}
+        }
+        self.path();
+        if self.eat(Kind::Arrow) {
+            if !self.eat_word("terminate") {
+                self.path();
+            }
+            self.by();
+        } else if self.nth(0).is_comparison() {
+            self.bump();
+            self.formula();
+        } else {
+            self.eat_word("active");
+        }
+    }
+
+    fn by(&mut self) {
+        if self.eat_word("by") {
+            self.path();
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! Toolboxes: templates and their parts, object types.
+
+use super::Parser;
+use crate::kind::Kind;
+
+const PART_HELP: &str =
+    "write 'icon', 'uses', 'in', 'out', 'every', 'deadline', 'budget', 'stop', 'state' or 'event'";
+
+impl Parser<'_, '_> {
+    pub(super) fn toolbox(&mut self) {
+        self.open_item(Kind::Toolbox);
+        self.keyword();
+        self.name("give the toolbox a name");
+        if self.eat_word("version") {
+            self.expect(Kind::Text, "write the version in double quotes, such as '\"1.0\"'");
+        }
+        self.close_item();
+    }
+
+    pub(super) fn object(&mut self) {
+        self.open_item(Kind::Object);
+        self.keyword();
+        self.name("give the object type a name");
+        self.close_item();
+    }
+
+    pub(super) fn template(&mut self) {
+        self.open_item(Kind::Template);
+        self.keyword();
+        self.name("give the template a name");
+        let opened = self.here();
+        if self.expect(Kind::OpenBrace, "put the template's parts in braces") {
+            while !self.at_end() && !self.at(Kind::CloseBrace) && !self.at_tool() {
+                self.repeat(|parser| {
+                    if parser.at_part() {
+                        parser.part();
+                    } else {
+                        parser.skip("a part of the template", PART_HELP, |p| {
+                            p.at_part() || p.at(Kind::CloseBrace) || p.at_tool()
+                        });
+                    }
+                });
+            }
+            self.close_bracket(Kind::CloseBrace, opened);
+        }
+        self.close_item();
+    }
+
+    /// Whether an item of a toolbox begins.
+    pub(super) fn at_tool(&self) -> bool {
+        let template = matches!(self.word(0), "actor" | "supervisor" | "computation")
+            && self.nth(1) == Kind::Name
+            && self.nth(2) == Kind::OpenBrace;
+        template || (self.word(0) == "object" && self.nth(1) == Kind::Name) || self.at_top_item()
+    }
+
+    fn at_part(&self) -> bool {
+        matches!(
+            self.word(0),
+            "icon"
+                | "uses"
+                | "in"
+                | "out"
+                | "every"
+                | "deadline"
+                | "budget"
+                | "stop"
+                | "state"
+                | "event"
+        )
+    }
+
+    fn part(&mut self) {
+        match self.word(0) {
+            "in" => self.in_port(),
+            "out" => self.out_port(),
+            "icon" => {
+                self.open_item(Kind::Icon);
+                self.keyword();
+                self.expect(Kind::Text, "write the icon's name in double quotes");
+                self.close_item();
+            }
+            "uses" => {
+                self.open_item(Kind::Uses);
+                self.keyword();
+                self.name("name what it commands, such as 'uses navigator'");
+                self.close_item();
+            }
+            "state" | "event" => {
+                self.open_item(Kind::Outcome);
+                self.keyword();
+                self.name("give it a name");
+                self.close_item();
+            }
+            _ => {
+                self.open_item(Kind::Timing);
+                self.keyword();
+                self.quantity("write a time such as '10 ms'");
+                self.close_item();
+            }
+        }
+    }
+
+    fn in_port(&mut self) {
+        self.open_item(Kind::InPort);
+        self.keyword();
+        self.eat_word("live");
+        self.port("give the port a name");
+        if self.eat(Kind::Equal) {
+            self.formula();
+        }
+        if self.at_word("from") {
+            self.open(Kind::Range);
+            self.keyword();
+            self.formula();
+            if self.eat_word("to") {
+                self.formula();
+            } else {
+                self.expected("'to'", "write both ends, such as 'from 0 cm to 30 cm'");
+            }
+            self.close();
+        }
+        self.close_item();
+    }
+
+    fn out_port(&mut self) {
+        self.open_item(Kind::OutPort);
+        self.keyword();
+        self.port("give the port a name");
+        if self.at_word("on") {
+            self.open(Kind::On);
+            self.keyword();
+            self.name("name the state or event that carries the output");
+            while self.eat(Kind::Pipe) {
+                self.name("name another state or event");
+            }
+            self.close();
+        }
+        self.close_item();
+    }
+
+    fn port(&mut self, help: &str) {
+        self.name(help);
+        if self.expect(Kind::Colon, "write ':' and the port's type") {
+            self.ty();
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! What a text in double quotes stands for.
+
+use crate::ast::Name;
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+
+/// The text without quotes and with its escapes resolved; reports escapes that do not exist.
+///
+/// Escapes are `\"`, `\\`, `\n` and `\t`.
+pub fn unquote(quoted: &Name, diags: &mut Diagnostics) -> String {
+    let inner = quoted.text.strip_prefix('"').unwrap_or(&quoted.text);
+    let mut text = String::with_capacity(inner.len());
+    let mut rest = inner.char_indices();
+    while let Some((place, each)) = rest.next() {
+        match each {
+            '"' => break,
+            '\\' => match rest.next() {
+                Some((_, '"')) => text.push('"'),
+                Some((_, '\\')) => text.push('\\'),
+                Some((_, 'n')) => text.push('\n'),
+                Some((_, 't')) => text.push('\t'),
+                Some((_, other)) => {
+                    let mut span = quoted.span;
+                    span.start += u32::try_from(place + 1).unwrap_or(0);
+                    span.end = span.start + 1 + u32::try_from(other.len_utf8()).unwrap_or(0);
+                    diags.push(
+                        Diagnostic::new(
+                            Code::E0104,
+                            span,
+                            format!("there is no escape '\\{other}'"),
+                        )
+                        .help(format!("write '\\\\{other}' for a backslash"))
+                        .replace(format!("\\\\{other}")),
+                    );
+                }
+                None => break,
+            },
+            other => text.push(other),
+        }
+    }
+    text
+}

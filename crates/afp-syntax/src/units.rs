@@ -1,0 +1,218 @@
+//! The closed list of units, and units composed of them such as `cm/s^2`.
+//!
+//! This list is the only place that knows units; lexer, checks, `--set` and conversions from text
+//! all read it.
+
+use crate::dimension::Dimension;
+
+/// One radian per degree: literals in degrees are the double product with this.
+pub const RADIANS_PER_DEGREE: f64 = core::f64::consts::PI / 180.0;
+
+/// Greatest exponent of a part of a composed unit, either sign.
+const MAX_EXPONENT: i8 = 9;
+
+/// A unit, single or composed: how many SI units it is, as an exact fraction and a power of ten.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unit {
+    /// What it measures.
+    pub dimension: Dimension,
+    /// Numerator of the factor to SI.
+    pub numerator: u64,
+    /// Denominator of the factor to SI.
+    pub denominator: u64,
+    /// Power of ten of the factor to SI.
+    pub exponent: i32,
+    /// Exponent of the degree in it, each worth [`RADIANS_PER_DEGREE`].
+    pub degrees: i32,
+    /// Whether it is `degC`, which has an offset.
+    pub celsius: bool,
+}
+
+struct Single {
+    symbol: &'static str,
+    quantity: &'static str,
+    numerator: u64,
+    exponent: i32,
+}
+
+const fn single(
+    symbol: &'static str,
+    quantity: &'static str,
+    numerator: u64,
+    exponent: i32,
+) -> Single {
+    Single { symbol, quantity, numerator, exponent }
+}
+
+const SINGLES: &[Single] = &[
+    single("m", "length", 1, 0),
+    single("km", "length", 1, 3),
+    single("cm", "length", 1, -2),
+    single("mm", "length", 1, -3),
+    single("um", "length", 1, -6),
+    single("rad", "angle", 1, 0),
+    single("mrad", "angle", 1, -3),
+    single("deg", "angle", 1, 0),
+    single("s", "duration", 1, 0),
+    single("ms", "duration", 1, -3),
+    single("us", "duration", 1, -6),
+    single("ns", "duration", 1, -9),
+    single("min", "duration", 60, 0),
+    single("h", "duration", 3600, 0),
+    single("kg", "mass", 1, 0),
+    single("g", "mass", 1, -3),
+    single("N", "force", 1, 0),
+    single("mN", "force", 1, -3),
+    single("kN", "force", 1, 3),
+    single("V", "voltage", 1, 0),
+    single("mV", "voltage", 1, -3),
+    single("K", "temperature", 1, 0),
+    single("degC", "temperature", 1, 0),
+    single("Hz", "frequency", 1, 0),
+    single("kHz", "frequency", 1, 3),
+    single("MHz", "frequency", 1, 6),
+];
+
+/// Spellings that people use and the language does not: each with what to write instead.
+pub(crate) const FOREIGN: &[(&str, &str)] = &[
+    ("°C", "degC"),
+    ("°", "deg"),
+    ("\u{b5}s", "us"),
+    ("\u{3bc}s", "us"),
+    ("\u{b5}m", "um"),
+    ("\u{3bc}m", "um"),
+];
+
+impl Unit {
+    /// The symbols of all single units.
+    pub fn symbols() -> impl Iterator<Item = &'static str> {
+        SINGLES.iter().map(|single| single.symbol)
+    }
+
+    /// The unit that the whole text spells; `None` when it spells none.
+    pub fn parse(text: &str) -> Option<Unit> {
+        let (unit, length) = Unit::scan(text)?;
+        (length == text.len()).then_some(unit)
+    }
+
+    /// The unit that a token of the tree spells, foreign spellings included, which the lexer has
+    /// reported.
+    pub fn of_token(text: &str) -> Option<Unit> {
+        match FOREIGN.iter().find(|(sign, _)| text.starts_with(sign)) {
+            Some((foreign, ours)) => Unit::parse(&format!("{ours}{}", &text[foreign.len()..])),
+            None => Unit::parse(text),
+        }
+    }
+
+    /// The longest unit at the start of `text` and its length in bytes.
+    ///
+    /// Parts are joined by `*` and `/` without white space; what follows a joining sign and is no
+    /// unit is left alone.
+    pub fn scan(text: &str) -> Option<(Unit, usize)> {
+        let (mut unit, mut length) = part(text)?;
+        while let Some(sign @ (b'*' | b'/')) = text.as_bytes().get(length) {
+            let Some((next, more)) = part(&text[length + 1..]) else { break };
+            let next = if *sign == b'/' { next.power(-1) } else { Some(next) };
+            let Some(joined) = next.and_then(|next| unit.times(next)) else { break };
+            unit = joined;
+            length += 1 + more;
+        }
+        Some((unit, length))
+    }
+
+    fn times(self, other: Unit) -> Option<Unit> {
+        if self.celsius || other.celsius {
+            return None;
+        }
+        Some(Unit {
+            dimension: self.dimension.times(other.dimension)?,
+            numerator: self.numerator.checked_mul(other.numerator)?,
+            denominator: self.denominator.checked_mul(other.denominator)?,
+            exponent: self.exponent + other.exponent,
+            degrees: self.degrees + other.degrees,
+            celsius: false,
+        })
+    }
+
+    fn power(self, exponent: i8) -> Option<Unit> {
+        if self.celsius && exponent != 1 {
+            return None;
+        }
+        let times = u32::from(exponent.unsigned_abs());
+        let numerator = self.numerator.checked_pow(times)?;
+        let denominator = self.denominator.checked_pow(times)?;
+        let swap = exponent < 0;
+        Some(Unit {
+            dimension: self.dimension.power(exponent)?,
+            numerator: if swap { denominator } else { numerator },
+            denominator: if swap { numerator } else { denominator },
+            exponent: self.exponent * i32::from(exponent),
+            degrees: self.degrees * i32::from(exponent),
+            celsius: self.celsius,
+        })
+    }
+}
+
+/// A single unit with its exponent, and its length in bytes.
+fn part(text: &str) -> Option<(Unit, usize)> {
+    let word =
+        text.bytes().take_while(|byte| byte.is_ascii_alphanumeric() || *byte == b'_').count();
+    let single = SINGLES.iter().find(|single| single.symbol == &text[..word])?;
+    let unit = Unit {
+        dimension: Dimension::named(single.quantity)?,
+        numerator: single.numerator,
+        denominator: 1,
+        exponent: single.exponent,
+        degrees: i32::from(single.symbol == "deg"),
+        celsius: single.symbol == "degC",
+    };
+    match exponent(&text[word..]) {
+        Some((exponent, more)) => unit.power(exponent).map(|unit| (unit, word + more)),
+        None => Some((unit, word)),
+    }
+}
+
+/// `^` and an exponent, and their length.
+fn exponent(text: &str) -> Option<(i8, usize)> {
+    let rest = text.strip_prefix('^')?;
+    let sign = usize::from(rest.starts_with('-'));
+    let digits = rest[sign..].bytes().take_while(u8::is_ascii_digit).count();
+    let exponent: i8 = rest[..sign + digits].parse().ok()?;
+    (exponent.unsigned_abs() <= MAX_EXPONENT.unsigned_abs())
+        .then_some((exponent, 1 + sign + digits))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Unit;
+
+    #[test]
+    fn a_unit_is_greedy_but_takes_only_units() {
+        assert_eq!(Unit::scan("cm/s)").unwrap().1, 4);
+        assert_eq!(Unit::scan("cm/n").unwrap().1, 2);
+        assert_eq!(Unit::scan("cm / s").unwrap().1, 2);
+        assert_eq!(Unit::scan("m/s^2 + x").unwrap().1, 5);
+        assert_eq!(Unit::scan("metre"), None);
+    }
+
+    #[test]
+    fn composed_units_have_composed_dimensions() {
+        assert_eq!(Unit::parse("km/h").unwrap().dimension.name(), "speed");
+        assert_eq!(Unit::parse("deg/s").unwrap().dimension.name(), "angular_speed");
+        assert_eq!(Unit::parse("kg*m/s^2").unwrap().dimension.name(), "force");
+        assert_eq!(Unit::parse("s^-1").unwrap().dimension.name(), "frequency");
+    }
+
+    #[test]
+    fn celsius_stands_alone() {
+        assert!(Unit::parse("degC").is_some());
+        assert_eq!(Unit::parse("degC/s"), None);
+        assert_eq!(Unit::parse("V/degC"), None);
+    }
+
+    #[test]
+    fn absurd_units_are_no_units() {
+        assert_eq!(Unit::parse("h^9*h^9"), None);
+        assert_eq!(Unit::parse("m^99"), Unit::parse("m^100"));
+    }
+}
