@@ -28,6 +28,7 @@ mod check_motion;
 mod check_touch_sensor;
 mod curve;
 pub mod devices;
+pub mod fault;
 mod forward;
 pub mod guard;
 mod history;
@@ -35,6 +36,7 @@ mod line_fit;
 mod motion;
 mod own_motion;
 mod search_wall;
+pub mod table;
 pub mod templates {
     //! The templates of the toolbox as types: ports, states and events.
     afp_macros::toolbox!("carbot.afp");

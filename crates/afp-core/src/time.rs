@@ -67,10 +67,12 @@ impl Duration {
         Duration(secs.saturating_mul(1_000_000_000))
     }
 
-    /// A span of seconds, to the nearest nanosecond below; negative and NaN count as zero.
+    /// A span of seconds, to the nearest nanosecond; negative and NaN count as zero.
     pub fn from_secs_f64(secs: f64) -> Self {
+        let nanos = secs * 1e9;
         // A float cast saturates and sends NaN to zero, which is what is wanted.
-        Duration((secs * 1e9) as u64)
+        let below = nanos as u64;
+        Duration(below.saturating_add(u64::from(nanos - below as f64 >= 0.5)))
     }
 
     /// Nanoseconds.

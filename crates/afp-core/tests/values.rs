@@ -102,3 +102,16 @@ fn times_print_as_seconds_with_the_digits_that_matter() {
     assert_eq!(Instant::from_nanos(1_250_000_000).to_string(), "1.250000");
     assert_eq!(Instant::from_nanos(125).to_string(), "0.000000125");
 }
+
+#[test]
+fn milliseconds_survive_as_seconds() {
+    for millis in 0..20_000 {
+        let span = Duration::from_millis(millis);
+        assert_eq!(Duration::from_secs_f64(span.as_secs_f64()), span);
+    }
+    for (secs, nanos) in
+        [(-1.0, 0), (f64::NAN, 0), (f64::INFINITY, u64::MAX), (1e-9, 1), (4e-10, 0)]
+    {
+        assert_eq!(Duration::from_secs_f64(secs).as_nanos(), nanos, "{secs}");
+    }
+}

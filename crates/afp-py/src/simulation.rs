@@ -10,12 +10,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
 use afp::load::{LoadedPlan, Registry};
+use afp_carbot::table::TABLE;
+use afp_core::devices::faults as faults_of;
 use afp_core::rt::NamedPlan;
 use afp_core::trace::{Names, TraceEntryId};
 use afp_core::{Duration, Instant, Value};
 use afp_dsl::types::Type;
 use afp_dsl::{Compiled, scenario};
-use afp_sim::{Fault, Simulation};
+use afp_sim::Simulation;
 use numpy::PyArray2;
 use pyo3::exceptions::{PyKeyError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -442,5 +444,5 @@ fn duration(seconds: f64) -> PyResult<Duration> {
 /// Every fault that `fail` knows: device and kind.
 #[pyfunction]
 pub fn faults() -> Vec<(&'static str, &'static str)> {
-    Fault::names().collect()
+    faults_of(TABLE).map(|(_, device, row)| (device.name, row.name)).collect()
 }

@@ -18,6 +18,18 @@ pub struct Pose2 {
     pub heading: f64,
 }
 
+impl Pose2 {
+    /// What is given against this pose (a motion begun here, a sensor on the robot), in the frame of the pose itself.
+    pub fn beyond(self, moved: Pose2) -> Pose2 {
+        let (sin, cos) = libm::sincos(self.heading);
+        Pose2 {
+            x: self.x + moved.x * cos - moved.y * sin,
+            y: self.y + moved.x * sin + moved.y * cos,
+            heading: self.heading + moved.heading,
+        }
+    }
+}
+
 /// Where one frame stands in another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {

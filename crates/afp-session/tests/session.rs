@@ -38,6 +38,7 @@ fn at(millis: u64) -> Instant {
 }
 
 type Loaded = Session<afp::load::LoadedPlan<Toy>, Toy>;
+type Way = fn(&mut Loaded);
 
 fn session() -> Loaded {
     Session::loaded(plan(PLAN), Toy::new())
@@ -265,7 +266,7 @@ fn a_stop_makes_a_step_of_its_own() {
 #[test]
 fn every_way_out_stops_the_robot() {
     let broken = PLAN.replace("speed = speed", "speed = speed, fragile = true");
-    let ways: [(&str, fn(&mut Loaded)); 4] = [
+    let ways: [(&str, Way); 4] = [
         ("dropped before the start", |_| {}),
         ("dropped while it runs", |session| {
             assert!(session.run(at(100), &mut Open, &mut []).is_ok())

@@ -13,17 +13,17 @@
 
 mod clock;
 mod devices;
-mod fault;
 mod film;
 mod noise;
 mod scene;
 mod simulation;
 mod truth;
 mod vehicle;
+mod wall;
 pub mod world;
 
+pub use afp_carbot::fault::{Defect, Fault, Sensor, Side};
 pub use clock::VirtualClock;
-pub use fault::{Amount, Defect, Fault, Sensor, Side};
 pub use film::Film;
 pub use simulation::{Bare, STEP, Simulation, Snapshot, Sonar};
 pub use truth::{Collision, Pose, Truth};

@@ -7,6 +7,7 @@ mod devices;
 mod faults;
 mod movers;
 mod ping;
+mod robot;
 mod see;
 mod snapshot;
 
@@ -22,16 +23,17 @@ use crate::devices::infrared::Infrared;
 use crate::devices::odometer::Odometer;
 use crate::devices::rotator::Rotator;
 use crate::devices::sonar;
-use crate::fault::Schedule;
 use crate::noise::{Noise, Source};
 use crate::scene::Scene;
-use crate::truth::{Collisions, Truth};
+use crate::truth::{Collisions, Pose, Truth};
 use crate::vehicle::Twist;
 use crate::vehicle::drive::Drive;
 use crate::world::{Light, Obstacle, World, WorldError};
 use afp_carbot::devices::{Color, Echo, Glow, Invalid, Reading};
+use afp_carbot::fault::Fault;
 use afp_core::{Duration, Instant};
 use afp_flow::{FlowJob, FlowSensor, LucasKanade};
+use afp_session::Faults;
 use afp_worker::VirtualWorker;
 use build::{Built, build};
 use faults::Lines;
@@ -59,6 +61,8 @@ pub struct Simulation {
     collider: ColliderHandle,
     obstacles: Vec<Obstacle>,
     shapes: Vec<(Isometry, SharedShape)>,
+    /// Where the robot started.
+    start: Pose,
     now: Instant,
     steps: u64,
     drive: Drive,
@@ -88,7 +92,8 @@ pub struct Simulation {
     escape: bool,
     /// After an emergency stop.
     stopped: bool,
-    faults: Schedule,
+    /// What was injected, for those who drive it by hand.
+    faults: Faults<Fault>,
     lines: Lines,
     /// Whether a line delays.
     delayed: bool,
@@ -111,6 +116,7 @@ impl Simulation {
             collider,
             obstacles: world.obstacles.clone(),
             shapes,
+            start: world.start,
             now: Instant::ZERO,
             steps: 0,
             drive: Drive::new(),
@@ -135,7 +141,7 @@ impl Simulation {
             held: false,
             escape: false,
             stopped: false,
-            faults: Schedule::new(),
+            faults: Faults::default(),
             lines: Lines::default(),
             delayed: false,
             clock: VirtualClock::default(),
@@ -145,8 +151,8 @@ impl Simulation {
 
     /// Lets time pass: every physics step up to and including `to`. Time never goes back.
     pub fn advance_to(&mut self, to: Instant) {
-        while self.faults.next() <= to {
-            self.pass(self.faults.next());
+        while self.faults.next_change() <= to {
+            self.pass(self.faults.next_change());
             self.break_and_mend();
         }
         self.pass(to);

@@ -8,7 +8,7 @@ use afp_core::{Duration, Instant, Text, Value};
 use afp_dsl::scenario::devices::{Control, Failure};
 use afp_dsl::scenario::{self, Action, Scenario};
 use afp_dsl::toolbox::Constant;
-use afp_sim::{Amount, Fault};
+use afp_sim::Fault;
 
 /// How long something is pressed unless a scenario says otherwise, as with `--press`.
 const HOLD: u64 = 200_000_000;
@@ -105,12 +105,9 @@ fn injected(injection: &scenario::Injection) -> Injection {
 
 /// The simulator's fault.
 pub(crate) fn fault(failure: &Failure) -> Option<Fault> {
-    let amount = match (scenario::devices::amount(failure.kind), &failure.amount) {
-        (Some(("time", _)), Some(Constant::Float(seconds))) => {
-            Amount { time: Some(Duration::from_nanos((seconds * 1e9) as u64)), share: None }
-        }
-        (_, Some(Constant::Float(share))) => Amount { time: None, share: Some(*share) },
-        _ => Amount::default(),
+    let amount = match &failure.amount {
+        Some(Constant::Float(amount)) => Some(*amount),
+        _ => None,
     };
-    Fault::named(failure.device, failure.kind, amount)
+    afp_carbot::table::named(failure.device, failure.kind, amount)
 }

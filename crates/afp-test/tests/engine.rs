@@ -6,7 +6,6 @@ use afp_dsl::Compiled;
 use afp_dsl::files::Texts;
 use afp_dsl::scenario::Scenario;
 use afp_dsl::toolbox::Toolboxes;
-use afp_sim::Fault;
 use afp_syntax::source::Source;
 use afp_test::{Setting, Verdict};
 
@@ -278,7 +277,8 @@ fn the_words_for_faults_are_those_of_the_simulator() {
         kinds.iter().map(move |kind| (device, *kind)).collect::<Vec<_>>()
     };
     let mut ours: Vec<_> = DEVICES.iter().flat_map(pairs).collect();
-    let mut theirs: Vec<_> = Fault::names().collect();
+    let rows = afp_core::devices::faults(afp_carbot::table::TABLE);
+    let mut theirs: Vec<_> = rows.map(|(_, device, row)| (device.name, row.name)).collect();
     ours.sort_unstable();
     theirs.sort_unstable();
     assert_eq!(ours, theirs);

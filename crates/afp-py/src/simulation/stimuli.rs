@@ -1,10 +1,12 @@
 //! What happens to the robot and the plan from outside.
 
 use afp::load::Injection;
+use afp_carbot::table::{TABLE, named};
+use afp_core::devices::faults;
 use afp_core::trace::ComponentId;
 use afp_core::{Duration, Value};
 use afp_dsl::scenario::devices::amount;
-use afp_sim::{Amount, Fault};
+use afp_sim::Fault;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -59,9 +61,10 @@ pub fn fault(
     if let Some(share) = share.filter(|share| !(0.0..=1.0).contains(share)) {
         return Err(PyValueError::new_err(format!("share is {share}; give a number from 0 to 1")));
     }
-    Fault::named(device, kind, Amount { time, share }).ok_or_else(|| {
-        let of = Fault::names().filter(|(name, _)| *name == device);
-        let kinds: Vec<_> = of.map(|(_, kind)| kind).collect();
+    let amount = time.map(Duration::as_secs_f64).or(share);
+    named(device, kind, amount).ok_or_else(|| {
+        let of = faults(TABLE).filter(|(_, at, _)| at.name == device);
+        let kinds: Vec<_> = of.map(|(_, _, row)| row.name).collect();
         let text = match kinds.is_empty() {
             true => format!("nothing called '{device}' can break; afp.faults() has all"),
             false => format!("'{device}' cannot be '{kind}', but: {}", kinds.join(", ")),

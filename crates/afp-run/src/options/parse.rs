@@ -2,9 +2,11 @@
 
 use std::path::PathBuf;
 
+use afp_carbot::table::{Carbot, TABLE};
+use afp_core::devices::{AmountRow, Devices, faults};
 use afp_core::{Duration, Instant};
 use afp_project::duration;
-use afp_sim::{Amount, Fault};
+use afp_sim::Fault;
 
 /// How fast simulated time passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,11 +84,14 @@ pub(super) fn failure(text: &str) -> Result<Failure, String> {
         .split_once('@')
         .ok_or("expected what fails, how and when, such as ultrasonic.frozen@5s..7s")?;
     let (what, amount) = match what.split_once('=') {
-        Some((what, amount)) => (what, some(amount)?),
-        None => (what, Amount::default()),
+        Some((what, amount)) => (what, Some(amount)),
+        None => (what, None),
     };
     let (device, kind) = what.split_once('.').unwrap_or((what, ""));
-    let fault = Fault::named(device, kind, amount).ok_or_else(|| no_fault(device, kind))?;
+    let found = faults(TABLE).find(|(_, at, row)| at.name == device && row.name == kind);
+    let (id, _, row) = found.ok_or_else(|| no_fault(device, kind))?;
+    let amount = amount.map(|text| self::amount(text, row.amount)).transpose()?;
+    let fault = Carbot::fault(id, amount).ok_or_else(|| no_fault(device, kind))?;
     let (from, to) = match when.split_once("..") {
         Some((from, to)) => (instant(from)?, instant(to)?),
         None => (instant(when)?, Instant::MAX),
@@ -102,23 +107,26 @@ fn instant(text: &str) -> Result<Instant, String> {
     Ok(Instant::ZERO + duration(text)?)
 }
 
-/// How much of a fault: a time or a share.
-fn some(text: &str) -> Result<Amount, String> {
-    match text.parse::<f64>() {
-        Ok(share) if (0.0..=1.0).contains(&share) => Ok(Amount { share: Some(share), time: None }),
-        Ok(_) => Err(format!("'{text}' is neither a share from 0 to 1 nor a time such as 300ms")),
-        Err(_) => Ok(Amount { time: Some(duration(text)?), share: None }),
-    }
+/// How much of a fault, in SI units.
+fn amount(text: &str, of: Option<AmountRow>) -> Result<f64, String> {
+    let of = of.ok_or_else(|| format!("there is no more or less of it: leave '={text}' out"))?;
+    let AmountRow { name, from, to, .. } = of;
+    let wrong = || format!("'{text}' is no {name} from {from} to {to}");
+    let amount = match of.unit {
+        "s" => duration(text)?.as_secs_f64(),
+        _ => text.parse().map_err(|_| wrong())?,
+    };
+    of.checked(Some(amount)).ok_or_else(wrong)
 }
 
 fn no_fault(device: &str, kind: &str) -> String {
-    let kinds: Vec<_> =
-        Fault::names().filter(|(name, _)| *name == device).map(|(_, kind)| kind).collect();
+    let of_device = faults(TABLE).filter(|(_, at, _)| at.name == device);
+    let kinds: Vec<_> = of_device.map(|(_, _, row)| row.name).collect();
     if !kinds.is_empty() {
         let what = format!("'{device}' cannot be '{kind}'");
         return format!("{what}; it can be {}", kinds.join(", "));
     }
-    let mut devices: Vec<_> = Fault::names().map(|(name, _)| name).collect();
+    let mut devices: Vec<_> = faults(TABLE).map(|(_, at, _)| at.name).collect();
     devices.sort_unstable();
     devices.dedup();
     format!("nothing called '{device}' can fail; there are {}", devices.join(", "))
@@ -173,7 +181,9 @@ mod tests {
             ("ultrasonic.frozen", "such as ultrasonic.frozen@5s..7s"),
             ("battery.stuck@1s", "'battery' cannot be 'stuck'; it can be frozen, lost"),
             ("sonar.lost@1s", "nothing called 'sonar' can fail; there are battery, buttons"),
-            ("wheels.slip=3@1s", "neither a share from 0 to 1"),
+            ("wheels.slip=3@1s", "no share from 0 to 1"),
+            ("touch.lost=3@1s", "no more or less of it"),
+            ("touch.slow=3@1s", "20s or 500ms"),
             ("touch.lost@3s..2s", "it ends before it begins"),
             ("touch.lost@3", "20s or 500ms"),
         ] {

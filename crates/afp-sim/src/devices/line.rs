@@ -1,7 +1,7 @@
 //! The line from a sensor to the plan, which a fault can cut, delay or freeze.
 
-use crate::fault::Defect;
 use afp_carbot::devices::{Invalid, Reading};
+use afp_carbot::fault::Defect;
 use afp_core::{Duration, Instant};
 use std::collections::VecDeque;
 

@@ -3,11 +3,12 @@
 use super::Simulation;
 use crate::devices::camera::Exposure;
 use crate::devices::line::Line;
-use crate::fault::{Defect, Fault, Sensor, Side};
 use crate::vehicle::drive::Health;
 use afp_carbot::devices::{Charge, Color, Echo, Glow, Motion, Reading};
+use afp_carbot::fault::{Defect, Fault, Sensor, Side};
 use afp_core::quantity::Angle;
 use afp_core::{Duration, Instant};
+use afp_session::Active;
 use std::sync::Arc;
 
 /// From each sensor to the plan.
@@ -40,16 +41,28 @@ impl Simulation {
 
     /// Passes on what has begun and what is over by now.
     pub(super) fn break_and_mend(&mut self) {
-        self.faults.look(self.now);
+        let mut faults = std::mem::take(&mut self.faults);
+        self.apply_faults(&faults.advance(self.now));
+        self.faults = faults;
+    }
+
+    /// Breaks exactly these.
+    pub(crate) fn apply_faults(&mut self, active: &Active<'_, Fault>) {
+        let stalled = |side| active.any(|fault| fault == Fault::StalledMotor(side));
         self.drive.set_health(Health {
-            dead: self.faults.controller_dead(),
-            stalled: [Side::Left, Side::Right].map(|side| self.faults.stalled(side)),
-            grip: self.faults.grip(),
+            dead: active.any(|fault| fault == Fault::DeadController),
+            stalled: [Side::Left, Side::Right].map(stalled),
+            grip: least(
+                active,
+                |fault| if let Fault::Slip(left) = fault { Some(left) } else { None },
+            ),
         });
-        self.rotator.set_stuck(self.faults.rotator_stuck());
-        self.battery.limit(self.faults.charge());
-        let defect = |sensor| self.faults.defect(sensor);
-        let defects = Sensor::ALL.map(defect);
+        self.rotator.set_stuck(active.any(|fault| fault == Fault::StuckRotator));
+        self.battery.limit(least(active, |fault| match fault {
+            Fault::LowBattery(left) => Some(left),
+            _ => None,
+        }));
+        let defects = Sensor::ALL.map(|sensor| defect(active, sensor));
         for (sensor, defect) in Sensor::ALL.into_iter().zip(defects) {
             self.set_defect(sensor, defect);
         }
@@ -116,4 +129,20 @@ struct Raw {
     color: Reading<Color>,
     exposure: Reading<Arc<Exposure>>,
     charge: Reading<Charge>,
+}
+
+/// What is wrong with a sensor: that which began last.
+fn defect(active: &Active<'_, Fault>, of: Sensor) -> Option<Defect> {
+    active.find(|fault| match fault {
+        Fault::Sensor(sensor, defect) if sensor == of => Some(defect),
+        // The controller counts the wheels.
+        Fault::DeadController if of == Sensor::Odometry => Some(Defect::Lost),
+        _ => None,
+    })
+}
+
+/// The least of some shares, within 0 to 1; what is no number leaves nothing.
+fn least(active: &Active<'_, Fault>, share: impl Fn(Fault) -> Option<f64>) -> f64 {
+    let shares = active.iter().filter_map(share);
+    shares.fold(1.0, |least, share| if share > 0.0 { least.min(share) } else { 0.0 })
 }

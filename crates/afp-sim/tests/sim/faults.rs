@@ -7,7 +7,7 @@ use afp_carbot::devices::{
 };
 use afp_core::quantity::{Angle, Speed};
 use afp_core::{Clock, Duration, Environment, Instant};
-use afp_sim::{Amount, Defect, Fault, Sensor, Side, Simulation};
+use afp_sim::{Defect, Fault, Sensor, Side, Simulation};
 
 const SECOND: Duration = Duration::from_secs(1);
 
@@ -216,19 +216,4 @@ fn faults_that_are_over_leave_the_run_of_the_sound_robot() {
         drive(sim, 0.2, 0.2, 2000);
     }
     assert_eq!(whole.snapshot(), mended.snapshot());
-}
-
-#[test]
-fn every_name_is_a_fault_of_its_own() {
-    let named: Vec<_> = Fault::names()
-        .map(|(device, kind)| Fault::named(device, kind, Amount::default()).expect("is known"))
-        .collect();
-    for (i, fault) in named.iter().enumerate() {
-        assert!(!named[..i].contains(fault), "{fault:?} twice");
-    }
-    assert_eq!(Fault::named("ultrasonic", "stuck", Amount::default()), None);
-    assert_eq!(Fault::named("sonar", "frozen", Amount::default()), None);
-    let late = Amount { time: Some(SECOND), share: None };
-    let expected = Fault::Sensor(Sensor::Odometry, Defect::Delayed(SECOND));
-    assert_eq!(Fault::named("odometry", "delayed", late), Some(expected));
 }

@@ -4,9 +4,11 @@ use crate::wait;
 use afp_carbot::devices::{
     Battery, Camera, ColorSensor, InfraredSensor, Navigator, Odometry, Rotator, Ultrasonic,
 };
+use afp_carbot::table::{Carbot, TABLE};
+use afp_core::devices::{Devices, faults};
 use afp_core::quantity::{Angle, AngularSpeed, Speed};
 use afp_core::{Duration, Environment, Instant};
-use afp_sim::{Amount, Fault, Simulation, World};
+use afp_sim::{Fault, Simulation, World};
 use rand_pcg::Pcg32;
 use rand_pcg::rand_core::Rng;
 
@@ -34,10 +36,9 @@ impl Dice {
 
 /// Breaks three things at random instants for a random while.
 fn break_things(sim: &mut Simulation, dice: &mut Dice) -> Vec<Fault> {
-    let names: Vec<_> = Fault::names().collect();
+    let all: Vec<_> = faults(TABLE).filter_map(|(id, ..)| Carbot::fault(id, None)).collect();
     let mut pick = || {
-        let (device, kind) = names[dice.0.next_u32() as usize % names.len()];
-        let fault = Fault::named(device, kind, Amount::default()).expect("the name is known");
+        let fault = all[dice.0.next_u32() as usize % all.len()];
         let at = |seconds: f64| Duration::from_secs_f64(seconds);
         let from = Instant::ZERO + at(dice.between(0.0, SECONDS as f64));
         sim.inject(fault, from, at(dice.between(0.0, 4.0)));

@@ -1,14 +1,10 @@
-//! What can break: the faults that scenarios and people inject.
-
-mod names;
-mod schedule;
-
-pub use names::Amount;
-pub(crate) use schedule::Schedule;
+//! What can break on a Carbot. How it is called stands in [`crate::table`].
 
 use afp_core::Duration;
 
-/// Something that is broken for a while; [`crate::Simulation::inject`] breaks it.
+use crate::table;
+
+/// Something that is broken for a while.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fault {
     /// A sensor tells something else than it measures.
@@ -37,7 +33,7 @@ pub enum Defect {
     NotANumber,
     /// What it measures arrives so much later. The readings keep their times, so their age shows.
     Delayed(Duration),
-    /// Each use takes so long, by the clock of [`crate::Simulation::clock`].
+    /// Each use takes so long.
     Slow(Duration),
 }
 
@@ -86,4 +82,8 @@ impl Sensor {
         Sensor::Camera,
         Sensor::Battery,
     ];
+    /// What it is called: that of its row, since sensors come first in the table.
+    pub fn name(self) -> &'static str {
+        table::TABLE.get(self as usize).map_or("", |row| row.name)
+    }
 }

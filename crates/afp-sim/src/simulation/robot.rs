@@ -1,0 +1,202 @@
+//! The simulation as a robot that sessions drive.
+
+use afp_carbot::devices::Ultrasonic;
+use afp_carbot::fault::Fault;
+use afp_carbot::table::{self, Carbot, Control};
+use afp_core::{Instant, Platform};
+use afp_session::{
+    Active, Figure, FigureValue, Image, Measure, Pose2, Ranging, Refused, Robot, SampleRef,
+    Samples, Shape, Simulated, Span, Transform,
+};
+
+use super::{Simulation, Snapshot};
+use crate::clock::VirtualClock;
+use crate::truth::Pose;
+use crate::wall::WallDistance;
+use crate::world::{Mobility, Obstacle, World};
+
+const WORLD: &str = "world";
+const BASE: &str = "base_link";
+/// Where the odometry takes the robot to be.
+const BELIEVED: &str = "base_link_by_odometry";
+const SONAR: &str = "sonar";
+const CAMERA: &str = "camera";
+
+/// How high the parts of the robot are, metres.
+const BODY_HEIGHT: f64 = 0.22;
+const SONAR_HEIGHT: f64 = 0.15;
+
+impl Platform for Simulation {
+    type Clock = VirtualClock;
+
+    fn clock(&self) -> VirtualClock {
+        self.clock()
+    }
+
+    fn now(&self) -> Instant {
+        self.now()
+    }
+
+    fn advance(&mut self, to: Instant) {
+        self.advance_to(to);
+    }
+
+    fn ready(&self) -> Instant {
+        self.clock.free()
+    }
+}
+
+impl Robot for Simulation {
+    type Devices = Carbot;
+
+    fn press(&mut self, control: Control, held: bool) -> Result<(), Refused> {
+        match (control, held) {
+            (Control::Escape, true) => self.press_escape(),
+            (Control::Escape, false) => self.release_escape(),
+            (Control::Touch, true) => self.press_bumper(),
+            (Control::Touch, false) => self.release_bumper(),
+        }
+        Ok(())
+    }
+
+    fn set_faults(&mut self, active: &Active<'_, Fault>) -> Result<(), Refused> {
+        self.apply_faults(active);
+        Ok(())
+    }
+
+    fn sample(&self, to: &mut Samples<'_, '_>) {
+        self.sample_truth(to);
+        self.sample_ranging(to);
+        let Snapshot { odometry, rotator, touched, .. } = self.snapshot();
+        if to.wants(table::BELIEVED) {
+            let moved =
+                Pose2 { x: odometry.x.si(), y: odometry.y.si(), heading: odometry.heading.si() };
+            let pose = plane(self.start).beyond(moved);
+            to.put(table::BELIEVED, frame(WORLD, BELIEVED, pose, 0.0));
+        }
+        to.put(table::BEARING, SampleRef::Float(rotator));
+        to.put(table::TOUCHED, SampleRef::Bool(touched));
+        to.put(table::ESCAPE, SampleRef::Bool(self.escape));
+        to.put(table::CHARGE, SampleRef::Float(self.battery.charge().left));
+        if to.wants(table::PICTURE)
+            && let Some((time, picture)) = self.view()
+        {
+            let (width, height) = (picture.width as u32, picture.height as u32);
+            let image = Image { time, frame: CAMERA, width, height, rgb: picture.rgb };
+            to.put(table::PICTURE, SampleRef::Image(image));
+        }
+        if to.wants(table::OUTLINE) {
+            for obstacle in self.movers() {
+                if let Some(shape) = self.shape(obstacle) {
+                    to.put(table::OUTLINE, SampleRef::Outline(&shape));
+                }
+            }
+        }
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        let spans = self.truth().collisions().iter().map(|collision| Span {
+            name: self.obstacles.get(collision.obstacle).map_or("", |it| &it.name).to_owned(),
+            begin: collision.begin,
+            end: collision.end,
+        });
+        let value = FigureValue::Spans { of: "obstacle", spans: spans.collect() };
+        vec![Figure { name: "contacts", value, text: String::new() }]
+    }
+}
+
+impl Simulation {
+    fn sample_truth(&self, to: &mut Samples<'_, '_>) {
+        let truth = self.truth();
+        if to.wants(table::POSE) {
+            to.put(table::POSE, frame(WORLD, BASE, plane(truth.pose()), 0.0));
+        }
+        to.put(table::HALTED, SampleRef::Bool(truth.is_halted()));
+        to.put(table::STANDING, SampleRef::Bool(truth.is_standing()));
+        // A touch lasts to the end of the physics step that found it.
+        let touching = truth.collisions().last().is_some_and(|last| last.end == self.now());
+        to.put(table::COLLISION, SampleRef::Bool(touching));
+    }
+
+    fn sample_ranging(&self, to: &mut Samples<'_, '_>) {
+        if !to.wants(table::ECHO) && !to.wants(table::ECHO_FRAME) {
+            return;
+        }
+        let (beam, Snapshot { rotator, sonar, .. }) = (self.beam(), self.snapshot());
+        let sensor = Pose2 { x: beam.forward.si(), y: 0.0, heading: rotator };
+        to.put(table::ECHO_FRAME, frame(BASE, SONAR, sensor, SONAR_HEIGHT));
+        if let Some(sonar) = sonar {
+            let pose = Pose2 { heading: sonar.bearing, ..sensor };
+            let (half_angle, range) = (beam.opening.si() / 2.0, sonar.distance);
+            let ranging = Ranging { time: sonar.time, frame: BASE, pose, half_angle, range };
+            to.put(table::ECHO, SampleRef::Range(ranging));
+        }
+    }
+
+    /// An obstacle where it is now, as a scene shows it.
+    fn shape(&self, index: usize) -> Option<Shape> {
+        let obstacle = self.obstacles.get(index)?;
+        Some(Shape { outline: self.outline(index), ..shape(index, obstacle) })
+    }
+}
+
+impl Simulated for Simulation {
+    type World = World;
+    const MEASURES: &'static [&'static str] = &[WallDistance::NAME];
+
+    fn new(world: &World, seed: u64) -> Result<Self, String> {
+        Simulation::new(world, seed).map_err(|error| error.message)
+    }
+
+    fn measure(name: &str) -> Option<Box<dyn Measure<Self>>> {
+        match name {
+            WallDistance::NAME => Some(Box::new(WallDistance::default())),
+            _ => None,
+        }
+    }
+}
+
+impl World {
+    /// Everything that stands in the room, and the robot's body, as a scene shows them at the start.
+    pub fn scene(&self) -> Vec<Shape> {
+        let obstacles = self.obstacles.iter().enumerate();
+        let body = Shape {
+            id: "robot".to_owned(),
+            frame: BASE,
+            outline: World::robot_outline(Pose::default()).to_vec(),
+            height: BODY_HEIGHT,
+            color: [0.15, 0.45, 0.75, 0.9],
+        };
+        obstacles.map(|(index, obstacle)| shape(index, obstacle)).chain([body]).collect()
+    }
+
+    /// Whether anything in it moves.
+    pub fn moves(&self) -> bool {
+        self.obstacles.iter().any(|obstacle| obstacle.mobility != Mobility::Fixed)
+    }
+}
+
+/// An obstacle as it stands at the start.
+fn shape(index: usize, obstacle: &Obstacle) -> Shape {
+    let [red, green, blue] = obstacle.look.color.map(|part| f64::from(part) / 255.0);
+    Shape {
+        id: format!("{index} {}", obstacle.name),
+        frame: WORLD,
+        outline: obstacle.outline.corners(),
+        height: obstacle.height,
+        color: [red, green, blue, 0.9],
+    }
+}
+
+fn frame(
+    parent: &'static str,
+    child: &'static str,
+    pose: Pose2,
+    height: f64,
+) -> SampleRef<'static> {
+    SampleRef::Pose(Transform { parent, child, pose, height })
+}
+
+fn plane(pose: Pose) -> Pose2 {
+    Pose2 { x: pose.x, y: pose.y, heading: pose.heading }
+}
