@@ -31,9 +31,10 @@ use crate::files::relative;
 use crate::flow::{self, Model};
 use crate::gather::PlanFile;
 use crate::graph::{self, Graph};
-use crate::index::{Meanings, Recorder};
+use crate::index::{self, Declared, Index, Meanings, Recorder};
 use crate::outline::{self, Material, Outline};
 use crate::scenario::Scenario;
+use crate::toolbox::read::names_only;
 use crate::toolbox::{Toolbox, Toolboxes};
 use afp_syntax::ast::{self, Item, Name};
 use afp_syntax::diagnostics::words;
@@ -42,7 +43,7 @@ use afp_syntax::source::Span;
 
 use entries::EntryDraft;
 use names::Places;
-pub(crate) use plan::{Made, MadeParts};
+pub(crate) use plan::{Made, Member, Members};
 use scope::FileScope;
 use signature::Signatures;
 
@@ -115,6 +116,8 @@ pub(crate) struct Checked {
     pub scenarios: Vec<Scenario>,
     /// What stands in the files, with or without errors.
     pub outline: Outline,
+    /// What names mean, with or without errors.
+    pub index: Index,
 }
 
 /// Checks plan files and builds the graph of the plan `main` of the first file, or of its first
@@ -134,29 +137,61 @@ pub(crate) fn check(
     let record = Recorder::default();
     let program = scope::program(files, toolboxes, &record, diags);
     let order = recursion::order(&program, diags);
-    let (mut plans, mut users, mut made) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut plans, mut users, mut members) = (Vec::new(), Vec::new(), Vec::new());
     for place in 0..program.plans.len() {
         let checked = plan::check(&program, place, diags);
         plans.push(checked.plan);
         users.push(checked.users);
-        made.push(checked.made);
+        members.push(checked.members);
     }
     resources::check(&program.plans, &users, &order, diags);
     size::check(&program, &plans, &order, diags);
     if flow == Flow::Checked {
         check_flow(&program, &plans, &order, diags);
     }
-    let ready = scenario::Plans { plans: &plans, order: &order };
+    let ready = scenario::Plans { plans: &plans, order: &order, members: &members };
     let scenarios = scenario::check(&program, files, &ready, diags);
     let main = files.first().and_then(|file| select(&program, file, main, diags));
     note_files(files, &record);
-    let meanings = Meanings::new(record.take());
-    let material = Material { program: &program, files, made: &made, meanings: &meanings, main };
+    let (meanings, declared) = names(files, toolboxes, &record, diags);
+    let material =
+        Material { program: &program, files, members: &members, meanings: &meanings, main };
     let outline = outline::build(&material);
+    let index = index::build(&outline, &meanings, &declared);
     let Some(main) = main.filter(|_| !diags.has_errors()) else {
-        return Checked { outline, ..Checked::default() };
+        return Checked { outline, index, ..Checked::default() };
     };
-    Checked { graph: assemble::graph(&program, plans, &order, main), scenarios, outline }
+    Checked { graph: assemble::graph(&program, plans, &order, main), scenarios, outline, index }
+}
+
+/// What all names mean, and what toolboxes declare.
+fn names(
+    files: &[PlanFile],
+    toolboxes: &Toolboxes,
+    record: &Recorder,
+    diags: &Diagnostics,
+) -> (Meanings, Vec<Declared>) {
+    let mut declared = toolboxes.declared().to_vec();
+    let is_tool =
+        |item: &Item| matches!(item, Item::Toolbox(_) | Item::Template(_) | Item::Object(_));
+    let items: Vec<_> = files.iter().map(|file| file.tree.items()).collect();
+    for (file, items) in files.iter().zip(&items) {
+        if items.iter().any(is_tool) {
+            names_only(&file.tree, &file.source, file.index, record);
+        }
+    }
+    let mut own = Meanings::new(record.take());
+    for (file, items) in files.iter().zip(&items) {
+        if items.iter().any(is_tool) {
+            declared.extend(index::of_toolbox(items, &own));
+        }
+        if diags.error_within(file.whole()) {
+            index::unread(file.tree.root(), file.index, &mut own);
+        }
+    }
+    let mut meanings = toolboxes.meanings().clone();
+    meanings.extend(own);
+    (meanings, declared)
 }
 
 /// Says what the paths behind `use` mean.

@@ -6,6 +6,7 @@ use crate::check::{self, Checked, Flow};
 use crate::files::{Files, below_all, normalised};
 use crate::gather;
 use crate::graph::Graph;
+use crate::index::Index;
 use crate::outline::Outline;
 use crate::scenario::Scenario;
 use crate::timing;
@@ -22,6 +23,8 @@ pub struct Compiled {
     pub scenarios: Vec<Scenario>,
     /// What stands in the plan files, with or without errors.
     pub outline: Outline,
+    /// What every name means, with or without errors.
+    pub index: Index,
     /// Everything there is to say, ordered by place.
     pub diags: Diagnostics,
     /// The files that spans belong to: the toolboxes', then the plan files.
@@ -90,7 +93,7 @@ fn compile_with(
     let mut sources = toolboxes.sources().clone();
     let first = sources.len();
     let gathered = gather::gather(source, files, toolboxes, &mut sources, &mut diags);
-    let Checked { graph, scenarios, mut outline } =
+    let Checked { graph, scenarios, mut outline, index } =
         check::check(&gathered, toolboxes, plan, flow, &mut diags);
     if let Some(graph) = graph.as_ref().filter(|_| flow == Flow::Checked) {
         timing::check_responses(graph, &mut diags);
@@ -100,5 +103,5 @@ fn compile_with(
     let plan_files = first..sources.len();
     let graph = graph.filter(|_| !diags.has_errors());
     let scenarios = if graph.is_some() { scenarios } else { Vec::new() };
-    Compiled { graph, scenarios, outline, diags, sources, plan_files }
+    Compiled { graph, scenarios, outline, index, diags, sources, plan_files }
 }

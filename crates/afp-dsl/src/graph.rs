@@ -104,7 +104,7 @@ pub struct Entry {
 }
 
 /// Who may set an entry.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum EntryKind {
     /// Set by whoever starts the plan.
     In,

@@ -20,7 +20,7 @@ use std::sync::Arc;
 use crate::graph::EntryKind;
 use crate::toolbox::{Constant, Template, Toolbox};
 use crate::types::Type;
-use afp_syntax::ast::Name;
+use afp_syntax::ast::{ElementKind, Name};
 use afp_syntax::diagnostics::Severity;
 use afp_syntax::item::Item;
 use afp_syntax::source::Span;
@@ -255,6 +255,8 @@ pub struct TemplateUse {
     pub text: String,
     /// Its place.
     pub span: Span,
+    /// The place of the name alone.
+    pub name_span: Span,
     /// What it means; `None` where that is unknown, ambiguous or does not fit the keyword.
     pub made_from: Option<MadeFrom>,
 }
@@ -480,6 +482,15 @@ impl Component {
 }
 
 impl ComponentKind {
+    /// What the keyword of an element says.
+    pub(crate) fn of(kind: ElementKind) -> ComponentKind {
+        match kind {
+            ElementKind::Actor => ComponentKind::Actor,
+            ElementKind::Computation => ComponentKind::Computation,
+            ElementKind::SubPlan => ComponentKind::SubPlan,
+        }
+    }
+
     /// The keyword that puts it into a plan.
     pub fn keyword(self) -> &'static str {
         match self {

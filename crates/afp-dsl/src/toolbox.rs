@@ -1,6 +1,6 @@
 //! What a toolbox file declares: templates with their ports, timing, help and icons.
 
-mod read;
+pub(crate) mod read;
 mod set;
 
 use crate::types::{Enum, Object, Type};

@@ -100,6 +100,15 @@ impl Type {
     pub fn is_numeric(&self) -> bool {
         matches!(self, Type::Int | Type::Quantity(_) | Type::Number)
     }
+
+    /// The name of its declaration; `None` for a built-in one.
+    pub fn declaration(&self) -> Option<Span> {
+        match self {
+            Type::Enum(home) => Some(home.span),
+            Type::Object(home) => Some(home.span),
+            _ => None,
+        }
+    }
 }
 
 impl fmt::Display for Type {

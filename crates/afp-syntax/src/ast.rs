@@ -91,6 +91,11 @@ pub enum Item {
 }
 
 impl File {
+    /// The tree itself.
+    pub fn root(&self) -> &Node {
+        &self.node
+    }
+
     /// The items in order.
     pub fn items(&self) -> Vec<Item> {
         let file = self.file;

@@ -50,7 +50,7 @@ impl Context<'_> {
             found.retain(fits);
         }
         if found.len() > 1 {
-            record.several(name.span);
+            record.several(name.span, found.iter().map(|each| each.span));
             let plans = found.iter().all(|each| each.home.is_none());
             let what = if plans { "a plan" } else { "a template" };
             let places: Vec<_> = found.iter().map(|each| (each.home, each.span)).collect();

@@ -52,6 +52,16 @@ impl<'a> Elements<'a> {
         Elements { places: Places::of(texts), names, record }
     }
 
+    /// The name of an element.
+    pub fn name(&self, place: usize) -> Option<&Name> {
+        self.names.get(place)?.as_ref()
+    }
+
+    /// Where which element stands.
+    pub fn into_places(self) -> Places {
+        self.places
+    }
+
     /// Whether a target is a word of the language.
     fn is_word(&self, to: &Name) -> bool {
         let word = match to.text.as_str() {
@@ -127,17 +137,17 @@ pub(crate) fn check(
     connected
 }
 
-/// Finds out what the names of edges mean whose component is made from nothing that is known.
+/// Finds out what the names of edges mean whose component is made from nothing that is known;
+/// `words` are the states or events that it has in any case.
 pub(crate) fn names_only(
     edges: &[Edge],
-    supervisor: bool,
+    words: &[&str],
     elements: &Elements<'_>,
     diags: &mut Diagnostics,
 ) {
-    let special = if supervisor { DEADLINE_MISSED } else { ERROR };
     for edge in edges {
         if let Some(name) = edge.name() {
-            match word(&name.text).filter(|_| name.text == special) {
+            match word(&name.text).filter(|_| words.contains(&name.text.as_str())) {
                 Some(word) => elements.record.word(name.span, word),
                 None => elements.record.unknown(name.span),
             }

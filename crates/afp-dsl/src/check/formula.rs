@@ -293,7 +293,7 @@ impl Typer<'_> {
         // Unless it is found below.
         record.unknown(name.span);
         if enums().count() > 1 {
-            record.several(home.span);
+            record.several(home.span, enums().map(|(_, each)| each.span));
             let places: Vec<_> = enums().map(|(home, each)| (home.as_deref(), each.span)).collect();
             let error = ambiguous("an enum", &home.text, home.span, &places);
             // Values of enums are written without the toolbox.

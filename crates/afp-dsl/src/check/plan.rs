@@ -4,11 +4,12 @@ mod component;
 
 use crate::check::edges::Elements;
 use crate::check::formula::Scope;
-use crate::check::names::{self, Names};
+use crate::check::names::{self, Names, Places};
 use crate::check::resources::Users;
 use crate::check::{Context, PlanHead, Program, edges, size};
 use crate::graph::{self, Element, ElementId, Supervisor, SupervisorId};
 use crate::index::Recorder;
+use crate::outline::ComponentKind;
 use crate::rows::Table;
 use afp_syntax::ast;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
@@ -25,17 +26,37 @@ pub(crate) struct CheckedPlan {
     pub plan: Option<graph::Plan>,
     /// What its components command.
     pub users: Users,
-    /// What its components are made from.
-    pub made: MadeParts,
+    /// What its components are called and made from.
+    pub members: Members,
 }
 
-/// What the components of a plan are made from, all as written.
+/// What the components of a plan are called and made from, all as written.
 #[derive(Default)]
-pub(crate) struct MadeParts {
+pub(crate) struct Members {
     /// The global supervisors.
-    pub globals: Vec<Made>,
-    /// The elements, each with its own supervisors.
-    pub elements: Vec<(Made, Vec<Made>)>,
+    pub globals: Vec<Member>,
+    /// The elements.
+    pub elements: Vec<Member>,
+    /// Where which element stands.
+    pub places: Places,
+}
+
+/// An element or supervisor.
+pub(crate) struct Member {
+    /// Its name.
+    pub name: Option<ast::Name>,
+    /// What its keyword says.
+    pub kind: ComponentKind,
+    /// What it is made from.
+    pub made: Made,
+    /// Its own supervisors.
+    pub locals: Vec<Member>,
+}
+
+impl Member {
+    fn supervisor(node: &ast::Guard, made: Made) -> Member {
+        Member { name: node.name(), kind: ComponentKind::Supervisor, made, locals: Vec::new() }
+    }
 }
 
 /// Checks a plan.
@@ -55,27 +76,28 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
     };
     let components = Components { context, scope: &scope, elements: &names };
     let mut users = Users::default();
-    let mut made = MadeParts::default();
+    let mut members = Members::default();
     let mut supervisors = Vec::new();
     for guard in head.node.guards() {
         let checked = components.supervisor(&guard, None, diags);
         supervisors.push(checked.built);
         users.globals.extend(checked.user);
-        made.globals.push(checked.made);
+        members.globals.push(Member::supervisor(&guard, checked.made));
     }
     let globals = supervisors.len();
     let mut drawn = Vec::new();
     for (at, node) in elements.iter().enumerate() {
         let element = components.element(node, diags);
         let first = supervisors.len();
-        let (mut guards, mut own_made) = (Vec::new(), Vec::new());
+        let (mut guards, mut locals) = (Vec::new(), Vec::new());
         for guard in node.guards() {
             let checked = components.supervisor(&guard, id(at).map(ElementId), diags);
             supervisors.push(checked.built);
             guards.extend(checked.user);
-            own_made.push(checked.made);
+            locals.push(Member::supervisor(&guard, checked.made));
         }
-        made.elements.push((element.made, own_made));
+        let (name, kind) = (names.name(at).cloned(), ComponentKind::of(node.kind()));
+        members.elements.push(Member { name, kind, made: element.made, locals });
         users.elements.extend(element.user.map(|user| (user, guards)));
         drawn.push(element.built.and_then(|element| own(element, first, supervisors.len())));
     }
@@ -87,7 +109,8 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
     ];
     size::too_many_rows(head.name.as_ref(), written, diags);
     let plan = finish(context, head, drawn, supervisors, globals, start);
-    CheckedPlan { plan, users, made }
+    members.places = names.into_places();
+    CheckedPlan { plan, users, members }
 }
 
 fn id(place: usize) -> Option<u16> {

@@ -6,15 +6,17 @@
 mod actions;
 mod claims;
 mod commits;
+mod names;
 mod often;
 mod paths;
+mod resolve;
 mod times;
 
 use std::sync::Arc;
 
 use crate::check::formula::Scope;
 use crate::check::names::{ambiguous, unknown};
-use crate::check::{Context, PlanHead, Program, assemble};
+use crate::check::{Context, Members, PlanHead, Program, assemble};
 use crate::gather::PlanFile;
 use crate::graph::{self, EntryKind, Formula};
 use crate::scenario::{Scenario, Start, Stimulus};
@@ -27,6 +29,7 @@ use afp_syntax::source::Span;
 use afp_syntax::unquote;
 
 use paths::Paths;
+use resolve::Resolver;
 
 /// The plans of a program, as far as they could be checked.
 pub(super) struct Plans<'a> {
@@ -34,6 +37,8 @@ pub(super) struct Plans<'a> {
     pub plans: &'a [Option<graph::Plan>],
     /// Sub-plans before their users.
     pub order: &'a [usize],
+    /// The components of each plan, whole or not.
+    pub members: &'a [Members],
 }
 
 /// Checks the scenarios of all files and gives those of the first one.
@@ -65,11 +70,8 @@ pub(crate) fn outputs(
     component: &str,
     outcome: u16,
 ) -> Vec<(u16, String, Type)> {
-    let paths = Paths::new(graph);
-    let name = |text: &str| Name { text: text.to_owned(), span: Span::default() };
-    let names: Vec<Name> = component.split('.').map(name).collect();
-    let Ok((found, [])) = paths.find(paths.main(), &names) else { return Vec::new() };
-    let outputs = paths.outputs(found, outcome).into_iter();
+    let Some((plan, part)) = paths::by_path(graph, component) else { return Vec::new() };
+    let outputs = paths::outputs(graph, plan, part, outcome).into_iter();
     outputs.map(|(place, port, ty)| (place, port.name.clone(), ty)).collect()
 }
 
@@ -117,9 +119,11 @@ fn scenario(
     node: &ast::Scenario,
     diags: &mut Diagnostics,
 ) -> Option<Scenario> {
-    let name = node.name()?;
-    let place = plan(context, &node.plan()?, diags)?;
+    let place = node.plan().and_then(|reference| plan(context, &reference, diags));
     let program = context.program;
+    let resolver = Resolver { program, members: plans.members };
+    names::record(context, &resolver, place, &node.lines());
+    let (name, place) = (node.name()?, place?);
     let graph = assemble::graph(program, plans.plans.to_vec(), plans.order, place)?;
     let graph = Arc::new(graph);
     let head = &program.plans[place];
@@ -129,7 +133,8 @@ fn scenario(
         .filter(|line| diags.syntax_errors_within(line.span()).next().is_none())
         .collect();
     let (until, until_span) = times::until(&lines, diags);
-    let checker = Checker { context, paths: Paths::new(&graph), head, until, until_span };
+    let paths = Paths::new(&graph, resolver, place);
+    let checker = Checker { context, paths, head, until, until_span };
     let plan_file = &files.get(head.file)?.source.name;
     let mut scenario = Scenario {
         span: name.span,
@@ -160,7 +165,10 @@ fn plan(context: Context<'_>, reference: &ast::Ref, diags: &mut Diagnostics) -> 
             let span = head.name.as_ref().map_or_else(|| head.node.span(), |name| name.span);
             record.definition(name.span, span);
         }
-        ([_, _, ..], None) => record.several(name.span),
+        ([_, _, ..], None) => {
+            let heads = found.iter().filter_map(|place| context.program.plans.get(*place));
+            record.several(name.span, heads.filter_map(|head| Some(head.name.as_ref()?.span)));
+        }
         (_, home) => {
             record.unknown(name.span);
             home.iter().for_each(|home| context.file.types.qualifier(home, record));

@@ -142,7 +142,7 @@ impl Types {
         found.extend(objects.map(|(home, each)| (home, Type::Object(each.clone()))));
         match found.as_slice() {
             [(_, ty)] => {
-                record.definition(name.span, declaration(ty).unwrap_or(name.span));
+                record.definition(name.span, ty.declaration().unwrap_or(name.span));
                 Some(ty.clone())
             }
             [] if self.incomplete => {
@@ -165,9 +165,9 @@ impl Types {
                 None
             }
             several => {
-                record.several(name.span);
+                record.several(name.span, several.iter().filter_map(|(_, ty)| ty.declaration()));
                 let places = several.iter().map(|(home, ty)| {
-                    (home.as_deref(), declaration(ty).unwrap_or_else(|| reference.span()))
+                    (home.as_deref(), ty.declaration().unwrap_or_else(|| reference.span()))
                 });
                 let places: Vec<_> = places.collect();
                 diags.push(ambiguous("a type", &name.text, reference.span(), &places));
@@ -222,15 +222,6 @@ impl Types {
             too_high(factor, diags);
         }
         raised
-    }
-}
-
-/// Where a type of a file or toolbox is declared.
-fn declaration(ty: &Type) -> Option<Span> {
-    match ty {
-        Type::Enum(home) => Some(home.span),
-        Type::Object(home) => Some(home.span),
-        _ => None,
     }
 }
 

@@ -13,12 +13,14 @@ use super::Word;
 /// one name counts: the last one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Found {
+    /// It stands in text that could not be read.
+    Unread,
     /// Nothing that is known.
     Unknown,
     /// A word of the language, or of the robot.
     Word(Word),
-    /// Several definitions.
-    Several,
+    /// Several definitions, by their place among [`Records::several`].
+    Several(u32),
     /// A file, by [`Span::file`].
     File(u16),
     /// The definition whose name stands there.
@@ -30,6 +32,8 @@ pub(crate) enum Found {
 pub(crate) struct Records {
     /// Names as written, each with its meaning, in no order.
     pub names: Vec<(Span, Found)>,
+    /// The definitions that ambiguous names may mean.
+    pub several: Vec<Vec<Span>>,
 }
 
 /// Takes down what names mean. It is handed around as a shared reference, since what resolves names
@@ -44,8 +48,11 @@ impl Recorder {
     }
 
     /// A name may mean any of several definitions.
-    pub fn several(&self, name: Span) {
-        self.record(name, Found::Several);
+    pub fn several(&self, name: Span, definitions: impl IntoIterator<Item = Span>) {
+        let mut records = self.0.borrow_mut();
+        let place = u32::try_from(records.several.len()).unwrap_or(u32::MAX);
+        records.several.push(definitions.into_iter().collect());
+        records.names.push((name, Found::Several(place)));
     }
 
     /// A name means a file.
@@ -74,16 +81,18 @@ impl Recorder {
 }
 
 /// What was recorded, in the order of the names.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Meanings {
     /// Each name once.
     pub names: Vec<(Span, Found)>,
+    /// The definitions that ambiguous names may mean.
+    pub several: Vec<Vec<Span>>,
 }
 
 impl Meanings {
     /// Puts records in order.
     pub fn new(records: Records) -> Meanings {
-        let Records { mut names } = records;
+        let Records { mut names, several } = records;
         names.sort_unstable();
         // Of several findings the last one counts.
         names.dedup_by(|next, kept| {
@@ -93,7 +102,17 @@ impl Meanings {
             }
             same
         });
-        Meanings { names }
+        Meanings { names, several }
+    }
+
+    /// Adds what is said of files that come behind those so far.
+    pub fn extend(&mut self, other: Meanings) {
+        let first = u32::try_from(self.several.len()).unwrap_or(u32::MAX);
+        self.names.extend(other.names.into_iter().map(|(name, found)| match found {
+            Found::Several(place) => (name, Found::Several(first.saturating_add(place))),
+            found => (name, found),
+        }));
+        self.several.extend(other.several);
     }
 
     /// What the name at a place means.

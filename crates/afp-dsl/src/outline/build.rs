@@ -4,14 +4,14 @@ use std::collections::HashMap;
 
 use super::component::Reader;
 use super::{
-    Component, ComponentKind, Destination, ElementId, Entry, EntryId, Enum, File, Findings,
-    Outline, Plan, PlanId, Scenario, Start, Target, Use, Value,
+    Component, Destination, ElementId, Entry, EntryId, Enum, File, Findings, Outline, Plan, PlanId,
+    Scenario, Start, Target, Use, Value,
 };
-use crate::check::{MadeParts, PlanHead, Program};
+use crate::check::{Member, Members, PlanHead, Program};
 use crate::gather::PlanFile;
 use crate::graph::EntryKind;
 use crate::index::{Found, Meanings, Word};
-use afp_syntax::ast::{self, ElementKind, Name};
+use afp_syntax::ast::{self, Name};
 use afp_syntax::item::Item;
 use afp_syntax::source::Span;
 
@@ -21,8 +21,8 @@ pub(crate) struct Material<'a> {
     pub program: &'a Program<'a>,
     /// The files.
     pub files: &'a [PlanFile],
-    /// What the components of each plan are made from.
-    pub made: &'a [MadeParts],
+    /// The components of each plan.
+    pub members: &'a [Members],
     /// What names mean.
     pub meanings: &'a Meanings,
     /// The plan that was asked for.
@@ -37,12 +37,12 @@ pub(crate) fn build(material: &Material<'_>) -> Outline {
     let mut outline = Outline { main: material.main.map(PlanId::new), ..Outline::default() };
     for (at, file) in material.files.iter().enumerate() {
         outline.files.push(self::file(material, at, file, &names));
-        let heads = material.program.plans.iter().zip(material.made);
+        let heads = material.program.plans.iter().zip(material.members);
         let heads: Vec<_> = heads.filter(|(head, _)| head.file == at).collect();
         let plans = heads.iter().map(|(head, _)| head.name.as_ref());
         let items: Vec<_> = numbered(plans).collect();
-        for ((head, made), name) in heads.into_iter().zip(items) {
-            outline.plans.push(plan(material, head, made, name));
+        for ((head, members), name) in heads.into_iter().zip(items) {
+            outline.plans.push(plan(material, head, members, name));
         }
     }
     outline
@@ -97,7 +97,7 @@ fn used(material: &Material<'_>, line: &ast::Use) -> Use {
     Use { span: line.span(), toolbox: line.toolbox(), alias: line.alias(), path, file }
 }
 
-fn plan(material: &Material<'_>, head: &PlanHead, made: &MadeParts, item: String) -> Plan {
+fn plan(material: &Material<'_>, head: &PlanHead, members: &Members, item: String) -> Plan {
     let node = &head.node;
     let (entries, guards, elements) = (node.entries(), node.guards(), node.elements());
     let names: [Vec<_>; 3] = [
@@ -115,23 +115,23 @@ fn plan(material: &Material<'_>, head: &PlanHead, made: &MadeParts, item: String
     };
     let reader = Reader { places: &places, plan: &item };
     let entries = entries.iter().zip(entry_names).zip(entry_items);
-    let guards = guards.iter().zip(&made.globals).zip(guard_names.into_iter().zip(guard_items));
+    let guards = guards.iter().zip(&members.globals).zip(guard_names.into_iter().zip(guard_items));
     let elements =
-        elements.iter().zip(&made.elements).zip(element_names.into_iter().zip(element_items));
+        elements.iter().zip(&members.elements).zip(element_names.into_iter().zip(element_items));
     Plan {
         entries: entries
             .map(|((node, name), own)| entry(head, &places, node, name, Item::inner(&item, own)))
             .collect(),
         starts: node.starts().iter().map(|start| places.start(start)).collect(),
         supervisors: guards
-            .map(|((node, made), (name, own))| {
-                reader.guard(node, made, name, Item::inner(&item, own))
+            .map(|((node, member), (name, own))| {
+                reader.guard(node, &member.made, name, Item::inner(&item, own))
             })
             .collect(),
         elements: elements
-            .map(|((node, (made, guards)), (name, own))| {
-                let supervisors = locals(&reader, node, guards, &own);
-                let read = reader.element(node, made, name, Item::inner(&item, own));
+            .map(|((node, member), (name, own))| {
+                let supervisors = locals(&reader, node, &member.locals, &own);
+                let read = reader.element(node, &member.made, name, Item::inner(&item, own));
                 Component { supervisors, ..read }
             })
             .collect(),
@@ -149,16 +149,16 @@ fn plan(material: &Material<'_>, head: &PlanHead, made: &MadeParts, item: String
 fn locals(
     reader: &Reader<'_>,
     node: &ast::Element,
-    made: &[crate::check::Made],
+    members: &[Member],
     owner: &str,
 ) -> Vec<Component> {
     let guards = node.guards();
     let names: Vec<_> = guards.iter().map(ast::Guard::name).collect();
     let items: Vec<_> = numbered(names.iter().map(Option::as_ref)).collect();
-    let guards = guards.iter().zip(made).zip(names.into_iter().zip(items));
+    let guards = guards.iter().zip(members).zip(names.into_iter().zip(items));
     guards
-        .map(|((node, made), (name, own))| {
-            reader.guard(node, made, name, Item::local(reader.plan, owner, own))
+        .map(|((node, member), (name, own))| {
+            reader.guard(node, &member.made, name, Item::local(reader.plan, owner, own))
         })
         .collect()
 }
@@ -276,13 +276,4 @@ fn inner_items(names: &[Vec<(Option<Name>, u32)>; 3]) -> [Vec<String>; 3] {
         items[list].push(path_name(names[list][at].0.as_ref(), &mut seen));
     }
     items
-}
-
-/// What the keyword of an element says.
-pub(super) fn kind(kind: ElementKind) -> ComponentKind {
-    match kind {
-        ElementKind::Actor => ComponentKind::Actor,
-        ElementKind::Computation => ComponentKind::Computation,
-        ElementKind::SubPlan => ComponentKind::SubPlan,
-    }
 }

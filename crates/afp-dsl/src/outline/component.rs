@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::build::{Places, kind};
+use super::build::Places;
 use super::{
     Binding, Component, ComponentKind, Edge, Exit, ExitKind, Findings, Input, MadeFrom, Output,
     PlanId, TemplateUse, Value,
@@ -41,7 +41,7 @@ impl Reader<'_> {
         item: Item,
     ) -> Component {
         let written = Written {
-            kind: kind(node.kind()),
+            kind: ComponentKind::of(node.kind()),
             name,
             template: node.template(),
             binds: node.binds(),
@@ -94,6 +94,7 @@ impl Reader<'_> {
             template: written.template.as_ref().map(|reference| TemplateUse {
                 text: reference.in_one_line(),
                 span: reference.span(),
+                name_span: reference.name().map_or(reference.span(), |name| name.span),
                 made_from: signature.and_then(made_from),
             }),
             generic: made.generic.clone(),

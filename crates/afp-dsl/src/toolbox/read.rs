@@ -8,7 +8,7 @@ use std::sync::Arc;
 use crate::check::names::Names;
 use crate::check::types::Types;
 use crate::check::{enums, imports, shadows, size};
-use crate::index::Recorder;
+use crate::index::{self, Declared, Meanings, Recorder};
 use crate::rows::MAX_ROWS;
 use crate::toolbox::{Template, Toolbox};
 use crate::types::Object;
@@ -26,22 +26,51 @@ impl Toolbox {
     ///
     /// `None` when there are errors; all of them are reported.
     pub fn parse(source: &Source, file: u16, rust_path: &str) -> (Option<Toolbox>, Diagnostics) {
-        let mut diags = Diagnostics::default();
-        let tree = parse(&source.text, file, &mut diags).file();
-        let record = Recorder::default();
-        let toolbox = read(&tree, source, file, rust_path, &record, &mut diags);
-        diags.sort();
-        (toolbox.filter(|_| !diags.has_errors()), diags)
+        let read = read_file(source, file, rust_path);
+        (read.toolbox, read.diags)
     }
+}
 
-    /// The name of the toolbox in a file, however broken the rest of it is.
-    pub(crate) fn name_in(source: &Source, file: u16) -> Option<Name> {
-        let tree = parse(&source.text, file, &mut Diagnostics::default()).file();
-        tree.items().into_iter().find_map(|item| match item {
-            Item::Toolbox(head) => head.name(),
-            _ => None,
-        })
+/// What a toolbox file comes to.
+pub(super) struct ToolboxFile {
+    /// The toolbox, unless there are errors.
+    pub toolbox: Option<Toolbox>,
+    /// What it is called, however broken the rest of it is.
+    pub name: Option<Name>,
+    /// Everything there is to say about it.
+    pub diags: Diagnostics,
+    /// What its names mean.
+    pub meanings: Meanings,
+    /// What it declares.
+    pub declared: Vec<Declared>,
+}
+
+/// Reads a toolbox file; parameters as of [`Toolbox::parse`].
+pub(super) fn read_file(source: &Source, file: u16, rust_path: &str) -> ToolboxFile {
+    let mut diags = Diagnostics::default();
+    let tree = parse(&source.text, file, &mut diags).file();
+    let record = Recorder::default();
+    let toolbox = read(&tree, source, file, rust_path, &record, &mut diags);
+    diags.sort();
+    let mut meanings = Meanings::new(record.take());
+    index::unread(tree.root(), file, &mut meanings);
+    let items = tree.items();
+    let name = items.iter().find_map(|item| match item {
+        Item::Toolbox(head) => head.name(),
+        _ => None,
+    });
+    ToolboxFile {
+        toolbox: toolbox.filter(|_| !diags.has_errors()),
+        name,
+        diags,
+        declared: index::of_toolbox(&items, &meanings),
+        meanings,
     }
+}
+
+/// Finds out what names mean that only toolboxes have, in a file that is none.
+pub(crate) fn names_only(tree: &File, source: &Source, file: u16, record: &Recorder) {
+    read(tree, source, file, "", record, &mut Diagnostics::default());
 }
 
 fn read(
@@ -62,33 +91,36 @@ fn read(
             _ => None,
         })
         .collect();
-    let Some(head) = heads.first() else {
+    let head = heads.first();
+    if head.is_none() {
         let start = Span { file, start: 0, end: 0 };
         diags.push(
             Diagnostic::new(Code::E0114, start, "the file does not say which toolbox it is")
                 .help("write 'toolbox' and a name above the templates"),
         );
-        return None;
-    };
-    for other in &heads[1..] {
+    }
+    for other in heads.iter().skip(1) {
         diags.push(
             Diagnostic::new(Code::E0212, other.span(), "a file is one toolbox")
-                .note(head.span(), "the first one")
+                .note(heads[0].span(), "the first one")
                 .help("move it to a file of its own"),
         );
     }
     no_uses(&items, diags);
-    let name = head.name()?;
-    Names::default().declare(&name, diags);
+    let name = head.and_then(|head| head.name());
+    if let Some(name) = &name {
+        Names::default().declare(name, diags);
+    }
+    let version = head.and_then(|head| head.version());
     let mut toolbox = Toolbox {
-        version: head.version().map(|version| unquote(&version, diags)).unwrap_or_default(),
-        doc: head.doc(),
+        version: version.map(|version| unquote(&version, diags)).unwrap_or_default(),
+        doc: head.map(|head| head.doc()).unwrap_or_default(),
         templates: Vec::new(),
         enums: Vec::new(),
         objects: Vec::new(),
         rust_path: rust_path.to_owned(),
-        span: name.span,
-        name: name.text,
+        span: name.as_ref().map(|name| name.span).unwrap_or_default(),
+        name: name.as_ref().map(|name| name.text.clone()).unwrap_or_default(),
     };
     let types = declare(&items, &mut toolbox, diags);
     let site = Site { types: &types, source: &source.text, record };
@@ -101,7 +133,7 @@ fn read(
         "split it into two toolboxes",
         diags,
     );
-    Some(toolbox)
+    name.map(|_| toolbox)
 }
 
 fn no_uses(items: &[Item], diags: &mut Diagnostics) {

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
+use crate::index::{Declared, Meanings};
 use crate::toolbox::Toolbox;
+use crate::toolbox::read::read_file;
 use afp_syntax::ast::Name;
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::{Source, Sources, Span};
@@ -16,6 +18,8 @@ pub struct Toolboxes {
     broken: Vec<Name>,
     sources: Sources,
     diags: Diagnostics,
+    meanings: Meanings,
+    declared: Vec<Declared>,
 }
 
 impl Toolboxes {
@@ -27,15 +31,17 @@ impl Toolboxes {
         let source = Arc::new(source);
         // With so many files, spans could no longer tell them apart.
         let Some(file) = self.sources.add(source.clone()) else { return };
-        let (toolbox, diags) = Toolbox::parse(&source, file, rust_path);
-        match toolbox {
+        let read = read_file(&source, file, rust_path);
+        match read.toolbox {
             Some(toolbox) => {
                 self.list.retain(|known| known.name != toolbox.name);
                 self.list.push(Arc::new(toolbox));
             }
-            None => self.broken.extend(Toolbox::name_in(&source, file)),
+            None => self.broken.extend(read.name),
         }
-        self.diags.extend(diags);
+        self.diags.extend(read.diags);
+        self.meanings.extend(read.meanings);
+        self.declared.extend(read.declared);
     }
 
     /// The toolbox of that name; `None` when there is none or it has errors.
@@ -56,6 +62,16 @@ impl Toolboxes {
     /// The texts of the toolboxes; spans of [`Toolboxes::diagnostics`] belong to them.
     pub fn sources(&self) -> &Sources {
         &self.sources
+    }
+
+    /// What the names in the toolboxes mean.
+    pub(crate) fn meanings(&self) -> &Meanings {
+        &self.meanings
+    }
+
+    /// What the toolboxes declare.
+    pub(crate) fn declared(&self) -> &[Declared] {
+        &self.declared
     }
 
     /// Where a toolbox that was added under that name and has errors says its name.

@@ -3,6 +3,7 @@
 mod errors;
 mod explanations;
 mod graph;
+mod index;
 mod limits;
 mod outline;
 mod scale;

@@ -37,6 +37,7 @@ pub fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
             graph: None,
             scenarios: Vec::new(),
             outline: Default::default(),
+            index: Default::default(),
             diags,
             sources: sources.clone(),
             plan_files: 0..0,

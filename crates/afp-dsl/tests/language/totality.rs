@@ -8,7 +8,7 @@ use afp_dsl::toolbox::Toolboxes;
 use afp_syntax::diagnostics::Severity;
 use proptest::prelude::*;
 
-use crate::{outline, support};
+use crate::{index, outline, support};
 
 static TOOLBOXES: LazyLock<Toolboxes> = LazyLock::new(support::toolboxes);
 
@@ -36,6 +36,7 @@ fn examine(text: &str) {
     }
     if !toolbox {
         outline::examine(&Texts::in_one(text).0, &compiled);
+        index::examine(&Texts::in_one(text).0, &compiled);
     }
     if let Some(graph) = &compiled.graph {
         graph.dump();

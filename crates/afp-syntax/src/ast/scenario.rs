@@ -176,6 +176,11 @@ impl Action {
 }
 
 impl Claim {
+    /// All paths in it.
+    pub fn paths(&self) -> Vec<Path> {
+        children(&self.node, Kind::Path).map(|node| Path::new(node, self.file)).collect()
+    }
+
     /// What it says.
     pub fn kind(&self) -> ClaimKind {
         let mut paths = children(&self.node, Kind::Path).map(|node| Path::new(node, self.file));

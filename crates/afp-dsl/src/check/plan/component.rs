@@ -65,7 +65,11 @@ impl Components<'_> {
         let signature =
             reference.as_ref().and_then(|reference| self.context.callee(reference, &wanted, diags));
         let (Some(signature), Some(reference)) = (signature, reference) else {
-            edges::names_only(&node.edges(), false, self.elements, diags);
+            let words: &[&str] = match node.kind() {
+                ElementKind::SubPlan => &["OK", "Interrupted", edges::ERROR],
+                ElementKind::Actor | ElementKind::Computation => &[edges::ERROR],
+            };
+            edges::names_only(&node.edges(), words, self.elements, diags);
             bindings::names_only(self.scope, &node.binds(), diags);
             return Checked { built: None, user: None, made: Made::default() };
         };
@@ -123,7 +127,8 @@ impl Components<'_> {
         let signature =
             reference.as_ref().and_then(|reference| self.context.callee(reference, &wanted, diags));
         let (Some(signature), Some(reference)) = (signature, reference) else {
-            edges::names_only(&node.edges(), true, self.elements, diags);
+            let words = &[edges::DEADLINE_MISSED];
+            edges::names_only(&node.edges(), words, self.elements, diags);
             bindings::names_only(self.scope, &node.binds(), diags);
             let times = Some(effective(None, &written, diags));
             return Checked { built: None, user: None, made: Made { times, ..Made::default() } };

@@ -3,6 +3,7 @@
 use super::Checker;
 use super::often::wanted;
 use super::paths::{Found, Part};
+use super::resolve;
 use crate::check::names::unknown;
 use crate::graph::{Component, Target};
 use crate::scenario::{Cause, Claim, Comparison, Destination, EndCause, Expectation, Outcome};
@@ -199,20 +200,16 @@ impl Checker<'_> {
     ) -> Option<(Found, Option<Outcome>)> {
         let names = path.names();
         let first = names.first()?;
-        if let ([_], Some(outcome)) = (&names[..], self.paths.outcome(from, &first.text)) {
-            return Some((from, Some(outcome)));
-        }
-        let near = self.paths.local(from, &first.text).map(|found| (found, &names[1..]));
-        let (found, rest) = match near {
-            Some(near) => near,
-            None => match self.paths.find(from.home, &names) {
-                Ok(found) => found,
-                Err(_) => self
-                    .paths
-                    .find(self.paths.main(), &names)
-                    .map_err(|_| diags.push(self.unknown_cause(from, first)))
-                    .ok()?,
-            },
+        let paths = &self.paths;
+        let here = from.home;
+        let (found, rest) = match paths.names.cause(paths.main, here.place(), from.part, &names)? {
+            resolve::Cause::Own(outcome) => return Some((from, Some(outcome))),
+            resolve::Cause::Near(part) => (Found { home: here, part }, &names[1..]),
+            resolve::Cause::Inside(walk) => paths.arrived(here, walk, &names).ok()?,
+            resolve::Cause::Outside(walk) => paths
+                .arrived(paths.main(), walk, &names)
+                .map_err(|_| diags.push(self.unknown_cause(from, first)))
+                .ok()?,
         };
         self.outcome(found, rest, diags).map(|outcome| (found, outcome))
     }
@@ -387,7 +384,7 @@ impl Checker<'_> {
 }
 
 /// What can be said of the robot without naming a part of the plan.
-fn robot_fact(word: &str) -> Option<Claim> {
+pub(super) fn robot_fact(word: &str) -> Option<Claim> {
     match word {
         "collision" => Some(Claim::Collision),
         "halted" => Some(Claim::Halted),

@@ -1,0 +1,255 @@
+//! Records what the names in a scenario mean, of a sound plan or a broken one, line by line.
+
+use super::resolve::{Cause, Part, Resolver, Walk};
+use crate::check::Context;
+use crate::check::formula::Scope;
+use crate::check::names::Places;
+use crate::index::{Recorder, Word};
+use crate::scenario::devices::{self, Control, DEVICES};
+use afp_syntax::ast::{self, Bind, ClaimKind, Formula, Line, LineKind, Name, Path};
+
+/// Records what the names in lines mean; `plan` is that of the scenario, where there is one.
+pub(super) fn record(
+    context: Context<'_>,
+    resolver: &Resolver<'_>,
+    plan: Option<usize>,
+    lines: &[Line],
+) {
+    let record = context.program.record;
+    let names = Names { context, resolver, record, plan };
+    lines.iter().for_each(|line| names.line(line));
+}
+
+struct Names<'a> {
+    context: Context<'a>,
+    resolver: &'a Resolver<'a>,
+    record: &'a Recorder,
+    plan: Option<usize>,
+}
+
+impl Names<'_> {
+    fn line(&self, line: &Line) {
+        match line.kind() {
+            LineKind::Set(path, value) => {
+                path.iter().for_each(|path| self.entry(path));
+                value.iter().for_each(|value| self.formula(value));
+            }
+            LineKind::Robot(formulas) => formulas.iter().for_each(|value| self.formula(value)),
+            LineKind::Stimulus(_, Some(action)) => self.action(&action),
+            LineKind::Expect { claim: Some(claim), .. } => self.claim(&claim),
+            _ => {}
+        }
+    }
+
+    fn action(&self, action: &ast::Action) {
+        let Some(path) = action.path() else { return };
+        let verb = action.verb().map(|verb| verb.text).unwrap_or_default();
+        let binds = action.binds();
+        for bind in &binds {
+            let (Bind::In { port, .. } | Bind::Out { port, .. }) = bind;
+            self.record.unknown(port.span);
+            match bind {
+                Bind::In { formula: Some(formula), .. } => self.formula(formula),
+                Bind::Out { entry, formula, .. } => {
+                    entry.iter().for_each(|entry| self.record.unknown(entry.span));
+                    formula.iter().for_each(|formula| self.formula(formula));
+                }
+                Bind::In { formula: None, .. } => {}
+            }
+        }
+        match verb.as_str() {
+            "set" => {
+                self.entry(&path);
+                action.value().iter().for_each(|value| self.formula(value));
+            }
+            "press" | "release" => self.words(&path, Control::parse(&path.text()).is_some()),
+            "fail" => {
+                self.words(&path, DEVICES.iter().any(|(device, _)| *device == path.text()));
+                self.arguments(&binds);
+            }
+            "idle" => match path.names().as_slice() {
+                [name] if name.text == "all" && !self.is_component(name) => {
+                    self.record.word(name.span, Word::All);
+                }
+                _ => self.component(&path),
+            },
+            "fire" | "finish" => {
+                self.component(&path);
+                self.outputs(&path, &binds);
+            }
+            _ => self.unknown(&path.names()),
+        }
+    }
+
+    fn claim(&self, claim: &ast::Claim) {
+        match claim.kind() {
+            ClaimKind::Transition { from, to, by } => {
+                self.component(&from);
+                to.iter().for_each(|path| self.component(path));
+                by.iter().for_each(|path| self.cause(&from, path));
+            }
+            ClaimKind::Active(path) | ClaimKind::Interrupt(path) => self.component(&path),
+            ClaimKind::Compare(path, _, value) => {
+                self.entry(&path);
+                value.iter().for_each(|value| self.formula(value));
+            }
+            ClaimKind::End(Some(path)) => match (path.names().as_slice(), ending(&path)) {
+                ([name], Some(word)) if !self.is_component(name) => {
+                    self.record.word(name.span, word);
+                }
+                _ => self.component(&path),
+            },
+            ClaimKind::Commit { of, by } => {
+                of.iter().for_each(|path| self.entry(path));
+                by.iter().for_each(|path| self.component(path));
+            }
+            ClaimKind::Fact(path) => match path.names().as_slice() {
+                [name] if is_fact(&name.text) && !self.is_component(name) => {
+                    self.record.word(name.span, Word::Fact);
+                }
+                _ => self.component(&path),
+            },
+            ClaimKind::Hole => claim.paths().iter().for_each(|path| self.component(path)),
+            ClaimKind::Running | ClaimKind::End(None) => {}
+        }
+    }
+
+    fn is_component(&self, name: &Name) -> bool {
+        let found = |plan| self.resolver.component(plan, std::slice::from_ref(name)).end.is_ok();
+        self.plan.is_some_and(found)
+    }
+
+    /// A component and, perhaps, one of its states or events.
+    fn component(&self, path: &Path) {
+        let names = path.names();
+        match self.plan {
+            Some(plan) => self.walked(&self.resolver.component(plan, &names), &names),
+            None => self.unknown(&names),
+        }
+    }
+
+    fn cause(&self, from: &Path, path: &Path) {
+        let (names, from) = (path.names(), from.names());
+        let Some(main) = self.plan else { return self.unknown(&names) };
+        let left = self.resolver.component(main, &from);
+        let Ok(part) = left.end else { return self.component(path) };
+        match self.resolver.cause(main, left.plan, part, &names) {
+            Some(Cause::Own(_)) => self.outcomes(left.plan, part, &names),
+            Some(Cause::Near(local)) => {
+                let member = self.resolver.member(left.plan, local);
+                if let (Some(name), [first, ..]) = (member.and_then(|m| m.name.as_ref()), &*names) {
+                    self.record.definition(first.span, name.span);
+                }
+                self.outcomes(left.plan, local, names.get(1..).unwrap_or_default());
+            }
+            Some(Cause::Inside(walk) | Cause::Outside(walk)) => self.walked(&walk, &names),
+            None => {}
+        }
+    }
+
+    fn walked(&self, walk: &Walk<Part>, names: &[Name]) {
+        let rest = self.trail(walk, names);
+        match walk.end {
+            Ok(part) => self.outcomes(walk.plan, part, rest),
+            Err(_) => self.unknown(rest),
+        }
+    }
+
+    /// Records the names that a walk has found, and gives those behind them.
+    fn trail<'n, T>(&self, walk: &Walk<T>, names: &'n [Name]) -> &'n [Name] {
+        for (name, definition) in names.iter().zip(&walk.trail) {
+            self.record.definition(name.span, *definition);
+        }
+        names.get(walk.trail.len()..).unwrap_or_default()
+    }
+
+    fn outcomes(&self, plan: usize, part: Part, names: &[Name]) {
+        if let [name, rest @ ..] = names {
+            self.resolver.record_outcome(plan, part, name, self.record);
+            self.unknown(rest);
+        }
+    }
+
+    fn entry(&self, path: &Path) {
+        let names = path.names();
+        let rest = match self.plan {
+            Some(plan) => self.trail(&self.resolver.entry(plan, &names), &names),
+            None => &names,
+        };
+        self.unknown(rest);
+    }
+
+    /// The outputs that come with an injected state or event.
+    fn outputs(&self, path: &Path, binds: &[Bind]) {
+        let Some(plan) = self.plan else { return };
+        let walk = self.resolver.component(plan, &path.names());
+        let member = walk.end.ok().and_then(|part| self.resolver.member(walk.plan, part));
+        let Some(signature) = member.and_then(|member| member.made.signature.as_ref()) else {
+            return;
+        };
+        for bind in binds {
+            let (Bind::In { port, .. } | Bind::Out { port, .. }) = bind;
+            let declared = signature.outputs.iter().find(|output| output.name == port.text);
+            if let Some(declared) = declared {
+                self.record.definition(port.span, declared.span);
+            }
+        }
+    }
+
+    /// What a fault is told.
+    fn arguments(&self, binds: &[Bind]) {
+        let known = |name: &str| {
+            let amounts = DEVICES.iter().flat_map(|(_, kinds)| *kinds);
+            name == "kind" || { amounts }
+                .any(|kind| devices::amount(kind).is_some_and(|(a, _)| a == name))
+        };
+        for bind in binds {
+            let (Bind::In { port, .. } | Bind::Out { port, .. }) = bind;
+            if known(&port.text) {
+                self.record.word(port.span, Word::Argument);
+            }
+        }
+    }
+
+    fn words(&self, path: &Path, known: bool) {
+        for name in path.names() {
+            match known {
+                true => self.record.word(name.span, Word::Device),
+                false => self.record.unknown(name.span),
+            }
+        }
+    }
+
+    fn unknown(&self, names: &[Name]) {
+        names.iter().for_each(|name| self.record.unknown(name.span));
+    }
+
+    /// A value, which may be made of constants of the plan.
+    fn formula(&self, formula: &Formula) {
+        let none = Places::default();
+        let head = self.plan.map(|plan| &self.context.program.plans[plan]);
+        let scope = Scope {
+            types: &self.context.file.types,
+            entries: head.map_or(&[], |head| &head.entries),
+            places: head.map_or(&none, |head| &head.places),
+            readable: &|_| true,
+            unreadable: "",
+            text: self.context.file.text,
+            record: self.record,
+        };
+        scope.names_only(formula);
+    }
+}
+
+fn ending(path: &Path) -> Option<Word> {
+    match path.text().as_str() {
+        "OK" => Some(Word::Ok),
+        "Interrupted" => Some(Word::Interrupted),
+        "Error" => Some(Word::Error),
+        _ => None,
+    }
+}
+
+fn is_fact(word: &str) -> bool {
+    super::claims::robot_fact(word).is_some()
+}

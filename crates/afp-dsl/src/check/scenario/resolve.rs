@@ -1,0 +1,251 @@
+//! What the dotted names of a scenario mean: components and entries of its plan and of the plans
+//! inside.
+//!
+//! This needs names alone, so it works on plans with errors too.
+
+use crate::check::names::unknown;
+use crate::check::signature::{Signature, SignatureKind};
+use crate::check::{Member, Members, Program, edges};
+use crate::graph::{ElementId, SupervisorId};
+use crate::index::Recorder;
+use crate::outline::ComponentKind;
+use crate::scenario::Outcome;
+use afp_syntax::ast::Name;
+use afp_syntax::diagnostics::{Code, Diagnostic};
+use afp_syntax::source::Span;
+
+/// The plans of a program, by names.
+#[derive(Clone, Copy)]
+pub(super) struct Resolver<'a> {
+    pub program: &'a Program<'a>,
+    pub members: &'a [Members],
+}
+
+/// An element or a supervisor of a plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    Element(ElementId),
+    Supervisor(SupervisorId),
+}
+
+/// What names lead to.
+pub(super) struct Walk<T> {
+    /// The declarations that the names stand for, one for each, as far as they were found.
+    pub trail: Vec<Span>,
+    /// The elements that were entered, each a sub-plan of the plan before it.
+    pub entered: Vec<ElementId>,
+    /// The plan in which it ends, by its place in [`Program::plans`].
+    pub plan: usize,
+    /// What is there; or why nothing is.
+    pub end: Result<T, Box<Diagnostic>>,
+}
+
+/// Where the cause of a transition was found.
+pub(super) enum Cause {
+    /// A state of the element that is left.
+    Own(Outcome),
+    /// One of its supervisors; names from the second on are left.
+    Near(Part),
+    /// Something in its plan.
+    Inside(Walk<Part>),
+    /// Something seen from the outermost plan.
+    Outside(Walk<Part>),
+}
+
+impl<'a> Resolver<'a> {
+    /// The component that the first of the names mean; the trail tells how many of them.
+    pub fn component(&self, plan: usize, names: &[Name]) -> Walk<Part> {
+        let mut walk = Walk { trail: Vec::new(), entered: Vec::new(), plan, end: Err(empty()) };
+        for (at, name) in names.iter().enumerate() {
+            let Some(part) = self.part(walk.plan, &name.text) else {
+                walk.end = Err(self.unknown_part(walk.plan, name));
+                return walk;
+            };
+            walk.trail.extend(self.declaration(walk.plan, part));
+            walk.end = Ok(part);
+            let (Part::Element(id), Some(next)) = (part, names.get(at + 1)) else { return walk };
+            if let Some(local) = self.local(walk.plan, part, &next.text) {
+                walk.trail.extend(self.declaration(walk.plan, local));
+                walk.end = Ok(local);
+                return walk;
+            }
+            let Some(inner) = self.sub_plan(walk.plan, id) else { return walk };
+            if self.outcome(walk.plan, part, &next.text).is_some() {
+                return walk;
+            }
+            walk.entered.push(id);
+            walk.plan = inner;
+        }
+        walk
+    }
+
+    /// The entry that names mean, by its place.
+    pub fn entry(&self, plan: usize, names: &[Name]) -> Walk<usize> {
+        let mut walk = Walk { trail: Vec::new(), entered: Vec::new(), plan, end: Err(empty()) };
+        for (at, name) in names.iter().enumerate() {
+            let element = self.members[walk.plan].places.find(&name.text);
+            let id = element.and_then(|place| u16::try_from(place).ok()).map(ElementId);
+            let inner = id.and_then(|id| Some((id, self.sub_plan(walk.plan, id)?)));
+            if let (Some((id, inner)), true) = (inner, at + 1 < names.len()) {
+                walk.trail.extend(self.declaration(walk.plan, Part::Element(id)));
+                walk.entered.push(id);
+                walk.plan = inner;
+                continue;
+            }
+            let head = &self.program.plans[walk.plan];
+            let Some(place) = head.places.find(&name.text) else {
+                walk.end = Err(self.unknown_entry(walk.plan, name));
+                return walk;
+            };
+            walk.trail.push(head.entries[place].name.span);
+            walk.end = match names.get(at + 1) {
+                None => Ok(place),
+                Some(more) => {
+                    let message = format!("'{}' is an entry and has no parts", name.text);
+                    let error = Diagnostic::new(Code::E0209, more.span, message);
+                    Err(Box::new(error.help(format!("write '{}'", name.text))))
+                }
+            };
+            return walk;
+        }
+        walk
+    }
+
+    /// What names behind `by` mean where an element is left: one of its states, a supervisor of it
+    /// or of its plan, or a path from the outermost plan.
+    pub fn cause(&self, main: usize, plan: usize, from: Part, names: &[Name]) -> Option<Cause> {
+        let first = names.first()?;
+        if let ([_], Some(outcome)) = (names, self.outcome(plan, from, &first.text)) {
+            return Some(Cause::Own(outcome));
+        }
+        if let Some(local) = self.local(plan, from, &first.text) {
+            return Some(Cause::Near(local));
+        }
+        let inside = self.component(plan, names);
+        Some(match inside.end {
+            Ok(_) => Cause::Inside(inside),
+            Err(_) => Cause::Outside(self.component(main, names)),
+        })
+    }
+
+    /// An element or global supervisor of a plan.
+    fn part(&self, plan: usize, name: &str) -> Option<Part> {
+        let members = &self.members[plan];
+        if let Some(place) = members.places.find(name) {
+            return u16::try_from(place).ok().map(ElementId).map(Part::Element);
+        }
+        let place = members.globals.iter().position(|member| is_called(member, name))?;
+        u16::try_from(place).ok().map(SupervisorId).map(Part::Supervisor)
+    }
+
+    /// A local supervisor of an element.
+    pub fn local(&self, plan: usize, element: Part, name: &str) -> Option<Part> {
+        let Part::Element(id) = element else { return None };
+        let members = &self.members[plan];
+        let own = &members.elements.get(id.index())?.locals;
+        let place = own.iter().position(|member| is_called(member, name))?;
+        let before = members.elements[..id.index()].iter().map(|element| element.locals.len());
+        let number = members.globals.len() + before.sum::<usize>() + place;
+        u16::try_from(number).ok().map(SupervisorId).map(Part::Supervisor)
+    }
+
+    /// The component itself.
+    pub fn member(&self, plan: usize, part: Part) -> Option<&'a Member> {
+        let members = &self.members[plan];
+        match part {
+            Part::Element(id) => members.elements.get(id.index()),
+            Part::Supervisor(id) => {
+                let locals = members.elements.iter().flat_map(|element| &element.locals);
+                members.globals.iter().chain(locals).nth(id.index())
+            }
+        }
+    }
+
+    /// The plan that an element is made from, by its place.
+    fn sub_plan(&self, plan: usize, element: ElementId) -> Option<usize> {
+        let member = self.member(plan, Part::Element(element))?;
+        match member.made.signature.as_ref()?.kind {
+            SignatureKind::Plan(place) if member.kind == ComponentKind::SubPlan => Some(place),
+            _ => None,
+        }
+    }
+
+    fn signature(&self, plan: usize, part: Part) -> Option<&'a Signature> {
+        self.member(plan, part)?.made.signature.as_deref()
+    }
+
+    /// The names of a component's states or events.
+    pub fn outcomes(&self, plan: usize, part: Part) -> Vec<&'a str> {
+        let signature = self.signature(plan, part);
+        let outcomes = signature.map_or(&[][..], |signature| &signature.outcomes);
+        outcomes.iter().map(String::as_str).collect()
+    }
+
+    /// What its undeclared outcome is called.
+    pub fn special(part: Part) -> &'static str {
+        match part {
+            Part::Element(_) => edges::ERROR,
+            Part::Supervisor(_) => edges::DEADLINE_MISSED,
+        }
+    }
+
+    /// A state or event of that name.
+    pub fn outcome(&self, plan: usize, part: Part, name: &str) -> Option<Outcome> {
+        let declared = self.outcomes(plan, part).iter().position(|known| *known == name);
+        match declared {
+            Some(place) => Some(Outcome::Declared(u16::try_from(place).ok()?)),
+            None => (name == Self::special(part)).then_some(Outcome::Special),
+        }
+    }
+
+    /// Says what a name means that stands for a state or event.
+    pub fn record_outcome(&self, plan: usize, part: Part, name: &Name, record: &Recorder) {
+        let signature = self.signature(plan, part);
+        let declared = match self.outcome(plan, part, &name.text) {
+            Some(Outcome::Declared(place)) => {
+                signature.and_then(|signature| signature.outcome_span(usize::from(place)))
+            }
+            Some(Outcome::Special) => None,
+            None => return record.unknown(name.span),
+        };
+        match (declared, edges::word(&name.text)) {
+            (Some(definition), _) => record.definition(name.span, definition),
+            (None, Some(word)) => record.word(name.span, word),
+            (None, None) => record.unknown(name.span),
+        }
+    }
+
+    fn declaration(&self, plan: usize, part: Part) -> Option<Span> {
+        self.member(plan, part)?.name.as_ref().map(|name| name.span)
+    }
+
+    fn unknown_part(&self, plan: usize, name: &Name) -> Box<Diagnostic> {
+        let members = &self.members[plan];
+        let all = members.elements.iter().chain(&members.globals);
+        let known = all.filter_map(|member| Some(member.name.as_ref()?.text.as_str()));
+        let plan = self.plan_name(plan);
+        let message = format!("'{plan}' has no element or supervisor '{}'", name.text);
+        Box::new(unknown(Code::E0602, name.span, message, &name.text, known, "write another name"))
+    }
+
+    fn unknown_entry(&self, plan: usize, name: &Name) -> Box<Diagnostic> {
+        let entries = self.program.plans[plan].entries.iter();
+        let known = entries.map(|entry| entry.name.text.as_str());
+        let message = format!("'{}' has no entry '{}'", self.plan_name(plan), name.text);
+        let none = "declare it in the plan";
+        Box::new(unknown(Code::E0209, name.span, message, &name.text, known, none))
+    }
+
+    fn plan_name(&self, plan: usize) -> &str {
+        self.program.plans[plan].name.as_ref().map_or("", |name| &name.text)
+    }
+}
+
+fn is_called(member: &Member, name: &str) -> bool {
+    member.name.as_ref().is_some_and(|known| known.text == name)
+}
+
+fn empty() -> Box<Diagnostic> {
+    let error = Diagnostic::new(Code::E0602, Span::default(), "the name is missing");
+    Box::new(error.help("write the name of an element or supervisor"))
+}

@@ -1,0 +1,70 @@
+//! Puts together what was declared and what was recorded.
+
+use super::declare::{self, Declared};
+use super::record::{Found, Meanings};
+use super::{Candidates, Definition, DefinitionId, Index, Meaning, Name};
+use crate::outline::Outline;
+use afp_syntax::source::Span;
+
+/// The index of a compilation. `declared` has what toolboxes declare, the outline has the rest.
+pub(crate) fn build(outline: &Outline, meanings: &Meanings, declared: &[Declared]) -> Index {
+    let mut all: Vec<Declared> = declared.to_vec();
+    declare::of_outline(outline, meanings, &mut all);
+    all.sort_by_key(|each| each.name);
+    all.dedup_by_key(|each| each.name);
+    let own: Vec<Span> = all.iter().map(|each| each.name).collect();
+    let known = |name: Span| own.binary_search(&name).ok().map(DefinitionId::new);
+    let names = names(&own, meanings, &known);
+    let mut uses: Vec<_> = (0..)
+        .zip(&names)
+        .filter_map(|(at, name)| match name.meaning {
+            Meaning::Refers(id) => Some((id, at)),
+            _ => None,
+        })
+        .collect();
+    uses.sort_unstable();
+    let several = meanings.several.iter();
+    let several = several.map(|spans| spans.iter().filter_map(|span| known(*span)).collect());
+    let several = several.collect();
+    let definitions = all.into_iter().map(|each| Definition {
+        kind: each.kind,
+        name: each.name,
+        span: each.span,
+        owner: each.owner.and_then(known),
+        made_from: each.made_from.and_then(known),
+        doc: each.doc,
+    });
+    Index { definitions: definitions.collect(), names, uses, several }
+}
+
+/// Joins the names that declare with those that were recorded; both are in order.
+fn names(
+    own: &[Span],
+    meanings: &Meanings,
+    known: &dyn Fn(Span) -> Option<DefinitionId>,
+) -> Vec<Name> {
+    let mut names = Vec::with_capacity(own.len() + meanings.names.len());
+    let mut declared = (0..).map(DefinitionId).zip(own).peekable();
+    for (span, found) in &meanings.names {
+        while let Some((id, name)) = declared.next_if(|(_, name)| *name <= span) {
+            names.push(Name { span: *name, meaning: Meaning::Declares(id) });
+        }
+        // What declares something is no reference, whatever else was found about it.
+        if names.last().is_some_and(|last| last.span == *span) {
+            continue;
+        }
+        let meaning = match found {
+            Found::Unread => Meaning::Unread,
+            Found::Unknown => Meaning::Unknown,
+            Found::Word(word) => Meaning::Word(*word),
+            Found::File(file) => Meaning::File(*file),
+            Found::Several(place) => Meaning::Ambiguous(Candidates(*place)),
+            Found::Definition(definition) => {
+                known(*definition).map_or(Meaning::Unknown, Meaning::Refers)
+            }
+        };
+        names.push(Name { span: *span, meaning });
+    }
+    names.extend(declared.map(|(id, name)| Name { span: *name, meaning: Meaning::Declares(id) }));
+    names
+}

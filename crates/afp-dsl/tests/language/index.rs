@@ -1,0 +1,231 @@
+//! Texts, many of them broken, each with what its names mean behind it; and what holds for any text.
+//!
+//! `AFP_BLESS=1` rewrites the meanings; read the diff like code.
+
+use crate::support;
+
+use std::fmt::Write;
+
+use afp_dsl::Compiled;
+use afp_dsl::index::{Definition, DefinitionKind, Meaning, Word};
+use afp_syntax::diagnostics::{Diagnostics, Severity};
+use afp_syntax::source::Span;
+use afp_syntax::{kind::Kind, parse};
+
+const MARK: &str = "\n// Index:\n";
+
+#[test]
+fn every_case_has_the_index_it_should() {
+    let toolboxes = support::toolboxes();
+    let mut wrong = Vec::new();
+    for path in support::files("tests/index") {
+        let case = support::read(&path);
+        let text = case.split(MARK).next().unwrap();
+        let compiled = support::compile(text, &toolboxes);
+        let dump: String = dump(&compiled).lines().map(|line| format!("//  {line}\n")).collect();
+        wrong.extend(support::compare(&path, &case, &format!("{text}{MARK}{dump}")));
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Line and column of a place; of a toolbox its name.
+fn place(compiled: &Compiled, span: Span) -> String {
+    let files = compiled.plan_files.clone();
+    let source = compiled.sources.get(span.file).unwrap();
+    let (line, column) = source.line_column(span.start);
+    match usize::from(span.file) {
+        file if file == files.start => format!("{line}:{column}"),
+        file if files.contains(&file) => format!("{}:{line}:{column}", source.name),
+        _ => source.name.clone(),
+    }
+}
+
+/// A definition with what it is declared in.
+fn shown(compiled: &Compiled, definition: &Definition) -> String {
+    let mut path = compiled.sources.text(definition.name).to_owned();
+    let mut owner = definition.owner;
+    while let Some(id) = owner {
+        let outer = compiled.index.definition(id);
+        path = format!("{}.{path}", compiled.sources.text(outer.name));
+        owner = outer.owner;
+    }
+    let kind = match definition.kind {
+        DefinitionKind::Entry(kind) => format!("{kind:?} entry"),
+        DefinitionKind::Component(kind) => format!("{kind:?}"),
+        DefinitionKind::Template(kind) => format!("{kind:?} template"),
+        kind => format!("{kind:?}"),
+    };
+    format!("{} {path}", kind.to_lowercase())
+}
+
+fn dump(compiled: &Compiled) -> String {
+    let index = &compiled.index;
+    let mut text = String::new();
+    for file in compiled.plan_files.clone() {
+        for name in index.names_in(file as u16) {
+            let said = match name.meaning {
+                Meaning::Declares(id) => {
+                    let definition = index.definition(id);
+                    let made = definition.made_from.map(|made| index.definition(made));
+                    let made = made.map(|made| format!(" from {}", shown(compiled, made)));
+                    let uses: Vec<_> =
+                        index.references(id).map(|used| place(compiled, used)).collect();
+                    let uses = if uses.is_empty() {
+                        String::new()
+                    } else {
+                        format!("; {}", uses.join(" "))
+                    };
+                    format!("= {}{}{uses}", shown(compiled, definition), made.unwrap_or_default())
+                }
+                Meaning::Refers(id) => {
+                    let definition = index.definition(id);
+                    format!(
+                        "{} ({})",
+                        shown(compiled, definition),
+                        place(compiled, definition.name)
+                    )
+                }
+                Meaning::Ambiguous(candidates) => {
+                    let all = index.candidates(candidates).iter();
+                    let all = all.map(|id| shown(compiled, index.definition(*id)));
+                    format!("one of {}", all.collect::<Vec<_>>().join(", "))
+                }
+                Meaning::File(file) => format!("file {}", compiled.sources.get(file).unwrap().name),
+                meaning => format!("{meaning:?}").to_lowercase(),
+            };
+            let written = compiled.sources.text(name.span);
+            let _ = writeln!(text, "{} {written}: {said}", place(compiled, name.span));
+        }
+    }
+    text
+}
+
+/// Checks that every name of a text is in its index, once, and that definitions and references
+/// belong together.
+pub fn examine(text: &str, compiled: &Compiled) {
+    let index = &compiled.index;
+    let file = compiled.plan_files.start as u16;
+    let sound = !compiled.diags.iter().any(|each| each.severity == Severity::Error);
+    let root = parse(text, file, &mut Diagnostics::default()).root();
+    for token in root.descendants_with_tokens().filter_map(|each| each.into_token()) {
+        if token.kind() != Kind::Name {
+            continue;
+        }
+        let range = token.text_range();
+        let span = Span { file, start: range.start().into(), end: range.end().into() };
+        let name = index.name(span);
+        let name =
+            name.unwrap_or_else(|| panic!("'{}' at {span:?} is missing of\n{text}", token.text()));
+        assert_eq!(index.at(file, span.start), Some(name), "{text}");
+        let skipped = token.parent_ancestors().any(|node| node.kind() == Kind::Error);
+        if name.meaning == Meaning::Unread {
+            assert!(skipped, "'{}' at {span:?} is not read of\n{text}", token.text());
+        }
+        assert!(!sound || name.meaning != Meaning::Unknown, "'{}' of\n{text}", token.text());
+    }
+    for pair in index.names_in(file).windows(2) {
+        assert!(pair[0].span.end <= pair[1].span.start, "{pair:?} of\n{text}");
+    }
+    for (id, definition) in index.definitions() {
+        let own = index.name(definition.name).unwrap();
+        assert_eq!(own.meaning, Meaning::Declares(id));
+        assert!(definition.span.contains(definition.name), "{definition:?} of\n{text}");
+        for used in index.references(id) {
+            assert_eq!(index.name(used).unwrap().meaning, Meaning::Refers(id));
+        }
+        if let Some(owner) = definition.owner {
+            assert!(index.members(owner).any(|(member, _)| member == id), "{definition:?}");
+        }
+    }
+}
+
+#[test]
+fn every_name_of_every_case_is_in_the_index() {
+    let toolboxes = support::toolboxes();
+    for folder in [
+        "tests/errors",
+        "tests/graph",
+        "tests/outline",
+        "tests/index",
+        "tests/toolboxes",
+        "../../plans",
+        "../../plans/tests",
+        "../../tests/run",
+    ] {
+        for path in support::files(folder) {
+            let text = support::read(&path);
+            let (first, files) = afp_dsl::files::Texts::in_one(&text);
+            let source = afp_syntax::source::Source::new(support::CASE, first.as_str());
+            examine(&first, &afp_dsl::compile(&source, &toolboxes, &files));
+        }
+    }
+}
+
+const PATROL: &str = "\
+use carbot as c
+
+enum Side { left right }
+
+plan Patrol {
+    in side: Side = Side.left
+    var gap: length
+    start go
+    /// Ahead.
+    actor go: c.Forward(distance = gap, driven => gap) {
+        supervise touch: c.CheckTouchSensor { TouchSensorPressed -> turn }
+        ForwardSuccessful -> turn
+    }
+    actor turn: c.Turn { TurnSuccessful -> go, Error -> terminate }
+}
+";
+
+/// The place of the `nth` occurrence of a word, from 1.
+fn find(compiled: &Compiled, word: &str, nth: usize) -> (u16, u32) {
+    let file = compiled.plan_files.start as u16;
+    let text = &compiled.sources.get(file).unwrap().text;
+    (file, text.match_indices(word).nth(nth - 1).unwrap().0 as u32)
+}
+
+/// What the index is for, by example.
+#[test]
+fn an_editor_asks_the_index() {
+    let compiled = support::compile(PATROL, &support::toolboxes());
+    let index = &compiled.index;
+    let said = |word: &str, nth: usize| {
+        let (file, offset) = find(&compiled, word, nth);
+        index.at(file, offset).unwrap().meaning
+    };
+    // Go to definition: from a target to its element, from a port to the toolbox.
+    let turn = said("turn", 1).definition().unwrap();
+    let definition = index.definition(turn);
+    assert_eq!(place(&compiled, definition.name), "14:11");
+    assert_eq!(compiled.sources.text(definition.span).lines().count(), 1);
+    let port = index.definition(said("distance", 1).definition().unwrap());
+    assert_eq!(
+        (port.kind, place(&compiled, port.name)),
+        (DefinitionKind::Input, "carbot.afp".into())
+    );
+    // References: everything that leads to it.
+    let uses: Vec<_> = index.references(turn).map(|span| place(&compiled, span)).collect();
+    assert_eq!(uses, ["11:69", "12:30"]);
+    // Hover: help, and what it is made from.
+    let go = index.definition(said("go", 1).definition().unwrap());
+    assert_eq!(go.doc, "Ahead.");
+    let template = index.definition(go.made_from.unwrap());
+    assert_eq!(compiled.sources.text(template.name), "Forward");
+    assert!(template.doc.starts_with("Drive"), "{}", template.doc);
+    // The short name of a toolbox is declared behind 'as'.
+    let alias = index.definition(said("c.Forward", 1).definition().unwrap());
+    assert_eq!((alias.kind, place(&compiled, alias.name)), (DefinitionKind::Alias, "1:15".into()));
+    // Words of the language have no definition.
+    assert_eq!(said("Error", 1), Meaning::Word(Word::Error));
+    assert_eq!(said("length", 1), Meaning::Word(Word::Type));
+    // Symbols: what a plan is made of, in order.
+    let plan = said("Patrol", 1).definition().unwrap();
+    let members: Vec<_> =
+        index.members(plan).map(|(_, each)| compiled.sources.text(each.name)).collect();
+    assert_eq!(members, ["side", "gap", "go", "turn"]);
+    // Nothing stands between the names.
+    let (file, offset) = find(&compiled, "{ left", 1);
+    assert_eq!(index.at(file, offset), None);
+}
