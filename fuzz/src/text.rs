@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use afp_dsl::compile;
+use afp_dsl::draw::{Options, svg};
 use afp_dsl::files::Texts;
 use afp_dsl::layout_file::Layout;
 use afp_dsl::scenario::{Scenario, Window};
@@ -10,6 +11,7 @@ use afp_dsl::toolbox::Toolboxes;
 use afp_sim::{Simulation, World};
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::format;
+use afp_syntax::item::Item;
 use afp_syntax::source::Source;
 use afp_syntax::{Node, kind::Kind, parse};
 
@@ -58,15 +60,32 @@ fn solid(text: &str) -> Vec<String> {
     kept.map(|token| token.text().trim_end().to_owned()).collect()
 }
 
-/// What is written is read back.
+/// What is written is read back, and a plan can be drawn with its elements at the positions.
 ///
 /// # Panics
-/// When it is not.
+/// When it is not, or cannot.
 pub fn layout(data: &[u8]) {
     let (layout, _) = Layout::read(&text(data));
     let written = layout.write();
     let (again, errors) = Layout::read(&written);
-    assert_eq!((again, errors.as_slice()), (layout, [].as_slice()), "{written}");
+    assert_eq!((&again, errors.as_slice()), (&layout, [].as_slice()), "{written}");
+    drawn(&layout);
+}
+
+/// Draws a plan whose elements have the positions of a layout one after the other.
+fn drawn(layout: &Layout) {
+    const PLAN: &str = include_str!("../../plans/wall_following.afp");
+    let compiled = compile(&Source::new("drawn.afp", PLAN), &toolboxes(), &Texts::default());
+    let Some(graph) = &compiled.graph else { panic!("{}", compiled.render(false)) };
+    let plan = graph.main();
+    let names = plan.elements.iter().map(|element| element.name.as_str()).chain(["start"]);
+    let mut placed = Layout::default();
+    for (name, (_, position)) in names.zip(layout.iter()) {
+        placed.set(Item::inner(&plan.name, name), position);
+    }
+    let positions = vec![placed; compiled.sources.len()];
+    let picture = svg(graph, &Options { positions: &positions, ..Options::default() });
+    assert!(picture.ends_with("</svg>\n") && !picture.contains("NaN"), "{picture}");
 }
 
 /// A world is read or refused at a place within the text.

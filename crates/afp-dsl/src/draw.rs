@@ -11,6 +11,7 @@ mod json;
 mod layout;
 mod legend;
 mod metrics;
+mod router;
 mod scxml;
 mod sketch;
 mod svg;

@@ -1,24 +1,27 @@
-//! Where boxes and thick arrows go: a layered layout with right-angled edges.
+//! Where boxes go: a layered layout, around boxes that have places already.
 //!
-//! The classic scheme of Sugiyama in five stages, each in a file of its own: elements get layers
-//! ([`layers`]), edges get a way through every layer they pass ([`grid`]), each layer gets an order
-//! with few crossings ([`order`]), items get abscissas ([`place`]), and the horizontal parts of
-//! edges get lines of their own between layers ([`channel`]). Edges leave boxes below (states) or on
-//! the right (events) and arrive from above; what leads back up climbs beside the boxes.
-//! Everything is deterministic. Where some boxes stand already ([`placed`]), the others go around
-//! them and edges find ways of their own ([`maze`]).
+//! The classic scheme of Sugiyama in stages, each in a file of its own: elements get layers
+//! ([`layers`]), edges get dummy nodes in every layer they pass ([`grid`]), which keep room free
+//! for them, each layer gets an order with few crossings ([`order`]), items get abscissas
+//! ([`place`]) and layers ordinates ([`rows`]). Edges leave boxes below (states) or on the right
+//! (events) and arrive from above; what leads back up climbs beside the boxes. The routes of edges
+//! are found by the [`router`](super::router), and where they find too little room, boxes give
+//! way. Everything is deterministic. Where some boxes stand already ([`placed`]), the others go
+//! around them.
 
 mod channel;
 mod grid;
 mod layers;
-mod maze;
 mod order;
 mod place;
 mod placed;
-mod route;
+mod rows;
 
 use grid::Grid;
 pub(super) use placed::layout_around;
+use rows::Rows;
+
+use super::router::{self, Bounds, Heading, Point, Wire};
 
 /// A box with everything attached to it; edges keep away from it.
 #[derive(Clone, Debug)]
@@ -55,14 +58,17 @@ pub(super) enum Exit {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Layout {
     /// The upper left corner of each node.
-    pub(super) corners: Vec<(f64, f64)>,
+    pub(super) corners: Vec<Point>,
     /// The corners of each link's polyline, start and tip included.
-    pub(super) routes: Vec<Vec<(f64, f64)>>,
+    pub(super) routes: Vec<Vec<Point>>,
     /// Width of everything.
     pub(super) width: f64,
     /// Height of everything.
     pub(super) height: f64,
 }
+
+/// How often boxes give way to edges.
+const ROUNDS: usize = 4;
 
 /// Lays out the nodes; `links` out of a node count in their order, and node 0 comes first.
 pub(super) fn layout(nodes: &[Node], links: &[Link]) -> Layout {
@@ -73,5 +79,58 @@ pub(super) fn layout(nodes: &[Node], links: &[Link]) -> Layout {
     let mut grid = Grid::new(nodes, links, &layers);
     order::improve(&mut grid);
     place::place(&mut grid);
-    route::route(&mut grid, nodes, links)
+    let mut rows = Rows::new(&grid, nodes);
+    let mut round = 1;
+    loop {
+        let corners = rows.corners(&grid, nodes);
+        let (boxes, wires) = (bounds(nodes, &corners), wires(nodes, links, &corners));
+        let found = router::route(&boxes, &wires, &[]);
+        // A box at which too many edges arrive cannot give way.
+        let mut narrow = found.crowded.iter().filter(|narrow| !narrow.arrives).peekable();
+        if narrow.peek().is_none() || round == ROUNDS {
+            return moved_to_origin(nodes, corners, found.corners);
+        }
+        for narrow in narrow {
+            rows.give_way(&mut grid, narrow);
+        }
+        round += 1;
+    }
+}
+
+fn bounds(nodes: &[Node], corners: &[Point]) -> Vec<Bounds> {
+    let bounds = |((left, top), node): (&Point, &Node)| Bounds {
+        left: *left,
+        top: *top,
+        right: left + node.width,
+        bottom: top + node.height,
+    };
+    corners.iter().zip(nodes).map(bounds).collect()
+}
+
+fn wires(nodes: &[Node], links: &[Link], corners: &[Point]) -> Vec<Wire> {
+    let wire = |link: &Link| {
+        let ((x, y), (to_x, to_y)) = (corners[link.from], corners[link.to]);
+        let (start, heading) = match link.exit {
+            Exit::Below(dx, dy) => ((x + dx, y + dy), Heading::Down),
+            Exit::Right(dx, dy) => ((x + dx, y + dy), Heading::Right),
+        };
+        let (left, right) = nodes[link.to].entry;
+        let arrival = (to_x + left, to_x + right.max(left));
+        Wire { from: link.from, to: link.to, start, heading, arrival, tip: to_y }
+    };
+    links.iter().map(wire).collect()
+}
+
+fn moved_to_origin(nodes: &[Node], mut corners: Vec<Point>, mut routes: Vec<Vec<Point>>) -> Layout {
+    let ends = corners.iter().zip(nodes);
+    let ends: Vec<_> = ends.map(|((x, y), node)| (x + node.width, y + node.height)).collect();
+    let points = || corners.iter().chain(routes.iter().flatten());
+    let left = points().map(|point| point.0).fold(f64::INFINITY, f64::min);
+    let top = points().map(|point| point.1).fold(f64::INFINITY, f64::min);
+    let right = points().chain(&ends).map(|point| point.0).fold(left, f64::max);
+    let bottom = points().chain(&ends).map(|point| point.1).fold(top, f64::max);
+    for point in corners.iter_mut().chain(routes.iter_mut().flatten()) {
+        *point = (point.0 - left, point.1 - top);
+    }
+    Layout { corners, routes, width: right - left, height: bottom - top }
 }

@@ -13,25 +13,23 @@ pub(super) fn assign(count: usize, links: &[Link]) -> Vec<usize> {
     let edges: Vec<_> =
         links.iter().map(|link| (link.from, link.to)).filter(|(from, to)| from != to).collect();
     let order = with_fewest_back_edges(count, &edges);
-    let mut rank = vec![0; count];
-    for (place, node) in order.iter().enumerate() {
-        rank[*node] = place;
-    }
+    let rank = ranks(&order);
     let down = |from: usize, to: usize| rank[from] < rank[to];
     let mut layers = vec![1; count];
     if let Some(first) = layers.first_mut() {
         *first = 0;
     }
     // In this order every edge that leads down comes after all edges into its start.
+    let around = Around::new(count, &edges);
     for from in &order {
-        for (_, to) in edges.iter().filter(|edge| edge.0 == *from && down(edge.0, edge.1)) {
+        for to in around.out_of[*from].iter().filter(|to| down(*from, **to)) {
             layers[*to] = layers[*to].max(layers[*from] + 1);
         }
     }
     for node in order.iter().rev().filter(|node| **node != 0) {
-        let reached = edges.iter().any(|(from, to)| to == node && down(*from, *to));
-        let below = edges.iter().filter(|(from, to)| from == node && down(*from, *to));
-        let nearest = below.map(|(_, to)| layers[*to]).min();
+        let reached = around.into[*node].iter().any(|from| down(*from, *node));
+        let below = around.out_of[*node].iter().filter(|to| down(*node, **to));
+        let nearest = below.map(|to| layers[*to]).min();
         if let (false, Some(nearest)) = (reached, nearest) {
             layers[*node] = nearest - 1;
         }
@@ -56,33 +54,103 @@ fn with_fewest_back_edges(count: usize, edges: &[(usize, usize)]) -> Vec<usize> 
 /// Moves single nodes, never the first, as long as that turns edges round and leaves every node
 /// with an edge from above; also returns how many edges lead back in the end.
 fn improved(mut order: Vec<usize>, edges: &[(usize, usize)]) -> (Vec<usize>, usize) {
-    let mut best = quality(&order, edges);
+    let around = Around::new(order.len(), edges);
+    let mut rank = ranks(&order);
     for _ in 0..order.len() {
-        let before = best;
+        let mut moved = false;
         for node in order.clone().into_iter().skip(1) {
-            for place in 1..order.len() {
-                let mut other: Vec<_> =
-                    order.iter().copied().filter(|each| *each != node).collect();
-                other.insert(place, node);
-                let found = quality(&other, edges);
-                if found < best {
-                    (order, best) = (other, found);
-                }
+            if let Some(to) = around.better_rank(node, &order, &rank) {
+                order.remove(rank[node]);
+                order.insert(to, node);
+                rank = ranks(&order);
+                moved = true;
             }
         }
-        if best == before || order.len() > MOST_IMPROVED {
+        if !moved || order.len() > MOST_IMPROVED {
             break;
         }
     }
-    (order, best.1)
+    let back = quality(&order, edges).1;
+    (order, back)
 }
 
-/// How many nodes no edge reaches from above, and how many edges lead back.
-fn quality(order: &[usize], edges: &[(usize, usize)]) -> (usize, usize) {
+/// The edges into and out of each node.
+struct Around {
+    into: Vec<Vec<usize>>,
+    out_of: Vec<Vec<usize>>,
+}
+
+impl Around {
+    fn new(count: usize, edges: &[(usize, usize)]) -> Around {
+        let mut around = Around { into: vec![Vec::new(); count], out_of: vec![Vec::new(); count] };
+        for (from, to) in edges {
+            around.out_of[*from].push(*to);
+            around.into[*to].push(*from);
+        }
+        around
+    }
+
+    /// The first rank at which a node makes the order best, if that is better than where it is.
+    ///
+    /// Only edges of the node itself change their direction, so it is enough to walk past its
+    /// neighbours, one rank after the other.
+    fn better_rank(&self, node: usize, order: &[usize], rank: &[usize]) -> Option<usize> {
+        let own = rank[node];
+        let mut best: (i64, i64, Option<usize>) = (0, 0, None);
+        let (unreached, back) = self.cost(node, own, rank);
+        let mut neighbours: Vec<usize> =
+            self.into[node].iter().chain(&self.out_of[node]).map(|other| rank[*other]).collect();
+        neighbours.sort_unstable();
+        neighbours.dedup();
+        // Ranks count without the node; between two neighbours all of them are alike.
+        let before = |other: usize| if other < own { other } else { other - 1 };
+        let candidates = neighbours.into_iter().map(|other| before(other) + 1);
+        for to in std::iter::once(1).chain(candidates).filter(|to| (1..order.len()).contains(to)) {
+            let (other_unreached, other_back) = self.cost_at(node, to, own, rank);
+            let gain = (other_unreached - unreached, other_back - back);
+            if gain < (best.0, best.1) {
+                best = (gain.0, gain.1, Some(to));
+            }
+        }
+        best.2
+    }
+
+    fn cost(&self, node: usize, own: usize, rank: &[usize]) -> (i64, i64) {
+        self.cost_at(node, own, own, rank)
+    }
+
+    /// What the edges of a node cost when it is moved from rank `own` to rank `to`: which of it and
+    /// the nodes that it leads to no edge reaches from above, and how many of them lead back.
+    fn cost_at(&self, node: usize, to: usize, own: usize, rank: &[usize]) -> (i64, i64) {
+        let without = |other: usize| rank[other] - usize::from(rank[other] > own);
+        let is_before = |other: usize| without(other) < to;
+        let back_in = self.into[node].iter().filter(|from| !is_before(**from)).count();
+        let back_out = self.out_of[node].iter().filter(|to| is_before(**to)).count();
+        let mut unreached = i64::from(back_in == self.into[node].len());
+        for (place, next) in self.out_of[node].iter().enumerate() {
+            if self.out_of[node][..place].contains(next) {
+                continue;
+            }
+            let from_node = !is_before(*next);
+            let others = self.into[*next].iter().filter(|from| **from != node);
+            let reached = from_node || others.into_iter().any(|from| rank[*from] < rank[*next]);
+            unreached += i64::from(!reached);
+        }
+        (unreached, (back_in + back_out) as i64)
+    }
+}
+
+fn ranks(order: &[usize]) -> Vec<usize> {
     let mut rank = vec![0; order.len()];
     for (place, node) in order.iter().enumerate() {
         rank[*node] = place;
     }
+    rank
+}
+
+/// How many nodes no edge reaches from above, and how many edges lead back.
+fn quality(order: &[usize], edges: &[(usize, usize)]) -> (usize, usize) {
+    let rank = ranks(order);
     let mut reached = vec![false; order.len()];
     let mut back = 0;
     for (from, to) in edges {

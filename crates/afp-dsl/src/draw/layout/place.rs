@@ -36,7 +36,6 @@ pub(super) fn place(grid: &mut Grid) {
         }
     }
     straighten(grid);
-    straighten_outward(grid);
     let left = grid.items.iter().map(|item| item.x).fold(f64::INFINITY, f64::min);
     for item in &mut grid.items {
         item.x -= left;
@@ -147,58 +146,6 @@ fn straighten(grid: &mut Grid) {
     }
 }
 
-/// Puts the ways of an edge on the line of the rightmost one, and neighbours farther to the right,
-/// where these are ways too and fewer edges are bent afterwards.
-pub(super) fn straighten_outward(grid: &mut Grid) {
-    let mut bent = bent_ways(grid);
-    loop {
-        let before = bent;
-        for chain in 0..grid.chains.len() {
-            let ways = grid.ways(&grid.chains[chain]);
-            let x = ways.iter().map(|way| grid.items[*way].x).fold(f64::NEG_INFINITY, f64::max);
-            let straight = ways.iter().all(|way| (grid.items[*way].x - x).abs() < 0.5);
-            if straight || !ways.iter().all(|way| is_outside(grid, *way)) {
-                continue;
-            }
-            let kept = grid.items.clone();
-            for way in ways {
-                grid.items[way].x = x;
-                push_right(grid, grid.items[way].layer);
-            }
-            let now = bent_ways(grid);
-            if now < bent {
-                bent = now;
-            } else {
-                grid.items = kept;
-            }
-        }
-        if bent == before {
-            break;
-        }
-    }
-}
-
-/// How many nets join two ways that are not on one line.
-fn bent_ways(grid: &Grid) -> usize {
-    let ends = grid.nets.iter().map(|net| net.ends.map(|end| &grid.items[end.item]));
-    let ways = ends.filter(|[start, end]| start.node.is_none() && end.node.is_none());
-    ways.filter(|[start, end]| (start.x - end.x).abs() > 0.5).count()
-}
-
-fn is_outside(grid: &Grid, way: usize) -> bool {
-    let order = grid.layers[grid.items[way].layer].iter().rev();
-    order.take_while(|item| **item != way).all(|item| grid.items[*item].node.is_none())
-}
-
-/// Restores the gaps of a layer by moving items to the right.
-pub(super) fn push_right(grid: &mut Grid, layer: usize) {
-    for place in 1..grid.layers[layer].len() {
-        let [left, right] = [place - 1, place].map(|place| grid.layers[layer][place]);
-        let least = grid.items[left].x + grid.items[left].width + grid.gap(left, right);
-        grid.items[right].x = grid.items[right].x.max(least);
-    }
-}
-
 /// Where a way would have to be for the net to the end of the edge to be straight.
 fn straight_end(grid: &Grid, end: Terminal, way: Terminal) -> Option<f64> {
     let there = grid.items[end.item].x + offset(grid, &end, &way);
@@ -268,7 +215,7 @@ fn bends(grid: &Grid, item: usize) -> Vec<f64> {
 }
 
 /// How far an item can move between its neighbours.
-pub(super) fn room(grid: &Grid, item: usize) -> (f64, f64) {
+fn room(grid: &Grid, item: usize) -> (f64, f64) {
     let order = &grid.layers[grid.items[item].layer];
     let Some(place) = order.iter().position(|each| *each == item) else {
         return (f64::NEG_INFINITY, f64::INFINITY);

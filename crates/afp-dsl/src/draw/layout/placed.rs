@@ -3,8 +3,8 @@
 //! The others keep the places of the automatic layout relative to placed neighbours and give way
 //! downwards. Edges then find their ways through the gaps that are left.
 
-use super::maze;
-use super::{Layout, Link, Node, layout};
+use super::super::router;
+use super::{Layout, Link, Node, bounds, layout, moved_to_origin, wires};
 
 /// Least distance between a box that gives way and the next one.
 const GAP: f64 = 48.0;
@@ -21,8 +21,8 @@ pub(in super::super) fn layout_around(
         return automatic;
     }
     let corners = places(nodes, links, fixed, &automatic.corners);
-    let routes = maze::route(nodes, links, &corners);
-    moved_to_origin(nodes, corners, routes)
+    let found = router::route(&bounds(nodes, &corners), &wires(nodes, links, &corners), &[]);
+    moved_to_origin(nodes, corners, found.corners)
 }
 
 /// The corner of each node.
@@ -84,22 +84,4 @@ fn obstacle(
         (!apart).then_some(bottom)
     };
     (0..nodes.len()).filter_map(meets).reduce(f64::max)
-}
-
-fn moved_to_origin(
-    nodes: &[Node],
-    mut corners: Vec<(f64, f64)>,
-    mut routes: Vec<Vec<(f64, f64)>>,
-) -> Layout {
-    let ends = corners.iter().zip(nodes);
-    let ends: Vec<_> = ends.map(|((x, y), node)| (x + node.width, y + node.height)).collect();
-    let points = || corners.iter().chain(routes.iter().flatten());
-    let left = points().map(|point| point.0).fold(f64::INFINITY, f64::min);
-    let top = points().map(|point| point.1).fold(f64::INFINITY, f64::min);
-    let right = points().chain(&ends).map(|point| point.0).fold(left, f64::max);
-    let bottom = points().chain(&ends).map(|point| point.1).fold(top, f64::max);
-    for point in corners.iter_mut().chain(routes.iter_mut().flatten()) {
-        *point = (point.0 - left, point.1 - top);
-    }
-    Layout { corners, routes, width: right - left, height: bottom - top }
 }

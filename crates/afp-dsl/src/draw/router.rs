@@ -1,0 +1,258 @@
+//! Finds right-angled routes for edges between boxes that stand anywhere.
+//!
+//! Each edge takes the cheapest path over the lines that matter ([`lines`]): along the borders of
+//! boxes, straight out of exits and straight into targets. The search ([`search`]) counts length,
+//! bends, crossings and how full the gaps between boxes are ([`gaps`]). Edges that share a line are
+//! put in the order with the fewest crossings ([`sequence`]) and moved apart as far as the gap
+//! allows ([`spread`]). Time and memory depend on how many boxes and edges there are, never on
+//! where they stand. Routes that are kept stay exactly as they are; others go around them.
+
+mod gaps;
+mod lines;
+mod search;
+mod sequence;
+mod spread;
+mod tree;
+
+#[cfg(test)]
+mod tests;
+
+use lines::Lines;
+use search::Search;
+use spread::Spread;
+
+/// Edges nearer to each other than this cannot be told apart.
+const LEAST: f64 = 6.0;
+
+/// How often edges are led elsewhere because they are too near to others.
+const DETOURS: usize = 5;
+
+/// A place in pixels, y downwards.
+pub(super) type Point = (f64, f64);
+
+/// Distance between parallel edges.
+pub(super) const PITCH: f64 = 12.0;
+
+/// Least distance between an edge that passes and a box.
+pub(super) const CLEAR: f64 = 11.0;
+
+/// Room for the tip of an arrow above a box.
+pub(super) const TIP: f64 = 24.0;
+
+/// A rectangle that edges keep away from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Bounds {
+    pub(super) left: f64,
+    pub(super) top: f64,
+    pub(super) right: f64,
+    pub(super) bottom: f64,
+}
+
+/// The direction in which an edge leaves its box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Heading {
+    Down,
+    Right,
+}
+
+/// An edge to be routed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Wire {
+    /// The box that it leaves, by index.
+    pub(super) from: usize,
+    /// The box that it leads to, by index.
+    pub(super) to: usize,
+    /// Where it starts.
+    pub(super) start: Point,
+    pub(super) heading: Heading,
+    /// Left and right end of where it may arrive.
+    pub(super) arrival: (f64, f64),
+    /// The ordinate of its tip.
+    pub(super) tip: f64,
+}
+
+/// What came out.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Routes {
+    /// The corners of each edge, start and tip included.
+    pub(super) corners: Vec<Vec<Point>>,
+    /// Places where edges found less room than [`PITCH`] between them.
+    pub(super) crowded: Vec<Crowded>,
+}
+
+/// A straight part of an edge in a gap that is too narrow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Crowded {
+    pub(super) edge: usize,
+    pub(super) axis: Axis,
+    /// Its abscissa if upright, else its ordinate.
+    pub(super) at: f64,
+    /// From where to where it goes.
+    pub(super) span: (f64, f64),
+    /// How far its neighbours are away.
+    pub(super) distance: f64,
+    /// Whether it is where the edge arrives, so that the box is too narrow and not a gap.
+    pub(super) arrives: bool,
+}
+
+/// The direction of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Axis {
+    Upright,
+    Level,
+}
+
+impl Bounds {
+    /// What edges must not enter.
+    fn inflated(&self) -> Bounds {
+        Bounds {
+            left: self.left - CLEAR,
+            top: self.top - TIP,
+            right: self.right + CLEAR,
+            bottom: self.bottom + CLEAR,
+        }
+    }
+
+    /// Larger by so much on each side.
+    fn grown(&self, by: f64) -> Bounds {
+        Bounds {
+            left: self.left - by,
+            top: self.top - by,
+            right: self.right + by,
+            bottom: self.bottom + by,
+        }
+    }
+
+    /// From where to where it reaches across lines of an axis, and along them.
+    fn ranges(&self, axis: Axis) -> ((f64, f64), (f64, f64)) {
+        let (level, upright) = ((self.left, self.right), (self.top, self.bottom));
+        match axis {
+            Axis::Upright => (level, upright),
+            Axis::Level => (upright, level),
+        }
+    }
+}
+
+impl Axis {
+    /// The coordinate of a point across a line of this axis.
+    pub(super) fn across(self, (x, y): Point) -> f64 {
+        if self == Axis::Upright { x } else { y }
+    }
+
+    /// The coordinate of a point along a line of this axis.
+    pub(super) fn along(self, (x, y): Point) -> f64 {
+        if self == Axis::Upright { y } else { x }
+    }
+}
+
+impl Wire {
+    /// Where its search starts: just outside of its box.
+    fn escape(&self, boxes: &[Bounds]) -> Point {
+        match self.heading {
+            Heading::Down => (self.start.0, boxes[self.from].bottom),
+            Heading::Right => (boxes[self.from].right, self.start.1),
+        }
+    }
+
+    /// Where it arrives unless something else is better: above the middle of its range.
+    fn gate(&self) -> Point {
+        ((self.arrival.0 + self.arrival.1) / 2.0, self.tip - TIP)
+    }
+}
+
+/// Routes all edges; where `kept` has corners for an edge, these stay.
+pub(super) fn route(boxes: &[Bounds], wires: &[Wire], kept: &[Option<Vec<Point>>]) -> Routes {
+    let boxes: Vec<_> = boxes.iter().map(Bounds::inflated).collect();
+    let kept_of = |wire: usize| kept.get(wire).and_then(Option::as_deref);
+    let mut order: Vec<_> = (0..wires.len()).filter(|wire| kept_of(*wire).is_none()).collect();
+    let mut corners: Vec<Vec<Point>> =
+        (0..wires.len()).map(|wire| kept_of(wire).unwrap_or_default().to_vec()).collect();
+    if order.is_empty() {
+        return Routes { corners, crowded: Vec::new() };
+    }
+    // Short edges first: long ones find their way around them.
+    let length = |wire: usize| {
+        let (from, to) = (wires[wire].start, wires[wire].gate());
+        (from.0 - to.0).abs() + (from.1 - to.1).abs()
+    };
+    order.sort_by(|a, b| length(*a).total_cmp(&length(*b)));
+    let lines = Lines::new(&boxes, wires, &order);
+    let mut search = Search::new(&lines, &boxes);
+    for points in corners.iter().filter(|points| !points.is_empty()) {
+        search.occupy(points);
+    }
+    let mut joins = vec![false; wires.len()];
+    for wire in &order {
+        joins[*wire] = search.is_full(&wires[*wire]);
+        corners[*wire] = search.route(&wires[*wire], &boxes, joins[*wire]);
+    }
+    let fixed: Vec<bool> = (0..wires.len()).map(|wire| kept_of(wire).is_some()).collect();
+    let spread = |corners: &[Vec<Point>], joins: &[bool]| {
+        let mut corners = corners.to_vec();
+        let crowded = Spread { boxes: &boxes, wires, fixed: &fixed, joins }.apply(&mut corners);
+        Routes { corners, crowded }
+    };
+    let mut best = spread(&corners, &joins);
+    let mut tried = vec![false; wires.len()];
+    for _ in 0..DETOURS {
+        let detours = detours(&best.crowded, &mut tried);
+        if detours.is_empty() {
+            break;
+        }
+        for narrow in &detours {
+            search.avoid(narrow);
+            joins[narrow.edge] |= narrow.arrives;
+            let joins = joins[narrow.edge];
+            corners[narrow.edge] = search.route(&wires[narrow.edge], &boxes, joins);
+        }
+        let found = spread(&corners, &joins);
+        if squeezed(&found) < squeezed(&best) {
+            best = found;
+        }
+    }
+    best
+}
+
+/// How many parts are too near to others to be told apart.
+fn squeezed(routes: &Routes) -> usize {
+    routes.crowded.iter().filter(|part| part.distance < LEAST).count()
+}
+
+/// Of each group of edges that run too near to each other one that shall go elsewhere: first those
+/// that can join another one at their target, no edge twice.
+fn detours(crowded: &[Crowded], tried: &mut [bool]) -> Vec<Crowded> {
+    let mut chosen: Vec<Crowded> = Vec::new();
+    for arrives in [true, false] {
+        for part in crowded.iter().filter(|part| part.distance < LEAST && part.arrives == arrives) {
+            let beside = |other: &Crowded| {
+                let near = (other.at - part.at).abs() < 4.0 * PITCH && other.axis == part.axis;
+                near && other.span.0 < part.span.1 && part.span.0 < other.span.1
+            };
+            if !tried[part.edge] && !chosen.iter().any(beside) {
+                tried[part.edge] = true;
+                chosen.push(*part);
+            }
+        }
+    }
+    chosen
+}
+
+/// Drops corners that lie on the straight line between their neighbours, and repeated ones.
+pub(super) fn without_straight_corners(points: Vec<Point>) -> Vec<Point> {
+    let mut kept: Vec<Point> = Vec::with_capacity(points.len());
+    let near = |a: f64, b: f64| (a - b).abs() < 0.05;
+    for point in points {
+        if kept.last().is_some_and(|last| near(last.0, point.0) && near(last.1, point.1)) {
+            continue;
+        }
+        if let [.., before, last] = kept[..] {
+            let upright = near(before.0, last.0) && near(last.0, point.0);
+            let level = near(before.1, last.1) && near(last.1, point.1);
+            if upright || level {
+                kept.pop();
+            }
+        }
+        kept.push(point);
+    }
+    kept
+}

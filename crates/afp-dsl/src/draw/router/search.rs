@@ -1,0 +1,256 @@
+//! The cheapest path of one edge over the lines: A* with bends, crossings and full gaps.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use super::gaps::Gaps;
+use super::lines::{Lines, NONE};
+use super::{Axis, Bounds, Crowded, Heading, PITCH, Point, TIP, Wire, without_straight_corners};
+
+/// Costs in tenths of a pixel: a bend, a crossing, each edge too many in a gap.
+const BEND: u64 = 600;
+const CROSSING: u64 = 250;
+const TOO_MANY: u64 = 4000;
+
+/// As how many edges a gap counts that has turned out to be too narrow.
+const MANY: u32 = 20;
+
+/// The sides of a node: above, below, left, right.
+const DOWN: usize = 1;
+const RIGHT: usize = 3;
+
+/// What is known about going on from a node in a direction.
+#[derive(Clone, Copy, Debug)]
+struct Visit {
+    /// The search that it belongs to.
+    stamp: u32,
+    cost: u64,
+    /// The state before.
+    from: u32,
+}
+
+/// All paths found so far, and room to search for another one.
+pub(super) struct Search<'a> {
+    lines: &'a Lines,
+    upright: Gaps,
+    level: Gaps,
+    /// The gap below and the gap to the right of each node.
+    gap_of: Vec<[u32; 2]>,
+    /// How many edges pass each node upright and level.
+    passing: Vec<[u16; 2]>,
+    /// How many edges arrive at each box.
+    arrived: Vec<u32>,
+    visits: Vec<Visit>,
+    stamp: u32,
+    heap: BinaryHeap<Reverse<(u64, u64, u32)>>,
+}
+
+/// Where a path may end.
+struct Goal {
+    left: f64,
+    right: f64,
+    y: f64,
+    /// Whether as many edges arrive there as fit: another one comes from the side and joins them.
+    full: bool,
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(lines: &'a Lines, boxes: &[Bounds]) -> Search<'a> {
+        let (upright, level) = (Gaps::new(boxes, Axis::Upright), Gaps::new(boxes, Axis::Level));
+        let gap = |gaps: &Gaps, node: usize, side: usize| {
+            let next = lines.next[node][side];
+            let Some(end) = lines.places.get(next as usize) else { return NONE };
+            let (axis, start) = (gaps.axis(), lines.places[node]);
+            let middle = (axis.along(start) + axis.along(*end)) / 2.0;
+            u32::try_from(gaps.at(middle, axis.across(start))).unwrap_or(NONE)
+        };
+        let nodes = lines.places.len();
+        let gap_of =
+            (0..nodes).map(|node| [gap(&upright, node, DOWN), gap(&level, node, RIGHT)]).collect();
+        Search {
+            lines,
+            upright,
+            level,
+            gap_of,
+            passing: vec![[0; 2]; nodes],
+            arrived: vec![0; boxes.len()],
+            visits: vec![Visit { stamp: 0, cost: 0, from: NONE }; 4 * nodes],
+            stamp: 0,
+            heap: BinaryHeap::new(),
+        }
+    }
+
+    /// The corners of the best path, which is then taken; a plain one where boxes leave no gap. With
+    /// `joins` it comes from the side, next to edges that arrive from above.
+    pub(super) fn route(&mut self, wire: &Wire, boxes: &[Bounds], joins: bool) -> Vec<Point> {
+        let escape = wire.escape(boxes);
+        let (left, right) = wire.arrival;
+        let goal = Goal { left, right, y: wire.tip - TIP, full: joins };
+        let side = if wire.heading == Heading::Down { DOWN } else { RIGHT };
+        let start = self.lines.node(escape);
+        let path = start.and_then(|node| self.find(node, side, &goal));
+        let mut points = vec![wire.start];
+        match path {
+            Some(path) => points.extend(path),
+            None => points.extend(plain(escape, wire)),
+        }
+        let end = points.last().map_or(wire.start.0, |last| last.0);
+        points.push((end, wire.tip));
+        let points = without_straight_corners(points);
+        self.occupy(&points);
+        self.arrived[wire.to] += u32::from(!joins);
+        points
+    }
+
+    /// Whether as many edges arrive at the target of an edge as there is room for.
+    pub(super) fn is_full(&self, wire: &Wire) -> bool {
+        f64::from(self.arrived[wire.to]) > (wire.arrival.1 - wire.arrival.0) / PITCH
+    }
+
+    /// Notes that an edge goes along these corners.
+    pub(super) fn occupy(&mut self, points: &[Point]) {
+        for pair in points.windows(2) {
+            let [a, b] = pair else { continue };
+            let upright = (a.0 - b.0).abs() < (a.1 - b.1).abs();
+            let gaps = if upright { &mut self.upright } else { &mut self.level };
+            let (at, one, two) =
+                (gaps.axis().across(*a), gaps.axis().along(*a), gaps.axis().along(*b));
+            gaps.take(at, (one.min(two), one.max(two)), 1);
+            self.pass(*a, *b, upright);
+        }
+    }
+
+    /// Makes the gaps around a part dearer for edges to come.
+    pub(super) fn avoid(&mut self, part: &Crowded) {
+        let gaps = if part.axis == Axis::Upright { &mut self.upright } else { &mut self.level };
+        gaps.take(part.at, part.span, MANY);
+    }
+
+    /// Counts an edge at the nodes of a straight part.
+    fn pass(&mut self, a: Point, b: Point, upright: bool) {
+        let (start, end) = if (a.0, a.1) < (b.0, b.1) { (a, b) } else { (b, a) };
+        let side = if upright { DOWN } else { RIGHT };
+        let mut next = self.lines.node(start);
+        while let Some(node) = next.map(|node| node as usize) {
+            let Some(place) = self.lines.places.get(node) else { break };
+            if place.0 > end.0 + 0.01 || place.1 > end.1 + 0.01 {
+                break;
+            }
+            let passing = &mut self.passing[node][usize::from(!upright)];
+            *passing = passing.saturating_add(1);
+            next = Some(self.lines.next[node][side]);
+        }
+    }
+
+    fn find(&mut self, start: u32, side: usize, goal: &Goal) -> Option<Vec<Point>> {
+        self.stamp += 1;
+        self.heap.clear();
+        self.reach(state(start, side), 0, NONE, goal);
+        while let Some(Reverse((_, far, at))) = self.heap.pop() {
+            let cost = u64::MAX - far;
+            if cost > self.visits[at as usize].cost {
+                continue;
+            }
+            let (node, side) = ((at / 4) as usize, (at % 4) as usize);
+            if side == DOWN && goal.holds(self.lines.places[node]) {
+                return Some(self.path(at));
+            }
+            for turned in turns(side) {
+                self.reach(state(at / 4, turned), cost + BEND, at, goal);
+            }
+            let next = self.lines.next[node][side];
+            let joins =
+                || goal.full && side == DOWN && goal.holds(self.lines.places[next as usize]);
+            if next != NONE && !joins() {
+                let cost = cost + self.step(node, next as usize, side);
+                self.reach(state(next, side), cost, at, goal);
+            }
+        }
+        None
+    }
+
+    /// Notes a way to a state if it is the best one so far.
+    fn reach(&mut self, at: u32, cost: u64, from: u32, goal: &Goal) {
+        let stamp = self.stamp;
+        let Some(visit) = self.visits.get_mut(at as usize) else { return };
+        if visit.stamp == stamp && visit.cost <= cost {
+            return;
+        }
+        *visit = Visit { stamp, cost, from };
+        let rest = goal.rest(self.lines.places[(at / 4) as usize], (at % 4) as usize);
+        // Among equals the one that has come farthest.
+        self.heap.push(Reverse((cost + rest, u64::MAX - cost, at)));
+    }
+
+    /// The cost of going on to the next node.
+    fn step(&self, node: usize, next: usize, side: usize) -> u64 {
+        let (from, to) = (self.lines.places[node], self.lines.places[next]);
+        let upright = side <= DOWN;
+        let crossed = self.passing[next][usize::from(upright)];
+        let (gaps, first) = match upright {
+            true => (&self.upright, if side == DOWN { node } else { next }),
+            false => (&self.level, if side == RIGHT { node } else { next }),
+        };
+        let gap = self.gap_of[first][usize::from(!upright)];
+        let excess = if gap == NONE { 0 } else { gaps.excess(gap as usize) };
+        tenths((from.0 - to.0).abs() + (from.1 - to.1).abs())
+            + CROSSING * u64::from(crossed)
+            + TOO_MANY * u64::from(excess)
+    }
+
+    fn path(&self, end: u32) -> Vec<Point> {
+        let before = |at: &u32| Some(self.visits[*at as usize].from).filter(|from| *from != NONE);
+        let states = std::iter::successors(Some(end), before);
+        let mut points: Vec<_> = states.map(|at| self.lines.places[(at / 4) as usize]).collect();
+        points.reverse();
+        points
+    }
+}
+
+impl Goal {
+    fn holds(&self, (x, y): Point) -> bool {
+        (y - self.y).abs() < 0.01 && self.left <= x && x <= self.right
+    }
+
+    /// At least what is left to pay from a place in a direction.
+    fn rest(&self, (x, y): Point, side: usize) -> u64 {
+        let across = (self.left - x).max(x - self.right).max(0.0);
+        let below = y > self.y + 0.01;
+        let bends = match side {
+            DOWN if below => 4,
+            DOWN if across > 0.0 => 2,
+            DOWN => 0,
+            0 if below && across > 0.0 => 2,
+            0 => 4,
+            _ if below => 3,
+            _ => {
+                let towards = if side == RIGHT { x <= self.right } else { x >= self.left };
+                if towards { 1 } else { 3 }
+            }
+        };
+        tenths(across + (y - self.y).abs()) + bends * BEND
+    }
+}
+
+fn state(node: u32, side: usize) -> u32 {
+    // There are four sides.
+    node.saturating_mul(4).saturating_add(side as u32)
+}
+
+fn turns(side: usize) -> [usize; 2] {
+    if side <= DOWN { [2, RIGHT] } else { [0, DOWN] }
+}
+
+/// Positions fit into 32 bits, so no sum of lengths comes near the limit.
+fn tenths(length: f64) -> u64 {
+    (length * 10.0) as u64
+}
+
+/// A way that asks nobody, for edges of boxes that stand on each other.
+fn plain(escape: Point, wire: &Wire) -> Vec<Point> {
+    let gate = wire.gate();
+    match wire.heading {
+        Heading::Down => vec![escape, (gate.0, escape.1), gate],
+        Heading::Right => vec![escape, (escape.0, gate.1), gate],
+    }
+}

@@ -1,0 +1,256 @@
+//! Moves edges that share a line apart.
+//!
+//! First the upright parts of all edges get their abscissas, then the level ones their ordinates,
+//! twice over, since what happens across changes how far parts go along. Each part stays between
+//! the boxes beside it, in its place of the [`sequence`](super::sequence), [`PITCH`] away from its
+//! neighbours or, where a gap is too narrow for that, as far as it can be.
+
+use super::sequence::{Part, sequence};
+use super::tree::Maxima;
+use super::{Axis, Bounds, Crowded, PITCH, Point, Wire, without_straight_corners};
+
+/// How often a too narrow gap is tried with less distance, and how much less each time.
+const ATTEMPTS: usize = 14;
+const TIGHTER: f64 = 0.8;
+
+/// How often the parts of both axes are moved.
+const ROUNDS: usize = 2;
+
+/// How much nearer to a box than usual edges may be pushed by others.
+const NEARER: f64 = 4.0;
+
+/// How far past its ends a part keeps others away.
+const MARGIN: f64 = 4.0;
+
+/// Edges whose parts are to be moved.
+pub(super) struct Spread<'a> {
+    pub(super) boxes: &'a [Bounds],
+    pub(super) wires: &'a [Wire],
+    /// Which edges stay as they are.
+    pub(super) fixed: &'a [bool],
+    /// Which edges join another one at their target.
+    pub(super) joins: &'a [bool],
+}
+
+impl Spread<'_> {
+    /// Moves the parts; says where there was too little room.
+    pub(super) fn apply(&self, corners: &mut [Vec<Point>]) -> Vec<Crowded> {
+        let mut crowded = Vec::new();
+        for _ in 0..ROUNDS {
+            crowded.clear();
+            for axis in [Axis::Upright, Axis::Level] {
+                let parts = self.parts(axis, corners);
+                let order = sequence(axis, &parts, corners);
+                let (places, narrow) = places(&parts, &order);
+                crowded.extend(narrow.iter().map(|(part, distance)| {
+                    let Part { edge, first, span, .. } = parts[*part];
+                    let arrives = first + 2 == corners[edge].len();
+                    Crowded { edge, axis, at: places[*part], span, distance: *distance, arrives }
+                }));
+                for (part, place) in parts.iter().zip(&places) {
+                    self.put(axis, corners, (part.edge, part.first), *place);
+                }
+                if axis == Axis::Upright {
+                    self.join(corners);
+                }
+            }
+        }
+        for (points, _) in corners.iter_mut().zip(self.fixed).filter(|(_, fixed)| !**fixed) {
+            *points = without_straight_corners(std::mem::take(points));
+        }
+        crowded
+    }
+
+    /// Puts a part of an edge, given by its first corner, at a coordinate across.
+    fn put(&self, axis: Axis, corners: &mut [Vec<Point>], (edge, first): (usize, usize), at: f64) {
+        if self.fixed[edge] {
+            return;
+        }
+        for corner in &mut corners[edge][first..first + 2] {
+            match axis {
+                Axis::Upright => corner.0 = at,
+                Axis::Level => corner.1 = at,
+            }
+        }
+    }
+
+    /// Leads edges into the nearest one that arrives at their target from above.
+    fn join(&self, corners: &mut [Vec<Point>]) {
+        let arrives_at = |points: &[Point]| points.last().map(|tip| tip.0);
+        let trunks = (0..corners.len()).filter(|edge| !self.joins[*edge]);
+        let trunks: Vec<(usize, f64)> = trunks
+            .filter_map(|edge| Some((self.wires[edge].to, arrives_at(&corners[edge])?)))
+            .collect();
+        for edge in (0..corners.len()).filter(|edge| self.joins[*edge]) {
+            let [.., before, turn, _] = corners[edge][..] else { continue };
+            let own = trunks.iter().filter(|(to, _)| *to == self.wires[edge].to);
+            let distance = |x: f64| (x - before.0).abs();
+            let nearest = own.map(|(_, x)| *x).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+            let last = corners[edge].len() - 2;
+            self.put(Axis::Upright, corners, (edge, last), nearest.unwrap_or(turn.0));
+        }
+    }
+
+    /// The straight parts of all edges along an axis.
+    fn parts(&self, axis: Axis, corners: &[Vec<Point>]) -> Vec<Part> {
+        let mut parts = Vec::new();
+        for (edge, points) in corners.iter().enumerate() {
+            for (first, pair) in points.windows(2).enumerate() {
+                let [a, b] = pair else { continue };
+                let upright = (a.0 - b.0).abs() < (a.1 - b.1).abs();
+                let arrives = first + 2 == points.len();
+                if upright != (axis == Axis::Upright) || self.joins[edge] && arrives {
+                    continue;
+                }
+                let at = axis.across(*a);
+                let (one, two) = (axis.along(*a), axis.along(*b));
+                let span = (one.min(two), one.max(two));
+                let mut room = (at, at);
+                if first > 0 && !self.fixed[edge] {
+                    room = between(axis, self.boxes, at, span);
+                    if arrives {
+                        let (left, right) = self.wires[edge].arrival;
+                        room = (room.0.max(left), room.1.min(right));
+                    }
+                    room = (room.0.min(at), room.1.max(at));
+                }
+                parts.push(Part { edge, first, at, span, room });
+            }
+        }
+        parts
+    }
+}
+
+/// The room between the boxes beside a part.
+fn between(axis: Axis, boxes: &[Bounds], at: f64, span: (f64, f64)) -> (f64, f64) {
+    let mut room = (f64::NEG_INFINITY, f64::INFINITY);
+    for each in boxes {
+        let (across, along) = each.grown(-NEARER).ranges(axis);
+        if along.0 < span.1 - 0.01 && span.0 + 0.01 < along.1 {
+            if across.1 <= at + 0.01 {
+                room.0 = room.0.max(across.1);
+            } else if at - 0.01 <= across.0 {
+                room.1 = room.1.min(across.0);
+            }
+        }
+    }
+    room
+}
+
+/// The places of the parts in the given order, and those that found too little room, with how far
+/// they are apart.
+fn places(parts: &[Part], order: &[usize]) -> (Vec<f64>, Vec<(usize, f64)>) {
+    let ranks = Ranks::new(parts);
+    let wishes = wishes(parts, order);
+    let mut distance = vec![PITCH; parts.len()];
+    let mut narrow = vec![false; parts.len()];
+    for _ in 0..ATTEMPTS {
+        let least = ranks.pushed(order, &distance, |part, pushed| match parts[part].is_fixed() {
+            true => parts[part].at,
+            false => pushed.max(parts[part].room.0),
+        });
+        let most = most(parts, order, &ranks, &distance);
+        let mut fits = true;
+        for part in order {
+            if least[*part] > most[*part] + 1e-6 {
+                (fits, narrow[*part]) = (false, true);
+                distance[*part] *= TIGHTER;
+            }
+        }
+        if fits {
+            break;
+        }
+    }
+    let most = most(parts, order, &ranks, &distance);
+    let within = |part: usize, pushed: f64| {
+        let Part { room, .. } = parts[part];
+        pushed.max(wishes[part]).min(most[part]).max(room.0).min(room.1)
+    };
+    let places = ranks.pushed(order, &distance, within);
+    let narrow = order.iter().filter(|part| narrow[**part]);
+    (places, narrow.map(|part| (*part, distance[*part])).collect())
+}
+
+/// How far each part can be to the right.
+fn most(parts: &[Part], order: &[usize], ranks: &Ranks, distance: &[f64]) -> Vec<f64> {
+    let backwards: Vec<_> = order.iter().rev().copied().collect();
+    let mirrored =
+        ranks.pushed(&backwards, distance, |part, pushed| match parts[part].is_fixed() {
+            true => -parts[part].at,
+            false => pushed.max(-parts[part].room.1),
+        });
+    mirrored.into_iter().map(|place| -place).collect()
+}
+
+/// Where the parts would like to be: where the search has put them, those of one line around it.
+fn wishes(parts: &[Part], order: &[usize]) -> Vec<f64> {
+    let mut wishes: Vec<_> = parts.iter().map(|part| part.at).collect();
+    let mut by_line: Vec<(usize, usize)> = order.iter().copied().enumerate().collect();
+    by_line.sort_by(|a, b| parts[a.1].at.total_cmp(&parts[b.1].at).then(a.0.cmp(&b.0)));
+    for line in by_line.chunk_by(|a, b| (parts[a.1].at - parts[b.1].at).abs() < 0.5) {
+        let line: Vec<_> = line.iter().map(|(_, part)| *part).collect();
+        if let [_, _, ..] = line[..] {
+            let (before, after) = (depths(parts, &line, false), depths(parts, &line, true));
+            for (place, part) in line.iter().enumerate() {
+                let shift = f64::from(before[place]) - f64::from(after[place]);
+                wishes[*part] += shift / 2.0 * PITCH;
+            }
+        }
+    }
+    wishes
+}
+
+/// How many parts of a line stand before each one, or after it, side by side.
+fn depths(parts: &[Part], line: &[usize], backwards: bool) -> Vec<u32> {
+    let mut depths = vec![0; line.len()];
+    for step in 0..line.len() {
+        let place = |step: usize| if backwards { line.len() - 1 - step } else { step };
+        let own = place(step);
+        let beside = (0..step).map(place);
+        let beside = beside.filter(|other| overlap(&parts[line[own]], &parts[line[*other]]));
+        depths[own] = beside.map(|other| depths[other] + 1).max().unwrap_or(0);
+    }
+    depths
+}
+
+fn overlap(a: &Part, b: &Part) -> bool {
+    a.span.0 - MARGIN < b.span.1 + MARGIN && b.span.0 - MARGIN < a.span.1 + MARGIN
+}
+
+/// The ranges of the parts along the axis as ranks.
+struct Ranks {
+    count: usize,
+    ranges: Vec<(usize, usize)>,
+}
+
+impl Ranks {
+    fn new(parts: &[Part]) -> Ranks {
+        let spans: Vec<_> =
+            parts.iter().map(|part| (part.span.0 - MARGIN, part.span.1 + MARGIN)).collect();
+        let mut ends: Vec<f64> = spans.iter().flat_map(|(from, to)| [*from, *to]).collect();
+        ends.sort_by(f64::total_cmp);
+        ends.dedup();
+        let rank = |end: f64| ends.partition_point(|other| *other < end);
+        // Between two neighbouring ends nothing changes, so a range is the intervals that it covers.
+        let range = |(from, to): &(f64, f64)| (rank(*from), rank(*to).max(rank(*from) + 1) - 1);
+        Ranks { count: ends.len(), ranges: spans.iter().map(range).collect() }
+    }
+
+    /// Places the parts one after the other: `place` gets how far the earlier ones push a part.
+    fn pushed(
+        &self,
+        order: &[usize],
+        distance: &[f64],
+        place: impl Fn(usize, f64) -> f64,
+    ) -> Vec<f64> {
+        let mut skyline = Maxima::new(self.count);
+        let mut places = vec![0.0; order.len()];
+        for part in order {
+            let ((first, last), half) = (self.ranges[*part], distance[*part] / 2.0);
+            let found = place(*part, skyline.greatest(first, last) + half);
+            places[*part] = found;
+            skyline.raise(first, last, found + half);
+        }
+        places
+    }
+}

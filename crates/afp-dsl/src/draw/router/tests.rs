@@ -1,0 +1,170 @@
+use super::{Bounds, CLEAR, Heading, PITCH, Point, Routes, Wire, route};
+
+fn bounds((left, top): Point, (width, height): Point) -> Bounds {
+    Bounds { left, top, right: left + width, bottom: top + height }
+}
+
+/// An edge from the middle of the lower border of a box to the upper border of another one.
+fn down(boxes: &[Bounds], from: usize, to: usize) -> Wire {
+    let (one, two) = (boxes[from], boxes[to]);
+    Wire {
+        from,
+        to,
+        start: ((one.left + one.right) / 2.0, one.bottom),
+        heading: Heading::Down,
+        arrival: (two.left + 20.0, two.right - 20.0),
+        tip: two.top,
+    }
+}
+
+/// Edges that leave a box side by side, every second one to the right.
+fn wires(boxes: &[Bounds], edges: &[(usize, usize)]) -> Vec<Wire> {
+    let wire = |(index, (from, to)): (usize, &(usize, usize))| {
+        let before = edges[..index].iter().filter(|other| other.0 == *from).count();
+        let wire = down(boxes, *from, *to);
+        if before % 2 == 1 {
+            let start = (boxes[*from].right, boxes[*from].top + 20.0 * before as f64);
+            return Wire { start, heading: Heading::Right, ..wire };
+        }
+        Wire { start: (wire.start.0 + 10.0 * before as f64, wire.start.1), ..wire }
+    };
+    edges.iter().enumerate().map(wire).collect()
+}
+
+fn routed(boxes: &[Bounds], edges: &[(usize, usize)]) -> Routes {
+    route(boxes, &wires(boxes, edges), &[])
+}
+
+/// Boxes in rows that are not quite straight, and edges between them; the same each time.
+fn sample(count: usize, seed: u64) -> (Vec<Bounds>, Vec<(usize, usize)>) {
+    let mut state = seed;
+    let mut next = |below: u64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        ((state >> 33) % below) as usize
+    };
+    let boxes = (0..count).map(|place| {
+        let (column, row) = (place % 5, place / 5);
+        let (dx, dy) = (next(120) as f64, next(60) as f64);
+        bounds(
+            (column as f64 * 420.0 + dx, row as f64 * 320.0 + dy),
+            (150.0 + next(100) as f64, 60.0 + next(80) as f64),
+        )
+    });
+    let boxes = boxes.collect();
+    let edges = (0..2 * count).map(|edge| (edge / 2, next(count as u64))).collect();
+    (boxes, edges)
+}
+
+/// The straight parts of an edge: whether upright, the coordinate across, from where to where.
+fn parts(points: &[Point]) -> Vec<(bool, f64, f64, f64)> {
+    let part = |pair: &[Point]| {
+        let (a, b) = (pair[0], pair[1]);
+        let upright = (a.0 - b.0).abs() < (a.1 - b.1).abs();
+        let (at, one, two, slant) =
+            if upright { (a.0, a.1, b.1, a.0 - b.0) } else { (a.1, a.0, b.0, a.1 - b.1) };
+        assert!(slant.abs() < 1e-6, "{a:?} {b:?} is slanted");
+        (upright, at, one.min(two), one.max(two))
+    };
+    points.windows(2).map(part).collect()
+}
+
+#[test]
+fn what_stands_below_is_reached_straight() {
+    let boxes = [bounds((0.0, 0.0), (100.0, 50.0)), bounds((10.0, 120.0), (100.0, 50.0))];
+    assert_eq!(routed(&boxes, &[(0, 1)]).corners, [vec![(50.0, 50.0), (50.0, 120.0)]]);
+}
+
+#[test]
+fn an_edge_to_its_own_box_goes_around_it() {
+    let boxes = [bounds((0.0, 0.0), (100.0, 50.0))];
+    let found = routed(&boxes, &[(0, 0)]);
+    let [corners] = found.corners.as_slice() else { panic!("{found:?}") };
+    assert_eq!(corners.len(), 6);
+    assert!(corners[2].0 <= -CLEAR || corners[2].0 >= 100.0 + CLEAR, "{corners:?}");
+}
+
+#[test]
+fn edges_between_boxes_touch_neither_boxes_nor_each_other() {
+    for seed in 1..=12 {
+        let (boxes, edges) = sample(25, seed);
+        let found = routed(&boxes, &edges);
+        for (edge, corners) in found.corners.iter().enumerate() {
+            for (upright, at, from, to) in parts(corners) {
+                for each in &boxes {
+                    let inside = |low: f64, high: f64| low + 0.5 < at && at < high - 0.5;
+                    let over = |low: f64, high: f64| from < high - 0.5 && low + 0.5 < to;
+                    let through = match upright {
+                        true => inside(each.left, each.right) && over(each.top, each.bottom),
+                        false => inside(each.top, each.bottom) && over(each.left, each.right),
+                    };
+                    assert!(!through, "{corners:?} runs through {each:?}");
+                }
+            }
+            for (other, others) in found.corners.iter().enumerate().take(edge) {
+                let near = if edges[edge].1 == edges[other].1 { 120.0 } else { 5.0 };
+                for a in parts(corners) {
+                    for b in parts(others) {
+                        let common = a.3.min(b.3) - a.2.max(b.2);
+                        let on_top = a.0 == b.0 && (a.1 - b.1).abs() < 5.0 && common > near;
+                        assert!(!on_top, "{seed}: {corners:?} runs on {others:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn nested_edges_do_not_cross() {
+    let top = |x: f64| bounds((x, 0.0), (100.0, 40.0));
+    let below = |x: f64| bounds((x, 200.0), (100.0, 40.0));
+    let boxes = [top(0.0), top(200.0), top(400.0), below(600.0), below(800.0), below(1000.0)];
+    let found = routed(&boxes, &[(0, 3), (1, 4), (2, 5)]);
+    let levels: Vec<_> = found.corners.iter().map(|corners| corners[1].1).collect();
+    assert!(levels.windows(2).all(|pair| pair[0] - pair[1] > PITCH - 1e-6), "{levels:?}");
+}
+
+#[test]
+fn kept_routes_stay_and_others_go_around_them() {
+    let (boxes, edges) = sample(20, 3);
+    let wires = wires(&boxes, &edges);
+    let all = route(&boxes, &wires, &[]);
+    let kept: Vec<_> = all.corners.iter().cloned().map(Some).collect();
+    assert_eq!(route(&boxes, &wires, &kept).corners, all.corners);
+    let mut some = kept;
+    for edge in (0..some.len()).step_by(7) {
+        some[edge] = None;
+    }
+    let again = route(&boxes, &wires, &some);
+    for (edge, corners) in again.corners.iter().enumerate() {
+        match &some[edge] {
+            Some(kept) => assert_eq!(corners, kept),
+            None => assert!(corners.len() >= 2),
+        }
+    }
+}
+
+/// Positions of a layout file may be anything; memory went by their differences once.
+#[test]
+fn boxes_far_from_each_other_need_no_more_memory() {
+    for far in [100_000.0, 2_000_000_000.0] {
+        let boxes = [
+            bounds((0.0, 0.0), (100.0, 50.0)),
+            bounds((far, far), (100.0, 50.0)),
+            bounds((-far, far), (100.0, 50.0)),
+        ];
+        let found = routed(&boxes, &[(0, 1), (1, 2), (2, 0), (0, 2)]);
+        assert!(found.corners.iter().all(|corners| corners.len() >= 4), "{found:?}");
+    }
+}
+
+#[test]
+fn boxes_on_top_of_each_other_still_have_edges() {
+    let boxes = [bounds((0.0, 0.0), (100.0, 50.0)); 3];
+    let found = routed(&boxes, &[(0, 1), (1, 2), (2, 2)]);
+    for corners in &found.corners {
+        assert_eq!(corners.first(), Some(&(50.0, 50.0)));
+        assert_eq!(corners.last().map(|tip| tip.1), Some(0.0));
+        parts(corners);
+    }
+}
