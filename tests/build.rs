@@ -8,7 +8,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
-use afp_dsl::codegen::{self, Options};
+use afp_codegen::Options;
 use afp_dsl::compile_unchecked;
 use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
@@ -97,9 +97,9 @@ fn module(name: &str, path: &Path, text: &str, toolboxes: &Toolboxes) -> io::Res
     let compiled = compile_unchecked(&source, toolboxes, &files);
     let errors = compiled.render(false);
     let graph = compiled.graph.ok_or_else(|| io::Error::other(errors))?;
-    let generated = codegen::plan(&graph, &Options::default());
+    let generated = afp_codegen::plan(&graph, &Options::default());
     let (main, plan) = (&generated.main, &generated.plan);
-    let code = codegen::file(generated.tokens());
+    let code = afp_codegen::file(generated.tokens());
     Ok(format!(
         "mod {name} {{
 {code}

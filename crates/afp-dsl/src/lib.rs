@@ -3,7 +3,6 @@
 //! It does no I/O and depends on nothing else in the workspace.
 
 mod check;
-pub mod codegen;
 mod compile;
 pub mod draw;
 pub mod edit;

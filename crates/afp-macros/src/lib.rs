@@ -9,7 +9,7 @@ mod sources;
 #[cfg(test)]
 mod tests;
 
-use afp_dsl::codegen::{self, Options};
+use afp_codegen::Options;
 use afp_syntax::diagnostics::{Diagnostics, Severity};
 use afp_syntax::source::Sources;
 use proc_macro2::TokenStream;
@@ -60,7 +60,7 @@ fn toolbox_code(input: &Input) -> Result<TokenStream, TokenStream> {
     let (toolbox, diags) = afp_dsl::toolbox::Toolbox::parse(&file.source, index, "crate");
     let toolbox = toolbox.ok_or_else(|| errors(&diags, &sources))?;
     let options = Options { core: input.core.clone(), source: file.text };
-    Ok(codegen::code(codegen::toolbox(&toolbox, &options)))
+    Ok(afp_codegen::code(afp_codegen::toolbox(&toolbox, &options)))
 }
 
 fn plan_code(input: &Input) -> Result<TokenStream, TokenStream> {
@@ -76,7 +76,7 @@ fn plan_code(input: &Input) -> Result<TokenStream, TokenStream> {
         }
     }
     let options = Options { core: input.core.clone(), ..Options::default() };
-    let plan = codegen::code(codegen::plan(&graph, &options).tokens());
+    let plan = afp_codegen::code(afp_codegen::plan(&graph, &options).tokens());
     // Cargo watches the files only because something includes them.
     Ok(quote! {
         #plan

@@ -12,7 +12,7 @@ mod kit {
     };
 
     pub mod templates {
-        afp_macros::toolbox!("../afp-dsl/tests/codegen/toolbox.afp");
+        afp_macros::toolbox!("../afp-codegen/tests/codegen/toolbox.afp");
     }
 
     /// What polls say next, and what was done.
@@ -119,8 +119,8 @@ mod kit {
 
 mod plan {
     afp::plan!(
-        "../afp-dsl/tests/codegen/everything.afp",
-        toolboxes = { "../afp-dsl/tests/codegen/toolbox.afp" => crate::kit }
+        "../afp-codegen/tests/codegen/everything.afp",
+        toolboxes = { "../afp-codegen/tests/codegen/toolbox.afp" => crate::kit }
     );
 }
 
@@ -171,7 +171,7 @@ fn story<P: Plan<Script> + NamedPlan>(
 fn loaded() -> LoadedPlan<Script> {
     let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     toolboxes.add(Source::new("toolbox.afp", kit::templates::SOURCE), "crate::kit");
-    let text = include_str!("../../afp-dsl/tests/codegen/everything.afp");
+    let text = include_str!("../../afp-codegen/tests/codegen/everything.afp");
     let compiled =
         afp_dsl::compile(&Source::new("everything.afp", text), &toolboxes, &Texts::default());
     let mut registry = Registry::new();

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-use afp_dsl::codegen::{MADE_BY, Origin};
+use afp_codegen::{MADE_BY, Origin};
 use afp_run::{RunError, write_whole};
 
 /// Writes the files that differ from what is there, so that cargo builds only what changed, and

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use afp_dsl::codegen::{Dependency, Origin};
+use afp_codegen::{Dependency, Origin};
 use afp_project::{CrateLink, ProjectFile};
 use afp_run::RunError;
 

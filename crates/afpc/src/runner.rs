@@ -13,7 +13,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use afp_dsl::codegen::{RunnerOptions, runner_files};
+use afp_codegen::{RunnerOptions, runner_files};
 use afp_dsl::graph::Graph;
 use afp_project::ProjectFile;
 use afp_run::{RunError, hash};

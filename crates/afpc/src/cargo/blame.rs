@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use afp_dsl::codegen::{CrateFile, declaration};
+use afp_codegen::{CrateFile, declaration};
 use afp_project::shown;
 use afp_run::RunError;
 use afp_syntax::source::{Source, Sources, Span};

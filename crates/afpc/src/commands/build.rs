@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use afp_dsl::codegen::{CrateOptions, crate_files};
+use afp_codegen::{CrateOptions, crate_files};
 use afp_run::RunError;
 use clap::{Args, ValueEnum};
 

@@ -1,7 +1,7 @@
 //! From an error in the Rust of a toolbox back to the declaration that it is about.
 
-use crate::codegen::names::{camel, snake};
-use crate::toolbox::{Template, Toolbox};
+use crate::names::{camel, snake};
+use afp_dsl::toolbox::{Template, Toolbox};
 use afp_syntax::source::Span;
 
 /// The declaration that an error of the Rust compiler is about: a state, an event or a port of a

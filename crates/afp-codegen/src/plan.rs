@@ -19,10 +19,10 @@ mod supervisors;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use crate::codegen::Options;
-use crate::codegen::layout::{comment, doc};
-use crate::codegen::names::camel;
-use crate::graph::{Graph, PlanId};
+use crate::Options;
+use crate::layout::{comment, doc};
+use crate::names::camel;
+use afp_dsl::graph::{Graph, PlanId};
 use afp_syntax::source::Span;
 use context::Context;
 pub(crate) use shared::units_name;

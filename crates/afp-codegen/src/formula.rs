@@ -6,10 +6,10 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use crate::codegen::plan::units_name;
-use crate::codegen::rust_type::{Home, float, int, variant};
-use crate::graph::{Formula, FormulaKind, Operator};
-use crate::types::{Conversion, Dimension, Type};
+use crate::plan::units_name;
+use crate::rust_type::{Home, float, int, variant};
+use afp_dsl::graph::{Formula, FormulaKind, Operator};
+use afp_dsl::types::{Conversion, Dimension, Type};
 
 /// How tightly an expression binds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -4,10 +4,10 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::context::Context;
-use crate::codegen::formula::{Formulas, is_literal};
-use crate::codegen::layout::{at, doc};
-use crate::graph::{Component, Entry, EntryKind};
-use crate::types::Type;
+use crate::formula::{Formulas, is_literal};
+use crate::layout::{at, doc};
+use afp_dsl::graph::{Component, Entry, EntryKind};
+use afp_dsl::types::Type;
 
 /// The structs of the plan, its configuration and its staged values.
 pub fn structure(context: &Context<'_>) -> TokenStream {

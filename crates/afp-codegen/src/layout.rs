@@ -7,7 +7,7 @@
 use proc_macro2::{Group, TokenStream, TokenTree};
 use quote::quote;
 
-use crate::codegen::places::Places;
+use crate::places::Places;
 use afp_syntax::source::Span;
 
 /// How a comment begins that is a place.

@@ -5,10 +5,10 @@ use quote::quote;
 
 use super::context::Context;
 use super::state::entry_doc;
-use crate::codegen::layout::{at, doc};
-use crate::codegen::names::{Names, ident, snake};
-use crate::graph::{Entry, EntryKind};
-use crate::types::Type;
+use crate::layout::{at, doc};
+use crate::names::{Names, ident, snake};
+use afp_dsl::graph::{Entry, EntryKind};
+use afp_dsl::types::Type;
 
 /// The constructor, a getter for each entry, a setter for each `in` entry.
 pub fn accessors(context: &Context<'_>) -> TokenStream {

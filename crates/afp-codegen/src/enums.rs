@@ -3,9 +3,9 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use crate::codegen::layout::doc;
-use crate::codegen::rust_type::variant;
-use crate::types::Enum;
+use crate::layout::doc;
+use crate::rust_type::variant;
+use afp_dsl::types::Enum;
 
 /// The enum, under a Rust name, with everything that entries and ports need of it.
 pub fn choices(core: &TokenStream, choices: &Enum, name: &Ident) -> TokenStream {

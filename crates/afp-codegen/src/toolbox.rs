@@ -11,13 +11,13 @@ mod register;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use crate::codegen::Options;
-use crate::codegen::enums;
-use crate::codegen::layout::doc;
-use crate::codegen::names::{camel, ident, snake};
-use crate::codegen::rust_type::Home;
-use crate::toolbox::{InPort, Template, TemplateKind, Toolbox};
-use crate::types::{Enum, Object, Type};
+use crate::Options;
+use crate::enums;
+use crate::layout::doc;
+use crate::names::{camel, ident, snake};
+use crate::rust_type::Home;
+use afp_dsl::toolbox::{InPort, Template, TemplateKind, Toolbox};
+use afp_dsl::types::{Enum, Object, Type};
 
 pub use declared::declaration;
 

@@ -3,8 +3,8 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use crate::codegen::names::{camel, ident};
-use crate::types::{Dimension, Enum, Object, Type};
+use crate::names::{camel, ident};
+use afp_dsl::types::{Dimension, Enum, Object, Type};
 use afp_syntax::units::RADIANS_PER_DEGREE;
 
 /// Where types live, seen from the code that is being made.

@@ -4,13 +4,13 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::context::{ComponentNames, Context, Paths};
-use crate::codegen::formula::{Formulas, convert, is_literal};
-use crate::codegen::layout::{at, doc};
-use crate::codegen::names::{camel, ident, snake};
-use crate::codegen::rust_type::Home;
-use crate::graph::{Formula, Output};
-use crate::toolbox::{InPort, Template, TemplateKind};
-use crate::types::{Conversion, Type};
+use crate::formula::{Formulas, convert, is_literal};
+use crate::layout::{at, doc};
+use crate::names::{camel, ident, snake};
+use crate::rust_type::Home;
+use afp_dsl::graph::{Formula, Output};
+use afp_dsl::toolbox::{InPort, Template, TemplateKind};
+use afp_dsl::types::{Conversion, Type};
 use afp_syntax::source::Span;
 
 /// A component as its bindings see it.
@@ -241,7 +241,7 @@ fn is_generic(ty: &Type) -> bool {
 pub fn reads_entries(formula: &Formula) -> bool {
     let mut any = false;
     if !is_literal(formula) {
-        crate::codegen::formula::reads(formula, &mut |_| any = true);
+        crate::formula::reads(formula, &mut |_| any = true);
     }
     any
 }

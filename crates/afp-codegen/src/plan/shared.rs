@@ -6,14 +6,14 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::Module;
-use crate::codegen::Options;
-use crate::codegen::enums;
-use crate::codegen::layout::doc;
-use crate::codegen::names::{Names, camel, ident};
-use crate::codegen::rust_type::{float, int};
-use crate::graph::{EntryKind, Formula, FormulaKind, Graph};
-use crate::types::readable::{ReadableUnit, Scale, readable};
-use crate::types::{Conversion, Dimension, Enum, Type};
+use crate::Options;
+use crate::enums;
+use crate::layout::doc;
+use crate::names::{Names, camel, ident};
+use crate::rust_type::{float, int};
+use afp_dsl::graph::{EntryKind, Formula, FormulaKind, Graph};
+use afp_dsl::types::readable::{ReadableUnit, Scale, readable};
+use afp_dsl::types::{Conversion, Dimension, Enum, Type};
 
 /// The modules `enums` and `units`, where they have anything in them.
 pub fn modules(graph: &Graph, enums: &[FileEnum], options: &Options) -> Vec<Module> {

@@ -4,10 +4,10 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::{Parameters, bound, home, words};
-use crate::codegen::layout::doc;
-use crate::codegen::names::{camel, ident, snake};
-use crate::toolbox::{OutPort, Template};
-use crate::types::{Dimension, Type};
+use crate::layout::doc;
+use crate::names::{camel, ident, snake};
+use afp_dsl::toolbox::{OutPort, Template};
+use afp_dsl::types::{Dimension, Type};
 
 /// The enum, and how its outputs are handed over.
 pub fn outcomes(core: &TokenStream, template: &Template) -> TokenStream {

@@ -4,11 +4,11 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::{Parameters, bound, home, inputs as read_once, live as read_live};
-use crate::codegen::layout::doc;
-use crate::codegen::names::{ident, snake};
-use crate::codegen::rust_type::{degrees, int};
-use crate::toolbox::{Constant, InPort, Template};
-use crate::types::{Dimension, Type};
+use crate::layout::doc;
+use crate::names::{ident, snake};
+use crate::rust_type::{degrees, int};
+use afp_dsl::toolbox::{Constant, InPort, Template};
+use afp_dsl::types::{Dimension, Type};
 
 /// What a component reads before it starts.
 pub fn inputs(core: &TokenStream, template: &Template) -> TokenStream {

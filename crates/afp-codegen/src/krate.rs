@@ -2,13 +2,13 @@
 
 use quote::quote;
 
-use crate::codegen::Options;
-use crate::codegen::layout::{doc, file, file_with_places};
-use crate::codegen::manifest::{Dependency, Origin, manifest};
-use crate::codegen::names::{ident, snake};
-use crate::codegen::places::Places;
-use crate::codegen::plan::{Generated, plan};
-use crate::graph::Graph;
+use crate::Options;
+use crate::layout::{doc, file, file_with_places};
+use crate::manifest::{Dependency, Origin, manifest};
+use crate::names::{ident, snake};
+use crate::places::Places;
+use crate::plan::{Generated, plan};
+use afp_dsl::graph::Graph;
 use afp_syntax::source::Span;
 
 /// What a generated crate needs to know about its surroundings.
@@ -17,7 +17,7 @@ pub struct CrateOptions {
     /// The plan's file, as it was named.
     pub file: String,
     /// Path and text of the plan's file and of those that it uses, see
-    /// [`crate::Compiled::plan_texts`]; the crate carries them along.
+    /// [`afp_dsl::Compiled::plan_texts`]; the crate carries them along.
     pub texts: Vec<(String, String)>,
     /// Where the `afp` crates come from.
     pub origin: Origin,

@@ -3,13 +3,13 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::codegen::formula::reads;
-use crate::codegen::names::{Names, camel, ident, shout, snake};
-use crate::codegen::rust_type::Home;
-use crate::graph::{Component, Formula, Graph, Output, Plan, PlanId, SupervisorId, TemplateId};
-use crate::rows::Rows;
-use crate::toolbox::{Template, Toolbox};
-use crate::types::{Enum, Object, Type};
+use crate::formula::reads;
+use crate::names::{Names, camel, ident, shout, snake};
+use crate::rust_type::Home;
+use afp_dsl::graph::{Component, Formula, Graph, Output, Plan, PlanId, SupervisorId, TemplateId};
+use afp_dsl::rows::Rows;
+use afp_dsl::toolbox::{Template, Toolbox};
+use afp_dsl::types::{Enum, Object, Type};
 
 use super::imports::{CORE, QUANTITY, RT};
 use super::shared::FileEnum;
@@ -295,13 +295,13 @@ fn read(plan: &Plan) -> Vec<bool> {
 /// Whether a formula is an entry that is cloned as it is: a text or an object.
 pub fn is_bare(formula: &Formula) -> bool {
     matches!(formula.ty, Type::Text | Type::Object(_))
-        && matches!(formula.kind, crate::graph::FormulaKind::Entry(_))
+        && matches!(formula.kind, afp_dsl::graph::FormulaKind::Entry(_))
 }
 
 /// Which entries a commit can write.
 fn written(plan: &Plan) -> Vec<bool> {
-    use crate::graph::EntryKind;
-    let open = |entry: &crate::graph::Entry| {
+    use afp_dsl::graph::EntryKind;
+    let open = |entry: &afp_dsl::graph::Entry| {
         matches!(entry.kind, EntryKind::In | EntryKind::Var) && !matches!(entry.ty, Type::Object(_))
     };
     let mut written: Vec<_> = plan.entries.iter().map(open).collect();

@@ -8,8 +8,8 @@ use super::context::Context;
 use super::elements::{self, passes, results};
 use super::rules::wanted;
 use super::supervisors;
-use crate::codegen::layout::at;
-use crate::graph::Component;
+use crate::layout::at;
+use afp_dsl::graph::Component;
 
 /// `impl Plan<E>`, for every platform on which all components run.
 pub fn plan(context: &Context<'_>) -> TokenStream {
@@ -231,7 +231,7 @@ fn start_element(context: &Context<'_>) -> TokenStream {
 /// Stages what a sub-plan gives back.
 fn stage_results(
     names: &super::context::ComponentNames,
-    element: &crate::graph::Element,
+    element: &afp_dsl::graph::Element,
 ) -> TokenStream {
     let function = &names.outputs;
     if results(element) {

@@ -5,8 +5,8 @@ use quote::quote;
 
 use super::bindings::Bound;
 use super::context::{ComponentNames, Context};
-use crate::codegen::layout::{at, comment, doc};
-use crate::graph::Supervisor;
+use crate::layout::{at, comment, doc};
+use afp_dsl::graph::Supervisor;
 
 /// Numbers, the struct of the supervisors, and the bindings of each.
 pub fn supervisors(context: &Context<'_>) -> TokenStream {

@@ -5,11 +5,11 @@ use quote::quote;
 
 use super::bindings::{Bound, converted, reads_entries};
 use super::context::{ComponentNames, Context, is_bare};
-use crate::codegen::formula::{Formulas, is_literal};
-use crate::codegen::layout::{at, comment, doc};
-use crate::graph::{Component, Element, Entry, EntryKind, PlanId, TemplateId};
-use crate::rows::ElementRow;
-use crate::types::{Conversion, Dimension, Type};
+use crate::formula::{Formulas, is_literal};
+use crate::layout::{at, comment, doc};
+use afp_dsl::graph::{Component, Element, Entry, EntryKind, PlanId, TemplateId};
+use afp_dsl::rows::ElementRow;
+use afp_dsl::types::{Conversion, Dimension, Type};
 
 /// Numbers, the enum of the active element, and the bindings of each element.
 pub fn elements(context: &Context<'_>) -> TokenStream {

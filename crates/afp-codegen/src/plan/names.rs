@@ -5,10 +5,10 @@ use quote::quote;
 
 use super::context::Context;
 use super::shared::units_name;
-use crate::codegen::layout::doc;
-use crate::graph::{EntryKind, Graph, PlanId};
-use crate::types::{Dimension, Type};
-use crate::unfold::{ComponentNames, EntryNames, Kind, unfold};
+use crate::layout::doc;
+use afp_dsl::graph::{EntryKind, Graph, PlanId};
+use afp_dsl::types::{Dimension, Type};
+use afp_dsl::unfold::{ComponentNames, EntryNames, Kind, unfold};
 
 /// The table of names, and access by name.
 pub fn names(context: &Context<'_>, id: PlanId) -> TokenStream {

@@ -5,9 +5,9 @@ use quote::quote;
 
 use super::context::Context;
 use super::elements::description;
-use crate::codegen::layout::{at, comment, doc};
-use crate::graph::{Component, Element, Supervisor, Target, TemplateId};
-use crate::rows::{ElementKind, ElementRow, Range, SupervisorRow};
+use crate::layout::{at, comment, doc};
+use afp_dsl::graph::{Component, Element, Supervisor, Target, TemplateId};
+use afp_dsl::rows::{ElementKind, ElementRow, Range, SupervisorRow};
 
 /// The tables of the plan.
 pub fn rules(context: &Context<'_>) -> TokenStream {

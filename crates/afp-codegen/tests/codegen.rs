@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-use afp_dsl::codegen::{self, CrateOptions, Dependency, Options, Origin};
+use afp_codegen::{CrateOptions, Dependency, Options, Origin};
 use afp_dsl::files::Texts;
 use afp_dsl::toolbox::{Toolbox, Toolboxes};
 use afp_syntax::source::Source;
@@ -32,13 +32,13 @@ fn generate(path: &Path) -> String {
     if source.text.contains("\ntoolbox ") {
         let (toolbox, diags) = Toolbox::parse(&source, 0, "crate::kit");
         assert!(!diags.has_errors());
-        return codegen::file(codegen::toolbox(&toolbox.unwrap(), &options));
+        return afp_codegen::file(afp_codegen::toolbox(&toolbox.unwrap(), &options));
     }
     let compiled = afp_dsl::compile(&source, &toolboxes(), &Texts::default());
     assert!(compiled.graph.is_some(), "{}", compiled.render(false));
-    let generated = codegen::plan(&compiled.graph.unwrap(), &options);
+    let generated = afp_codegen::plan(&compiled.graph.unwrap(), &options);
     let modules = generated.modules.iter();
-    let texts = modules.map(|m| format!("// {}.rs\n\n{}", m.name, codegen::file(m.tokens())));
+    let texts = modules.map(|m| format!("// {}.rs\n\n{}", m.name, afp_codegen::file(m.tokens())));
     texts.collect::<Vec<_>>().join("\n")
 }
 
@@ -74,7 +74,7 @@ fn a_crate_names_what_it_needs_and_carries_its_text() {
         dependencies: Vec::new(),
         lib: false,
     };
-    let files = codegen::crate_files(&graph, &options);
+    let files = afp_codegen::crate_files(&graph, &options);
     let get = |path: &str| files.iter().find(|file| file.path == path).map(|file| &file.text);
     let names: Vec<_> = files.iter().map(|file| file.path.as_str()).collect();
     assert_eq!(
@@ -97,7 +97,7 @@ fn a_crate_names_what_it_needs_and_carries_its_text() {
     assert_eq!(get("wall_following.afp"), Some(&text));
     assert!(get("src/main.rs").unwrap().contains("afp_run::main(program, WallFollowing::new)"));
     options.texts.push(("lib/avoid.afp".to_owned(), "plan Avoid {}".to_owned()));
-    let files = codegen::crate_files(&graph, &options);
+    let files = afp_codegen::crate_files(&graph, &options);
     let get = |path: &str| files.iter().find(|file| file.path == path).map(|file| &*file.text);
     assert_eq!(get("lib/avoid.afp"), Some("plan Avoid {}"));
     let library = get("src/lib.rs").unwrap();
@@ -110,7 +110,7 @@ fn a_crate_names_what_it_needs_and_carries_its_text() {
         origin: Origin::Path("../mine".to_owned()),
         defaults: true,
     }];
-    let files = codegen::crate_files(&graph, &options);
+    let files = afp_codegen::crate_files(&graph, &options);
     assert!(files.iter().all(|file| file.path != "src/main.rs"));
     assert!(
         files[0].text.contains("afp-carbot = { path = \"../mine\", package = \"mine\" }"),

@@ -6,7 +6,7 @@ use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::quote;
 
 use super::context::{Context, alias, path};
-use crate::codegen::names::ident;
+use crate::names::ident;
 
 /// What lives at the root of `afp_core`.
 pub const CORE: &[&str] = &[

@@ -4,9 +4,9 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::{bound, words};
-use crate::codegen::layout::doc;
-use crate::codegen::names::{camel, ident, snake};
-use crate::toolbox::{Template, TemplateKind, Toolbox};
+use crate::layout::doc;
+use crate::names::{camel, ident, snake};
+use afp_dsl::toolbox::{Template, TemplateKind, Toolbox};
 
 /// `register`, for every platform that all components of the toolbox accept.
 pub fn register(core: &TokenStream, toolbox: &Toolbox) -> TokenStream {

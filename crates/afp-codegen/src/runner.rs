@@ -3,8 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::codegen::layout::file;
-use crate::codegen::manifest::{Dependency, Origin, manifest};
+use crate::layout::file;
+use crate::manifest::{Dependency, Origin, manifest};
 
 /// What a runner is made of.
 #[derive(Clone, Debug)]
