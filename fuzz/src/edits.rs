@@ -1,7 +1,7 @@
 //! Edits of any kind on any text: in order, inside the text, and no harm to what could be read.
 
-use afp_dsl::edit::{Binding, Change, TextEdit, apply, edit, follow};
 use afp_dsl::layout_file::Layout;
+use afp_ide::edit::{Binding, Change, TextEdit, apply, edit, follow};
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::item::Item;
 use afp_syntax::parse;

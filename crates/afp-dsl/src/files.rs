@@ -80,7 +80,7 @@ pub fn normalised(path: &str) -> String {
 }
 
 /// The path of a file that the file `user` names as `written`.
-pub(crate) fn joined(user: &str, written: &str) -> String {
+pub fn joined(user: &str, written: &str) -> String {
     let user = normalised(user);
     match user.rsplit_once('/') {
         Some((folder, _)) => normalised(&format!("{folder}/{written}")),
@@ -89,7 +89,7 @@ pub(crate) fn joined(user: &str, written: &str) -> String {
 }
 
 /// How the file `user` can name the file `path`, both normalised; `None` when no path leads there.
-pub(crate) fn relative(user: &str, path: &str) -> Option<String> {
+pub fn relative(user: &str, path: &str) -> Option<String> {
     if user.starts_with('/') != path.starts_with('/') {
         return None;
     }

@@ -5,7 +5,6 @@
 mod check;
 mod compile;
 pub mod draw;
-pub mod edit;
 pub mod files;
 mod flow;
 mod gather;

@@ -111,6 +111,14 @@ impl Type {
     }
 }
 
+/// Names of types that are no dimensions and that plans can write.
+pub(crate) const PLAIN: &[&str] = &["bool", "int", "float", "string"];
+
+/// Whether the language itself has a type of that name.
+pub fn is_built_in(name: &str) -> bool {
+    PLAIN.contains(&name) || matches!(name, "any" | "number") || Dimension::named(name).is_some()
+}
+
 impl fmt::Display for Type {
     /// As written in a plan: `length`, `int`, `Side`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -9,8 +9,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use afp_dsl::Compiled;
 use afp_dsl::draw::{self, Options, Theme};
-use afp_dsl::edit::{self, Change};
 use afp_dsl::toolbox::Toolbox as Declared;
+use afp_ide::edit::{self, Change};
 use afp_syntax::source::Source;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

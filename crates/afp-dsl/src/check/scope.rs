@@ -12,7 +12,7 @@ use crate::check::{PlanHead, Program, endings, entries, enums, recursion, shadow
 use crate::gather::PlanFile;
 use crate::index::Recorder;
 use crate::toolbox::{Toolbox, Toolboxes};
-use crate::types::Enum;
+use crate::types::{Enum, is_built_in};
 use afp_syntax::ast::{Item, Name};
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::Span;
@@ -111,7 +111,7 @@ fn own_enums(file: &PlanFile, diags: &mut Diagnostics) -> Vec<Arc<Enum>> {
         let Item::Enum(node) = item else { continue };
         let Some(home) = enums::read(&node, None, diags) else { continue };
         let name = Name { text: home.name.clone(), span: home.span };
-        if Types::is_built_in(&name.text) {
+        if is_built_in(&name.text) {
             shadows(&name, diags);
         } else if names.declare(&name, diags) {
             found.push(home);

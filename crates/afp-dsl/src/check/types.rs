@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::check::names::{ambiguous, unknown};
 use crate::index::{Recorder, Word};
-use crate::types::{Dimension, Enum, Object, Type};
+use crate::types::{Dimension, Enum, Object, PLAIN, Type, is_built_in};
 use afp_syntax::ast::{self, Factor};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
@@ -25,17 +25,7 @@ pub(crate) struct Types {
     pub incomplete: bool,
 }
 
-/// Names of types that are no dimensions.
-const PLAIN: &[&str] = &["bool", "int", "float", "string"];
-
 impl Types {
-    /// Whether the language itself has a type of that name.
-    pub fn is_built_in(name: &str) -> bool {
-        PLAIN.contains(&name)
-            || matches!(name, "any" | "number")
-            || Dimension::named(name).is_some()
-    }
-
     /// The meaning of a written type; reports what has none.
     pub fn resolve(
         &self,
@@ -85,7 +75,7 @@ impl Types {
     ) -> Option<Type> {
         let name = reference.name()?;
         let home = reference.home();
-        if home.is_none() && Types::is_built_in(&name.text) {
+        if home.is_none() && is_built_in(&name.text) {
             record.word(name.span, Word::Type);
             match name.text.as_str() {
                 "bool" => return Some(Type::Bool),

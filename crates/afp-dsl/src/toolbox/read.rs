@@ -11,7 +11,7 @@ use crate::check::{enums, imports, shadows, size};
 use crate::index::{self, Declared, Meanings, Recorder};
 use crate::rows::MAX_ROWS;
 use crate::toolbox::{Template, Toolbox};
-use crate::types::Object;
+use crate::types::{Object, is_built_in};
 use afp_syntax::ast::{File, Item, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::parse;
@@ -152,7 +152,7 @@ fn declare(items: &[Item], toolbox: &mut Toolbox, diags: &mut Diagnostics) -> Ty
     let mut types = Types { generic: true, ..Types::default() };
     let mut names = Names::default();
     let mut is_new = |name: &Name, is_type: bool, diags: &mut Diagnostics| {
-        if is_type && Types::is_built_in(&name.text) {
+        if is_type && is_built_in(&name.text) {
             shadows(name, diags);
             return false;
         }

@@ -1,6 +1,6 @@
 //! Changes of meaning as Python names them: a kind, and its parts by name.
 
-use afp_dsl::edit::{Binding, Change};
+use afp_ide::edit::{Binding, Change};
 use afp_syntax::ast::Item as Node;
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::item::Item;

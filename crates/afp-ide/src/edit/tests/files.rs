@@ -1,9 +1,9 @@
 //! Changes that reach into other files.
 
-use crate::compile;
 use crate::edit::{Change, apply, edit};
-use crate::files::{Files, Texts};
-use crate::toolbox::Toolboxes;
+use afp_dsl::compile;
+use afp_dsl::files::{Files, Texts};
+use afp_dsl::toolbox::Toolboxes;
 use afp_syntax::item::Item;
 use afp_syntax::source::Source;
 

@@ -3,7 +3,7 @@
 use super::project::Desk;
 use super::tree::{self, range, scope_of};
 use super::{Item, Refused, name, refer};
-use crate::check::types::Types;
+use afp_dsl::types::is_built_in;
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
@@ -13,7 +13,7 @@ pub(super) fn item(desk: &mut Desk, item: &Item, to: &str) -> Result<(), Refused
     let node = tree::find(&root, item)?;
     match node.kind() {
         Kind::Element => name::check_element(to)?,
-        Kind::Enum if Types::is_built_in(to) => {
+        Kind::Enum if is_built_in(to) => {
             return Err(Refused::new(format!("'{to}' is a type of the language")));
         }
         _ => name::check(to)?,

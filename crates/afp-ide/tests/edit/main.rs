@@ -9,7 +9,7 @@ mod mutate;
 
 use std::collections::BTreeMap;
 
-use afp_dsl::edit::{Binding, Change, Refused, TextEdit, apply};
+use afp_ide::edit::{Binding, Change, Refused, TextEdit, apply};
 use afp_syntax::item::Item;
 use afp_syntax::source::Source;
 use proptest::prelude::*;
@@ -19,13 +19,13 @@ use model::{Model, comments};
 
 /// The edits of a file by itself.
 fn edit(text: &str, change: &Change) -> Result<Vec<TextEdit>, Refused> {
-    afp_dsl::edit::edit(&[Source::new("case.afp", text)], 0, change)
+    afp_ide::edit::edit(&[Source::new("case.afp", text)], 0, change)
 }
 
 const PLANS: &[&str] = &[
     include_str!("../../../../plans/wall_following.afp"),
-    include_str!("../graph/sub_plans.afp"),
-    include_str!("../graph/conversions.afp"),
+    include_str!("../../../afp-dsl/tests/graph/sub_plans.afp"),
+    include_str!("../../../afp-dsl/tests/graph/conversions.afp"),
     "plan P { in a: int, out b: int start x supervise g: G { E -> y } \
      actor x: X(p = a, q => b) { supervise l: L every 1 ms { E -> x, F -> ignore } S -> y T -> z } \
      actor y: Y { S -> z } computation z: Z(p = b) { S -> terminate U -> x } }",

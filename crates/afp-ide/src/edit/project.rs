@@ -2,7 +2,7 @@
 
 use super::draft::Draft;
 use super::{Item, Refused, refer, tree};
-use crate::files::{joined, normalised};
+use afp_dsl::files::{joined, normalised};
 use afp_syntax::kind::Kind;
 use afp_syntax::source::Source;
 use afp_syntax::{Node, Token};

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use afp_dsl::edit::Change;
+use afp_ide::edit::Change;
 use afp_syntax::ast::{self, Bind, ElementKind};
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::item::Item;

@@ -1,6 +1,6 @@
 //! Changes of a file, and what the file says afterwards.
 
-use afp_dsl::edit::{Binding, Change};
+use afp_ide::edit::{Binding, Change};
 use afp_syntax::item::Item;
 use proptest::sample::Index;
 

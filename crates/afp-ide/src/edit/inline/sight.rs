@@ -3,7 +3,7 @@
 use crate::edit::project::{Desk, Project};
 use crate::edit::tree::{self, below, children, single};
 use crate::edit::{Refused, add, refer};
-use crate::files::relative;
+use afp_dsl::files::relative;
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 

@@ -1,16 +1,16 @@
 //! Extracting and inlining on plans that compile: the result compiles too.
 
 use afp_dsl::compile;
-use afp_dsl::edit::{Change, apply};
 use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
+use afp_ide::edit::{Change, apply};
 use afp_syntax::item::Item;
 use afp_syntax::source::Source;
 
 use crate::edit;
 
 const WALL_FOLLOWING: &str = include_str!("../../../../plans/wall_following.afp");
-const SUB_PLANS: &str = include_str!("../graph/sub_plans.afp");
+const SUB_PLANS: &str = include_str!("../../../afp-dsl/tests/graph/sub_plans.afp");
 
 /// The dump of the graph of a text, which must compile.
 #[track_caller]
