@@ -1,6 +1,6 @@
 //! Edits of any kind on any text: in order, inside the text, and no harm to what could be read.
 
-use afp_dsl::layout_file::Layout;
+use afp_draw::layout_file::Layout;
 use afp_ide::edit::{Binding, Change, TextEdit, apply, edit, follow};
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::item::Item;

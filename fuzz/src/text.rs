@@ -2,10 +2,10 @@
 
 use std::borrow::Cow;
 
+use afp_draw::layout_file::Layout;
+use afp_draw::{Options, svg};
 use afp_dsl::compile;
-use afp_dsl::draw::{Options, svg};
 use afp_dsl::files::Texts;
-use afp_dsl::layout_file::Layout;
 use afp_dsl::scenario::{Scenario, Window};
 use afp_dsl::toolbox::Toolboxes;
 use afp_sim::{Simulation, World};

@@ -1,16 +1,14 @@
-//! The compiler of Action Flow Plans: text in; diagnostics, static graph, Rust and drawings out.
+//! The compiler of Action Flow Plans: text in; diagnostics, outline and static graph out.
 //!
-//! It does no I/O and depends on nothing else in the workspace.
+//! It does no I/O and depends on nothing else in the workspace but the syntax.
 
 mod check;
 mod compile;
-pub mod draw;
 pub mod files;
 mod flow;
 mod gather;
 pub mod graph;
 pub mod index;
-pub mod layout_file;
 pub mod outline;
 pub mod rows;
 pub mod scenario;

@@ -7,8 +7,8 @@ mod diagnostic;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use afp_draw::{Options, Theme};
 use afp_dsl::Compiled;
-use afp_dsl::draw::{self, Options, Theme};
 use afp_dsl::toolbox::Toolbox as Declared;
 use afp_ide::edit::{self, Change};
 use afp_syntax::source::Source;
@@ -135,23 +135,23 @@ impl Plan {
             }
         };
         self.draw(py, |graph, options| {
-            draw::svg(graph, &Options { theme, sub_plans: !fold, data, ..*options })
+            afp_draw::svg(graph, &Options { theme, sub_plans: !fold, data, ..*options })
         })
     }
 
     /// The drawing for GraphViz.
     fn dot(&self, py: Python<'_>) -> PyResult<String> {
-        self.draw(py, draw::dot)
+        self.draw(py, afp_draw::dot)
     }
 
     /// The checked graph as JSON.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
-        self.draw(py, draw::json)
+        self.draw(py, afp_draw::json)
     }
 
     /// The flow of action as State Chart XML.
     fn scxml(&self, py: Python<'_>) -> PyResult<String> {
-        self.draw(py, draw::scxml)
+        self.draw(py, afp_draw::scxml)
     }
 
     /// The names of the plans of the file.

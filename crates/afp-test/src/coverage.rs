@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use afp_dsl::draw::Usage;
+use afp_draw::Usage;
 use afp_dsl::graph::{EntryKind, Graph};
 use afp_dsl::unfold::{ComponentNames, EntryNames, Goal, Kind, Place, places, unfold};
 use afp_log::LogData;

@@ -1,6 +1,6 @@
 //! The components of a plan by their numbers, each with what the graph says of it.
 
-use afp_dsl::draw::{Count, PlanUsage, Usage};
+use afp_draw::{Count, PlanUsage, Usage};
 use afp_dsl::graph::{
     Component, Element, ElementId, Graph, Output, Plan, PlanId, Supervisor, SupervisorId,
     TemplateId,

@@ -5,7 +5,7 @@ mod png;
 
 use std::path::Path;
 
-use afp_dsl::draw::Theme;
+use afp_draw::Theme;
 use afp_run::{PictureFormat, RunError, write_whole};
 
 /// Pixels of a PNG for each one of the SVG, where nothing is said: sharp on today's screens.

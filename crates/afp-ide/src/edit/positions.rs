@@ -1,7 +1,7 @@
 //! Positions of a drawing, carried along with changes of the text.
 
 use super::{Change, Item};
-use afp_dsl::layout_file::Layout;
+use afp_draw::layout_file::Layout;
 
 /// Gives items their new names, places and plans after a change of the text.
 ///

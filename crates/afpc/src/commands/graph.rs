@@ -4,9 +4,9 @@ use std::fs;
 use std::io::{ErrorKind, IsTerminal};
 use std::path::{Path, PathBuf};
 
-use afp_dsl::draw::{self, Options, Usage};
+use afp_draw::layout_file::Layout;
+use afp_draw::{Options, Usage};
 use afp_dsl::graph::Graph;
-use afp_dsl::layout_file::Layout;
 use afp_dsl::toolbox::Toolbox;
 use afp_run::{EXIT_OK, PictureFormat, RunError, write_whole};
 use afp_syntax::source::{Source, Sources};
@@ -104,10 +104,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     };
     let text = match format {
         Format::Png => return pixels(arguments, &graph, &options),
-        Format::Svg => draw::svg(&graph, &options),
-        Format::Json => draw::json(&graph, &options),
-        Format::Dot => draw::dot(&graph, &options),
-        Format::Scxml => draw::scxml(&graph, &options),
+        Format::Svg => afp_draw::svg(&graph, &options),
+        Format::Json => afp_draw::json(&graph, &options),
+        Format::Dot => afp_draw::dot(&graph, &options),
+        Format::Scxml => afp_draw::scxml(&graph, &options),
     };
     match &arguments.output {
         Some(path) => write(path, text.as_bytes()),
@@ -134,7 +134,7 @@ pub(super) fn with_usage(
         usage: Some(usage),
         ..Options::default()
     };
-    Ok(draw::svg(graph, &options))
+    Ok(afp_draw::svg(graph, &options))
 }
 
 /// The positions of the plans' side files, by file.
@@ -179,7 +179,7 @@ fn pixels(arguments: &Arguments, graph: &Graph, options: &Options) -> Result<u8,
         return Err(RunError::usage(error, "name a file: -o plan.png").into());
     }
     let scale = arguments.scale.unwrap_or(picture::DEFAULT_SCALE);
-    let picture = picture::pixels(&draw::svg(graph, options), scale)?;
+    let picture = picture::pixels(&afp_draw::svg(graph, options), scale)?;
     match &arguments.output {
         Some(path) => write(path, &picture),
         None => super::print_bytes(&picture),
@@ -200,12 +200,12 @@ impl Arguments {
         self.format.or_else(by_name).unwrap_or(Format::Svg)
     }
 
-    fn theme(&self, format: Format) -> draw::Theme {
+    fn theme(&self, format: Format) -> afp_draw::Theme {
         match (self.theme, format) {
-            (Some(Theme::Dark), _) => draw::Theme::Dark,
+            (Some(Theme::Dark), _) => afp_draw::Theme::Dark,
             // A PNG cannot ask the system of its reader.
-            (Some(Theme::Light), _) | (_, Format::Png) => draw::Theme::Light,
-            (Some(Theme::Auto) | None, _) => draw::Theme::Auto,
+            (Some(Theme::Light), _) | (_, Format::Png) => afp_draw::Theme::Light,
+            (Some(Theme::Auto) | None, _) => afp_draw::Theme::Auto,
         }
     }
 

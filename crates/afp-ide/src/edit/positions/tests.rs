@@ -1,7 +1,7 @@
 //! Positions after changes.
 
 use super::{Change, Item, follow};
-use afp_dsl::layout_file::Layout;
+use afp_draw::layout_file::Layout;
 
 const FILE: &str = "\
 # placed by hand

@@ -4,9 +4,9 @@ use super::sample::{EVERY_PART, WALL_FOLLOWING, compiled, compiled_with, generat
 use super::sketch::{Arrow, Rect, Shape, Sketch};
 use super::svg::sketch;
 use super::{Count, Options, PlanUsage, Theme, Usage, svg};
-use crate::Compiled;
 use crate::layout_file::Layout;
-use crate::toolbox::Toolbox;
+use afp_dsl::Compiled;
+use afp_dsl::toolbox::Toolbox;
 use afp_syntax::source::Source;
 
 /// Two lines nearer than this look like one.

@@ -8,8 +8,8 @@ use super::parts::{
     PORT_SIZE, ROW, STAND_OUT, chip_width, exit_right, inflow, outflow, pill_width, reach_right,
 };
 use super::{Card, REACH, bound};
-use crate::graph::{Supervisor, Target};
-use crate::types::text::duration;
+use afp_dsl::graph::{Supervisor, Target};
+use afp_dsl::types::text::duration;
 
 /// Sizes of texts in pixels.
 const NAME: f64 = 12.0;

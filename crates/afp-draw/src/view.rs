@@ -6,12 +6,12 @@ use std::borrow::Cow;
 
 use super::usage::{Count, PlanUsage, times};
 use super::{Options, formula};
-use crate::graph::{
+use crate::layout_file::Position;
+use afp_dsl::graph::{
     Component, Element, ElementId, Entry, EntryKind, Formula, FormulaKind, Graph, Output, Plan,
     PlanId, Supervisor, Target, TemplateId,
 };
-use crate::layout_file::Position;
-use crate::toolbox::{InPort, Template, Toolbox};
+use afp_dsl::toolbox::{InPort, Template, Toolbox};
 use afp_syntax::item::Item;
 use afp_syntax::source::Span;
 

@@ -9,7 +9,7 @@ mod names;
 
 use super::Options;
 use super::view::View;
-use crate::graph::Graph;
+use afp_dsl::graph::Graph;
 use chart::Chart;
 use names::Home;
 

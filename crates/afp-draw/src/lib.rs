@@ -9,6 +9,7 @@ mod dot;
 pub mod formula;
 mod json;
 mod layout;
+pub mod layout_file;
 mod legend;
 mod metrics;
 mod router;
@@ -26,7 +27,7 @@ mod tests;
 use std::fmt;
 
 use crate::layout_file::Layout;
-use crate::toolbox::Toolbox;
+use afp_dsl::toolbox::Toolbox;
 use afp_syntax::source::Sources;
 
 pub use dot::dot;

@@ -2,15 +2,15 @@
 
 use std::fmt::Write;
 
-use crate::toolbox::Toolboxes;
-use crate::{Compiled, compile};
+use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::{Compiled, compile};
 use afp_syntax::source::Source;
 
 /// The plan of the paper.
-pub(super) const WALL_FOLLOWING: &str = include_str!("../../../../plans/wall_following.afp");
+pub(super) const WALL_FOLLOWING: &str = include_str!("../../../plans/wall_following.afp");
 
 /// A plan with a sub-plan, a computation, `Error` and `DeadlineMissed` edges and an ignored event.
-pub(super) const EVERY_PART: &str = include_str!("../../tests/draw/every_part.afp");
+pub(super) const EVERY_PART: &str = include_str!("../tests/draw/every_part.afp");
 
 /// Compiles a plan that has no errors.
 pub(super) fn compiled(text: &str) -> Compiled {

@@ -13,8 +13,8 @@ use super::layout::{Link, Node, layout_around};
 use super::legend::legend;
 use super::sketch::{Arrow, Sketch};
 use super::view::View;
-use crate::graph::Graph;
 use crate::layout_file::Position;
+use afp_dsl::graph::Graph;
 
 /// Space around everything, in pixels.
 const MARGIN: f64 = 24.0;

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::super::view::{Exit, ExitKind, Input, View};
 use super::names::{End, Home, target};
-use crate::graph::{Component, Element, Supervisor, Target};
+use afp_dsl::graph::{Component, Element, Supervisor, Target};
 
 /// What a reader of the chart has to know.
 const HEAD: &str = "\

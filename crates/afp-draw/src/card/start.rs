@@ -9,7 +9,7 @@ use super::super::view::{View, entry_kind_name};
 use super::parts::{PORT_SIZE, ROW, pill_width};
 use super::supervisors::Stack;
 use super::{Card, Leaving};
-use crate::graph::{Entry, EntryKind};
+use afp_dsl::graph::{Entry, EntryKind};
 
 /// Size of the plan's name in pixels.
 const NAME: f64 = 15.0;

@@ -3,7 +3,7 @@
 //! A chart matches events by their leading words between dots, so every event is one path and one
 //! outcome with a single dot between them, and no two of them can be taken for each other.
 
-use crate::graph::Target;
+use afp_dsl::graph::Target;
 
 /// A plan where it is used: the outermost one, or the body of a sub-plan.
 pub(super) struct Home {
@@ -66,7 +66,7 @@ pub(super) fn target<'a>(
     home: &Home,
     target: Target,
     end: End,
-    element: impl Fn(crate::graph::ElementId) -> &'a str,
+    element: impl Fn(afp_dsl::graph::ElementId) -> &'a str,
 ) -> Option<String> {
     match target {
         Target::Element(id) => Some(home.state(element(id))),

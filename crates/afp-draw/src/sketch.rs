@@ -4,7 +4,7 @@
 
 use super::metrics;
 use super::usage::Class;
-use crate::toolbox::Toolbox;
+use afp_dsl::toolbox::Toolbox;
 
 /// A rectangle in pixels, y downwards.
 #[derive(Clone, Copy, Debug, PartialEq)]

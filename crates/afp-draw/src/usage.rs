@@ -2,7 +2,7 @@
 
 /// How often the parts of the plans of a graph were used, by [`PlanId`].
 ///
-/// [`PlanId`]: crate::graph::PlanId
+/// [`PlanId`]: afp_dsl::graph::PlanId
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Usage {
     /// The plans.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::Options;
 use super::view::{Exit, ExitKind, View};
-use crate::graph::{Component, Element, Graph, Supervisor, Target};
+use afp_dsl::graph::{Component, Element, Graph, Supervisor, Target};
 
 /// The graph in the DOT language: a cluster for each plan, solid edges for states, dashed ones for
 /// events, named after what takes them. Ignored events are left out.

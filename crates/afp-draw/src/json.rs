@@ -4,8 +4,8 @@ use serde_json::{Map, Value, json};
 
 use super::view::{Exit, Input, View, entry_kind_name, kind_name};
 use super::{Options, formula};
-use crate::graph::{Element, Graph, Plan, Supervisor};
 use crate::layout_file::Position;
+use afp_dsl::graph::{Element, Graph, Plan, Supervisor};
 
 /// The graph as one indented JSON object.
 ///

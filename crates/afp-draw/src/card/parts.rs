@@ -6,7 +6,7 @@ use super::super::sketch::{Anchor, Arrow, Label, Rect, Sketch};
 use super::super::usage::{Class, Use};
 use super::super::view::{Exit, ExitKind, Input};
 use super::{Card, Leaving};
-use crate::graph::Target;
+use afp_dsl::graph::Target;
 
 /// Height of a row with a port or an exit.
 pub(super) const ROW: f64 = 22.0;

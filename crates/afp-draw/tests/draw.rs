@@ -1,6 +1,6 @@
 //! Drawings as callers get them: JSON and GraphViz text of whole plans.
 
-use afp_dsl::draw::{Options, dot, json};
+use afp_draw::{Options, dot, json};
 use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
 use afp_dsl::{Compiled, compile};

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::super::Options;
 use super::super::sketch::{Anchor, Arrow, Frame, Label, Picture, Rect, Shape, Sketch};
 use super::{icon, style};
-use crate::graph::Plan;
+use afp_dsl::graph::Plan;
 
 /// Radius of the corners of thick arrows.
 const BEND: f64 = 7.0;

@@ -1,8 +1,8 @@
 //! Tests of formulas as text.
 
 use super::text;
-use crate::draw::sample::compiled;
-use crate::graph::Formula;
+use crate::sample::compiled;
+use afp_dsl::graph::Formula;
 
 /// The text of a formula as printed from the graph, then with the sources at hand.
 fn shown(written: &str) -> (String, String) {

@@ -14,7 +14,7 @@ use super::metrics::width;
 use super::sketch::{Anchor, Frame, Glyph, Label, Picture, Rect, Shape, Sketch};
 use super::usage::{Class, Use, times};
 use super::view::{Exit, Input, View};
-use crate::graph::{Component, Element};
+use afp_dsl::graph::{Component, Element};
 use parts::{ROW, Tag, chip_width, exit_below, inflow, outflow, pill_width, tag_width};
 
 pub(super) use start::start;

@@ -1,8 +1,8 @@
 //! Formulas as text: as written where the source is at hand, else printed from the graph.
 
-use crate::graph::{Formula, FormulaKind, Operator, Plan};
-use crate::types::text::{number, quantity};
-use crate::types::{Conversion, Type};
+use afp_dsl::graph::{Formula, FormulaKind, Operator, Plan};
+use afp_dsl::types::text::{number, quantity};
+use afp_dsl::types::{Conversion, Type};
 use afp_syntax::source::Sources;
 
 /// A formula of `plan` as text.
