@@ -40,7 +40,7 @@ const SIMULATIONS: &str = "10000";
 /// No Python, no network for the packages, or a test that fails.
 pub fn run() -> Result<(), Failure> {
     let python = environment("python", &PACKAGES)?;
-    run_command(cargo().args(["build", "--quiet", "--package", "afpc"]))?;
+    run_command(cargo().args(["build", "--quiet", "--package", "afpc", "--features", "full"]))?;
     let afpc = target().join("debug").join(format!("afpc{}", std::env::consts::EXE_SUFFIX));
     read_a_log(&python, &afpc)?;
     read_a_sweep(&python, &afpc)?;

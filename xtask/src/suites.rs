@@ -124,7 +124,7 @@ fn again(name: &str) -> String {
 
 /// All tests of the crates and of the examples.
 fn workspace() -> Result<(), Failure> {
-    let all = ["test", "--workspace", "--no-fail-fast"];
+    let all = ["test", "--workspace", "--features", "afpc/full", "--no-fail-fast"];
     // They have suites of their own.
     let but = ["--exclude", "afp-bench", "--exclude", "afp-py", "--exclude", "xtask"];
     // Property tests search anew at each run by hand; here the same commit gives the same answer.

@@ -3,7 +3,7 @@
 //! A [`Sweep`] is a numbered grid of runs. Each is a pure function of its [`Row`], so that any of them can
 //! be done again, anywhere, in any order. [`Engine::run`] does them and hands out [`Outcome`]s as they come; a
 //! [`Journal`] keeps them, so that a sweep that was killed goes on where it was; [`Findings`] sums them up,
-//! [`to_csv`] and [`to_parquet`] make tables of them. `afpc sweep` is thin over this.
+//! [`to_csv`] makes a table of them, and one for programs with the feature `parquet`. `afpc sweep` is thin over this.
 //!
 //! The plan need not come from a file: whoever has plans and simulations of his own gives the engine a
 //! function that makes them.
@@ -31,4 +31,6 @@ pub use outcome::{Ending, Outcome};
 pub use place::{Make, Place};
 pub use ranges::{Seeds, axis, seeds, worlds};
 pub use setting::Setting;
-pub use table::{to_csv, to_parquet};
+pub use table::to_csv;
+#[cfg(feature = "parquet")]
+pub use table::to_parquet;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::grid::Sweep;
 use crate::journal::Header;
 use crate::outcome::Outcome;
-use crate::table::{to_csv, to_parquet};
+use crate::table::to_csv;
 use afp_run::{RunError, hash, write_whole};
 
 /// Where tables go unless told otherwise.
@@ -15,6 +15,13 @@ const SWEEPS: &str = "target/afp/sweeps";
 
 /// What makes a table.
 pub type Make = fn(&Sweep, &[Outcome]) -> io::Result<Vec<u8>>;
+
+/// The formats of tables by their endings.
+const FORMATS: &[(&str, Make)] = &[
+    ("csv", to_csv),
+    #[cfg(feature = "parquet")]
+    ("parquet", crate::table::to_parquet),
+];
 
 /// The files of a sweep.
 pub struct Place {
@@ -64,18 +71,20 @@ impl Place {
 fn named(path: &Path) -> Result<Place, RunError> {
     let ends = path.to_string_lossy().ends_with(['/', std::path::MAIN_SEPARATOR]);
     if path.is_dir() || ends {
-        return Ok(Place {
-            journal: path.join("outcomes.journal"),
-            tables: vec![
-                (path.join("outcomes.csv"), to_csv),
-                (path.join("outcomes.parquet"), to_parquet),
-            ],
-        });
+        let formats = FORMATS.iter();
+        let tables =
+            formats.map(|(ending, make)| (path.join("outcomes").with_extension(ending), *make));
+        return Ok(Place { journal: path.join("outcomes.journal"), tables: tables.collect() });
     }
-    match path.extension().and_then(|extension| extension.to_str()) {
-        Some("csv") => Ok(single(path, to_csv)),
-        Some("parquet") => Ok(single(path, to_parquet)),
-        _ => Err(RunError::usage(
+    let ending = path.extension().and_then(|extension| extension.to_str());
+    match FORMATS.iter().find(|(known, _)| ending == Some(known)) {
+        Some((_, make)) => Ok(single(path, *make)),
+        None if ending == Some("parquet") => Err(RunError::usage(
+            format!("'{}': this program was built without Parquet", path.display()),
+            "name a .csv file, or build afpc with its feature: \
+             'cargo install --path crates/afpc --features parquet'",
+        )),
+        None => Err(RunError::usage(
             format!("'{}' says no format", path.display()),
             "end it in '.csv' or '.parquet'; a folder, with '/' behind its name, gets both",
         )),

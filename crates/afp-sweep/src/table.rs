@@ -1,17 +1,19 @@
 //! Tables of outcomes as files: CSV for people and spreadsheets, Parquet for programs.
+//!
+//! The writer of Parquet takes longer to build than the simulator's physics, and few sweeps need it: it is behind
+//! the feature `parquet`.
+
+#[cfg(feature = "parquet")]
+mod parquet;
 
 use std::io;
-use std::sync::Arc;
 
-use parquet::basic::{ConvertedType, LogicalType, Repetition, Type as Physical};
-use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
-use parquet::errors::Result;
-use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
-use parquet::schema::types::{Type, TypePtr};
-
-use crate::columns::{Cells, Column, columns};
+use crate::columns::columns;
 use crate::grid::Sweep;
 use crate::outcome::Outcome;
+
+#[cfg(feature = "parquet")]
+pub use parquet::to_parquet;
 
 /// The outcomes as CSV, with a line of names first, in the order of the runs.
 ///
@@ -27,82 +29,13 @@ pub fn to_csv(sweep: &Sweep, outcomes: &[Outcome]) -> io::Result<Vec<u8>> {
     table.into_inner().map_err(|error| error.into_error())
 }
 
-/// The outcomes as Parquet: whole numbers as unsigned 64 bits, numbers as doubles, texts as UTF-8.
-///
-/// # Errors
-/// Two columns have the same name.
-pub fn to_parquet(sweep: &Sweep, outcomes: &[Outcome]) -> io::Result<Vec<u8>> {
-    write(&columns(sweep, outcomes)).map_err(io::Error::other)
-}
-
-fn write(columns: &[Column]) -> Result<Vec<u8>> {
-    let fields = columns.iter().map(|column| Ok(Arc::new(field(column)?)));
-    let fields = fields.collect::<Result<Vec<TypePtr>>>()?;
-    let schema = Arc::new(Type::group_type_builder("outcomes").with_fields(fields).build()?);
-    let mut bytes = Vec::new();
-    let mut file = SerializedFileWriter::new(&mut bytes, schema, Arc::default())?;
-    let mut group = file.next_row_group()?;
-    let mut columns = columns.iter();
-    while let Some(mut writer) = group.next_column()? {
-        if let Some(column) = columns.next() {
-            fill(&mut writer, &column.cells)?;
-        }
-        writer.close()?;
-    }
-    group.close()?;
-    file.close()?;
-    Ok(bytes)
-}
-
-fn field(column: &Column) -> Result<Type> {
-    let (physical, repetition, converted, logical) = match column.cells {
-        Cells::Counts(_) => {
-            let logical = LogicalType::integer(64, false);
-            (Physical::INT64, Repetition::REQUIRED, ConvertedType::UINT_64, Some(logical))
-        }
-        Cells::Numbers(_) => (Physical::DOUBLE, Repetition::OPTIONAL, ConvertedType::NONE, None),
-        Cells::Texts(_) => {
-            let logical = Some(LogicalType::String);
-            (Physical::BYTE_ARRAY, Repetition::REQUIRED, ConvertedType::UTF8, logical)
-        }
-    };
-    Type::primitive_type_builder(&column.name, physical)
-        .with_repetition(repetition)
-        .with_converted_type(converted)
-        .with_logical_type(logical)
-        .build()
-}
-
-fn fill(writer: &mut SerializedColumnWriter<'_>, cells: &Cells) -> Result<()> {
-    match cells {
-        Cells::Counts(all) => {
-            // The bits of an unsigned number, which the column's type says it is.
-            let all: Vec<i64> = all.iter().map(|count| count.cast_signed()).collect();
-            writer.typed::<Int64Type>().write_batch(&all, None, None)?;
-        }
-        Cells::Numbers(all) => {
-            let there: Vec<f64> = all.iter().copied().flatten().collect();
-            let levels: Vec<i16> = all.iter().map(|number| i16::from(number.is_some())).collect();
-            writer.typed::<DoubleType>().write_batch(&there, Some(&levels), None)?;
-        }
-        Cells::Texts(all) => {
-            let all: Vec<ByteArray> = all.iter().map(|text| text.as_str().into()).collect();
-            writer.typed::<ByteArrayType>().write_batch(&all, None, None)?;
-        }
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
-    use parquet::file::reader::{FileReader, SerializedFileReader};
-    use parquet::record::RowAccessor;
-
     use super::*;
     use crate::outcome::Ending;
     use crate::ranges::{axis, seeds};
 
-    fn sweep() -> Sweep {
+    pub(super) fn sweep() -> Sweep {
         Sweep {
             plan: "a.afp".to_owned(),
             worlds: vec![None],
@@ -112,7 +45,7 @@ mod tests {
         }
     }
 
-    fn outcomes() -> [Outcome; 2] {
+    pub(super) fn outcomes() -> [Outcome; 2] {
         let failed = |run| Outcome::failed(run, Ending::Error, "a, \"b\"".to_owned());
         [failed(1), Outcome { wall_error_mean_m: Some(0.1), run: u64::MAX / 4 * 4, ..failed(2) }]
     }
@@ -125,25 +58,5 @@ mod tests {
         let first = lines.next().unwrap();
         assert!(first.starts_with("1,,4,20cm,error,,\"a, \"\"b\"\"\",0,0,0,0,0,,,,"), "{first}");
         assert!(first.ends_with("afpc run a.afp --seed 4 --set d=20cm --until 60s,0"), "{first}");
-    }
-
-    #[test]
-    fn parquet_keeps_types_and_gaps() {
-        let bytes = to_parquet(&sweep(), &outcomes()).unwrap();
-        let reader = SerializedFileReader::new(parquet_bytes(bytes)).unwrap();
-        let rows: Vec<_> = reader.get_row_iter(None).unwrap().map(Result::unwrap).collect();
-        assert_eq!(rows.len(), 2);
-        assert_eq!(rows[1].get_ulong(0).unwrap(), u64::MAX / 4 * 4);
-        assert_eq!(rows[0].get_string(6).unwrap(), "a, \"b\"");
-        assert!(rows[0].get_double(12).is_err());
-        assert_eq!(rows[1].get_double(12).unwrap(), 0.1);
-    }
-
-    fn parquet_bytes(bytes: Vec<u8>) -> std::fs::File {
-        use std::io::{Seek, Write};
-        let mut file = tempfile::tempfile().unwrap();
-        file.write_all(&bytes).unwrap();
-        file.rewind().unwrap();
-        file
     }
 }

@@ -41,6 +41,7 @@ fn every_row_can_be_done_again() {
     let table = rows(&place, "all/outcomes.csv");
     assert!(table[0].starts_with("run,world,seed,walldist,walldist_si,world.robot.charge,"));
     assert!(table[16].starts_with("15,random:5,4,40cm,0.4,1,1,"), "{}", table[16]);
+    #[cfg(feature = "parquet")]
     assert!(place.bytes("all/outcomes.parquet").starts_with(b"PAR1"));
     let alone = place.afpc(&format!("{sweep} --json --jobs 1 -o one.csv"));
     assert_eq!((alone.out, rows(&place, "one.csv")), (said.out, table));
@@ -144,6 +145,8 @@ fn what_cannot_be_varied_is_said_before_anything_runs() {
         ("--seeds 0..99999999999", ["these are 99999999999 runs", "vary less at once"]),
         ("--seeds 5..5", ["no seeds in '5..5'", "--seeds"]),
         ("-o a.txt", ["says no format", "'.csv' or '.parquet'"]),
+        #[cfg(not(feature = "parquet"))]
+        ("-o a.parquet", ["built without Parquet", "--features parquet"]),
     ] {
         let said = place.afpc(&format!("sweep wall_following.afp {arguments}"));
         assert!(matches!(said.code, 1 | 2), "{said:#?}");

@@ -39,8 +39,8 @@ pub struct Arguments {
     #[arg(long, value_name = "TIME", default_value = "60s", value_parser = afp_project::duration)]
     until: Duration,
 
-    /// Where the table of outcomes goes: .csv, .parquet, or a folder for both [default:
-    /// target/afp/sweeps/<plan>-<grid>.csv]
+    /// Where the table of outcomes goes: .csv, .parquet (where afpc has that feature), or a folder
+    /// for all [default: target/afp/sweeps/<plan>-<grid>.csv]
     #[arg(short, long, value_name = "FILE|FOLDER")]
     output: Option<PathBuf>,
 
@@ -61,7 +61,7 @@ pub const EXAMPLES: &str = "\
 Examples:
   afpc sweep plan.afp --seeds 0..1000
   afpc sweep plan.afp --seeds 0..20 --vary walldist=20cm..60cm:5cm -o walldist.csv
-  afpc sweep plan.afp --world random:0..100 --until 30s -o rooms.parquet
+  afpc sweep plan.afp --world random:0..100 --until 30s -o rooms.csv
   afpc sweep plan.afp --vary world.robot.charge=0.2..1
 
 A sweep that was stopped or killed goes on with the same command.

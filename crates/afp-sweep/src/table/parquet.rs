@@ -1,0 +1,109 @@
+//! Outcomes as Parquet, for programs.
+
+use std::io;
+use std::sync::Arc;
+
+use parquet::basic::{ConvertedType, LogicalType, Repetition, Type as Physical};
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::errors::Result;
+use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
+use parquet::schema::types::{Type, TypePtr};
+
+use crate::columns::{Cells, Column, columns};
+use crate::grid::Sweep;
+use crate::outcome::Outcome;
+
+/// The outcomes as Parquet: whole numbers as unsigned 64 bits, numbers as doubles, texts as UTF-8.
+///
+/// # Errors
+/// Two columns have the same name.
+pub fn to_parquet(sweep: &Sweep, outcomes: &[Outcome]) -> io::Result<Vec<u8>> {
+    write(&columns(sweep, outcomes)).map_err(io::Error::other)
+}
+
+fn write(columns: &[Column]) -> Result<Vec<u8>> {
+    let fields = columns.iter().map(|column| Ok(Arc::new(field(column)?)));
+    let fields = fields.collect::<Result<Vec<TypePtr>>>()?;
+    let schema = Arc::new(Type::group_type_builder("outcomes").with_fields(fields).build()?);
+    let mut bytes = Vec::new();
+    let mut file = SerializedFileWriter::new(&mut bytes, schema, Arc::default())?;
+    let mut group = file.next_row_group()?;
+    let mut columns = columns.iter();
+    while let Some(mut writer) = group.next_column()? {
+        if let Some(column) = columns.next() {
+            fill(&mut writer, &column.cells)?;
+        }
+        writer.close()?;
+    }
+    group.close()?;
+    file.close()?;
+    Ok(bytes)
+}
+
+fn field(column: &Column) -> Result<Type> {
+    let (physical, repetition, converted, logical) = match column.cells {
+        Cells::Counts(_) => {
+            let logical = LogicalType::integer(64, false);
+            (Physical::INT64, Repetition::REQUIRED, ConvertedType::UINT_64, Some(logical))
+        }
+        Cells::Numbers(_) => (Physical::DOUBLE, Repetition::OPTIONAL, ConvertedType::NONE, None),
+        Cells::Texts(_) => {
+            let logical = Some(LogicalType::String);
+            (Physical::BYTE_ARRAY, Repetition::REQUIRED, ConvertedType::UTF8, logical)
+        }
+    };
+    Type::primitive_type_builder(&column.name, physical)
+        .with_repetition(repetition)
+        .with_converted_type(converted)
+        .with_logical_type(logical)
+        .build()
+}
+
+fn fill(writer: &mut SerializedColumnWriter<'_>, cells: &Cells) -> Result<()> {
+    match cells {
+        Cells::Counts(all) => {
+            // The bits of an unsigned number, which the column's type says it is.
+            let all: Vec<i64> = all.iter().map(|count| count.cast_signed()).collect();
+            writer.typed::<Int64Type>().write_batch(&all, None, None)?;
+        }
+        Cells::Numbers(all) => {
+            let there: Vec<f64> = all.iter().copied().flatten().collect();
+            let levels: Vec<i16> = all.iter().map(|number| i16::from(number.is_some())).collect();
+            writer.typed::<DoubleType>().write_batch(&there, Some(&levels), None)?;
+        }
+        Cells::Texts(all) => {
+            let all: Vec<ByteArray> = all.iter().map(|text| text.as_str().into()).collect();
+            writer.typed::<ByteArrayType>().write_batch(&all, None, None)?;
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+    use parquet::record::RowAccessor;
+
+    use super::*;
+    use crate::table::tests::{outcomes, sweep};
+
+    #[test]
+    fn parquet_keeps_types_and_gaps() {
+        let bytes = to_parquet(&sweep(), &outcomes()).unwrap();
+        let reader = SerializedFileReader::new(parquet_bytes(bytes)).unwrap();
+        let rows: Vec<_> = reader.get_row_iter(None).unwrap().map(Result::unwrap).collect();
+        assert_eq!(rows.len(), 2);
+        assert_eq!(rows[1].get_ulong(0).unwrap(), u64::MAX / 4 * 4);
+        assert_eq!(rows[0].get_string(6).unwrap(), "a, \"b\"");
+        assert!(rows[0].get_double(12).is_err());
+        assert_eq!(rows[1].get_double(12).unwrap(), 0.1);
+    }
+
+    fn parquet_bytes(bytes: Vec<u8>) -> std::fs::File {
+        use std::io::{Seek, Write};
+        let mut file = tempfile::tempfile().unwrap();
+        file.write_all(&bytes).unwrap();
+        file.rewind().unwrap();
+        file
+    }
+}
