@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::{fmt, fs, io};
 
-use crate::excerpt::{excerpt, shown};
+use afp_excerpt::{Mark, Report, Severity};
+
 use crate::krate::{self, CrateLink};
 use crate::project::{Mistake, Project, Toolbox};
 use crate::read::read;
@@ -126,29 +127,48 @@ impl ProjectFile {
     }
 }
 
-impl fmt::Display for ProjectError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl ProjectError {
+    /// What is wrong, one blank line between each, with terminal colours when asked.
+    pub fn render(&self, colour: bool) -> String {
         match self {
             ProjectError::Unreadable { path, error } => {
-                write!(
-                    f,
-                    "error: cannot read the project file '{}': {error}",
-                    shown(path).display()
-                )
+                let path = shown(path);
+                let message = format!("cannot read the project file '{}': {error}", path.display());
+                report(&message, Vec::new(), colour)
             }
             ProjectError::Wrong { path, text, mistakes } => {
-                for (index, mistake) in mistakes.iter().enumerate() {
-                    let gap = if index == 0 { "" } else { "\n\n" };
-                    writeln!(f, "{gap}error: {mistake}")?;
-                    excerpt(f, path, text, mistake.span.clone(), &mistake.help)?;
-                }
-                Ok(())
+                let path = shown(path).display().to_string();
+                let texts = mistakes.iter().map(|mistake| {
+                    let help = if mistake.help.is_empty() { "" } else { "help: " };
+                    let label = format!("{help}{}", mistake.help);
+                    let span = Some(mistake.span.clone());
+                    let mark = Mark { path: &path, text, span, label };
+                    report(&mistake.message, vec![mark], colour)
+                });
+                texts.collect::<Vec<_>>().join("\n\n")
             }
         }
     }
 }
 
+fn report(message: &str, marks: Vec<Mark<'_>>, colour: bool) -> String {
+    Report { severity: Severity::Error, code: "", message, marks }.render(colour)
+}
+
+impl fmt::Display for ProjectError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.render(false))
+    }
+}
+
 impl std::error::Error for ProjectError {}
+
+/// A path as people name it who work in the current folder.
+pub fn shown(path: &Path) -> PathBuf {
+    let here = std::env::current_dir().ok();
+    let below = here.and_then(|here| Some(path.strip_prefix(here).ok()?.to_owned()));
+    below.unwrap_or_else(|| path.to_owned())
+}
 
 #[cfg(test)]
 mod tests;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use toml_edit::Document;
 
-use crate::excerpt::shown;
+use crate::file::shown;
 use crate::project::{Crate, Mistake, Origin, Toolbox};
 
 /// The crate of a toolbox, as a manifest can depend on it.

@@ -19,15 +19,13 @@
 //! path = "../afp"
 //! ```
 
-mod excerpt;
 mod file;
 mod krate;
 mod project;
 mod read;
 mod time;
 
-pub use excerpt::{excerpt, shown};
-pub use file::{ProjectError, ProjectFile, ToolboxFile};
+pub use file::{ProjectError, ProjectFile, ToolboxFile, shown};
 pub use krate::CrateLink;
 pub use project::{Crate, Mistake, Origin, Project, Target, Toolbox};
 pub use read::read;

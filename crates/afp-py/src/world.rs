@@ -36,8 +36,11 @@ impl World {
     /// Reads a world from the text of its file.
     #[staticmethod]
     fn parse(text: String) -> PyResult<World> {
-        let world = Room::parse(&text).map_err(|why| match why.place {
-            Some((line, column)) => error(format!("{line}:{column}: {}", why.message)),
+        let world = Room::parse(&text).map_err(|why| match why.span {
+            Some(span) => {
+                let (line, column) = afp_excerpt::line_column(&text, span.start);
+                error(format!("{line}:{column}: {}", why.message))
+            }
             None => error(why.message),
         })?;
         Ok(World { loaded: LoadedWorld { world, text, path: None } })

@@ -2,11 +2,13 @@
 
 use std::fmt;
 use std::io;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use afp_excerpt::{Mark, Report, Severity};
 use afp_log::LogError;
-use afp_project::{ProjectError, excerpt};
+use afp_project::{ProjectError, shown};
 
 /// The process did what was asked.
 pub const EXIT_OK: u8 = 0;
@@ -47,8 +49,8 @@ pub enum RunError {
     Content {
         /// The file.
         path: PathBuf,
-        /// Line and column from 1, where known.
-        place: Option<(usize, usize)>,
+        /// The bytes of its text, where known.
+        span: Option<Range<usize>>,
         /// The file's text.
         text: String,
         /// What is wrong.
@@ -92,53 +94,35 @@ impl RunError {
 
     /// The text for a terminal.
     pub fn styled(&self) -> String {
-        let red = anstyle::AnsiColor::BrightRed.on_default().bold();
-        let text = self.to_string();
-        let lines = text.lines().map(|line| match line.strip_prefix("error") {
-            Some(rest) => format!("{red}error{red:#}{rest}"),
-            None => line.to_owned(),
-        });
-        lines.collect::<Vec<_>>().join("\n")
+        self.render(true)
     }
-}
 
-/// The byte at a line and column from 1.
-fn byte(text: &str, (line, column): (usize, usize)) -> usize {
-    let lines = text.split_inclusive('\n');
-    let before: usize = lines.clone().take(line.saturating_sub(1)).map(str::len).sum();
-    let line = lines.clone().nth(line.saturating_sub(1)).unwrap_or("");
-    before + line.chars().take(column.saturating_sub(1)).map(char::len_utf8).sum::<usize>()
+    fn render(&self, colour: bool) -> String {
+        let report = |message: &str, marks: Vec<Mark<'_>>| {
+            Report { severity: Severity::Error, code: "", message, marks }.render(colour)
+        };
+        match self {
+            RunError::Usage { message, help: None } => report(message, Vec::new()),
+            RunError::Usage { message, help: Some(help) } | RunError::Missing { message, help } => {
+                format!("{}\n  help: {help}", report(message, Vec::new()))
+            }
+            RunError::File { what, path, error } => {
+                report(&format!("{what} '{}': {error}", path.display()), Vec::new())
+            }
+            RunError::Content { path, span, text, message } => {
+                let path = shown(path).display().to_string();
+                let label = String::new();
+                report(message, vec![Mark { path: &path, text, span: span.clone(), label }])
+            }
+            RunError::Project(error) => error.render(colour),
+            RunError::Log(error) => report(&error.to_string(), Vec::new()),
+        }
+    }
 }
 
 impl fmt::Display for RunError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            RunError::Usage { message, help } => {
-                write!(f, "error: {message}")?;
-                match help {
-                    Some(help) => write!(f, "\n  help: {help}"),
-                    None => Ok(()),
-                }
-            }
-            RunError::Missing { message, help } => {
-                write!(f, "error: {message}\n  help: {help}")
-            }
-            RunError::File { what, path, error } => {
-                write!(f, "error: {what} '{}': {error}", path.display())
-            }
-            RunError::Content { path, place, text, message } => {
-                writeln!(f, "error: {message}")?;
-                match *place {
-                    Some(place) => {
-                        let at = byte(text, place);
-                        excerpt(f, path, text, at..at, "")
-                    }
-                    None => write!(f, "  --> {}", path.display()),
-                }
-            }
-            RunError::Project(error) => error.fmt(f),
-            RunError::Log(error) => write!(f, "error: {error}"),
-        }
+        f.write_str(&self.render(false))
     }
 }
 

@@ -57,7 +57,7 @@ where
     let mut sim =
         Simulation::new(&world.world, options.seed).map_err(|error| RunError::Content {
             path: world.path.clone().unwrap_or_default(),
-            place: error.place,
+            span: error.span,
             text: world.text.clone(),
             message: error.message,
         })?;

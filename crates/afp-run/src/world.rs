@@ -83,7 +83,7 @@ fn load(path: &Path) -> Result<LoadedWorld, RunError> {
 fn map(path: &Path, yaml: String) -> Result<String, RunError> {
     let wrong = |error: WorldError| RunError::Content {
         path: path.to_owned(),
-        place: error.place,
+        span: error.span,
         text: yaml.clone(),
         message: error.message,
     };
@@ -99,7 +99,7 @@ fn parse(text: String, path: Option<PathBuf>) -> Result<LoadedWorld, RunError> {
         Ok(world) => Ok(LoadedWorld { world, text, path }),
         Err(error) => Err(RunError::Content {
             path: path.unwrap_or_else(|| "built-in room".into()),
-            place: error.place,
+            span: error.span,
             text,
             message: error.message,
         }),

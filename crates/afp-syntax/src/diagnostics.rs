@@ -10,29 +10,8 @@ pub mod words;
 
 use crate::source::Span;
 
+pub use afp_excerpt::Severity;
 pub use codes::Code;
-
-/// How bad it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Severity {
-    /// The text has no meaning; there is no graph.
-    Error,
-    /// The text has a meaning, but hardly the one that was wanted.
-    Warning,
-    /// Worth knowing; nothing needs to change.
-    Note,
-}
-
-impl Severity {
-    /// The word that stands before the code.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-            Severity::Note => "note",
-        }
-    }
-}
 
 /// Another place that explains the diagnostic.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! Texts of Action Flow Plans: a lossless tree of them, what is wrong with them, and their
 //! canonical form.
 //!
-//! It knows the grammar and nothing of what a text means. It does no I/O and depends on nothing else
-//! in the workspace.
+//! It knows the grammar and nothing of what a text means. It does no I/O. Of the workspace it needs
+//! `afp-excerpt` alone, which shows where mistakes are.
 
 pub mod ast;
 pub mod diagnostics;

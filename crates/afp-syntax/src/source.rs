@@ -54,13 +54,7 @@ impl Source {
     ///
     /// An offset past the end or inside a character stands for the nearest one before it.
     pub fn line_column(&self, offset: u32) -> (usize, usize) {
-        let mut end = self.text.len().min(offset as usize);
-        while !self.text.is_char_boundary(end) {
-            end -= 1;
-        }
-        let before = &self.text[..end];
-        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-        (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+        afp_excerpt::line_column(&self.text, offset as usize)
     }
 }
 

@@ -47,16 +47,16 @@ pub fn draw_log(log: &LogData) -> Result<String, RunError> {
 /// # Errors
 /// The log has none, or one that this release does not understand.
 pub(super) fn world_of(log: &LogData) -> Result<World, RunError> {
-    let content = |message: String, place, text: &str| RunError::Content {
+    let content = |message: String, span, text: &str| RunError::Content {
         path: WORLD.into(),
-        place,
+        span,
         text: text.to_owned(),
         message,
     };
     let Some(text) = log.attachments.get(WORLD) else {
         return Err(content(format!("the log has no attachment '{WORLD}'"), None, ""));
     };
-    World::parse(text).map_err(|error| content(error.message, error.place, text))
+    World::parse(text).map_err(|error| content(error.message, error.span, text))
 }
 
 /// The line below the title.

@@ -37,7 +37,7 @@ pub(super) fn build(world: &World) -> Result<Built, WorldError> {
     let mut shapes = Vec::with_capacity(world.obstacles.len());
     for (i, obstacle) in world.obstacles.iter().enumerate() {
         let (at, shape) = obstacle.outline.shape().ok_or_else(|| WorldError {
-            place: None,
+            span: None,
             message: format!("'{}' has no area", obstacle.name),
         })?;
         let collider = collider(obstacle, shape.clone(), i);

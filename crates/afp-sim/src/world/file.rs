@@ -29,7 +29,7 @@ const POLYGON_COLOR: Rgb = [127, 143, 166];
 /// Reads a file and checks each value by itself.
 pub(super) fn read(text: &str) -> Result<World, WorldError> {
     let file: File = toml_edit::de::from_str(text)
-        .map_err(|error| WorldError::at_span(text, error.span(), error.message().to_owned()))?;
+        .map_err(|error| WorldError { span: error.span(), message: error.message().to_owned() })?;
     let check = Check::new(text);
     let root = Key::root();
     if file.version != 1 {

@@ -35,21 +35,21 @@ impl World {
     /// place for the robot.
     pub fn map_text(name: &str, yaml: &str, picture: &[u8]) -> Result<String, WorldError> {
         let settings = Settings::read(yaml)?;
-        let grey = picture::read(picture).map_err(|message| WorldError { place: None, message })?;
+        let grey = picture::read(picture).map_err(|message| WorldError { span: None, message })?;
         if !is_near(&settings, [grey.width, grey.height].map(|cells| cells as f64)) {
             let message = format!("the map reaches farther than {FARTHEST} m");
-            return Err(WorldError { place: None, message });
+            return Err(WorldError { span: None, message });
         }
         let cells = Cells::new(&grey, |value| settings.occupied(value));
         let radius = libm::hypot(HALF_LENGTH, HALF_WIDTH) + ROOM;
         let start = start(&settings, &cells, radius).ok_or_else(|| WorldError {
-            place: None,
+            span: None,
             message: "the map has no free place that is large enough for the robot".to_owned(),
         })?;
         let boxes = cells.boxes();
         if boxes.len() > MOST {
             let message = format!("the map has {} separate parts, more than {MOST}", boxes.len());
-            return Err(WorldError { place: None, message });
+            return Err(WorldError { span: None, message });
         }
         Ok(text(name, &settings, &cells, start, &boxes))
     }

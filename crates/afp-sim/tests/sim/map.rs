@@ -4,6 +4,8 @@ use afp_carbot::devices::Ultrasonic;
 use afp_core::{Duration, Instant};
 use afp_sim::{Pose, Simulation, World};
 
+use crate::world::placed;
+
 const YAML: &str = "image: room.pgm\nmode: trinary\nresolution: 0.1\norigin: [-1.0, -2.0, 0]\n\
                     negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
 
@@ -74,7 +76,7 @@ fn what_is_wrong_with_a_map_is_said() {
         (String::new(), "image"),
     ];
     for (yaml, expected) in cases {
-        let message = World::map_text("m", &yaml, &room()).unwrap_err().to_string();
+        let message = placed(&yaml, &World::map_text("m", &yaml, &room()).unwrap_err());
         assert!(message.contains(expected), "{message}");
     }
     let message = World::map_text("m", YAML, b"GIF89a").unwrap_err().to_string();

@@ -1,7 +1,7 @@
 //! World files: what is read, and that every mistake is named with its place.
 
-use afp_sim::World;
 use afp_sim::world::Outline;
+use afp_sim::{World, WorldError};
 
 const GOOD: &str = r#"version = 1
 name = "a room"
@@ -36,10 +36,18 @@ fn a_world_has_its_obstacles_in_order() {
     assert!((world.start.heading.to_degrees() - 90.0).abs() < 1e-9);
 }
 
+/// An error with its line and column.
+pub fn placed(text: &str, error: &WorldError) -> String {
+    let Some(span) = &error.span else { return error.message.clone() };
+    let (line, column) = afp_excerpt::line_column(text, span.start);
+    format!("line {line}, column {column}: {}", error.message)
+}
+
 /// The message for the good world with one change.
 fn mistake(from: &str, to: &str) -> String {
     assert!(GOOD.contains(from), "{from}");
-    World::parse(&GOOD.replacen(from, to, 1)).expect_err("a mistake").to_string()
+    let text = GOOD.replacen(from, to, 1);
+    placed(&text, &World::parse(&text).expect_err("a mistake"))
 }
 
 #[test]

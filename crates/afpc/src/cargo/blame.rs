@@ -133,7 +133,7 @@ impl Found<'_> {
         let Found { source, span, message } = self;
         RunError::Content {
             path: source.name.clone().into(),
-            place: Some(source.line_column(span.start)),
+            span: Some(span.start as usize..span.end as usize),
             text: source.text.clone(),
             message: message.clone(),
         }

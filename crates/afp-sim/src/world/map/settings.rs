@@ -1,5 +1,7 @@
 //! What a map's `.yaml` file says.
 
+use std::ops::Range;
+
 use crate::world::WorldError;
 use saphyr::{LoadableYamlNode, Yaml};
 
@@ -22,7 +24,7 @@ pub(super) struct Settings {
 impl Settings {
     pub(super) fn read(yaml: &str) -> Result<Settings, WorldError> {
         let documents = Yaml::load_from_str(yaml).map_err(|error| WorldError {
-            place: Some(within(yaml, error.marker().line(), error.marker().col() + 1)),
+            span: Some(empty(byte(yaml, error.marker().index()))),
             message: error.info().to_owned(),
         })?;
         let keys = Keys { text: yaml, map: documents.first() };
@@ -85,19 +87,23 @@ impl<'a, 'b> Keys<'a, 'b> {
 
     /// An error at the line of a key.
     fn error(&self, key: &str, what: &str) -> WorldError {
-        let line = self.text.lines().position(|line| line.trim_start().starts_with(key));
-        WorldError { place: line.map(|line| (line + 1, 1)), message: format!("{key}: {what}") }
+        let mut start = 0;
+        let mut lines = self.text.split_inclusive('\n').map(|line| {
+            start += line.len();
+            (start - line.len(), line)
+        });
+        let line = lines.find(|(_, line)| line.trim_start().starts_with(key));
+        WorldError { span: line.map(|(start, _)| empty(start)), message: format!("{key}: {what}") }
     }
 }
 
-/// A line and a column, or the end of the text where they lie beyond: the reader counts an end without a
-/// line break as a line of its own.
-fn within(text: &str, line: usize, column: usize) -> (usize, usize) {
-    let last = text.split('\n').count();
-    if line <= last {
-        return (line, column);
-    }
-    (last, text.rsplit('\n').next().map_or(1, |end| end.chars().count() + 1))
+/// The byte at which a character begins, or the end of the text.
+fn byte(text: &str, index: usize) -> usize {
+    text.char_indices().nth(index).map_or(text.len(), |(byte, _)| byte)
+}
+
+fn empty(at: usize) -> Range<usize> {
+    at..at
 }
 
 fn number(value: &Yaml<'_>) -> Option<f64> {

@@ -1,0 +1,191 @@
+//! Mistakes in texts, shown as compilers show them: what is wrong, where, the line and a mark.
+//!
+//! Plans, worlds and project files have different readers but one reader of their errors, so all
+//! of them are drawn here. Nothing is known of what a text means.
+
+use std::ops::Range;
+
+use annotate_snippets::renderer::DecorStyle;
+use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+
+/// How bad it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    /// The text has no meaning and cannot be used.
+    Error,
+    /// The text has a meaning, but hardly the one that was wanted.
+    Warning,
+    /// Worth knowing; nothing needs to change.
+    Note,
+}
+
+impl Severity {
+    /// The word that stands before the code.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => "note",
+        }
+    }
+}
+
+/// Something wrong in texts.
+#[derive(Clone, Debug)]
+pub struct Report<'a> {
+    /// How bad it is.
+    pub severity: Severity,
+    /// The code to ask about; empty for none.
+    pub code: &'a str,
+    /// What is wrong.
+    pub message: &'a str,
+    /// Where, the place to mend first. Those of one file are shown together.
+    pub marks: Vec<Mark<'a>>,
+}
+
+/// A place in a text.
+#[derive(Clone, Debug)]
+pub struct Mark<'a> {
+    /// The file's path as it is to be shown.
+    pub path: &'a str,
+    /// The file's text.
+    pub text: &'a str,
+    /// The bytes; `None` for the file as a whole. What lies beyond the text or cuts a character
+    /// stands for the nearest place.
+    pub span: Option<Range<usize>>,
+    /// What to say beside them; empty for nothing.
+    pub label: String,
+}
+
+impl Report<'_> {
+    /// The report as text without a final line break, with terminal colours when asked.
+    pub fn render(&self, colour: bool) -> String {
+        let mut title = level(self.severity).primary_title(self.message);
+        if !self.code.is_empty() {
+            title = title.id(self.code);
+        }
+        let mut group = Group::with_title(title);
+        for (index, mark) in self.marks.iter().enumerate() {
+            let is_here =
+                |other: &Mark<'_>| other.path == mark.path && std::ptr::eq(other.text, mark.text);
+            if self.marks[..index].iter().any(is_here) {
+                continue;
+            }
+            let spans = self.marks.iter().enumerate().filter(|(_, other)| is_here(other));
+            let mut annotations = spans
+                .filter_map(|(index, other)| {
+                    let kind = match index {
+                        0 => AnnotationKind::Primary,
+                        _ => AnnotationKind::Context,
+                    };
+                    let span = range(other.text, other.span.as_ref()?);
+                    let label = (!other.label.is_empty()).then_some(other.label.as_str());
+                    Some(kind.span(span).label(label))
+                })
+                .peekable();
+            group = match annotations.peek() {
+                Some(_) => group
+                    .element(Snippet::source(mark.text).path(mark.path).annotations(annotations)),
+                None => group.element(Origin::path(mark.path)),
+            };
+        }
+        let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
+        renderer.decor_style(DecorStyle::Ascii).render(&[group]).to_string()
+    }
+}
+
+/// Line and column of a byte, both counted from 1; columns count characters.
+///
+/// An offset past the end or inside a character stands for the nearest one before it.
+pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
+    let before = &text[..text.floor_char_boundary(offset)];
+    let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}
+
+fn level(severity: Severity) -> Level<'static> {
+    match severity {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+        Severity::Note => Level::NOTE,
+    }
+}
+
+/// The span as a range that surely lies in the text and on character borders.
+fn range(text: &str, span: &Range<usize>) -> Range<usize> {
+    let end = text.len().min(span.end);
+    let start = text.floor_char_boundary(span.start.min(end));
+    start..text.ceil_char_boundary(end)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn report<'a>(marks: Vec<Mark<'a>>) -> Report<'a> {
+        Report { severity: Severity::Error, code: "", message: "it is wrong", marks }
+    }
+
+    fn mark<'a>(text: &'a str, span: Option<Range<usize>>) -> Mark<'a> {
+        Mark { path: "a.toml", text, span, label: "help: write 'b'".to_owned() }
+    }
+
+    #[test]
+    fn the_mark_stands_under_the_text() {
+        let shown = report(vec![mark("x = 1\nä = 'cd'\n", Some(11..15))]).render(false);
+        let wanted = "error: it is wrong
+ --> a.toml:2:5
+  |
+2 | ä = 'cd'
+  |     ^^^^ help: write 'b'";
+        assert_eq!(shown, wanted);
+    }
+
+    #[test]
+    fn without_a_place_the_file_is_named() {
+        let shown = report(vec![mark("x", None)]).render(false);
+        assert_eq!(shown, "error: it is wrong\n--> a.toml");
+    }
+
+    #[test]
+    fn the_marks_of_one_file_are_shown_together() {
+        let [one, two] = ["a = 1\nb = 2\n", "c\n"];
+        let other = Mark { path: "b.toml", ..mark(two, Some(0..1)) };
+        let marks = vec![mark(one, Some(0..1)), other, mark(one, Some(6..7))];
+        let report = Report { code: "E1", severity: Severity::Note, ..report(marks) };
+        let wanted = "note[E1]: it is wrong
+ --> a.toml:1:1
+  |
+1 | a = 1
+  | ^ help: write 'b'
+2 | b = 2
+  | - help: write 'b'
+  |
+ ::: b.toml:1:1
+  |
+1 | c
+  | - help: write 'b'";
+        assert_eq!(report.render(false), wanted);
+    }
+
+    #[test]
+    fn any_span_is_shown() {
+        for text in ["", "a", "ä\n\nö", "\n"] {
+            for start in 0..6 {
+                for end in 0..6 {
+                    let shown = report(vec![mark(text, Some(start..end))]).render(true);
+                    assert!(shown.contains("a.toml:"), "{shown}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn lines_and_columns_count_characters_from_one() {
+        let text = "ab\nä°c\n";
+        let cases = [(0, (1, 1)), (3, (2, 1)), (7, (2, 3)), (4, (2, 1)), (99, (3, 1))];
+        for (offset, wanted) in cases {
+            assert_eq!(line_column(text, offset), wanted, "byte {offset}");
+        }
+    }
+}
