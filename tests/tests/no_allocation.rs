@@ -1,14 +1,11 @@
 //! Millions of steps of a plan without one allocation, in either back end.
 //!
 //! A test binary of its own, because it counts in the global allocator.
-#![allow(unsafe_code, reason = "a global allocator cannot be written without")]
-
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 
 use afp_core::rt::Plan;
 use afp_core::trace::NoTrace;
 use afp_core::{Instant, Scheduler, StillClock, Wake};
+use afp_counting::{Counting, allocations};
 use afp_tests::interpret::{graph, load};
 use afp_tests::platform::{CostClock, Log, Platform};
 use afp_tests::script::Script;
@@ -56,29 +53,8 @@ fn script(steps: u64) -> Script {
     lines.join("\n").parse().expect("a script that can be read")
 }
 
-thread_local! {
-    /// Of this thread alone: the test harness allocates on its own.
-    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
-}
-
-struct Counting;
-
-// Safety: every call goes to the system's allocator unchanged; counting touches no memory of it.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        // Safety: the caller keeps the contract of `alloc`.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, at: *mut u8, layout: Layout) {
-        // Safety: `at` came from `System` through `alloc`, with this layout.
-        unsafe { System.dealloc(at, layout) }
-    }
-}
-
 #[global_allocator]
-static ALLOCATOR: Counting = Counting;
+static ALLOCATOR: Counting = Counting::SYSTEM;
 
 /// Steps a plan each millisecond; how often it allocated, and how often the active element of the
 /// outermost plan changed.
@@ -88,7 +64,7 @@ fn run<P: Plan<Platform>>(plan: P) -> (u64, u64) {
     let mut scheduler = Scheduler::new(plan);
     let started = scheduler.start(&mut platform, &mut NoTrace, &StillClock, Instant::ZERO);
     assert!(matches!(started, Ok(Wake::At(_))));
-    let (before, mut changes) = (ALLOCATIONS.get(), 0);
+    let (before, mut changes) = (allocations(), 0);
     for step in 1..=steps {
         let active = scheduler.active();
         let now = Instant::from_nanos(step * 1_000_000);
@@ -96,7 +72,7 @@ fn run<P: Plan<Platform>>(plan: P) -> (u64, u64) {
         assert!(matches!(wake, Wake::At(_)), "it ended at {now}");
         changes += u64::from(scheduler.active() != active);
     }
-    (ALLOCATIONS.get() - before, changes)
+    (allocations() - before, changes)
 }
 
 #[test]

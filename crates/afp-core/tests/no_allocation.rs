@@ -1,44 +1,20 @@
 //! A million steps, transitions and commits among them, without one allocation.
 //!
 //! A test binary of its own, because it counts in the global allocator.
-#![allow(unsafe_code, reason = "a global allocator cannot be written without")]
 
 mod support;
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-
 use afp_core::trace::NoTrace;
 use afp_core::{Scheduler, StillClock, Wake};
+use afp_counting::{Counting, allocations};
 
 use support::build::{actor, computation, guard, plan, sub_plan};
 use support::ms;
 use support::scripted::Scripted;
 use support::world::World;
 
-thread_local! {
-    /// Of this thread alone: the test harness allocates on its own.
-    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
-}
-
-struct Counting;
-
-// Safety: every call goes to the system's allocator unchanged; counting touches no memory of it.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        // Safety: the caller keeps the contract of `alloc`.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, at: *mut u8, layout: Layout) {
-        // Safety: `at` came from `System` through `alloc`, with this layout.
-        unsafe { System.dealloc(at, layout) }
-    }
-}
-
 #[global_allocator]
-static ALLOCATOR: Counting = Counting;
+static ALLOCATOR: Counting = Counting::SYSTEM;
 
 #[test]
 fn a_million_steps_allocate_nothing() {
@@ -61,10 +37,10 @@ fn a_million_steps_allocate_nothing() {
     let mut scheduler = Scheduler::new(Scripted::new(plan.build()));
     let started = scheduler.start(&mut world, &mut NoTrace, &StillClock, ms(0));
     assert!(started.is_ok());
-    let before = ALLOCATIONS.get();
+    let before = allocations();
     for at in 1..=1_000_000 {
         let wake = scheduler.step(&mut world, &mut NoTrace, &StillClock, ms(at));
         assert!(matches!(wake, Wake::At(_)));
     }
-    assert_eq!(ALLOCATIONS.get() - before, 0);
+    assert_eq!(allocations() - before, 0);
 }
