@@ -61,6 +61,29 @@ pub(crate) fn gather(
     gathering.found
 }
 
+/// Collects files that are all there is: those that they use are among them or missing.
+pub(crate) fn gather_all(
+    files: &[Source],
+    toolboxes: &Toolboxes,
+    sources: &mut Sources,
+    diags: &mut Diagnostics,
+) -> Vec<PlanFile> {
+    let none = |_: &str| Err("it is not among the files".to_owned());
+    let mut gathering = Gathering {
+        files: &none,
+        toolboxes,
+        sources,
+        diags,
+        found: Vec::new(),
+        known: HashMap::new(),
+    };
+    files.iter().for_each(|source| gathering.first(source));
+    for file in 0..gathering.found.len() {
+        gathering.follow(file);
+    }
+    gathering.found
+}
+
 struct Gathering<'a> {
     files: &'a dyn Files,
     toolboxes: &'a Toolboxes,
@@ -92,7 +115,7 @@ impl Gathering<'_> {
 
     fn add(&mut self, path: String, source: Arc<Source>, index: u16, tree: &Parse) -> usize {
         let place = self.found.len();
-        self.known.insert(path.clone(), Ok(place));
+        self.known.entry(path.clone()).or_insert(Ok(place));
         let (tree, uses, paths) = (tree.file(), Vec::new(), Vec::new());
         let file = PlanFile { path, source, tree, index, uses, paths, incomplete: false };
         self.found.push(file);

@@ -17,4 +17,4 @@ pub mod toolbox;
 pub mod types;
 pub mod unfold;
 
-pub use compile::{Compiled, compile, compile_plan, compile_unchecked};
+pub use compile::{Compiled, compile, compile_plan, compile_unchecked, index_files};

@@ -67,8 +67,13 @@ impl Context<'_> {
             diags.push(self.not_found(&name, home.as_ref(), reference.span(), wanted));
             return None;
         };
-        record.definition(name.span, span);
-        if signature.kind.keyword() == wanted.keyword {
+        let is_fit = signature.kind.keyword() == wanted.keyword;
+        match is_fit || !self.file.types.incomplete {
+            true => record.definition(name.span, span),
+            // What would fit may be in the toolbox that is missing.
+            false => record.unknown(name.span),
+        }
+        if is_fit {
             return Some(signature);
         }
         diags.push(unfit(&signature, reference.span(), wanted));

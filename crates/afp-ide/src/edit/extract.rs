@@ -11,8 +11,8 @@ use super::list::{Page, indented};
 use super::project::Project;
 use super::tree::{self, Scope, children, is_named, name_of, range};
 use super::{Item, Refused, add, fragment, name, refer, remove};
-use afp_syntax::Node;
 use afp_syntax::kind::Kind;
+use afp_syntax::{Node, Token};
 
 pub(super) use data::type_of;
 
@@ -25,6 +25,8 @@ pub(super) struct Selection {
     pub plan: Node,
     /// The elements as written.
     pub elements: Vec<Node>,
+    /// The file that it stands in.
+    project: Project,
 }
 
 impl Selection {
@@ -38,7 +40,17 @@ impl Selection {
         if elements.is_empty() {
             return Err(Refused::new("no element is selected"));
         }
-        Ok(Selection { plan, elements })
+        Ok(Selection { plan, elements, project: Project::alone(root) })
+    }
+
+    /// Whether a token means a selected element.
+    pub fn is_inside(&self, token: &Token) -> bool {
+        self.project.item(0, token).is_some_and(|(_, node)| self.elements.contains(&node))
+    }
+
+    /// The name of the entry that a token means.
+    pub fn entry(&self, token: &Token) -> Option<String> {
+        self.project.entry(0, token)
     }
 
     /// Whether an element of that name is selected.
@@ -105,16 +117,12 @@ fn chosen(root: &Node, plan: &str, selection: &Selection, new_plan: &str) -> Vec
 /// Leads edges into the selection to the sub-plan, edges out of it to `terminate`, and paths of
 /// scenarios through the sub-plan.
 fn lead_through(draft: &mut Draft, plan: &str, selection: &Selection, flow: &Flow, element: &str) {
-    let root = draft.root();
     let mut splices: Vec<_> =
         flow.ways_in.iter().map(|token| (range(token), element.to_owned())).collect();
     splices.extend(flow.ways_out.iter().map(|token| (range(token), "terminate".to_owned())));
-    let is_inside = |item: &Item| match item {
-        Item::Inner { plan: home, name } => home == plan && selection.holds(name),
-        _ => false,
-    };
-    let project = Project::alone(&root);
-    for (_, token) in refer::in_scenarios(&project, |_, item| is_inside(item)) {
+    let names = selection.elements.iter().filter_map(name_of);
+    let items: Vec<_> = names.map(|name| Item::inner(plan, name)).collect();
+    for token in refer::in_scenarios(&selection.project, 0, &items) {
         let start = range(&token).start;
         splices.push((start..start, format!("{element}.")));
     }

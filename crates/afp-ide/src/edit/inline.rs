@@ -7,7 +7,6 @@ mod data;
 mod sight;
 mod text;
 
-use super::draft::Draft;
 use super::project::{Desk, Project};
 use super::tree::{self, Scope, children, name_of, name_token, range, target};
 use super::{Item, Refused, add, connect, name, refer, remove};
@@ -18,6 +17,10 @@ use data::Data;
 
 /// A sub-plan that is to be replaced by its elements.
 struct Call {
+    /// The files.
+    project: Project,
+    /// The file that the plan inside stands in.
+    from: usize,
     /// The plan around it.
     outer: Node,
     /// The sub-plan.
@@ -39,10 +42,11 @@ struct Call {
 /// Puts the elements of a sub-plan in its place.
 pub(super) fn run(desk: &mut Desk, plan: &str, element: &str) -> Result<(), Refused> {
     desk.check_inside(&Item::inner(plan, element))?;
-    let (call, from) = Call::of(&desk.project(), desk.home, plan, element)?;
+    let call = Call::of(desk.project(), desk.home, plan, element)?;
+    let from = call.from;
     let data = Data::of(&call)?;
     let lines = text::elements(&call, &data, desk.drafts[from].text())?;
-    redirect(desk.draft(), &call, &data, plan, element)?;
+    redirect(desk, &call, &data, plan, element)?;
     if from != desk.home {
         sight::bring(desk, &call.inner, from)?;
     }
@@ -73,20 +77,16 @@ pub(super) fn run(desk: &mut Desk, plan: &str, element: &str) -> Result<(), Refu
 
 impl Call {
     /// Finds the sub-plan, and the file that its plan stands in.
-    fn of(
-        project: &Project,
-        home: usize,
-        plan: &str,
-        element: &str,
-    ) -> Result<(Call, usize), Refused> {
+    fn of(project: Project, home: usize, plan: &str, element: &str) -> Result<Call, Refused> {
         let root = &project.roots[home];
         let outer = tree::plan(root, plan)?;
         let node = tree::element(root, plan, element)?;
-        let inner = tree::template(&node).filter(|_| tree::is_subplan(&node));
-        let inner =
-            inner.ok_or_else(|| Refused::new(format!("'{element}' is no sub-plan of a plan")))?;
-        let found = project.plan(home, &inner);
-        let missing = || Refused::new(format!("there is no plan '{inner}'"));
+        let template = children(&node, Kind::Ref).next().and_then(|name| tree::single(&name));
+        let template = template.filter(|_| tree::is_subplan(&node));
+        let template = template
+            .ok_or_else(|| Refused::new(format!("'{element}' is no sub-plan of a plan")))?;
+        let found = project.item(home, &template).filter(|(_, node)| node.kind() == Kind::Plan);
+        let missing = || Refused::new(format!("there is no plan '{}'", template.text()));
         let (from, inner) = found.ok_or_else(missing)?;
         if inner == outer {
             return Err(Refused::new(format!("'{plan}' contains itself")));
@@ -112,7 +112,18 @@ impl Call {
         let ok = leads("OK")
             .ok_or_else(|| Refused::new(format!("'OK' of '{element}' leads nowhere")))?;
         let (interrupted, error) = (leads("Interrupted"), leads("Error"));
-        Ok((Call { outer, inner, ok, interrupted, error, names, first, element: node }, from))
+        Ok(Call {
+            project,
+            from,
+            outer,
+            inner,
+            ok,
+            interrupted,
+            error,
+            names,
+            first,
+            element: node,
+        })
     }
 }
 
@@ -131,20 +142,19 @@ fn new_names(outer: &Node, inner: &Node, element: &str) -> Vec<(String, String)>
 
 /// Leads edges and scenarios to the elements in place of the sub-plan.
 fn redirect(
-    draft: &mut Draft,
+    desk: &mut Desk,
     call: &Call,
     data: &Data,
     plan: &str,
     element: &str,
 ) -> Result<(), Refused> {
-    let mut splices: Vec<_> = refer::to_element(&call.outer, element)
+    let wanted = Item::inner(plan, element);
+    let mut splices: Vec<_> = refer::to_element(&call.project, desk.home, &wanted)
         .iter()
         .map(|token| (range(token), call.first.clone()))
         .collect();
-    let wanted = Item::inner(plan, element);
     let mut seen = Vec::new();
-    let project = Project::alone(&draft.root());
-    for (_, token) in refer::in_scenarios(&project, |_, item| *item == wanted) {
+    for token in refer::in_scenarios(&call.project, desk.home, &[wanted]) {
         let names: Vec<_> = token
             .parent()
             .iter()
@@ -167,6 +177,6 @@ fn redirect(
             }
         });
     }
-    draft.splice(splices);
+    desk.draft().splice(splices);
     Ok(())
 }

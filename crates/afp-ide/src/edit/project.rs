@@ -3,8 +3,10 @@
 use super::draft::Draft;
 use super::{Item, Refused, refer, tree};
 use afp_dsl::files::{joined, normalised};
+use afp_dsl::index::Index;
+use afp_dsl::index_files;
 use afp_syntax::kind::Kind;
-use afp_syntax::source::Source;
+use afp_syntax::source::{Source, Span};
 use afp_syntax::{Node, Token};
 
 /// The files that a change may edit.
@@ -45,7 +47,9 @@ impl Desk {
             });
             std::iter::once(place).chain(used.filter(|used| *used != place)).collect()
         });
-        Project { sees: sees.collect(), roots }
+        let sources = self.paths.iter().zip(&self.drafts);
+        let sources = sources.map(|(path, draft)| Source::new(path, draft.text())).collect();
+        Project::new(sees.collect(), roots, sources)
     }
 
     /// Checks that no other file names an item.
@@ -61,6 +65,13 @@ impl Desk {
     }
 }
 
+/// The place of a token, as the index of a project says it.
+fn span(file: usize, token: &Token) -> Option<Span> {
+    let range = token.text_range();
+    let (start, end) = (range.start().into(), range.end().into());
+    Some(Span { file: u16::try_from(file).ok()?, start, end })
+}
+
 /// The paths behind `use`, as written.
 pub(super) fn paths_of_uses(root: &Node) -> impl Iterator<Item = String> {
     let lines = tree::children(root, Kind::Use);
@@ -74,12 +85,50 @@ pub(super) struct Project {
     pub roots: Vec<Node>,
     /// The places of the files whose plans and enums a file sees, its own first.
     pub sees: Vec<Vec<usize>>,
+    /// What the names in them mean.
+    index: Index,
 }
 
 impl Project {
     /// A file by itself.
     pub fn alone(root: &Node) -> Project {
-        Project { roots: vec![root.clone()], sees: vec![vec![0]] }
+        let source = Source::new("", root.text().to_string());
+        Project::new(vec![vec![0]], vec![root.clone()], vec![source])
+    }
+
+    fn new(sees: Vec<Vec<usize>>, roots: Vec<Node>, sources: Vec<Source>) -> Project {
+        Project { sees, roots, index: index_files(&sources) }
+    }
+
+    /// The tokens that refer to what a name declares, with their files.
+    pub fn references(&self, file: usize, name: &Token) -> Vec<(usize, Token)> {
+        let declared = span(file, name).and_then(|span| self.index.declared_at(span));
+        let spans = declared.into_iter().flat_map(|id| self.index.references(id));
+        spans.filter_map(|span| self.token(span)).collect()
+    }
+
+    /// The name, with its file, of what a token means.
+    pub fn declaration(&self, file: usize, token: &Token) -> Option<(usize, Token)> {
+        let meaning = self.index.name(span(file, token)?)?.meaning;
+        self.token(self.index.definition(meaning.definition()?).name)
+    }
+
+    /// The item, with its file, that a token means.
+    pub fn item(&self, file: usize, token: &Token) -> Option<(usize, Node)> {
+        let (file, name) = self.declaration(file, token)?;
+        Some((file, name.parent()?))
+    }
+
+    /// The name of the entry that a token means.
+    pub fn entry(&self, file: usize, token: &Token) -> Option<String> {
+        let (_, node) = self.item(file, token)?;
+        tree::name_of(&node).filter(|_| node.kind() == Kind::Entry)
+    }
+
+    fn token(&self, span: Span) -> Option<(usize, Token)> {
+        let file = usize::from(span.file);
+        let found = self.roots.get(file)?.token_at_offset(rowan::TextSize::from(span.start));
+        Some((file, found.right_biased()?))
     }
 
     /// What a name of a kind means in a file: the file that declares it, and the declaration.
@@ -88,10 +137,5 @@ impl Project {
             let mut nodes = tree::children(&self.roots[*seen], kind);
             Some((*seen, nodes.find(|node| tree::is_named(node, name))?))
         })
-    }
-
-    /// The plan of a name, as a file sees it.
-    pub fn plan(&self, file: usize, name: &str) -> Option<(usize, Node)> {
-        self.find(file, Kind::Plan, name)
     }
 }

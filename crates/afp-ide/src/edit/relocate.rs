@@ -86,15 +86,15 @@ pub(super) fn shift(
                 || children(&there, Kind::Element).any(|element| is_named(&element, target))
         },
     );
+    if node.kind() == Kind::Element {
+        remove::cut_edges_to(draft, item);
+    }
     let lines = {
         let root = draft.root();
         Page { text: draft.text(), root: root.clone() }.lines_of(&tree::find(&root, item)?)
     };
     let moved = tree::find(&draft.root(), item)?;
     remove::take_out(draft, &moved);
-    if node.kind() == Kind::Element {
-        remove::cut_edges_to(draft, item.plan_name(), item.name());
-    }
     let root = draft.root();
     let list = match owner {
         None => tree::plan(&root, plan)?,

@@ -1,28 +1,29 @@
 //! Removing items, and what would be left hanging.
 
-use super::draft::Draft;
+use super::draft::{Draft, Splice};
 use super::list::Page;
 use super::project::Project;
 use super::refer;
-use super::tree::{self, below, binds, children, name_of, name_token, target};
+use super::tree::{self, below, name_of, name_token, target};
 use super::{Item, Refused, port};
-use afp_syntax::Node;
 use afp_syntax::kind::Kind;
+use afp_syntax::{Node, Token};
 
 /// Removes an item.
 pub(super) fn item(draft: &mut Draft, item: &Item) -> Result<(), Refused> {
     let root = draft.root();
     let node = tree::find(&root, item)?;
+    let project = Project::alone(&root);
     match node.kind() {
-        Kind::Plan => check_unused_plan(&root, item.name())?,
-        Kind::Enum if refer::to(&Project::alone(&root), 0, item).len() > 1 => {
+        Kind::Plan => check_unused_plan(&project, item)?,
+        Kind::Enum if refer::to(&project, 0, item).len() > 1 => {
             return Err(Refused::new(format!("'{}' is used in the file", item.name())));
         }
         Kind::Entry => {
-            check_unread(&root, item)?;
-            unbind_all(draft, item);
+            check_unread(&project, item)?;
+            unbind_all(draft, &project, item);
         }
-        Kind::Element => cut_edges_to(draft, item.plan_name(), item.name()),
+        Kind::Element => cut_edges_to(draft, item),
         _ => {}
     }
     let node = tree::find(&draft.root(), item)?;
@@ -37,27 +38,25 @@ pub(super) fn take_out(draft: &mut Draft, node: &Node) {
     draft.splice(vec![splice]);
 }
 
-fn check_unused_plan(root: &Node, name: &str) -> Result<(), Refused> {
-    let own = tree::plan(root, name)?;
-    let users = refer::users_of(root, name);
+fn check_unused_plan(project: &Project, item: &Item) -> Result<(), Refused> {
+    let root = &project.roots[0];
+    let own = tree::find(root, item)?;
+    let name = item.name();
+    let users = refer::users_of(project, 0, item);
     let mut outside = users.iter().filter(|user| user.ancestors().all(|ancestor| ancestor != own));
     if let Some(user) = outside.next() {
         let user = name_of(user).unwrap_or_default();
         return Err(Refused::new(format!("'{name}' is used by the sub-plan '{user}'")));
     }
-    let scenarios = children(root, Kind::Scenario)
-        .flat_map(|s| children(&s, Kind::Ref).take(1).collect::<Vec<_>>());
-    let mut names = scenarios.filter_map(|reference| tree::single(&reference));
-    match names.any(|token| token.text() == name) {
-        true => Err(Refused::new(format!("a scenario is for '{name}'"))),
-        false => Ok(()),
+    match refer::in_scenarios(project, 0, std::slice::from_ref(item)).is_empty() {
+        true => Ok(()),
+        false => Err(Refused::new(format!("a scenario is for '{name}'"))),
     }
 }
 
-fn check_unread(root: &Node, item: &Item) -> Result<(), Refused> {
-    let plan = tree::plan(root, item.plan_name())?;
-    let entry = tree::find(root, item)?;
-    let mut readers = refer::reads_of(&plan, item.name()).into_iter().filter_map(|token| {
+fn check_unread(project: &Project, item: &Item) -> Result<(), Refused> {
+    let entry = tree::find(&project.roots[0], item)?;
+    let mut readers = refer::reads_of(project, 0, item).into_iter().filter_map(|token| {
         let items = token.parent_ancestors();
         items
             .into_iter()
@@ -68,49 +67,59 @@ fn check_unread(root: &Node, item: &Item) -> Result<(), Refused> {
         let reader = name_of(&reader).unwrap_or_default();
         return Err(Refused::new(format!("'{}' is read by '{reader}'", item.name())));
     }
-    if !refer::in_scenarios(&Project::alone(root), |_, meant| meant == item).is_empty() {
+    if !refer::in_scenarios(project, 0, std::slice::from_ref(item)).is_empty() {
         return Err(Refused::new(format!("'{}' is named by a scenario", item.name())));
     }
     Ok(())
 }
 
 /// Removes the outputs that write an entry, and the bindings of sub-plans to it.
-fn unbind_all(draft: &mut Draft, item: &Item) {
-    let bound = |draft: &Draft| -> Option<(Node, Node)> {
-        let root = draft.root();
-        let plan = tree::plan(&root, item.plan_name()).ok()?;
-        let components = below(&plan, Kind::Element).chain(below(&plan, Kind::Guard));
-        let inside = components.flat_map(|component| {
-            let outputs = binds(&component).into_iter().filter(|bind| {
-                let entry = target(bind).filter(|_| bind.kind() == Kind::BindOut);
-                entry.is_some_and(|entry| entry.text() == item.name())
-            });
-            outputs.map(|bind| (component.clone(), bind)).collect::<Vec<_>>()
-        });
-        let users = refer::users_of(&root, item.plan_name()).into_iter();
-        let outside = users.flat_map(|user| {
-            let ports = binds(&user).into_iter().filter(|bind| port::port_of(bind) == item.name());
-            ports.map(|bind| (user.clone(), bind)).collect::<Vec<_>>()
-        });
-        inside.chain(outside).next()
-    };
-    while let Some((component, bind)) = bound(draft) {
-        let splice = port::removal(draft, &component, &bind);
-        draft.splice(vec![splice]);
-    }
+fn unbind_all(draft: &mut Draft, project: &Project, item: &Item) {
+    let kinds = [Kind::BindIn, Kind::BindOut];
+    let uses = refer::to(project, 0, item).into_iter().skip(1);
+    let binds = uses.filter_map(|(_, token)| around(&token, &kinds));
+    backwards(draft, binds, &kinds, |draft, bind| {
+        let component = bind.parent()?.parent()?;
+        Some(port::removal(draft, &component, bind))
+    });
 }
 
-/// Removes the edges that lead to an element, and the `start` that names it.
-pub(super) fn cut_edges_to(draft: &mut Draft, plan: &str, name: &str) {
-    let leads_there = |node: &Node| match node.kind() {
-        Kind::Edge => target(node).is_some_and(|target| target.text() == name),
-        Kind::Start => name_token(node).is_some_and(|target| target.text() == name),
-        _ => false,
-    };
-    cut(draft, |root| {
-        let plan = tree::plan(root, plan).ok()?;
-        plan.descendants().find(leads_there)
+/// Removes the edges of others that lead to an element, and the `start` that names it.
+pub(super) fn cut_edges_to(draft: &mut Draft, element: &Item) {
+    let project = Project::alone(&draft.root());
+    let own = tree::find(&project.roots[0], element).ok();
+    let tokens = refer::to_element(&project, 0, element).into_iter();
+    let others = tokens.filter(|token| token.parent_ancestors().all(|node| Some(node) != own));
+    let kinds = [Kind::Edge, Kind::Start];
+    let nodes = others.filter_map(|token| around(&token, &kinds));
+    backwards(draft, nodes, &kinds, |draft, node| {
+        Some(Page { text: draft.text(), root: draft.root() }.remove(node))
     });
+}
+
+/// The innermost node of one of some kinds around a token.
+fn around(token: &Token, kinds: &[Kind]) -> Option<Node> {
+    token.parent_ancestors().find(|node| kinds.contains(&node.kind()))
+}
+
+/// Changes nodes from the last one to the first, so that those before stay where they are.
+fn backwards(
+    draft: &mut Draft,
+    nodes: impl Iterator<Item = Node>,
+    kinds: &[Kind],
+    change: impl Fn(&Draft, &Node) -> Option<Splice>,
+) {
+    let mut places: Vec<_> =
+        nodes.filter_map(|node| Some(name_token(&node)?.text_range().start())).collect();
+    places.sort_unstable();
+    places.dedup();
+    for place in places.into_iter().rev() {
+        let token = draft.root().token_at_offset(place).right_biased();
+        let node = token.and_then(|token| around(&token, kinds));
+        if let Some(splice) = node.and_then(|node| change(draft, &node)) {
+            draft.splice(vec![splice]);
+        }
+    }
 }
 
 /// Removes the edges of a component that lead out of what `stays` says.

@@ -27,6 +27,9 @@ pub(super) fn item(desk: &mut Desk, item: &Item, to: &str) -> Result<(), Refused
     }
     let project = desk.project();
     let tokens = refer::to(&project, desk.home, item);
+    if tokens.is_empty() {
+        return Err(Refused::new("it has no name yet"));
+    }
     for (file, draft) in desk.drafts.iter_mut().enumerate() {
         let own = tokens.iter().filter(|(home, _)| *home == file);
         let splices: Vec<_> = own.map(|(_, token)| (range(token), to.to_owned())).collect();

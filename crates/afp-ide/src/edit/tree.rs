@@ -44,14 +44,15 @@ pub(super) fn scope_of(root: &Node, item: &Item) -> Result<Scope, Refused> {
 
 /// A plan by name.
 pub(super) fn plan(root: &Node, name: &str) -> Result<Node, Refused> {
-    let found = children(root, Kind::Plan).find(|plan| is_named(plan, name));
+    let found = pick(children(root, Kind::Plan), name);
     found.ok_or_else(|| Refused::new(format!("there is no plan '{name}'")))
 }
 
 /// An element by name.
 pub(super) fn element(root: &Node, plan: &str, name: &str) -> Result<Node, Refused> {
     let node = self::plan(root, plan)?;
-    let found = children(&node, Kind::Element).find(|element| is_named(element, name));
+    let found = inner(&node, name).filter(|found| found.kind() == Kind::Element);
+    let found = found.or_else(|| pick(children(&node, Kind::Element), name));
     found.ok_or_else(|| Refused::new(format!("'{plan}' has no element '{name}'")))
 }
 
@@ -60,14 +61,14 @@ pub(super) fn find(root: &Node, item: &Item) -> Result<Node, Refused> {
     match item {
         Item::Plan { name } => plan(root, name),
         Item::Enum { name } => {
-            let found = children(root, Kind::Enum).find(|node| is_named(node, name));
+            let found = pick(children(root, Kind::Enum), name);
             found.ok_or_else(|| Refused::new(format!("there is no enum '{name}'")))
         }
         Item::Inner { plan, name } => inner(&self::plan(root, plan)?, name)
             .ok_or_else(|| Refused::new(format!("'{plan}' has no '{name}'"))),
         Item::Local { plan, owner, name } => {
             let element = element(root, plan, owner)?;
-            let found = children(&element, Kind::Guard).find(|guard| is_named(guard, name));
+            let found = pick(children(&element, Kind::Guard), name);
             found.ok_or_else(|| Refused::new(format!("'{owner}' has no supervisor '{name}'")))
         }
     }
@@ -84,9 +85,18 @@ pub(super) fn component(root: &Node, item: &Item) -> Result<Node, Refused> {
 
 /// An entry, element or global supervisor of a plan.
 pub(super) fn inner(plan: &Node, name: &str) -> Option<Node> {
-    plan.children().find(|child| {
-        matches!(child.kind(), Kind::Entry | Kind::Element | Kind::Guard) && is_named(child, name)
-    })
+    let kinds = [Kind::Entry, Kind::Element, Kind::Guard];
+    pick(plan.children().filter(|child| kinds.contains(&child.kind())), name)
+}
+
+/// The node that the name of an item's path means: `name`, or `name#2` for the second one of that
+/// name; `#1` is the first one without a name.
+fn pick(mut nodes: impl Iterator<Item = Node>, name: &str) -> Option<Node> {
+    let Some((text, number)) = name.split_once('#') else {
+        return nodes.find(|node| is_named(node, name));
+    };
+    let place = number.parse::<usize>().ok()?.checked_sub(1)?;
+    nodes.filter(|node| name_of(node).unwrap_or_default() == text).nth(place)
 }
 
 /// The token that names an item or edge.

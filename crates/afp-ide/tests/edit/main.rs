@@ -3,6 +3,7 @@
 
 mod changes;
 mod compiled;
+mod inverse;
 mod model;
 #[path = "../../../afp-syntax/tests/format/mutate.rs"]
 mod mutate;

@@ -30,15 +30,15 @@ impl Data {
         let mut read = BTreeSet::new();
         let mut written = BTreeSet::new();
         for element in &selection.elements {
-            read.extend(read_by(element));
-            written.extend(written_by(element));
+            read.extend(read_by(selection, element));
+            written.extend(written_by(selection, element));
             for guard in children(element, Kind::Guard) {
-                written.extend(written_by(&guard));
+                written.extend(written_by(selection, &guard));
             }
         }
         let before = read_before_written(selection, first);
         let mut taken = Scope::Plan(selection.plan.clone()).names();
-        let mut data = Data { used: Vec::new(), consts: consts(&selection.plan, &read) };
+        let mut data = Data { used: Vec::new(), consts: consts(selection, &read) };
         for entry in children(&selection.plan, Kind::Entry) {
             let Some(name) = name_of(&entry) else { continue };
             let is_const = keyword(&entry).is_some_and(|word| word.text() == "const");
@@ -95,28 +95,28 @@ pub(in crate::edit) fn type_of(entry: &Node) -> Option<String> {
 }
 
 /// The entries that an element and its supervisors read.
-fn read_by(element: &Node) -> BTreeSet<String> {
+fn read_by(selection: &Selection, element: &Node) -> BTreeSet<String> {
     let guards = children(element, Kind::Guard).flat_map(|guard| binds(&guard));
     let all = binds(element).into_iter().chain(guards);
-    all.flat_map(|bind| reads(&bind)).map(|token| token.text().to_owned()).collect()
+    all.flat_map(|bind| reads(&bind)).filter_map(|token| selection.entry(&token)).collect()
 }
 
 /// The entries that a component's own outputs write.
-fn written_by(component: &Node) -> BTreeSet<String> {
+fn written_by(selection: &Selection, component: &Node) -> BTreeSet<String> {
     let outputs = binds(component).into_iter().filter(|bind| bind.kind() == Kind::BindOut);
-    outputs.filter_map(|bind| target(&bind)).map(|token| token.text().to_owned()).collect()
+    outputs.filter_map(|bind| selection.entry(&target(&bind)?)).collect()
 }
 
 /// The constants that are read, and those that they are made of, as written.
-fn consts(plan: &Node, read: &BTreeSet<String>) -> Vec<String> {
-    let all: Vec<_> = children(plan, Kind::Entry)
+fn consts(selection: &Selection, read: &BTreeSet<String>) -> Vec<String> {
+    let all: Vec<_> = children(&selection.plan, Kind::Entry)
         .filter(|entry| keyword(entry).is_some_and(|word| word.text() == "const"))
         .collect();
     let mut needed = read.clone();
     let mut open: Vec<String> = read.iter().cloned().collect();
     while let Some(name) = open.pop() {
         for entry in all.iter().filter(|entry| is_named(entry, &name)) {
-            for part in reads(entry).iter().map(|token| token.text().to_owned()) {
+            for part in reads(entry).iter().filter_map(|token| selection.entry(token)) {
                 if needed.insert(part.clone()) {
                     open.push(part);
                 }
@@ -155,13 +155,13 @@ fn read_before_written(selection: &Selection, first: &str) -> BTreeSet<String> {
         let guards = children(element, Kind::Guard);
         for component in std::iter::once(element.clone()).chain(guards) {
             for edge in edges(&component) {
-                let Some(target) = target(&edge).filter(|t| selection.holds(t.text())) else {
+                let Some(target) = target(&edge).filter(|t| selection.is_inside(t)) else {
                     continue;
                 };
                 let mut leaving = met.clone();
                 let commits = !["Error", "DeadlineMissed"].iter().any(|n| is_named(&edge, n));
                 if commits {
-                    leaving.extend(written_by(&component));
+                    leaving.extend(written_by(selection, &component));
                 }
                 open.push((target.text().to_owned(), leaving));
             }
@@ -170,7 +170,7 @@ fn read_before_written(selection: &Selection, first: &str) -> BTreeSet<String> {
     let mut before = BTreeSet::new();
     for element in &selection.elements {
         let surely = tree::name_of(element).and_then(|name| known.get(&name));
-        let read = read_by(element);
+        let read = read_by(selection, element);
         before.extend(read.into_iter().filter(|name| !surely.is_some_and(|s| s.contains(name))));
     }
     before

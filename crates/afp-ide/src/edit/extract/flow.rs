@@ -58,7 +58,7 @@ fn ways_in(selection: &Selection) -> Vec<Token> {
         |token: &Token| !token.parent_ancestors().any(|node| selection.elements.contains(&node));
     let starts = children(&selection.plan, Kind::Start).filter_map(|start| name_token(&start));
     let edges = below(&selection.plan, Kind::Edge).filter_map(|edge| target(&edge));
-    starts.chain(edges).filter(outside).filter(|token| selection.holds(token.text())).collect()
+    starts.chain(edges).filter(outside).filter(|token| selection.is_inside(token)).collect()
 }
 
 /// The targets outside of states, or of events.
@@ -69,5 +69,5 @@ fn exits(selection: &Selection, events: bool) -> Vec<Token> {
     });
     let targets =
         owners.flat_map(|owner| edges(&owner).filter_map(|edge| target(&edge)).collect::<Vec<_>>());
-    targets.filter(|token| token.text() != "ignore" && !selection.holds(token.text())).collect()
+    targets.filter(|token| token.text() != "ignore" && !selection.is_inside(token)).collect()
 }

@@ -54,12 +54,13 @@ impl Data {
     }
 
     /// The text of a node of the inner plan, in the words of the outer one.
-    fn translated(&self, node: &Node) -> String {
+    fn translated(&self, call: &Call, node: &Node) -> String {
         let solid = solid_range(node).unwrap_or_default();
         let start = usize::from(node.text_range().start());
         let mut text = node.text().to_string()[solid.start - start..solid.end - start].to_owned();
         for token in reads(node).iter().rev() {
-            if let Some(new) = self.read_as(token.text()) {
+            let entry = call.project.entry(call.from, token);
+            if let Some(new) = entry.and_then(|entry| self.read_as(&entry)) {
                 let place = range(token);
                 text.replace_range(place.start - solid.start..place.end - solid.start, new);
             }
@@ -70,7 +71,7 @@ impl Data {
     fn constant(&mut self, call: &Call, entry: &Node, name: String, taken: &mut Vec<String>) {
         let Some(init) = init(entry) else { return };
         let ty = type_of(entry).map(|ty| format!(": {ty}")).unwrap_or_default();
-        let rest = format!("{ty} = {}", self.translated(&init));
+        let rest = format!("{ty} = {}", self.translated(call, &init));
         let line = |entry: &Node| {
             let ty = type_of(entry).map(|ty| format!(": {ty}")).unwrap_or_default();
             let init = self::init(entry).as_ref().map(plain).unwrap_or_default();
@@ -133,7 +134,7 @@ impl Data {
                 self.check_steady(formula, &name)?;
                 plain(formula)
             }
-            (None, Some(default)) => self.translated(&default),
+            (None, Some(default)) => self.translated(call, &default),
             (None, None) => return Err(Refused::new(format!("'{name}' is not bound"))),
         };
         let shape = formula.or_else(|| init(entry));

@@ -2,7 +2,7 @@
 
 use crate::edit::project::{Desk, Project};
 use crate::edit::tree::{self, below, children, single};
-use crate::edit::{Refused, add, refer};
+use crate::edit::{Refused, add};
 use afp_dsl::files::relative;
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
@@ -13,8 +13,7 @@ pub(super) fn bring(desk: &mut Desk, plan: &Node, from: usize) -> Result<(), Ref
     for (toolbox, alias) in toolboxes(&project.roots[from]) {
         toolbox_line(desk, plan, &toolbox, alias.as_deref())?;
     }
-    for (kind, name) in named(plan) {
-        let Some((meant, _)) = project.find(from, kind, &name) else { continue };
+    for (kind, name, meant) in named(&project, plan, from) {
         match project.find(desk.home, kind, &name) {
             Some((seen, _)) if seen == meant => {}
             Some(_) => return Err(Refused::new(format!("'{name}' means something else there"))),
@@ -37,13 +36,12 @@ fn check(
     before: &Project,
     from: usize,
 ) -> Result<(), Refused> {
-    for (kind, name) in named(plan) {
+    for (kind, name, meant) in named(before, plan, from) {
         let place = |found: Option<(usize, Node)>| found.map(|(file, _)| file);
         let holders = now.sees[home].iter().filter(|seen| {
             children(&now.roots[**seen], kind).any(|node| tree::is_named(&node, &name))
         });
-        let meant = place(before.find(from, kind, &name));
-        if holders.count() > 1 || meant.is_some() && meant != place(now.find(home, kind, &name)) {
+        if holders.count() > 1 || Some(meant) != place(now.find(home, kind, &name)) {
             return Err(Refused::new(format!("'{name}' means something else there")));
         }
     }
@@ -89,10 +87,14 @@ fn toolbox_line(
     add::line_of_use(desk.draft(), toolbox, alias)
 }
 
-/// The plans and enums that a plan names.
-fn named(plan: &Node) -> Vec<(Kind, String)> {
-    let users = below(plan, Kind::Element).filter(tree::is_subplan);
-    let plans = users.filter_map(|user| tree::template(&user)).map(|name| (Kind::Plan, name));
-    let enums = below(plan, Kind::Ref).filter_map(|reference| refer::enum_of(&reference));
-    plans.chain(enums.map(|token| (Kind::Enum, token.text().to_owned()))).collect()
+/// The plans and enums that a plan of the file `from` names, each with the file that declares it.
+fn named(project: &Project, plan: &Node, from: usize) -> Vec<(Kind, String, usize)> {
+    let names = below(plan, Kind::Ref)
+        .flat_map(|reference| tree::tokens(&reference, Kind::Name).collect::<Vec<_>>());
+    let meant = names.filter_map(|token| {
+        let (file, node) = project.item(from, &token)?;
+        let outer = matches!(node.kind(), Kind::Plan | Kind::Enum);
+        outer.then(|| (node.kind(), token.text().to_owned(), file))
+    });
+    meant.collect()
 }

@@ -4,7 +4,9 @@ use super::Call;
 use super::data::Data;
 use crate::edit::draft::Splice;
 use crate::edit::list::{Page, dedented};
-use crate::edit::tree::{self, below, children, is_comment, name_token, own_range, range, target};
+use crate::edit::tree::{
+    self, below, children, is_comment, name_of, name_token, own_range, range, target,
+};
 use crate::edit::{Refused, port};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
@@ -43,18 +45,25 @@ fn splices(call: &Call, data: &Data, element: &Node) -> Result<Vec<Splice>, Refu
         let new = match token.text() {
             "terminate" if event => interrupted(call)?,
             "terminate" => call.ok.clone(),
-            other => renamed(other).unwrap_or_else(|| other.to_owned()),
+            other => {
+                let element = call.project.item(call.from, &token);
+                let name = element.and_then(|(_, node)| name_of(&node));
+                let new = name.and_then(|name| renamed(&name));
+                new.unwrap_or_else(|| other.to_owned())
+            }
         };
         splices.push((range(&token), new));
     }
     for args in below(element, Kind::Args) {
         for token in port::reads(&args) {
-            let new = data.read_as(token.text());
+            let entry = call.project.entry(call.from, &token);
+            let new = entry.and_then(|entry| data.read_as(&entry));
             splices.extend(new.map(|new| (range(&token), new.to_owned())));
         }
     }
     for token in below(element, Kind::BindOut).filter_map(|bind| target(&bind)) {
-        let new = data.written_to(token.text());
+        let entry = call.project.entry(call.from, &token);
+        let new = entry.and_then(|entry| data.written_to(&entry));
         splices.extend(new.map(|new| (range(&token), new.to_owned())));
     }
     Ok(splices)

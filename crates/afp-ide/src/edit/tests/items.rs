@@ -146,6 +146,8 @@ fn items_go_with_their_comments_and_their_edges() {
 }
 
 const NESTED: &str = "\
+use mine
+
 plan Main {
     var gap: length = Gap + 1 m
     const Gap = 2 m
@@ -207,6 +209,7 @@ fn every_reference_takes_the_new_name() {
             ("set a.", "set b."),
             ("expect a.", "expect b."),
             ("by a.", "by b."),
+            ("never a", "never b"),
         ],
     );
     expect(
