@@ -157,7 +157,12 @@ impl<P: PlanState> Level<P> {
         self.active = None;
         self.due = Instant::MAX;
         if let Err(fault) = self.plan.initialise() {
-            return self.fail(cx.place.plan, fault, cx);
+            // A sub-plan's fault is traced by the plan that uses it, as any that ends it.
+            if S::ENABLED && cx.place.plan == ComponentId(0) {
+                let component = cx.place.plan;
+                cx.sink.record(cx.now, &Record::Faulted { component, fault });
+            }
+            return self.end(Ending::Error(fault), cx);
         }
         self.trace_entries(t, cx);
         for supervisor in 0..t.table().globals {
@@ -206,8 +211,9 @@ impl<P: PlanState> Level<P> {
         if self.due > cx.now {
             return Flow::Running(wake.min(self.due));
         }
-        cx.place.component = component(cx, element);
-        match self.plan.poll_element(element, cx) {
+        let id = component(cx, element);
+        cx.place.component = id;
+        match cx.call(id, |cx| self.plan.poll_element(element, cx)) {
             Polled::Pending => {
                 self.due = next_on_grid(self.due, row, cx.now);
                 Flow::Running(wake.min(self.due))
@@ -237,6 +243,10 @@ impl<P: PlanState> Level<P> {
     {
         let edge = match polled {
             Polled::Done(state) => self.finished(t, element, row, state, cx),
+            Polled::Forced(state) => match self.interrupt_element(t, element, cx) {
+                Ok(()) => self.finished(t, element, row, state, cx),
+                Err(fault) => Err(Stop::Run(fault)),
+            },
             Polled::Failed(fault) => {
                 cx.trace(&Record::Faulted { component: component(cx, element), fault });
                 if row.kind == ElementKind::SubPlan {
@@ -336,19 +346,35 @@ impl<P: PlanState> Level<P> {
         P: Plan<E>,
     {
         let Some(element) = self.active.take() else { return Ok(()) };
-        let id = component(cx, element);
-        cx.place.component = id;
-        let result = self.plan.interrupt_element(element, cx);
-        match result {
-            Ok(()) => cx.trace(&Record::Interrupted { element: id }),
-            Err(fault)
-                if t.table().element(element).is_some_and(|row| row.kind == ElementKind::Actor) =>
-            {
-                cx.trace(&Record::Faulted { component: id, fault });
-            }
-            Err(_) => {}
+        let result = self.interrupt_element(t, element, cx);
+        if result.is_ok() {
+            cx.trace(&Record::Interrupted { element: component(cx, element) });
         }
         self.plan.leave(element);
+        result
+    }
+
+    /// Interrupts an element; an actor that cannot be is traced.
+    fn interrupt_element<E, S, C>(
+        &mut self,
+        t: &P::Tables,
+        element: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), Fault>
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        let id = component(cx, element);
+        cx.place.component = id;
+        let result = cx.call(id, |cx| self.plan.interrupt_element(element, cx));
+        if let Err(fault) = result
+            && t.table().element(element).is_some_and(|row| row.kind == ElementKind::Actor)
+        {
+            cx.trace(&Record::Faulted { component: id, fault });
+        }
         result
     }
 
@@ -362,19 +388,6 @@ impl<P: PlanState> Level<P> {
             Stop::Plan(ending) => self.end(ending, cx),
             Stop::Run(fault) => Flow::Fatal(fault),
         }
-    }
-
-    /// A fault that is not an element's ends the plan.
-    fn fail<E, S, C>(&mut self, who: ComponentId, fault: Fault, cx: &mut Cx<'_, E, S, C>) -> Flow
-    where
-        E: ?Sized,
-        S: Sink,
-        P: Plan<E>,
-    {
-        if S::ENABLED {
-            cx.sink.record(cx.now, &Record::Faulted { component: who, fault });
-        }
-        self.end(Ending::Error(fault), cx)
     }
 
     fn end<E, S, C>(&mut self, ending: Ending, cx: &mut Cx<'_, E, S, C>) -> Flow

@@ -38,6 +38,10 @@ pub enum StartError {
 ///
 /// Whoever drives it calls [`Scheduler::step`] at the times that [`Wake`] names, and calls
 /// [`Environment::emergency_stop`] before leaving the robot alone.
+///
+/// Nothing here catches a panic. Where one of a component unwinds through a call, the plan is broken:
+/// the next [`Scheduler::step`], [`Scheduler::start`] or [`Scheduler::abort`] gives the emergency stop
+/// and ends the run in `Error`, and no component is called again. Drivers that catch do so at once.
 pub struct Scheduler<P: PlanState> {
     machine: Machine<P>,
     state: State,
@@ -62,7 +66,27 @@ impl core::error::Error for StartError {}
 enum State {
     Ready,
     Running,
+    /// A panic unwound through a call.
+    Broken,
     Ended(Ending),
+}
+
+/// Stands around a call of the machine: dropped by the unwinding of a panic, it marks the plan broken.
+struct Unwinding<'a>(&'a mut State);
+
+impl Drop for Unwinding<'_> {
+    fn drop(&mut self) {
+        *self.0 = State::Broken;
+    }
+}
+
+/// Runs `call` so that a panic in it leaves the state broken.
+#[inline(always)]
+fn guarded<R>(state: &mut State, call: impl FnOnce() -> R) -> R {
+    let unwinding = Unwinding(state);
+    let result = call();
+    core::mem::forget(unwinding);
+    result
 }
 
 impl<P: PlanState> Scheduler<P> {
@@ -98,7 +122,7 @@ impl<P: PlanState> Scheduler<P> {
     pub fn ending(&self) -> Option<Ending> {
         match self.state {
             State::Ended(ending) => Some(ending),
-            State::Ready | State::Running => None,
+            State::Ready | State::Running | State::Broken => None,
         }
     }
 
@@ -124,8 +148,10 @@ impl<P: PlanState> Scheduler<P> {
         C: Clock,
         P: Plan<E>,
     {
-        if self.state != State::Ready {
-            return Err(StartError::AlreadyStarted);
+        match self.state {
+            State::Ready => {}
+            State::Broken => return Ok(self.broken(env, sink)),
+            State::Running | State::Ended(_) => return Err(StartError::AlreadyStarted),
         }
         if let Some(entry) = self.machine.plan().missing_input() {
             return Err(StartError::InputMissing(entry));
@@ -136,7 +162,9 @@ impl<P: PlanState> Scheduler<P> {
         if self.stop_requested {
             return Ok(self.stop_now(env, sink, clock));
         }
-        let flow = self.machine.start(&mut context(env, sink, clock, now, &mut self.step));
+        let flow = guarded(&mut self.state, || {
+            self.machine.start(&mut context(env, sink, clock, now, &mut self.step))
+        });
         Ok(self.conclude(flow, env, sink))
     }
 
@@ -153,7 +181,7 @@ impl<P: PlanState> Scheduler<P> {
         P: Plan<E>,
     {
         if self.state != State::Running {
-            return self.not_running(now);
+            return self.not_running(env, sink, now);
         }
         if now < self.last {
             sink.record(self.last, &Record::ClockWentBack { asked: now });
@@ -163,14 +191,17 @@ impl<P: PlanState> Scheduler<P> {
         if self.stop_requested {
             return self.stop_now(env, sink, clock);
         }
-        let mut cx = context(env, sink, clock, self.last, &mut self.step);
-        if !self.writes.is_empty() {
-            while let Some((entry, value)) = self.writes.pop_front() {
-                self.machine.plan_mut().stage(entry, &value);
+        let flow = guarded(&mut self.state, || {
+            let mut cx = context(env, sink, clock, self.last, &mut self.step);
+            if !self.writes.is_empty() {
+                while let Some((entry, value)) = self.writes.pop_front() {
+                    self.machine.plan_mut().stage(entry, &value);
+                }
+                self.machine.commit(Author::Outside, &mut cx);
             }
-            self.machine.commit(Author::Outside, &mut cx);
-        }
-        match self.machine.step(&mut cx) {
+            self.machine.step(&mut cx)
+        });
+        match flow {
             Flow::Running(wake) => Wake::At(wake),
             flow => self.conclude(flow, env, sink),
         }
@@ -197,7 +228,9 @@ impl<P: PlanState> Scheduler<P> {
     {
         let mut wake = match self.state {
             State::Ready => self.start(env, sink, clock, self.last)?,
-            State::Running | State::Ended(_) => self.step(env, sink, clock, self.last),
+            State::Running | State::Broken | State::Ended(_) => {
+                self.step(env, sink, clock, self.last)
+            }
         };
         while let Wake::At(at) = wake {
             if at > until {
@@ -214,7 +247,7 @@ impl<P: PlanState> Scheduler<P> {
     /// # Errors
     /// [`WriteError`]: the plan gets nothing.
     pub fn write(&mut self, entry: u16, value: Value) -> Result<(), WriteError> {
-        if self.ending().is_some() {
+        if matches!(self.state, State::Broken | State::Ended(_)) {
             return Err(WriteError::Ended);
         }
         self.machine.plan().accepts(entry, &value)?;
@@ -239,6 +272,7 @@ impl<P: PlanState> Scheduler<P> {
                 env.emergency_stop();
                 Wake::Ended(ending)
             }
+            State::Broken => self.broken(env, sink),
             State::Ready | State::Running => self.conclude(Flow::Fatal(fault), env, sink),
         }
     }
@@ -249,11 +283,46 @@ impl<P: PlanState> Scheduler<P> {
         self.step.clock = clock.now(now);
     }
 
-    fn not_running(&self, now: Instant) -> Wake {
+    #[cold]
+    fn not_running<E, S>(&mut self, env: &mut E, sink: &mut S, now: Instant) -> Wake
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+    {
         match self.state {
             State::Ended(ending) => Wake::Ended(ending),
+            State::Broken => self.broken(env, sink),
             State::Ready | State::Running => Wake::At(now),
         }
+    }
+
+    /// Ends a run after a panic: nobody is asked, not even to be interrupted.
+    fn broken<E, S>(&mut self, env: &mut E, sink: &mut S) -> Wake
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+    {
+        self.fatal(self.step.panicked.unwrap_or(ComponentId(0)), Fault::PANIC, env, sink)
+    }
+
+    /// The platform stops, the run ends in `Error`.
+    fn fatal<E, S>(
+        &mut self,
+        component: ComponentId,
+        fault: Fault,
+        env: &mut E,
+        sink: &mut S,
+    ) -> Wake
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+    {
+        env.emergency_stop();
+        let (plan, ending) = (ComponentId(0), Ending::Error(fault));
+        sink.record(self.last, &Record::Faulted { component, fault });
+        sink.record(self.last, &Record::Ended { plan, ending });
+        self.state = State::Ended(ending);
+        Wake::Ended(ending)
     }
 
     fn stop_now<E, S, C>(&mut self, env: &mut E, sink: &mut S, clock: &C) -> Wake
@@ -263,16 +332,18 @@ impl<P: PlanState> Scheduler<P> {
         C: Clock,
         P: Plan<E>,
     {
-        let mut cx = context(env, sink, clock, self.last, &mut self.step);
-        cx.trace(&Record::StopRequested);
-        let flow = match self.machine.interrupt(&mut cx) {
-            Ok(()) => {
-                let ending = Ending::Interrupted;
-                cx.trace(&Record::Ended { plan: ComponentId(0), ending });
-                Flow::Ended(ending)
+        let flow = guarded(&mut self.state, || {
+            let mut cx = context(env, sink, clock, self.last, &mut self.step);
+            cx.trace(&Record::StopRequested);
+            match self.machine.interrupt(&mut cx) {
+                Ok(()) => {
+                    let ending = Ending::Interrupted;
+                    cx.trace(&Record::Ended { plan: ComponentId(0), ending });
+                    Flow::Ended(ending)
+                }
+                Err(fault) => Flow::Fatal(fault),
             }
-            Err(fault) => Flow::Fatal(fault),
-        };
+        });
         self.conclude(flow, env, sink)
     }
 
@@ -282,20 +353,14 @@ impl<P: PlanState> Scheduler<P> {
         E: Environment + ?Sized,
         S: Sink,
     {
-        let ending = match flow {
-            Flow::Running(wake) => return Wake::At(wake),
-            Flow::Ended(ending) => ending,
-            Flow::Fatal(fault) => {
-                env.emergency_stop();
-                let ending = Ending::Error(fault);
-                let plan = ComponentId(0);
-                sink.record(self.last, &Record::Faulted { component: plan, fault });
-                sink.record(self.last, &Record::Ended { plan, ending });
-                ending
+        match flow {
+            Flow::Running(wake) => Wake::At(wake),
+            Flow::Ended(ending) => {
+                self.state = State::Ended(ending);
+                Wake::Ended(ending)
             }
-        };
-        self.state = State::Ended(ending);
-        Wake::Ended(ending)
+            Flow::Fatal(fault) => self.fatal(ComponentId(0), fault, env, sink),
+        }
     }
 }
 

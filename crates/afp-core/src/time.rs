@@ -68,6 +68,8 @@ impl Duration {
     }
 
     /// A span of seconds, to the nearest nanosecond; negative and NaN count as zero.
+    ///
+    /// Every time that comes as a number of seconds becomes one of nanoseconds here.
     pub fn from_secs_f64(secs: f64) -> Self {
         let nanos = secs * 1e9;
         // A float cast saturates and sends NaN to zero, which is what is wanted.

@@ -92,6 +92,13 @@ fn times_saturate() {
     assert_eq!(Instant::MAX + Duration::from_secs(1), Instant::MAX);
     assert_eq!(Instant::from_nanos(5) - Instant::from_nanos(9), Duration::ZERO);
     assert_eq!(Duration::from_secs(u64::MAX), Duration::MAX);
+    for millis in 0..20_000 {
+        let secs = Duration::from_secs_f64(f64::from(millis) / 1000.0);
+        assert_eq!(secs, Duration::from_millis(u64::from(millis)));
+    }
+    assert_eq!(Duration::from_secs_f64(1.4e-9).as_nanos(), 1);
+    assert_eq!(Duration::from_secs_f64(1.6e-9).as_nanos(), 2);
+    assert_eq!(Duration::from_secs_f64(f64::INFINITY), Duration::MAX);
     assert_eq!(Duration::from_secs_f64(-1.0), Duration::ZERO);
     assert_eq!(Duration::from_secs_f64(f64::NAN), Duration::ZERO);
     assert_eq!(Duration::from_secs_f64(1e300), Duration::MAX);

@@ -19,7 +19,7 @@ const TIMES: [Unit<'static>; 6] = [
 /// Says what was expected.
 pub fn duration(text: &str) -> Result<Duration, String> {
     match parse_quantity(text, TIMES) {
-        Ok(secs) if secs >= 0.0 => Ok(Duration::from_nanos(libm::round(secs * 1e9) as u64)),
+        Ok(secs) if secs >= 0.0 => Ok(Duration::from_secs_f64(secs)),
         Ok(_) => Err("a time cannot be negative".to_owned()),
         Err(_) => Err("expected a number with its unit, such as 20s or 500ms".to_owned()),
     }

@@ -56,7 +56,7 @@ impl<P: PlanState> Level<P> {
         }
         let id = supervisor_id(t, cx, supervisor);
         cx.place.component = id;
-        let result = self.plan.start_supervisor(supervisor, cx);
+        let result = cx.call(id, |cx| self.plan.start_supervisor(supervisor, cx));
         cx.trace(&match result {
             Ok(()) => Record::Started { component: id },
             Err(fault) => Record::Faulted { component: id, fault },
@@ -140,7 +140,7 @@ impl<P: PlanState> Level<P> {
     {
         let id = component(cx, element);
         cx.place.component = id;
-        match self.plan.start_element(element, cx) {
+        match cx.call(id, |cx| self.plan.start_element(element, cx)) {
             Started::Running => {
                 cx.trace(&Record::Started { component: id });
                 self.active = Some(element);

@@ -154,12 +154,12 @@ impl<P: PlanState> Level<P> {
         let next = release + row.period;
         slot.next = next;
         let begin = cx.step.clock;
-        let fired = self.plan.poll_supervisor(supervisor, cx);
+        let id = supervisor_id(t, cx, supervisor);
+        let fired = cx.call(id, |cx| self.plan.poll_supervisor(supervisor, cx));
         let end = cx.clock.now(cx.now);
         cx.step.clock = end;
         if S::ENABLED {
-            let verdict = fired.verdict();
-            cx.trace(&Record::Polled { supervisor: supervisor_id(t, cx, supervisor), verdict });
+            cx.trace(&Record::Polled { supervisor: id, verdict: fired.verdict() });
         }
         let on_time = next > cx.now && end <= release + row.deadline;
         if on_time && fired.is_nothing() {

@@ -158,6 +158,8 @@ pub enum Polled {
     SubPlan(Flow),
     /// It reached a state, outputs staged.
     Done(u16),
+    /// It is made to report a state, outputs staged, while it still acts: it has to be interrupted.
+    Forced(u16),
     /// It failed and has to be interrupted.
     Failed(Fault),
 }
@@ -217,6 +219,22 @@ pub(crate) struct StepState {
     pub commits: u32,
     /// Deadlines missed so far in the run, skipped releases included.
     pub misses: u64,
+    /// The innermost component whose call panicked.
+    pub panicked: Option<ComponentId>,
+}
+
+/// Stands around a call that may panic: dropped by the unwinding, it notes who was called.
+///
+/// A call that returns forgets it, so that it costs nothing there.
+struct Unwinding<'g, 'c, E: ?Sized, S, C> {
+    cx: &'g mut Cx<'c, E, S, C>,
+    component: ComponentId,
+}
+
+impl<E: ?Sized, S, C> Drop for Unwinding<'_, '_, E, S, C> {
+    fn drop(&mut self) {
+        self.cx.step.panicked.get_or_insert(self.component);
+    }
 }
 
 /// Where a level's ids begin.
@@ -318,6 +336,21 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
     {
         self.trace(&Record::Started { component: self.place.component });
         self.inside(child, |cx| machine.start(cx))
+    }
+}
+
+impl<E: ?Sized, S, C> Cx<'_, E, S, C> {
+    /// Calls a component; one that panics is noted.
+    #[inline(always)]
+    pub(crate) fn call<R>(
+        &mut self,
+        component: ComponentId,
+        run: impl FnOnce(&mut Self) -> R,
+    ) -> R {
+        let unwinding = Unwinding { cx: self, component };
+        let result = run(&mut *unwinding.cx);
+        core::mem::forget(unwinding);
+        result
     }
 }
 

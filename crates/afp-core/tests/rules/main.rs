@@ -11,6 +11,7 @@ mod livelock;
 mod look;
 mod order;
 mod outside;
+mod panics;
 mod releases;
 mod sub_plans;
 mod trace_order;

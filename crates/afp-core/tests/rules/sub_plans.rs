@@ -293,3 +293,18 @@ fn interrupts_run_from_the_inside_out_through_all_levels() {
          0.010000 A ended Interrupted",
     );
 }
+
+#[test]
+fn a_sub_plan_that_cannot_be_initialised_shows_its_fault_once() {
+    let broken = plan("Broken").broken("x").with(actor("a").on("Done", "a"));
+    let element = sub_plan("s", broken).on("OK", "ok").on_error("ok");
+    let mut run =
+        Run::started(plan("p").with(element).with(actor("ok").on("Done", "ok")), World::default());
+    assert_lines(
+        &run.trace(),
+        "0.000000 s started
+         0.000000 s ended Error(arithmetic)
+         0.000000 s fault arithmetic: a formula overflowed or has no finite value -> ok
+         0.000000 ok started",
+    );
+}

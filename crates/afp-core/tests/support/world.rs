@@ -25,6 +25,7 @@ pub enum Phase {
 enum Act {
     Outcome(u16),
     Fault,
+    Panic,
     Cost(Duration),
 }
 
@@ -71,6 +72,10 @@ impl World {
         self.rule(who, phase, during, Act::Fault)
     }
 
+    pub fn panics(self, who: &'static str, phase: Phase, during: Range<u64>) -> Self {
+        self.rule(who, phase, during, Act::Panic)
+    }
+
     /// Polls take so many milliseconds.
     pub fn costs(self, who: &'static str, phase: Phase, cost: u64, during: Range<u64>) -> Self {
         self.rule(who, phase, during, Act::Cost(Duration::from_millis(cost)))
@@ -113,6 +118,8 @@ impl World {
             match act {
                 Act::Cost(more) => cost = cost + more,
                 Act::Fault => result = Err(SCRIPTED),
+                // Without the hook that would print it.
+                Act::Panic => std::panic::resume_unwind(Box::new("as the script says")),
                 Act::Outcome(_) => {}
             }
         }

@@ -112,20 +112,12 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
         }
     }
 
-    /// Reaches a state that was put there, after stopping what runs.
-    pub fn finish<S: Sink, C: Clock>(
-        &mut self,
-        injected: &Injection,
-        config: &mut Config,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Polled {
-        if let Err(fault) = self.interrupt(cx) {
-            return Polled::Failed(fault);
-        }
+    /// Reaches a state that was put there; the scheduler then interrupts what runs.
+    pub fn finish(&self, injected: &Injection, config: &mut Config) -> Polled {
         let mut stage = Stage::new(&self.outputs, &mut config.staged);
         injected.stage(&mut stage);
         match stage.result() {
-            Ok(()) => Polled::Done(injected.outcome),
+            Ok(()) => Polled::Forced(injected.outcome),
             Err(fault) => Polled::Failed(fault),
         }
     }

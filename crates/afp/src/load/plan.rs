@@ -156,7 +156,7 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     }
 
     /// Makes a component of the running plan report an outcome at its next poll, whatever it sees: for
-    /// tests. An actor is interrupted first, so that it leaves the robot at rest.
+    /// tests. An actor is interrupted once the outputs are staged, so that it leaves the robot at rest.
     ///
     /// `active` is the active element of the plan, as its scheduler has it.
     ///
@@ -521,7 +521,7 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
             None => slot.poll(&mut self.config, cx),
             Some(injected) => {
                 cx.show_injected(element.into(), injected.outcome);
-                slot.finish(&injected, &mut self.config, cx)
+                slot.finish(&injected, &mut self.config)
             }
         }
     }
