@@ -92,7 +92,7 @@ fn times_saturate() {
     assert_eq!(Instant::MAX + Duration::from_secs(1), Instant::MAX);
     assert_eq!(Instant::from_nanos(5) - Instant::from_nanos(9), Duration::ZERO);
     assert_eq!(Duration::from_secs(u64::MAX), Duration::MAX);
-    for millis in 0..20_000 {
+    for millis in 0_u32..20_000 {
         let secs = Duration::from_secs_f64(f64::from(millis) / 1000.0);
         assert_eq!(secs, Duration::from_millis(u64::from(millis)));
     }

@@ -1,6 +1,6 @@
 //! The compiler of Action Flow Plans: text in; diagnostics, outline and static graph out.
 //!
-//! It does no I/O and depends on nothing else in the workspace but the syntax.
+//! It does no I/O and depends on the syntax and the arithmetic, `afp-number`, alone.
 
 mod check;
 mod compile;

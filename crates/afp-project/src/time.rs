@@ -3,14 +3,17 @@
 use afp_core::Duration;
 use afp_core::rt::{Scale, Unit, parse_quantity};
 
+const MINUTES: Scale = Scale::fraction(60, 1, 0, 0);
+const HOURS: Scale = Scale::fraction(3600, 1, 0, 0);
+
 /// Units of time.
 const TIMES: [Unit<'static>; 6] = [
     Unit { name: "s", scale: Scale::Decimal(0) },
     Unit { name: "ms", scale: Scale::Decimal(-3) },
     Unit { name: "us", scale: Scale::Decimal(-6) },
     Unit { name: "ns", scale: Scale::Decimal(-9) },
-    Unit { name: "min", scale: Scale::Factor(60.0) },
-    Unit { name: "h", scale: Scale::Factor(3600.0) },
+    Unit { name: "min", scale: MINUTES },
+    Unit { name: "h", scale: HOURS },
 ];
 
 /// A span of time, such as `20s` or `1.5 ms`, to the nearest nanosecond.

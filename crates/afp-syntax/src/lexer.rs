@@ -5,9 +5,10 @@
 
 mod unit;
 
+use afp_number::number_length;
+
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::kind::Kind;
-use crate::literal::number_length;
 use crate::source::Span;
 
 /// A piece of the text.
@@ -114,7 +115,7 @@ impl<'t> Lexer<'t, '_> {
 
     fn number(&mut self) {
         let rest = &self.text[self.at..];
-        let length = number_length(rest).unwrap_or(1);
+        let length = number_length(rest).max(1);
         let behind = &rest[length..];
         let fraction = behind.strip_prefix(',').map_or(0, |tail| run(tail, |c| c.is_ascii_digit()));
         if fraction > 0 && !rest[..length].contains('.') {

@@ -2,7 +2,7 @@
 //! canonical form.
 //!
 //! It knows the grammar and nothing of what a text means. It does no I/O. Of the workspace it needs
-//! `afp-excerpt` alone, which shows where mistakes are.
+//! `afp-excerpt`, which shows where mistakes are, and `afp-number`, which reads numbers.
 
 pub mod ast;
 pub mod diagnostics;

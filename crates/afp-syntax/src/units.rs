@@ -3,10 +3,9 @@
 //! This list is the only place that knows units; lexer, checks, `--set` and conversions from text
 //! all read it.
 
-use crate::dimension::Dimension;
+use afp_number::Scale;
 
-/// One radian per degree: literals in degrees are the double product with this.
-pub const RADIANS_PER_DEGREE: f64 = core::f64::consts::PI / 180.0;
+use crate::dimension::Dimension;
 
 /// Greatest exponent of a part of a composed unit, either sign.
 const MAX_EXPONENT: i8 = 9;
@@ -22,7 +21,7 @@ pub struct Unit {
     pub denominator: u64,
     /// Power of ten of the factor to SI.
     pub exponent: i32,
-    /// Exponent of the degree in it, each worth [`RADIANS_PER_DEGREE`].
+    /// Exponent of the degree in it, each worth [`afp_number::RADIANS_PER_DEGREE`].
     pub degrees: i32,
     /// Whether it is `degC`, which has an offset.
     pub celsius: bool,
@@ -118,6 +117,16 @@ impl Unit {
             length += 1 + more;
         }
         Some((unit, length))
+    }
+
+    /// How its numbers become SI.
+    pub fn scale(self) -> Scale {
+        let Unit { numerator: times, denominator: by, exponent: shift, degrees, .. } = self;
+        match (times == by, degrees) {
+            _ if self.celsius => Scale::Celsius,
+            (true, 0) => Scale::Decimal(shift),
+            _ => Scale::Fraction { times, by, shift, degrees },
+        }
     }
 
     fn times(self, other: Unit) -> Option<Unit> {

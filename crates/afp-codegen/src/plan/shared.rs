@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use afp_number::Scale;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
@@ -10,9 +11,9 @@ use crate::Options;
 use crate::enums;
 use crate::layout::doc;
 use crate::names::{Names, camel, ident};
-use crate::rust_type::{float, int};
+use crate::rust_type::int;
 use afp_dsl::graph::{EntryKind, Formula, FormulaKind, Graph};
-use afp_dsl::types::readable::{ReadableUnit, Scale, readable};
+use afp_dsl::types::readable::{ReadableUnit, readable};
 use afp_dsl::types::{Conversion, Dimension, Enum, Type};
 
 /// The modules `enums` and `units`, where they have anything in them.
@@ -68,18 +69,12 @@ fn unit(unit: &ReadableUnit) -> TokenStream {
             let shift = int(shift);
             quote!(Decimal(#shift))
         }
-        Scale::Factor(factor) => {
-            let factor = float(factor);
-            quote!(Factor(#factor))
+        Scale::Fraction { times, by, shift, degrees } => {
+            let [times, by] = [times, by].map(Literal::u64_unsuffixed);
+            let [shift, degrees] = [shift, degrees].map(int);
+            quote!(fraction(#times, #by, #shift, #degrees))
         }
-        Scale::Ratio(times, by) => {
-            let (times, by) = (float(times), float(by));
-            quote!(Ratio(#times, #by))
-        }
-        Scale::Offset(offset) => {
-            let offset = float(offset);
-            quote!(Offset(#offset))
-        }
+        Scale::Celsius => quote!(Celsius),
     };
     quote!(Unit { name: #name, scale: Scale::#scale })
 }

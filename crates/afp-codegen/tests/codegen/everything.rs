@@ -82,11 +82,11 @@ pub static SPEED: [Unit<'static>; 30] = [
     },
     Unit {
         name: "m/min",
-        scale: Scale::Ratio(1.0, 60.0),
+        scale: Scale::fraction(1, 60, 0, 0),
     },
     Unit {
         name: "m/h",
-        scale: Scale::Ratio(1.0, 3600.0),
+        scale: Scale::fraction(1, 3600, 0, 0),
     },
     Unit {
         name: "km/s",
@@ -106,11 +106,11 @@ pub static SPEED: [Unit<'static>; 30] = [
     },
     Unit {
         name: "km/min",
-        scale: Scale::Ratio(1000.0, 60.0),
+        scale: Scale::fraction(1, 60, 3, 0),
     },
     Unit {
         name: "km/h",
-        scale: Scale::Ratio(1000.0, 3600.0),
+        scale: Scale::fraction(1, 3600, 3, 0),
     },
     Unit {
         name: "cm/s",
@@ -130,11 +130,11 @@ pub static SPEED: [Unit<'static>; 30] = [
     },
     Unit {
         name: "cm/min",
-        scale: Scale::Ratio(1.0, 6000.0),
+        scale: Scale::fraction(1, 60, -2, 0),
     },
     Unit {
         name: "cm/h",
-        scale: Scale::Ratio(1.0, 360000.0),
+        scale: Scale::fraction(1, 3600, -2, 0),
     },
     Unit {
         name: "mm/s",
@@ -154,11 +154,11 @@ pub static SPEED: [Unit<'static>; 30] = [
     },
     Unit {
         name: "mm/min",
-        scale: Scale::Ratio(1.0, 60000.0),
+        scale: Scale::fraction(1, 60, -3, 0),
     },
     Unit {
         name: "mm/h",
-        scale: Scale::Ratio(1.0, 3600000.0),
+        scale: Scale::fraction(1, 3600, -3, 0),
     },
     Unit {
         name: "um/s",
@@ -178,11 +178,11 @@ pub static SPEED: [Unit<'static>; 30] = [
     },
     Unit {
         name: "um/min",
-        scale: Scale::Ratio(1.0, 60000000.0),
+        scale: Scale::fraction(1, 60, -6, 0),
     },
     Unit {
         name: "um/h",
-        scale: Scale::Ratio(1.0, 3600000000.0),
+        scale: Scale::fraction(1, 3600, -6, 0),
     },
 ];
 
@@ -206,11 +206,11 @@ pub static LENGTH2_PER_DURATION: [Unit<'static>; 30] = [
     },
     Unit {
         name: "m^2/min",
-        scale: Scale::Ratio(1.0, 60.0),
+        scale: Scale::fraction(1, 60, 0, 0),
     },
     Unit {
         name: "m^2/h",
-        scale: Scale::Ratio(1.0, 3600.0),
+        scale: Scale::fraction(1, 3600, 0, 0),
     },
     Unit {
         name: "km^2/s",
@@ -230,11 +230,11 @@ pub static LENGTH2_PER_DURATION: [Unit<'static>; 30] = [
     },
     Unit {
         name: "km^2/min",
-        scale: Scale::Ratio(1000000.0, 60.0),
+        scale: Scale::fraction(1, 60, 6, 0),
     },
     Unit {
         name: "km^2/h",
-        scale: Scale::Ratio(1000000.0, 3600.0),
+        scale: Scale::fraction(1, 3600, 6, 0),
     },
     Unit {
         name: "cm^2/s",
@@ -254,11 +254,11 @@ pub static LENGTH2_PER_DURATION: [Unit<'static>; 30] = [
     },
     Unit {
         name: "cm^2/min",
-        scale: Scale::Ratio(1.0, 600000.0),
+        scale: Scale::fraction(1, 60, -4, 0),
     },
     Unit {
         name: "cm^2/h",
-        scale: Scale::Ratio(1.0, 36000000.0),
+        scale: Scale::fraction(1, 3600, -4, 0),
     },
     Unit {
         name: "mm^2/s",
@@ -278,11 +278,11 @@ pub static LENGTH2_PER_DURATION: [Unit<'static>; 30] = [
     },
     Unit {
         name: "mm^2/min",
-        scale: Scale::Ratio(1.0, 60000000.0),
+        scale: Scale::fraction(1, 60, -6, 0),
     },
     Unit {
         name: "mm^2/h",
-        scale: Scale::Ratio(1.0, 3600000000.0),
+        scale: Scale::fraction(1, 3600, -6, 0),
     },
     Unit {
         name: "um^2/s",
@@ -302,11 +302,11 @@ pub static LENGTH2_PER_DURATION: [Unit<'static>; 30] = [
     },
     Unit {
         name: "um^2/min",
-        scale: Scale::Ratio(1.0, 60000000000000.0),
+        scale: Scale::fraction(1, 60, -12, 0),
     },
     Unit {
         name: "um^2/h",
-        scale: Scale::Ratio(1.0, 3.6e15),
+        scale: Scale::fraction(1, 3600, -12, 0),
     },
 ];
 
@@ -322,7 +322,7 @@ pub static ANGLE: [Unit<'static>; 3] = [
     },
     Unit {
         name: "deg",
-        scale: Scale::Factor(0.017453292519943295),
+        scale: Scale::fraction(1, 1, 0, 1),
     },
 ];
 

@@ -42,7 +42,7 @@ pub static ANGLE: [Unit<'static>; 3] = [
     },
     Unit {
         name: "deg",
-        scale: Scale::Factor(0.017453292519943295),
+        scale: Scale::fraction(1, 1, 0, 1),
     },
 ];
 

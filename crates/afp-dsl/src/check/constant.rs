@@ -1,41 +1,33 @@
 //! Values of formulas that are known when the plan is compiled.
 //!
-//! The arithmetic is the run time's: left to right, no fused operations, overflow and a non-finite
-//! result are faults.
+//! The arithmetic is the run time's (`afp-number`): left to right, no fused operations, overflow and a
+//! non-finite result are errors. One thing is stricter: what divides by a constant zero is an error
+//! whatever becomes of the quotient.
+
+use afp_number::{
+    Error, MAX_TEXT, Quantity, Unit, bool_to_float, bool_to_int, finite, float_to_int, int_add,
+    int_mul, int_neg, int_rem, int_sub, int_to_float, parse_bool, parse_choice, parse_float,
+    parse_int, parse_quantity, rem,
+};
 
 use crate::graph::{Formula, FormulaKind, Operator};
 use crate::toolbox::Constant;
-use crate::types::value::{MAX_TEXT, parse_value};
+use crate::types::readable::readable;
 use crate::types::{Conversion, Type};
-
-/// Why a formula has no value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Fault {
-    /// An int leaves 64 bits.
-    Overflow,
-    /// `% 0` on ints.
-    DivisionByZero,
-    /// The result is infinite or not a number.
-    NotFinite,
-    /// A text of more than 64 bytes.
-    TooLong,
-    /// A text is no value of the wanted type.
-    NotAValue,
-}
 
 /// The value of a formula; `Ok(None)` when it depends on what is known at run time only.
 ///
 /// `entry` gives the values of entries that are known.
 ///
 /// # Errors
-/// The fault that the formula would raise whenever it is read.
+/// What the formula would fail with whenever it is read.
 pub(crate) fn evaluate(
     formula: &Formula,
     entry: &dyn Fn(u16) -> Option<Constant>,
-) -> Result<Option<Constant>, Fault> {
+) -> Result<Option<Constant>, Error> {
     let value = part(formula, entry)?;
     match value {
-        Some(Constant::Float(value)) if !value.is_finite() => Err(Fault::NotFinite),
+        Some(Constant::Float(value)) => Ok(Some(Constant::Float(finite(value)?))),
         _ => Ok(value),
     }
 }
@@ -43,19 +35,17 @@ pub(crate) fn evaluate(
 fn part(
     formula: &Formula,
     entry: &dyn Fn(u16) -> Option<Constant>,
-) -> Result<Option<Constant>, Fault> {
+) -> Result<Option<Constant>, Error> {
     Ok(match &formula.kind {
         FormulaKind::Bool(value) => Some(Constant::Bool(*value)),
         FormulaKind::Int(value) => Some(Constant::Int(*value)),
         FormulaKind::Float(value) => Some(Constant::Float(*value)),
-        FormulaKind::Text(text) if text.len() > MAX_TEXT => return Err(Fault::TooLong),
+        FormulaKind::Text(text) if text.len() > MAX_TEXT => return Err(Error::TooLong),
         FormulaKind::Text(text) => Some(Constant::Text(text.clone())),
         FormulaKind::Choice(value) => Some(Constant::Choice(*value)),
         FormulaKind::Entry(id) => entry(id.0),
         FormulaKind::Neg(inner) => match part(inner, entry)? {
-            Some(Constant::Int(value)) => {
-                Some(Constant::Int(value.checked_neg().ok_or(Fault::Overflow)?))
-            }
+            Some(Constant::Int(value)) => Some(Constant::Int(int_neg(value)?)),
             Some(Constant::Float(value)) => Some(Constant::Float(-value)),
             _ => None,
         },
@@ -74,21 +64,22 @@ fn binary(
     operator: Operator,
     left: Option<Constant>,
     right: Option<Constant>,
-) -> Result<Option<Constant>, Fault> {
-    if operator == Operator::Rem && right == Some(Constant::Int(0)) {
-        return Err(Fault::DivisionByZero);
+) -> Result<Option<Constant>, Error> {
+    let zero = matches!(right, Some(Constant::Int(0))) || right == Some(Constant::Float(0.0));
+    if zero && matches!(operator, Operator::Div | Operator::Rem) {
+        return Err(Error::DivisionByZero);
     }
     Ok(match (left, right) {
         (Some(Constant::Int(left)), Some(Constant::Int(right))) => {
             Some(Constant::Int(integers(operator, left, right)?))
         }
         (Some(Constant::Float(left)), Some(Constant::Float(right))) => {
-            Some(Constant::Float(floats(operator, left, right)))
+            Some(Constant::Float(floats(operator, left, right)?))
         }
         (Some(Constant::Text(left)), Some(Constant::Text(right))) => {
             let joined = left + &right;
             if joined.len() > MAX_TEXT {
-                return Err(Fault::TooLong);
+                return Err(Error::TooLong);
             }
             Some(Constant::Text(joined))
         }
@@ -96,98 +87,103 @@ fn binary(
     })
 }
 
-fn integers(operator: Operator, left: i64, right: i64) -> Result<i64, Fault> {
-    let value = match operator {
-        Operator::Add => left.checked_add(right),
-        Operator::Sub => left.checked_sub(right),
-        Operator::Mul => left.checked_mul(right),
-        Operator::Rem => left.checked_rem(right),
+fn integers(operator: Operator, left: i64, right: i64) -> Result<i64, Error> {
+    match operator {
+        Operator::Add => int_add(left, right),
+        Operator::Sub => int_sub(left, right),
+        Operator::Mul => int_mul(left, right),
+        Operator::Rem => int_rem(left, right),
         // Ints are divided as floats; the types of the operands see to it.
-        Operator::Div => None,
-    };
-    value.ok_or(Fault::Overflow)
+        Operator::Div => Err(Error::Overflow),
+    }
 }
 
-fn floats(operator: Operator, left: f64, right: f64) -> f64 {
-    match operator {
+fn floats(operator: Operator, left: f64, right: f64) -> Result<f64, Error> {
+    Ok(match operator {
         Operator::Add => left + right,
         Operator::Sub => left - right,
         Operator::Mul => left * right,
         Operator::Div => left / right,
-        Operator::Rem => left % right,
-    }
+        Operator::Rem => rem(left, right)?,
+    })
 }
 
-fn convert(conversion: &Conversion, value: Constant) -> Result<Constant, Fault> {
+fn convert(conversion: &Conversion, value: Constant) -> Result<Constant, Error> {
     Ok(match (conversion, value) {
-        (Conversion::IntToFloat, Constant::Int(value)) => Constant::Float(value as f64),
-        (Conversion::FloatToInt, Constant::Float(value)) => Constant::Int(to_int(value)?),
-        (Conversion::BoolToInt, Constant::Bool(value)) => Constant::Int(i64::from(value)),
-        (Conversion::BoolToFloat, Constant::Bool(value)) => {
-            Constant::Float(if value { 1.0 } else { 0.0 })
-        }
-        (Conversion::ToText(_), Constant::Float(value)) if !value.is_finite() => {
-            return Err(Fault::NotFinite);
-        }
+        (Conversion::IntToFloat, Constant::Int(value)) => Constant::Float(int_to_float(value)),
+        (Conversion::FloatToInt, Constant::Float(value)) => Constant::Int(float_to_int(value)?),
+        (Conversion::BoolToInt, Constant::Bool(value)) => Constant::Int(bool_to_int(value)),
+        (Conversion::BoolToFloat, Constant::Bool(value)) => Constant::Float(bool_to_float(value)),
         (Conversion::ToText(ty), value) => {
-            let text = to_text(&value, ty);
+            let text = to_text(&value, ty)?;
             if text.len() > MAX_TEXT {
-                return Err(Fault::TooLong);
+                return Err(Error::TooLong);
             }
             Constant::Text(text)
         }
-        (Conversion::FromText(ty), Constant::Text(text)) => {
-            parse_value(&text, ty).map_err(|_| Fault::NotAValue)?
-        }
+        (Conversion::FromText(ty), Constant::Text(text)) => from_text(&text, ty)?,
         (_, value) => value,
     })
 }
 
-/// Toward zero.
-fn to_int(value: f64) -> Result<i64, Fault> {
-    // 2^63 is a double; every double below it fits.
-    let limit = 9_223_372_036_854_775_808.0;
-    let whole = value.trunc();
-    if (-limit..limit).contains(&whole) { Ok(whole as i64) } else { Err(Fault::Overflow) }
-}
-
 /// The text of a value: shortest decimal that reads back as the same number, SI unit behind a
 /// quantity, name of an enum's value.
-fn to_text(value: &Constant, ty: &Type) -> String {
-    match (value, ty) {
+fn to_text(value: &Constant, ty: &Type) -> Result<String, Error> {
+    Ok(match (value, ty) {
         (Constant::Bool(value), _) => value.to_string(),
         (Constant::Int(value), _) => value.to_string(),
-        (Constant::Float(value), Type::Quantity(dimension)) => {
-            format!("{value} {}", dimension.si_unit()).trim_end().to_owned()
+        (Constant::Float(value), ty) => {
+            let unit = match ty {
+                Type::Quantity(dimension) => dimension.si_unit(),
+                _ => String::new(),
+            };
+            Quantity { value: finite(*value)?, unit: &unit }.to_string()
         }
-        (Constant::Float(value), _) => value.to_string(),
         (Constant::Text(text), _) => text.clone(),
-        (Constant::Choice(place), Type::Enum(home)) => {
-            home.variants.get(usize::from(*place)).cloned().unwrap_or_default()
+        (Constant::Choice(index), Type::Enum(choices)) => {
+            choices.variants.get(usize::from(*index)).cloned().unwrap_or_default()
         }
-        (Constant::Choice(place), _) => place.to_string(),
+        (Constant::Choice(index), _) => index.to_string(),
+    })
+}
+
+/// The value of a text, as it is read at run time.
+fn from_text(text: &str, ty: &Type) -> Result<Constant, Error> {
+    match ty {
+        Type::Bool => parse_bool(text).map(Constant::Bool),
+        Type::Int => parse_int(text).map(Constant::Int),
+        &Type::FLOAT => parse_float(text).map(Constant::Float),
+        Type::Quantity(dimension) => {
+            let units = readable(*dimension);
+            let units = units.iter().map(|unit| Unit { name: &unit.name, scale: unit.scale });
+            parse_quantity(text, units).map(Constant::Float)
+        }
+        Type::Text => Ok(Constant::Text(text.to_owned())),
+        Type::Enum(choices) => {
+            let names = choices.variants.iter().map(String::as_str);
+            parse_choice(text, names).map(Constant::Choice)
+        }
+        Type::Object(_) | Type::Any | Type::Number => Err(Error::NotAValue),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Fault, binary, to_int};
+    use super::{Error, binary};
     use crate::graph::Operator;
     use crate::toolbox::Constant;
 
     #[test]
-    fn overflow_and_remainder_of_zero_are_faults() {
+    fn what_divides_by_a_constant_zero_fails_whatever_is_divided() {
         let int = |value| Some(Constant::Int(value));
-        assert_eq!(binary(Operator::Add, int(i64::MAX), int(1)), Err(Fault::Overflow));
-        assert_eq!(binary(Operator::Rem, None, int(0)), Err(Fault::DivisionByZero));
+        let float = |value| Some(Constant::Float(value));
+        for operator in [Operator::Div, Operator::Rem] {
+            for zero in [int(0), float(0.0), float(-0.0)] {
+                assert_eq!(binary(operator, None, zero), Err(Error::DivisionByZero));
+            }
+        }
+        assert_eq!(binary(Operator::Mul, None, int(0)), Ok(None));
+        assert_eq!(binary(Operator::Add, int(i64::MAX), int(1)), Err(Error::Overflow));
         assert_eq!(binary(Operator::Rem, int(-7), int(3)), Ok(int(-1)));
-    }
-
-    #[test]
-    fn floats_become_ints_toward_zero() {
-        assert_eq!(to_int(-2.9), Ok(-2));
-        assert_eq!(to_int(-9_223_372_036_854_775_808.0), Ok(i64::MIN));
-        assert_eq!(to_int(9_223_372_036_854_775_808.0), Err(Fault::Overflow));
-        assert_eq!(to_int(f64::NAN), Err(Fault::Overflow));
     }
 }

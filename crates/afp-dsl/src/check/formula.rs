@@ -5,7 +5,9 @@ mod operation;
 
 use std::cell::Cell;
 
-use crate::check::constant::{self, Fault};
+use afp_number::{Error, MAX_TEXT};
+
+use crate::check::constant;
 use crate::check::convert::coerce;
 use crate::check::entries::EntryDraft;
 use crate::check::names::{Places, ambiguous, unknown};
@@ -14,7 +16,6 @@ use crate::graph::{EntryId, EntryKind, Formula, FormulaKind};
 use crate::index::{Recorder, Word};
 use crate::toolbox::Constant;
 use crate::types::Type;
-use crate::types::value::MAX_TEXT;
 use afp_syntax::ast;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
@@ -160,7 +161,7 @@ impl Typer<'_> {
             ast::FormulaKind::Text(quoted) => {
                 let text = afp_syntax::unquote(&quoted, diags);
                 if text.len() > MAX_TEXT {
-                    diags.push(fault_diagnostic(Fault::TooLong, span));
+                    diags.push(fault_diagnostic(Error::TooLong, span));
                     return None;
                 }
                 Some(Formula { kind: FormulaKind::Text(text), ty: Type::Text, span })
@@ -329,21 +330,19 @@ impl Typer<'_> {
     }
 }
 
-fn fault_diagnostic(fault: Fault, span: Span) -> Diagnostic {
-    match fault {
-        Fault::Overflow => Diagnostic::new(Code::E0228, span, "the value does not fit an int")
+fn fault_diagnostic(error: Error, span: Span) -> Diagnostic {
+    match error {
+        Error::Overflow => Diagnostic::new(Code::E0228, span, "the value does not fit an int")
             .help("use floats, or smaller numbers"),
-        Fault::DivisionByZero => {
-            Diagnostic::new(Code::E0228, span, "the remainder of a division by zero")
-                .help("divide by something else")
-        }
-        Fault::NotFinite => {
+        Error::DivisionByZero => Diagnostic::new(Code::E0228, span, "a division by zero")
+            .help("divide by something else"),
+        Error::NotFinite => {
             Diagnostic::new(Code::E0228, span, "the value is infinite or not a number")
                 .help("do not divide by zero, and keep numbers below 1.8e308")
         }
-        Fault::NotAValue => Diagnostic::new(Code::E0228, span, "the text is no value of the type")
+        Error::NotAValue => Diagnostic::new(Code::E0228, span, "the text is no value of the type")
             .help("write a value of the type, unit included, without the quotes"),
-        Fault::TooLong => {
+        Error::TooLong => {
             Diagnostic::new(Code::E0230, span, format!("the text is longer than {MAX_TEXT} bytes"))
                 .help(format!("shorten it to at most {MAX_TEXT} bytes of UTF-8"))
         }

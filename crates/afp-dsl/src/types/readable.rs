@@ -3,8 +3,10 @@
 //! A running plan does not know the grammar of units; for each dimension that it reads it gets a
 //! list of all spellings with a scale. Interpreter and generated code take the same list.
 
+use afp_number::Scale;
+
 use crate::types::Dimension;
-use afp_syntax::units::{RADIANS_PER_DEGREE, Unit};
+use afp_syntax::units::Unit;
 
 /// Above this number of spellings only the SI unit is readable.
 const MAX_SPELLINGS: usize = 256;
@@ -16,19 +18,6 @@ pub struct ReadableUnit {
     pub name: String,
     /// How its numbers become SI.
     pub scale: Scale,
-}
-
-/// How a number in some unit becomes SI; mirrors the run time's type of the same name.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Scale {
-    /// Shift the decimal point.
-    Decimal(i8),
-    /// Multiply.
-    Factor(f64),
-    /// Multiply by the first, then divide by the second.
-    Ratio(f64, f64),
-    /// Add.
-    Offset(f64),
 }
 
 /// All spellings of units of a dimension; none for a plain number.
@@ -44,7 +33,7 @@ pub fn readable(dimension: Dimension) -> Vec<ReadableUnit> {
         }
     }
     let units = names.into_iter().filter_map(|name| {
-        let scale = scale(Unit::parse(&name)?)?;
+        let scale = Unit::parse(&name)?.scale();
         Some(ReadableUnit { name, scale })
     });
     units.collect()
@@ -93,21 +82,6 @@ fn join(name: &str, symbol: &str, exponent: i8) -> String {
     }
 }
 
-fn scale(unit: Unit) -> Option<Scale> {
-    if unit.celsius {
-        return Some(Scale::Offset(273.15));
-    }
-    if unit.degrees == 0 && unit.numerator == unit.denominator {
-        return i8::try_from(unit.exponent).ok().map(Scale::Decimal);
-    }
-    let degrees = (0..unit.degrees.unsigned_abs()).fold(1.0, |all, _| all * RADIANS_PER_DEGREE);
-    let ten = 10f64.powi(unit.exponent.abs());
-    let up = |condition: bool, value: f64| if condition { value } else { 1.0 };
-    let times = unit.numerator as f64 * up(unit.exponent > 0, ten) * up(unit.degrees > 0, degrees);
-    let by = unit.denominator as f64 * up(unit.exponent < 0, ten) * up(unit.degrees < 0, degrees);
-    Some(if by == 1.0 { Scale::Factor(times) } else { Scale::Ratio(times, by) })
-}
-
 #[cfg(test)]
 mod tests {
     use super::{Scale, readable};
@@ -121,10 +95,10 @@ mod tests {
     #[test]
     fn single_and_composed_units_are_readable() {
         assert_eq!(scale_of("length", "cm"), Some(Scale::Decimal(-2)));
-        assert_eq!(scale_of("duration", "min"), Some(Scale::Factor(60.0)));
-        assert_eq!(scale_of("speed", "km/h"), Some(Scale::Ratio(1000.0, 3600.0)));
+        assert_eq!(scale_of("duration", "min"), Some(Scale::fraction(60, 1, 0, 0)));
+        assert_eq!(scale_of("speed", "km/h"), Some(Scale::fraction(1, 3600, 3, 0)));
         assert_eq!(scale_of("acceleration", "m/s^2"), Some(Scale::Decimal(0)));
-        assert_eq!(scale_of("temperature", "degC"), Some(Scale::Offset(273.15)));
+        assert_eq!(scale_of("temperature", "degC"), Some(Scale::Celsius));
         assert_eq!(scale_of("frequency", "Hz"), Some(Scale::Decimal(0)));
         assert_eq!(scale_of("length", "s"), None);
     }

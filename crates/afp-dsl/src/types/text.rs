@@ -4,8 +4,9 @@
 //! as the very same double.
 
 use crate::types::{Dimension, Type};
+use afp_number::RADIANS_PER_DEGREE;
 use afp_syntax::literal::Literal;
-use afp_syntax::units::{RADIANS_PER_DEGREE, Unit};
+use afp_syntax::units::Unit;
 
 /// A value in SI units with the unit that makes the text shortest, the usual one where two do.
 ///

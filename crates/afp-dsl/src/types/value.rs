@@ -1,11 +1,10 @@
 //! Values as they are written on a command line, in a text entry or in a table.
 
+use afp_number::MAX_TEXT;
+
 use crate::toolbox::Constant;
 use crate::types::Type;
 use afp_syntax::literal::{Literal, LiteralError};
-
-/// Greatest length of a text in bytes of UTF-8.
-pub const MAX_TEXT: usize = 64;
 
 /// Reads a value of type `ty`, as on a command line (`35cm`, `left`, `true`) or from a text entry.
 ///

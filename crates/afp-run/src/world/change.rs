@@ -24,7 +24,7 @@ const LENGTH: &[Unit<'static>] = &[
 ];
 const ANGLE: &[Unit<'static>] = &[
     Unit { name: "deg", scale: Scale::Decimal(0) },
-    Unit { name: "rad", scale: Scale::Factor(180.0 / std::f64::consts::PI) },
+    Unit { name: "rad", scale: Scale::fraction(1, 1, 0, -1) },
 ];
 const SPEED: &[Unit<'static>] = &[
     Unit { name: "m/s", scale: Scale::Decimal(0) },

@@ -1,7 +1,8 @@
 //! Values of literals.
 
+use afp_number::RADIANS_PER_DEGREE;
+
 use super::Literal;
-use crate::units::RADIANS_PER_DEGREE;
 
 fn value(text: &str) -> f64 {
     Literal::parse(text).unwrap().value().unwrap()

@@ -5,7 +5,7 @@ use afp_core::rt::{
     parse_float, parse_int, parse_quantity, print_quantity,
 };
 use afp_core::{Fault, Text, Value};
-use afp_dsl::types::readable::{self, readable};
+use afp_dsl::types::readable::readable;
 use afp_dsl::types::{Conversion, Dimension, Type};
 
 /// A conversion ready to be applied.
@@ -104,14 +104,5 @@ impl Converter {
 
 /// The units that a text may carry to become a quantity of this dimension.
 pub fn spellings(dimension: Dimension) -> Vec<(String, Scale)> {
-    readable(dimension).into_iter().map(|unit| (unit.name, scale(unit.scale))).collect()
-}
-
-fn scale(scale: readable::Scale) -> Scale {
-    match scale {
-        readable::Scale::Decimal(shift) => Scale::Decimal(shift),
-        readable::Scale::Factor(factor) => Scale::Factor(factor),
-        readable::Scale::Ratio(times, by) => Scale::Ratio(times, by),
-        readable::Scale::Offset(offset) => Scale::Offset(offset),
-    }
+    readable(dimension).into_iter().map(|unit| (unit.name, unit.scale)).collect()
 }

@@ -1,0 +1,55 @@
+//! The arithmetic of formulas, and how texts become numbers: one meaning for compiler and run time.
+//!
+//! A formula that is constant is computed by the compiler, any other by the interpreter or by
+//! generated Rust; `35 cm` may stand in a plan, in a text that an entry is read from, or on a command
+//! line. All of them come here, so that they cannot disagree. Nothing panics, allocates or needs an
+//! operating system.
+#![no_std]
+#![forbid(unsafe_code)]
+
+mod arithmetic;
+mod decimal;
+mod exact;
+mod read;
+
+pub use arithmetic::{
+    bool_to_float, bool_to_int, finite, float_to_int, int_add, int_mul, int_neg, int_rem, int_sub,
+    int_to_float, rem,
+};
+pub use decimal::{Decimal, number_length};
+pub use exact::{RADIANS_PER_DEGREE, Scale, exact};
+pub use read::{Quantity, Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};
+
+use core::fmt;
+
+/// Greatest length of a text in bytes of UTF-8.
+pub const MAX_TEXT: usize = 64;
+
+/// Why a formula has no value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Error {
+    /// An integer leaves 64 bits.
+    Overflow,
+    /// A division or remainder by zero.
+    DivisionByZero,
+    /// The result is infinite or not a number.
+    NotFinite,
+    /// A text of more than [`MAX_TEXT`] bytes.
+    TooLong,
+    /// A text is no value of the wanted type.
+    NotAValue,
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Error::Overflow => "an integer leaves 64 bits",
+            Error::DivisionByZero => "a division by zero",
+            Error::NotFinite => "the result is not finite",
+            Error::TooLong => "a text of more than 64 bytes",
+            Error::NotAValue => "a text is no value of the wanted type",
+        })
+    }
+}
+
+impl core::error::Error for Error {}
