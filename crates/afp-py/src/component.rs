@@ -7,8 +7,8 @@ mod actor;
 mod call;
 mod computation;
 mod depth;
+mod handles;
 mod host;
-mod shelf;
 mod supervisor;
 
 use std::sync::Arc;
@@ -23,12 +23,12 @@ use actor::PyActor;
 use call::Callee;
 use computation::PyComputation;
 pub use depth::{may_run, may_sweep};
+use handles::PyHandle;
 pub use host::Host;
-use shelf::Held;
 use supervisor::PySupervisor;
 
 /// An object of a plan: whatever Python put there.
-pub type Object = Arc<Held>;
+pub type Object = Arc<PyHandle>;
 
 /// Adds the implementations of a toolbox to a registry.
 ///

@@ -6,7 +6,7 @@ use afp_core::{Fault, Instant};
 use afp_sim::Simulation;
 use pyo3::prelude::*;
 
-use super::Held;
+use super::PyHandle;
 use super::call::Callee;
 
 /// The home of an actor in Python.
@@ -17,8 +17,8 @@ pub struct PyActor {
 
 /// The methods of a running actor.
 struct Running {
-    poll: Held,
-    interrupt: Held,
+    poll: PyHandle,
+    interrupt: PyHandle,
 }
 
 impl PyActor {
@@ -41,7 +41,7 @@ impl ActorSlot<Simulation> for PyActor {
             let robot = callee.host.robot.clone_ref(py);
             let actor = callee.make(py, (robot, inputs.dict(py)?))?;
             let method =
-                |name: &str| actor.getattr(name).map(|it| callee.host.shelf.put(it.unbind()));
+                |name: &str| actor.getattr(name).map(|it| callee.host.handles.put(it.unbind()));
             Ok(Running { poll: method("poll")?, interrupt: method("interrupt")? })
         })?;
         self.running = Some(running);

@@ -13,7 +13,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple};
 
-use super::{Held, Host, Object};
+use super::{Host, Object, PyHandle};
 use crate::value::{to_port, to_python};
 
 /// A template and what implements it.
@@ -22,7 +22,7 @@ pub struct Callee {
     pub host: Arc<Host>,
     toolbox: Arc<Toolbox>,
     index: usize,
-    maker: Arc<Held>,
+    maker: Arc<PyHandle>,
     has_live: bool,
 }
 
@@ -45,7 +45,7 @@ impl Callee {
             host: Arc::clone(host),
             toolbox: Arc::clone(toolbox),
             index,
-            maker: Arc::new(host.shelf.put(maker)),
+            maker: Arc::new(host.handles.put(maker)),
             has_live: toolbox.templates.get(index).is_some_and(live),
         }
     }
@@ -113,7 +113,7 @@ impl Callee {
     /// As [`Callee::live`]; what the component raised.
     pub fn poll(
         &self,
-        method: &Held,
+        method: &PyHandle,
         args: &dyn Args,
         to: &mut dyn Outputs,
         env: &mut Simulation,
@@ -252,7 +252,7 @@ fn outputs_of(
             ))
         })?;
         let value = match &port.ty {
-            Type::Object(_) => Pulled::Object(Arc::new(host.shelf.put(value.unbind()))),
+            Type::Object(_) => Pulled::Object(Arc::new(host.handles.put(value.unbind()))),
             ty => Pulled::Value(to_port(ty, &value)?),
         };
         outputs.push((number, value));

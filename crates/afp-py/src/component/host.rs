@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::{PyTraverseError, PyVisit};
 
 use super::depth::inside;
-use super::shelf::Shelf;
+use super::handles::PyHandles;
 use crate::robot::Robot;
 
 /// What a plan sees of an exception.
@@ -30,7 +30,7 @@ pub struct Failure {
 pub struct Host {
     pub robot: Py<Robot>,
     /// What else the plan holds of Python.
-    pub shelf: Arc<Shelf>,
+    pub handles: Arc<PyHandles>,
     failures: Mutex<Vec<Failure>>,
     /// What ends the whole run: Ctrl-C and the like, which no `Error` edge shall catch.
     abort: Mutex<Option<Py<PyBaseException>>>,
@@ -39,7 +39,7 @@ pub struct Host {
 impl Host {
     /// For a run whose components get this robot.
     pub fn new(robot: Py<Robot>) -> Host {
-        Host { robot, shelf: Arc::default(), failures: Mutex::default(), abort: Mutex::default() }
+        Host { robot, handles: Arc::default(), failures: Mutex::default(), abort: Mutex::default() }
     }
 
     /// Calls Python while the robot is lent to it.
@@ -103,14 +103,14 @@ impl Host {
     /// # Errors
     /// Those of the collector.
     pub fn traverse(&self, visit: &PyVisit<'_>) -> Result<(), PyTraverseError> {
-        self.shelf.traverse(visit)?;
+        self.handles.traverse(visit)?;
         lock(&self.failures).iter().try_for_each(|failure| visit.call(&failure.error))?;
         visit.call(&*lock(&self.abort))
     }
 
     /// Lets go of it.
     pub fn clear(&self) {
-        self.shelf.clear();
+        self.handles.clear();
         drop(self.failures());
         let raised = lock(&self.abort).take();
         drop(raised);

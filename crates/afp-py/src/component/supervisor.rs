@@ -7,14 +7,14 @@ use afp_sim::Simulation;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use super::Held;
+use super::PyHandle;
 use super::call::Callee;
 
 /// The home of a supervisor in Python.
 pub struct PySupervisor {
     callee: Callee,
     /// Its method.
-    poll: Option<Held>,
+    poll: Option<PyHandle>,
 }
 
 impl PySupervisor {
@@ -41,7 +41,7 @@ impl SupervisorSlot<Simulation> for PySupervisor {
             let robot = callee.host.robot.clone_ref(py);
             let wanted = PyTuple::new(py, &events)?;
             let supervisor = callee.make(py, (robot, inputs.dict(py)?, wanted))?;
-            Ok(callee.host.shelf.put(supervisor.getattr("poll")?.unbind()))
+            Ok(callee.host.handles.put(supervisor.getattr("poll")?.unbind()))
         })?;
         self.poll = Some(poll);
         Ok(())

@@ -11,9 +11,9 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::{PyTraverseError, PyVisit};
 
-/// The objects of one simulation.
+/// The references of one simulation.
 #[derive(Default)]
-pub struct Shelf {
+pub struct PyHandles {
     things: Mutex<Things>,
 }
 
@@ -23,20 +23,20 @@ struct Things {
     by_key: BTreeMap<u64, Py<PyAny>>,
 }
 
-/// An object on a shelf, as long as this lives.
-pub struct Held {
-    shelf: Arc<Shelf>,
+/// A reference to an object, as long as this lives.
+pub struct PyHandle {
+    handles: Arc<PyHandles>,
     key: u64,
 }
 
-impl Shelf {
-    /// Puts an object there.
-    pub fn put(self: &Arc<Self>, thing: Py<PyAny>) -> Held {
+impl PyHandles {
+    /// Keeps an object.
+    pub fn put(self: &Arc<Self>, thing: Py<PyAny>) -> PyHandle {
         let mut things = self.lock();
         let key = things.next;
         things.next += 1;
         things.by_key.insert(key, thing);
-        Held { shelf: Arc::clone(self), key }
+        PyHandle { handles: Arc::clone(self), key }
     }
 
     /// Shows the objects to the garbage collector.
@@ -61,21 +61,21 @@ impl Shelf {
     }
 }
 
-impl Held {
+impl PyHandle {
     /// The object.
     ///
     /// # Errors
     /// The garbage collector has taken it, so nobody can ask any more.
     pub fn get<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let things = self.shelf.lock();
+        let things = self.handles.lock();
         let gone = || PyRuntimeError::new_err("the simulation is gone");
         Ok(things.by_key.get(&self.key).ok_or_else(gone)?.bind(py).clone())
     }
 }
 
-impl Drop for Held {
+impl Drop for PyHandle {
     fn drop(&mut self) {
-        let thing = self.shelf.lock().by_key.remove(&self.key);
+        let thing = self.handles.lock().by_key.remove(&self.key);
         // As above.
         drop(thing);
     }
