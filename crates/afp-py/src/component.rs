@@ -20,7 +20,7 @@ use pyo3::prelude::*;
 
 use crate::toolbox::Toolbox;
 use actor::PyActor;
-use call::Callee;
+use call::PyTemplate;
 use computation::PyComputation;
 pub use depth::{may_run, may_sweep};
 use handles::PyHandle;
@@ -49,18 +49,18 @@ pub fn register(
         let index = declared.templates.iter().position(|template| template.name == name);
         let Some(index) = index else { continue };
         let kind = declared.templates[index].kind;
-        let callee = Callee::new(host, &declared, index, maker);
+        let template = PyTemplate::new(host, &declared, index, maker);
         match kind {
             TemplateKind::Actor => {
-                let new = move || Box::new(PyActor::new(callee.clone())) as _;
+                let new = move || Box::new(PyActor::new(template.clone())) as _;
                 registry.add_actor(home, &name, new);
             }
             TemplateKind::Supervisor => {
-                let new = move || Box::new(PySupervisor::new(callee.clone())) as _;
+                let new = move || Box::new(PySupervisor::new(template.clone())) as _;
                 registry.add_supervisor(home, &name, new);
             }
             TemplateKind::Computation => {
-                let new = move || Box::new(PyComputation::new(callee.clone())) as _;
+                let new = move || Box::new(PyComputation::new(template.clone())) as _;
                 registry.add_computation(home, &name, new);
             }
         }

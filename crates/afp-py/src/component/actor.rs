@@ -7,11 +7,11 @@ use afp_sim::Simulation;
 use pyo3::prelude::*;
 
 use super::PyHandle;
-use super::call::Callee;
+use super::call::PyTemplate;
 
 /// The home of an actor in Python.
 pub struct PyActor {
-    callee: Callee,
+    template: PyTemplate,
     running: Option<Running>,
 }
 
@@ -22,8 +22,8 @@ struct Running {
 }
 
 impl PyActor {
-    pub fn new(callee: Callee) -> Self {
-        PyActor { callee, running: None }
+    pub fn new(template: PyTemplate) -> Self {
+        PyActor { template, running: None }
     }
 }
 
@@ -35,13 +35,13 @@ impl ActorSlot<Simulation> for PyActor {
         env: &mut Simulation,
         _: Instant,
     ) -> Result<(), Fault> {
-        let callee = &self.callee;
-        let inputs = callee.inputs(args, see)?;
-        let running = callee.host.lend(env, &callee.template()?.name, |py| {
-            let robot = callee.host.robot.clone_ref(py);
-            let actor = callee.make(py, (robot, inputs.dict(py)?))?;
+        let template = &self.template;
+        let inputs = template.inputs(args, see)?;
+        let running = template.host.lend(env, &template.declared()?.name, |py| {
+            let robot = template.host.robot.clone_ref(py);
+            let actor = template.make(py, (robot, inputs.dict(py)?))?;
             let method =
-                |name: &str| actor.getattr(name).map(|it| callee.host.handles.put(it.unbind()));
+                |name: &str| actor.getattr(name).map(|it| template.host.handles.put(it.unbind()));
             Ok(Running { poll: method("poll")?, interrupt: method("interrupt")? })
         })?;
         self.running = Some(running);
@@ -56,15 +56,15 @@ impl ActorSlot<Simulation> for PyActor {
         _: Instant,
     ) -> Result<Option<u16>, Fault> {
         let running = self.running.as_ref().ok_or(Fault::INTERNAL)?;
-        self.callee.poll(&running.poll, args, to, env)
+        self.template.poll(&running.poll, args, to, env)
     }
 
     fn interrupt(&mut self, env: &mut Simulation, _: Instant) -> Result<(), Fault> {
-        let callee = &self.callee;
+        let template = &self.template;
         let running = self.running.as_ref().ok_or(Fault::INTERNAL)?;
-        callee
-            .host
-            .lend(env, &callee.template()?.name, |py| running.interrupt.get(py)?.call0().map(drop))
+        template.host.lend(env, &template.declared()?.name, |py| {
+            running.interrupt.get(py)?.call0().map(drop)
+        })
     }
 
     fn clear(&mut self) {

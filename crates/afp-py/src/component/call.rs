@@ -18,7 +18,7 @@ use crate::value::{to_port, to_python};
 
 /// A template and what implements it.
 #[derive(Clone)]
-pub struct Callee {
+pub struct PyTemplate {
     pub host: Arc<Host>,
     toolbox: Arc<Toolbox>,
     index: usize,
@@ -38,10 +38,10 @@ pub struct Told {
     outputs: Vec<(u16, Pulled)>,
 }
 
-impl Callee {
+impl PyTemplate {
     pub fn new(host: &Arc<Host>, toolbox: &Arc<Toolbox>, index: usize, maker: Py<PyAny>) -> Self {
         let live = |template: &Template| template.inputs.iter().any(|port| port.live);
-        Callee {
+        PyTemplate {
             host: Arc::clone(host),
             toolbox: Arc::clone(toolbox),
             index,
@@ -50,11 +50,11 @@ impl Callee {
         }
     }
 
-    /// The template.
+    /// What the toolbox says of the template.
     ///
     /// # Errors
     /// Never: the index was found in the toolbox.
-    pub fn template(&self) -> Result<&Template, Fault> {
+    pub fn declared(&self) -> Result<&Template, Fault> {
         self.toolbox.templates.get(self.index).ok_or(Fault::INTERNAL)
     }
 
@@ -90,7 +90,7 @@ impl Callee {
     /// Pulls and checks the inputs that are read at each poll.
     ///
     /// # Errors
-    /// As [`Callee::inputs`].
+    /// As [`PyTemplate::inputs`].
     pub fn live(&self, args: &dyn Args) -> Result<Inputs<'_>, Fault> {
         if !self.has_live {
             return Ok(Inputs(Vec::new()));
@@ -101,7 +101,7 @@ impl Callee {
     }
 
     fn pull(&self, args: &dyn Args, live: bool) -> Result<Inputs<'_>, Fault> {
-        let ports = (0..).zip(&self.template()?.inputs).filter(|(_, port)| port.live == live);
+        let ports = (0..).zip(&self.declared()?.inputs).filter(|(_, port)| port.live == live);
         let pulled = ports.map(|(number, port)| Ok((number, port, pull(args, number, port)?)));
         pulled.collect::<Result<_, _>>().map(Inputs)
     }
@@ -110,7 +110,7 @@ impl Callee {
     /// told, its outputs handed over.
     ///
     /// # Errors
-    /// As [`Callee::live`]; what the component raised.
+    /// As [`PyTemplate::live`]; what the component raised.
     pub fn poll(
         &self,
         method: &PyHandle,
@@ -119,7 +119,7 @@ impl Callee {
         env: &mut Simulation,
     ) -> Result<Option<u16>, Fault> {
         let live = self.live(args)?;
-        let told = self.host.lend(env, &self.template()?.name, |py| {
+        let told = self.host.lend(env, &self.declared()?.name, |py| {
             let method = method.get(py)?;
             let said = match live.is_empty() {
                 true => method.call0(),
@@ -138,7 +138,7 @@ impl Callee {
         if said.is_none() {
             return Ok(None);
         }
-        let template = self.template().map_err(|why| PyTypeError::new_err(why.to_string()))?;
+        let template = self.declared().map_err(|why| PyTypeError::new_err(why.to_string()))?;
         let none = PyDict::new(said.py());
         let (name, outputs) = match said.cast::<PyTuple>() {
             Ok(pair) => pair.extract::<(Bound<'_, PyString>, Bound<'_, PyDict>)>()?,

@@ -8,18 +8,18 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use super::PyHandle;
-use super::call::Callee;
+use super::call::PyTemplate;
 
 /// The home of a supervisor in Python.
 pub struct PySupervisor {
-    callee: Callee,
+    template: PyTemplate,
     /// Its method.
     poll: Option<PyHandle>,
 }
 
 impl PySupervisor {
-    pub fn new(callee: Callee) -> Self {
-        PySupervisor { callee, poll: None }
+    pub fn new(template: PyTemplate) -> Self {
+        PySupervisor { template, poll: None }
     }
 }
 
@@ -32,16 +32,16 @@ impl SupervisorSlot<Simulation> for PySupervisor {
         env: &mut Simulation,
         _: Instant,
     ) -> Result<(), Fault> {
-        let callee = &self.callee;
-        let inputs = callee.inputs(args, see)?;
-        let template = callee.template()?;
-        let events = (0..).zip(&template.outcomes).filter(|(event, _)| wanted.contains(*event));
+        let template = &self.template;
+        let inputs = template.inputs(args, see)?;
+        let declared = template.declared()?;
+        let events = (0..).zip(&declared.outcomes).filter(|(event, _)| wanted.contains(*event));
         let events: Vec<_> = events.map(|(_, event)| event.name.as_str()).collect();
-        let poll = callee.host.lend(env, &template.name, |py| {
-            let robot = callee.host.robot.clone_ref(py);
+        let poll = template.host.lend(env, &declared.name, |py| {
+            let robot = template.host.robot.clone_ref(py);
             let wanted = PyTuple::new(py, &events)?;
-            let supervisor = callee.make(py, (robot, inputs.dict(py)?, wanted))?;
-            Ok(callee.host.handles.put(supervisor.getattr("poll")?.unbind()))
+            let supervisor = template.make(py, (robot, inputs.dict(py)?, wanted))?;
+            Ok(template.host.handles.put(supervisor.getattr("poll")?.unbind()))
         })?;
         self.poll = Some(poll);
         Ok(())
@@ -55,7 +55,7 @@ impl SupervisorSlot<Simulation> for PySupervisor {
         _: Instant,
     ) -> Result<Option<u16>, Fault> {
         let poll = self.poll.as_ref().ok_or(Fault::INTERNAL)?;
-        self.callee.poll(poll, args, to, env)
+        self.template.poll(poll, args, to, env)
     }
 
     fn clear(&mut self) {
