@@ -119,7 +119,7 @@ impl PyTemplate {
         env: &mut Simulation,
     ) -> Result<Option<u16>, Fault> {
         let live = self.live(args)?;
-        let told = self.host.lend(env, &self.declared()?.name, |py| {
+        let told = self.host.call_with_robot(env, &self.declared()?.name, |py| {
             let method = method.get(py)?;
             let said = match live.is_empty() {
                 true => method.call0(),

@@ -1,4 +1,4 @@
-//! What all components of a run share: the robot that they are lent, and what they raised.
+//! What all components of a run share: the robot, which they have while they are called, and what they raised.
 
 use std::mem;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -42,11 +42,11 @@ impl Host {
         Host { robot, handles: Arc::default(), failures: Mutex::default(), abort: Mutex::default() }
     }
 
-    /// Calls Python while the robot is lent to it.
+    /// Calls Python, which may use the robot meanwhile.
     ///
     /// # Errors
     /// [`RAISED`] for an exception, which is kept.
-    pub fn lend<T>(
+    pub fn call_with_robot<T>(
         &self,
         env: &mut Simulation,
         template: &str,
@@ -65,8 +65,8 @@ impl Host {
     /// Calls Python without a robot.
     ///
     /// # Errors
-    /// As [`Host::lend`].
-    pub fn ask<T>(
+    /// As [`Host::call_with_robot`].
+    pub fn call<T>(
         &self,
         template: &str,
         call: impl FnOnce(Python<'_>) -> PyResult<T>,
