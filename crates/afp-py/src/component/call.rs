@@ -33,7 +33,7 @@ enum Pulled {
 }
 
 /// A state or event with its outputs, by port.
-pub struct Told {
+pub struct Outcome {
     outcome: u16,
     outputs: Vec<(u16, Pulled)>,
 }
@@ -107,7 +107,7 @@ impl PyTemplate {
     }
 
     /// Polls an actor or supervisor, with its live inputs if there are any; the state or event that it
-    /// told, its outputs handed over.
+    /// came, its outputs handed over.
     ///
     /// # Errors
     /// As [`PyTemplate::live`]; what the component raised.
@@ -119,22 +119,22 @@ impl PyTemplate {
         env: &mut Simulation,
     ) -> Result<Option<u16>, Fault> {
         let live = self.live(args)?;
-        let told = self.host.call_with_robot(env, &self.declared()?.name, |py| {
+        let outcome = self.host.call_with_robot(env, &self.declared()?.name, |py| {
             let method = method.get(py)?;
             let said = match live.is_empty() {
                 true => method.call0(),
                 false => method.call1((live.dict(py)?,)),
             };
-            self.told(&said?)
+            self.outcome(&said?)
         })?;
-        Ok(told.map(|told| told.give(to)))
+        Ok(outcome.map(|outcome| outcome.give(to)))
     }
 
     /// Takes what a component returned: `None`, `"State"` or `("State", {"output": value})`.
     ///
     /// # Errors
     /// A state that is not there, outputs that do not fit.
-    pub fn told(&self, said: &Bound<'_, PyAny>) -> PyResult<Option<Told>> {
+    pub fn outcome(&self, said: &Bound<'_, PyAny>) -> PyResult<Option<Outcome>> {
         if said.is_none() {
             return Ok(None);
         }
@@ -148,7 +148,7 @@ impl PyTemplate {
         let outcome = (0..).zip(&template.outcomes).find(|(_, outcome)| outcome.name == *name);
         let (outcome, _) = outcome.ok_or_else(|| unknown(template, said))?;
         let outputs = outputs_of(&self.host, template, outcome, &outputs)?;
-        Ok(Some(Told { outcome, outputs }))
+        Ok(Some(Outcome { outcome, outputs }))
     }
 }
 
@@ -191,7 +191,7 @@ impl Inputs<'_> {
     }
 }
 
-impl Told {
+impl Outcome {
     /// Hands over the outputs; the state or event.
     pub fn give(self, to: &mut dyn Outputs) -> u16 {
         for (port, value) in self.outputs {

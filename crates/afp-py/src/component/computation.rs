@@ -23,11 +23,11 @@ impl ComputationSlot for PyComputation {
         let template = &self.template;
         let inputs = template.inputs(args, see)?;
         let name = &template.declared()?.name;
-        let told = template.host.call(name, |py| {
+        let outcome = template.host.call(name, |py| {
             let said = template.make(py, (inputs.dict(py)?,))?;
             let none = || PyTypeError::new_err(format!("'{name}' returned None, not a state"));
-            template.told(&said)?.ok_or_else(none)
+            template.outcome(&said)?.ok_or_else(none)
         })?;
-        Ok(told.give(to))
+        Ok(outcome.give(to))
     }
 }
