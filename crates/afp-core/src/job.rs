@@ -7,7 +7,7 @@
 //! ```text
 //!   begin ──Some(ticket)──▶ under way ──poll: Ready──▶ over
 //!     │                       │   ╲───poll: Err──────▶ over
-//!    None: every place         ╲──────cancel──────────▶ over, the result is lost
+//!    None: every slot          ╲──────cancel──────────▶ over, the result is lost
 //!     is taken, ask again
 //! ```
 //!
@@ -33,20 +33,20 @@ pub trait Job: Send + 'static {
 /// Names a job that was begun, to the worker that has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ticket {
-    /// The worker's place and how many jobs it has had there.
-    place: u16,
+    /// The worker's slot and how many jobs it has had there.
+    slot: u16,
     round: u64,
 }
 
 impl Ticket {
-    /// The `round`-th job at a place; for those who implement workers.
-    pub const fn new(place: u16, round: u64) -> Self {
-        Ticket { place, round }
+    /// The `round`-th job at a slot; for those who implement workers.
+    pub const fn new(slot: u16, round: u64) -> Self {
+        Ticket { slot, round }
     }
 
-    /// The place.
-    pub const fn place(self) -> u16 {
-        self.place
+    /// The slot.
+    pub const fn slot(self) -> u16 {
+        self.slot
     }
 
     /// How many jobs had been there, this one included.
@@ -55,16 +55,16 @@ impl Ticket {
     }
 }
 
-/// Does jobs of one kind, one after the other, with a fixed number of places for them.
+/// Does jobs of one kind, one after the other, with a fixed number of slots for them.
 ///
 /// A component that ends without asking after its job need not tell anybody: a finished job that
-/// nobody has fetched for a second gives its place up when another needs it.
+/// nobody has fetched for a second gives its slot up when another needs it.
 pub trait Worker<J: Job> {
-    /// Lets `prepare` write what a job works on into its buffers, and begins it. None if every place
+    /// Lets `prepare` write what a job works on into its buffers, and begins it. None if every slot
     /// is taken; the same can be asked for again at the next poll.
     ///
     /// # Errors
-    /// [`Fault::JOB_PANICKED`] when jobs have panicked at every place.
+    /// [`Fault::JOB_PANICKED`] when jobs have panicked at every slot.
     fn begin(
         &mut self,
         now: Instant,
@@ -75,7 +75,7 @@ pub trait Worker<J: Job> {
     ///
     /// # Errors
     /// The fault of the job; [`Fault::JOB_PANICKED`] if it panicked; [`Fault::JOB_LOST`] if it was
-    /// fetched or cancelled before or gave up its place. All of them end the job.
+    /// fetched or cancelled before or gave up its slot. All of them end the job.
     fn poll(&mut self, ticket: Ticket, now: Instant) -> Result<Poll<&J>, Fault>;
 
     /// Gives up a job, which may go on computing for nobody; an actor does so when it is
@@ -84,7 +84,7 @@ pub trait Worker<J: Job> {
 }
 
 impl Fault {
-    /// A job panicked. Its place is not used again, for who knows what it left in its buffers.
+    /// A job panicked. Its slot is not used again, for who knows what it left in its buffers.
     pub const JOB_PANICKED: Fault =
         Fault::new(&Reason { code: "job-panicked", text: "a job on a worker panicked" });
     /// A job that was asked after is over already.

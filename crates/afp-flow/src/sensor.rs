@@ -51,7 +51,7 @@ struct Latest {
 }
 
 impl<M: OpticalFlow, W: Worker<FlowJob<M>>> FlowSensor<M, W> {
-    /// For pictures of this size, which `worker` has places for; one is enough. A camera with larger
+    /// For pictures of this size, which `worker` has slots for; one is enough. A camera with larger
     /// pictures makes it allocate.
     pub fn new(width: usize, height: usize, worker: W) -> Self {
         let grid = crate::grid(width, height);

@@ -5,7 +5,7 @@
 //! ready when it is. A component cannot tell them apart but by the time they take.
 #![forbid(unsafe_code)]
 
-mod places;
+mod slots;
 mod thread;
 mod virtual_time;
 

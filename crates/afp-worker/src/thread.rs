@@ -1,7 +1,7 @@
 //! A worker with a thread of its own.
 
 use crate::attempt;
-use crate::places::Places;
+use crate::slots::Slots;
 use afp_core::{Fault, Instant, Job, Poll, Ticket, Worker};
 use rtrb::{Consumer, Producer, RingBuffer};
 use std::io;
@@ -16,8 +16,8 @@ use std::time::Instant as Wall;
 /// waits for that.
 #[derive(Debug)]
 pub struct ThreadWorker<J> {
-    places: Places,
-    /// The jobs that are here and not with the thread, by place.
+    slots: Slots,
+    /// The jobs that are here and not with the thread, by slot.
     here: Vec<Option<Box<J>>>,
     /// None once the worker is being dropped.
     to_do: Option<Producer<Errand<J>>>,
@@ -29,7 +29,7 @@ pub struct ThreadWorker<J> {
 /// A job on its way to the thread or back.
 #[derive(Debug)]
 struct Errand<J> {
-    place: u16,
+    slot: u16,
     job: Box<J>,
     result: Result<(), Fault>,
     /// Whether it took longer than declared.
@@ -37,7 +37,7 @@ struct Errand<J> {
 }
 
 impl<J: Job> ThreadWorker<J> {
-    /// A worker with a place for each of these jobs, whose buffers are used over and over. `name` is
+    /// A worker with a slot for each of these jobs, whose buffers are used over and over. `name` is
     /// what the system calls the thread.
     ///
     /// # Errors
@@ -51,8 +51,8 @@ impl<J: Job> ThreadWorker<J> {
         let (their_done, done) = RingBuffer::new(here.len());
         let work = move || work(their_to_do, their_done);
         let thread = thread::Builder::new().name(name.to_owned()).spawn(work)?.thread().clone();
-        let places = Places::new(here.len());
-        Ok(ThreadWorker { places, here, to_do: Some(to_do), done, thread, overruns: 0 })
+        let slots = Slots::new(here.len());
+        Ok(ThreadWorker { slots, here, to_do: Some(to_do), done, thread, overruns: 0 })
     }
 
     /// How many jobs have taken longer than declared.
@@ -62,12 +62,12 @@ impl<J: Job> ThreadWorker<J> {
 
     /// Takes back what is done.
     fn settle(&mut self, now: Instant) {
-        while let Ok(Errand { place, job, result, overran }) = self.done.pop() {
+        while let Ok(Errand { slot, job, result, overran }) = self.done.pop() {
             self.overruns += u64::from(overran);
-            if let Some(here) = self.here.get_mut(usize::from(place)) {
+            if let Some(here) = self.here.get_mut(usize::from(slot)) {
                 *here = Some(job);
             }
-            self.places.finish(place, result, now);
+            self.slots.finish(slot, result, now);
         }
     }
 }
@@ -79,11 +79,11 @@ impl<J: Job> Worker<J> for ThreadWorker<J> {
         prepare: &mut dyn FnMut(&mut J),
     ) -> Result<Option<Ticket>, Fault> {
         self.settle(now);
-        let Some(ticket) = self.places.take(now)? else { return Ok(None) };
-        let here = self.here.get_mut(usize::from(ticket.place()));
+        let Some(ticket) = self.slots.take(now)? else { return Ok(None) };
+        let here = self.here.get_mut(usize::from(ticket.slot()));
         let mut job = here.and_then(Option::take).ok_or(Fault::INTERNAL)?;
         prepare(&mut job);
-        let errand = Errand { place: ticket.place(), job, result: Ok(()), overran: false };
+        let errand = Errand { slot: ticket.slot(), job, result: Ok(()), overran: false };
         let to_do = self.to_do.as_mut().ok_or(Fault::INTERNAL)?;
         to_do.push(errand).map_err(|_| Fault::INTERNAL)?;
         self.thread.unpark();
@@ -92,17 +92,17 @@ impl<J: Job> Worker<J> for ThreadWorker<J> {
 
     fn poll(&mut self, ticket: Ticket, now: Instant) -> Result<Poll<&J>, Fault> {
         self.settle(now);
-        Ok(match self.places.fetch(ticket)? {
+        Ok(match self.slots.fetch(ticket)? {
             Poll::Pending => Poll::Pending,
-            Poll::Ready(place) => {
-                Poll::Ready(self.here.get(place).and_then(Option::as_deref).ok_or(Fault::INTERNAL)?)
+            Poll::Ready(slot) => {
+                Poll::Ready(self.here.get(slot).and_then(Option::as_deref).ok_or(Fault::INTERNAL)?)
             }
         })
     }
 
     fn cancel(&mut self, ticket: Ticket, now: Instant) {
         self.settle(now);
-        self.places.give_up(ticket);
+        self.slots.give_up(ticket);
     }
 }
 

@@ -1,7 +1,7 @@
 //! A worker in virtual time.
 
 use crate::attempt;
-use crate::places::Places;
+use crate::slots::Slots;
 use afp_core::{Fault, Instant, Job, Poll, Ticket, Worker};
 use std::collections::VecDeque;
 
@@ -24,7 +24,7 @@ use std::collections::VecDeque;
 /// let mut worker = VirtualWorker::new([Sum { numbers: vec![0; 3], sum: 0 }]);
 /// let at = |ms| Instant::ZERO + Duration::from_millis(ms);
 /// let fill = &mut |job: &mut Sum| job.numbers.copy_from_slice(&[1, 2, 3]);
-/// let ticket = worker.begin(at(100), fill)?.expect("the place is free");
+/// let ticket = worker.begin(at(100), fill)?.expect("the slot is free");
 /// assert!(matches!(worker.poll(ticket, at(119))?, Poll::Pending));
 /// assert!(matches!(worker.poll(ticket, at(120))?, Poll::Ready(job) if job.sum == 6));
 /// # Ok::<(), Fault>(())
@@ -32,7 +32,7 @@ use std::collections::VecDeque;
 #[derive(Debug)]
 pub struct VirtualWorker<J> {
     jobs: Vec<J>,
-    places: Places,
+    slots: Slots,
     /// What is under way, with when it will be ready; the first is that which is worked on.
     under_way: VecDeque<(Instant, Ticket)>,
     /// When everything that has been begun is done.
@@ -40,14 +40,14 @@ pub struct VirtualWorker<J> {
 }
 
 impl<J: Job> VirtualWorker<J> {
-    /// A worker with a place for each of these jobs, whose buffers are used over and over.
+    /// A worker with a slot for each of these jobs, whose buffers are used over and over.
     ///
     /// # Panics
     /// With more than 65536 jobs.
     pub fn new(jobs: impl IntoIterator<Item = J>) -> Self {
         let jobs: Vec<J> = jobs.into_iter().collect();
         VirtualWorker {
-            places: Places::new(jobs.len()),
+            slots: Slots::new(jobs.len()),
             under_way: VecDeque::with_capacity(jobs.len()),
             jobs,
             free: Instant::ZERO,
@@ -57,10 +57,10 @@ impl<J: Job> VirtualWorker<J> {
     /// Does what is due by now, in the order in which it was begun.
     fn settle(&mut self, now: Instant) {
         while let Some((ready, ticket)) = self.under_way.pop_front_if(|(ready, _)| *ready <= now) {
-            let job = self.jobs.get_mut(usize::from(ticket.place()));
-            let awaited = self.places.awaited(ticket);
+            let job = self.jobs.get_mut(usize::from(ticket.slot()));
+            let awaited = self.slots.awaited(ticket);
             let result = job.filter(|_| awaited).map_or(Ok(()), attempt);
-            self.places.finish(ticket.place(), result, ready);
+            self.slots.finish(ticket.slot(), result, ready);
         }
     }
 }
@@ -72,8 +72,8 @@ impl<J: Job> Worker<J> for VirtualWorker<J> {
         prepare: &mut dyn FnMut(&mut J),
     ) -> Result<Option<Ticket>, Fault> {
         self.settle(now);
-        let Some(ticket) = self.places.take(now)? else { return Ok(None) };
-        let job = self.jobs.get_mut(usize::from(ticket.place())).ok_or(Fault::INTERNAL)?;
+        let Some(ticket) = self.slots.take(now)? else { return Ok(None) };
+        let job = self.jobs.get_mut(usize::from(ticket.slot())).ok_or(Fault::INTERNAL)?;
         prepare(job);
         self.free = self.free.max(now) + J::TAKES;
         self.under_way.push_back((self.free, ticket));
@@ -82,14 +82,14 @@ impl<J: Job> Worker<J> for VirtualWorker<J> {
 
     fn poll(&mut self, ticket: Ticket, now: Instant) -> Result<Poll<&J>, Fault> {
         self.settle(now);
-        Ok(match self.places.fetch(ticket)? {
+        Ok(match self.slots.fetch(ticket)? {
             Poll::Pending => Poll::Pending,
-            Poll::Ready(place) => Poll::Ready(self.jobs.get(place).ok_or(Fault::INTERNAL)?),
+            Poll::Ready(slot) => Poll::Ready(self.jobs.get(slot).ok_or(Fault::INTERNAL)?),
         })
     }
 
     fn cancel(&mut self, ticket: Ticket, now: Instant) {
         self.settle(now);
-        self.places.give_up(ticket);
+        self.slots.give_up(ticket);
     }
 }

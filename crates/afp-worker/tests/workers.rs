@@ -52,7 +52,7 @@ fn squares(count: usize) -> impl Iterator<Item = Square> {
 /// Begins to square a number.
 fn begin(worker: &mut dyn Worker<Square>, now: u64, number: u64, deed: Deed) -> Option<Ticket> {
     let mut prepare = |job: &mut Square| (job.number, job.deed) = (number, deed);
-    worker.begin(at(now), &mut prepare).expect("a place is left that works")
+    worker.begin(at(now), &mut prepare).expect("a slot is left that works")
 }
 
 /// Asks until the job is over, as a component does at its polls.
@@ -66,10 +66,10 @@ fn fetch(worker: &mut dyn Worker<Square>, ticket: Ticket) -> Result<u64, Fault> 
     panic!("the job never ends");
 }
 
-/// Runs a test with each kind of worker, with so many places.
-fn with_each(places: usize, test: impl Fn(&mut dyn Worker<Square>)) {
-    test(&mut VirtualWorker::new(squares(places)));
-    test(&mut ThreadWorker::new("squares", squares(places)).expect("a thread"));
+/// Runs a test with each kind of worker, with so many slots.
+fn with_each(slots: usize, test: impl Fn(&mut dyn Worker<Square>)) {
+    test(&mut VirtualWorker::new(squares(slots)));
+    test(&mut ThreadWorker::new("squares", squares(slots)).expect("a thread"));
 }
 
 #[test]
@@ -78,7 +78,7 @@ fn jobs_give_their_results_to_their_tickets_once() {
         for round in 0..100 {
             let a = begin(worker, 0, round, Deed::Compute).unwrap();
             let b = begin(worker, 0, round + 1, Deed::Compute).unwrap();
-            assert_eq!(begin(worker, 0, 7, Deed::Compute), None, "both places are taken");
+            assert_eq!(begin(worker, 0, 7, Deed::Compute), None, "both slots are taken");
             assert_eq!(fetch(worker, b), Ok((round + 1) * (round + 1)));
             assert_eq!(fetch(worker, a), Ok(round * round));
             assert_eq!(fetch(worker, a), Err(Fault::JOB_LOST));
@@ -87,7 +87,7 @@ fn jobs_give_their_results_to_their_tickets_once() {
 }
 
 #[test]
-fn a_fault_of_a_job_reaches_whoever_asks_and_the_place_goes_on() {
+fn a_fault_of_a_job_reaches_whoever_asks_and_the_slot_goes_on() {
     with_each(1, |worker| {
         let ticket = begin(worker, 0, 4, Deed::Refuse).unwrap();
         assert_eq!(fetch(worker, ticket), Err(REFUSED));
@@ -97,12 +97,12 @@ fn a_fault_of_a_job_reaches_whoever_asks_and_the_place_goes_on() {
 }
 
 #[test]
-fn a_place_where_a_job_panicked_is_not_used_again() {
+fn a_slot_where_a_job_panicked_is_not_used_again() {
     with_each(2, |worker| {
         let ticket = begin(worker, 0, 4, Deed::Panic).unwrap();
         assert_eq!(fetch(worker, ticket), Err(Fault::JOB_PANICKED));
         let ticket = begin(worker, 0, 5, Deed::Compute).unwrap();
-        assert_eq!(begin(worker, 0, 6, Deed::Compute), None, "one place is left");
+        assert_eq!(begin(worker, 0, 6, Deed::Compute), None, "one slot is left");
         assert_eq!(fetch(worker, ticket), Ok(25));
         let ticket = begin(worker, 0, 4, Deed::Panic).unwrap();
         assert_eq!(fetch(worker, ticket), Err(Fault::JOB_PANICKED));
@@ -111,7 +111,7 @@ fn a_place_where_a_job_panicked_is_not_used_again() {
 }
 
 #[test]
-fn a_cancelled_job_is_lost_and_gives_its_place_back() {
+fn a_cancelled_job_is_lost_and_gives_its_slot_back() {
     with_each(1, |worker| {
         let cancelled = begin(worker, 0, 3, Deed::Compute).unwrap();
         worker.cancel(cancelled, at(1));
@@ -120,7 +120,7 @@ fn a_cancelled_job_is_lost_and_gives_its_place_back() {
             thread::sleep(std::time::Duration::from_micros(50));
             begin(worker, now, 5, Deed::Compute)
         });
-        assert_eq!(fetch(worker, next.expect("the place gets free")), Ok(25));
+        assert_eq!(fetch(worker, next.expect("the slot gets free")), Ok(25));
         worker.cancel(cancelled, at(2));
     });
 }

@@ -106,7 +106,7 @@ impl PyTemplate {
         pulled.collect::<Result<_, _>>().map(Inputs)
     }
 
-    /// Polls an actor or supervisor, with its live inputs if there are any; the state or event that it
+    /// Polls an actor or supervisor, with its live inputs if there are any; the state or event that
     /// came, its outputs handed over.
     ///
     /// # Errors

@@ -1,12 +1,12 @@
-//! Who has which place of a worker: the same book for all workers.
+//! Who has which slot of a worker: the same book for all workers.
 
 use afp_core::{Duration, Fault, Instant, Poll, Ticket};
 
 /// A finished job is kept this long for whoever began it: longer than any component waits between two
-/// polls. After that its place may be taken.
+/// polls. After that its slot may be taken.
 const KEPT: Duration = Duration::from_secs(1);
 
-/// What goes on at a place.
+/// What goes on at a slot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
     /// Nobody needs it.
@@ -22,7 +22,7 @@ enum State {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct Slot {
     state: State,
     /// Jobs that have been here.
     round: u64,
@@ -30,71 +30,71 @@ struct Place {
     ended: Instant,
 }
 
-impl Place {
+impl Slot {
     /// Whether a job has panicked here.
     fn is_broken(&self) -> bool {
         self.state == State::Broken || self.state == State::Finished(Err(Fault::JOB_PANICKED))
     }
 }
 
-/// The places of a worker.
+/// The slots of a worker.
 #[derive(Debug)]
-pub(crate) struct Places(Vec<Place>);
+pub(crate) struct Slots(Vec<Slot>);
 
-impl Places {
-    /// So many free places.
+impl Slots {
+    /// So many free slots.
     ///
     /// # Panics
-    /// With more than 65536 places.
+    /// With more than 65536 slots.
     pub(crate) fn new(count: usize) -> Self {
-        assert!(count <= usize::from(u16::MAX) + 1, "a worker has at most 65536 places");
-        Places(vec![Place { state: State::Free, round: 0, ended: Instant::ZERO }; count])
+        assert!(count <= usize::from(u16::MAX) + 1, "a worker has at most 65536 slots");
+        Slots(vec![Slot { state: State::Free, round: 0, ended: Instant::ZERO }; count])
     }
 
-    /// Takes a place: a free one, else one whose finished job nobody has fetched in [`KEPT`]. None
+    /// Takes a slot: a free one, else one whose finished job nobody has fetched in [`KEPT`]. None
     /// while there is none.
     ///
     /// # Errors
-    /// All places are broken.
+    /// All slots are broken.
     pub(crate) fn take(&mut self, now: Instant) -> Result<Option<Ticket>, Fault> {
-        if self.0.iter().all(Place::is_broken) {
+        if self.0.iter().all(Slot::is_broken) {
             return Err(Fault::JOB_PANICKED);
         }
-        let free = |place: &Place| place.state == State::Free;
-        let stale = |place: &Place| {
-            let finished = matches!(place.state, State::Finished(_)) && !place.is_broken();
-            finished && now.since(place.ended) > KEPT
+        let free = |slot: &Slot| slot.state == State::Free;
+        let stale = |slot: &Slot| {
+            let finished = matches!(slot.state, State::Finished(_)) && !slot.is_broken();
+            finished && now.since(slot.ended) > KEPT
         };
         let found = self.0.iter().position(free).or_else(|| self.0.iter().position(stale));
         let Some(index) = found else { return Ok(None) };
-        let place = &mut self.0[index];
-        place.state = State::Busy;
-        place.round += 1;
-        Ok(Some(Ticket::new(index as u16, place.round)))
+        let slot = &mut self.0[index];
+        slot.state = State::Busy;
+        slot.round += 1;
+        Ok(Some(Ticket::new(index as u16, slot.round)))
     }
 
-    /// The job at a place has come to its end.
+    /// The job at a slot has come to its end.
     pub(crate) fn finish(&mut self, index: u16, result: Result<(), Fault>, now: Instant) {
-        let Some(place) = self.0.get_mut(usize::from(index)) else { return };
-        place.ended = now;
-        place.state = match place.state {
+        let Some(slot) = self.0.get_mut(usize::from(index)) else { return };
+        slot.ended = now;
+        slot.state = match slot.state {
             State::Busy => State::Finished(result),
             _ => after(result),
         };
     }
 
-    /// The place of a ticket's job, which is finished and gives up its place; pending while it is
+    /// The slot of a ticket's job, which is finished and gives up its slot; pending while it is
     /// under way.
     ///
     /// # Errors
     /// The fault of the job; [`Fault::JOB_LOST`] if it is not here any more.
     pub(crate) fn fetch(&mut self, ticket: Ticket) -> Result<Poll<usize>, Fault> {
-        let place = self.of(ticket).ok_or(Fault::JOB_LOST)?;
-        match place.state {
+        let slot = self.of(ticket).ok_or(Fault::JOB_LOST)?;
+        match slot.state {
             State::Busy => Ok(Poll::Pending),
             State::Finished(result) => {
-                place.state = after(result);
-                result.map(|()| Poll::Ready(usize::from(ticket.place())))
+                slot.state = after(result);
+                result.map(|()| Poll::Ready(usize::from(ticket.slot())))
             }
             State::Free | State::Cancelled | State::Broken => Err(Fault::JOB_LOST),
         }
@@ -102,8 +102,8 @@ impl Places {
 
     /// Nobody waits for a ticket's job any more.
     pub(crate) fn give_up(&mut self, ticket: Ticket) {
-        let Some(place) = self.of(ticket) else { return };
-        place.state = match place.state {
+        let Some(slot) = self.of(ticket) else { return };
+        slot.state = match slot.state {
             State::Busy => State::Cancelled,
             State::Finished(result) => after(result),
             other => other,
@@ -112,16 +112,16 @@ impl Places {
 
     /// Whether somebody waits for the ticket's job, which is under way.
     pub(crate) fn awaited(&mut self, ticket: Ticket) -> bool {
-        self.of(ticket).is_some_and(|place| place.state == State::Busy)
+        self.of(ticket).is_some_and(|slot| slot.state == State::Busy)
     }
 
-    fn of(&mut self, ticket: Ticket) -> Option<&mut Place> {
-        let place = self.0.get_mut(usize::from(ticket.place()))?;
-        (place.round == ticket.round()).then_some(place)
+    fn of(&mut self, ticket: Ticket) -> Option<&mut Slot> {
+        let slot = self.0.get_mut(usize::from(ticket.slot()))?;
+        (slot.round == ticket.round()).then_some(slot)
     }
 }
 
-/// What becomes of a place whose job nobody waits for any more.
+/// What becomes of a slot whose job nobody waits for any more.
 fn after(result: Result<(), Fault>) -> State {
     if result == Err(Fault::JOB_PANICKED) { State::Broken } else { State::Free }
 }
