@@ -106,7 +106,7 @@ impl Plan {
     /// The text in canonical form; the plan stays as it is.
     fn formatted(&self, py: Python<'_>) -> PyResult<String> {
         let text = self.text();
-        afp_syntax::format(&text).map_err(|_| plan_error(py, &self.compiled(py)))
+        afp_format::format(&text).map_err(|_| plan_error(py, &self.compiled(py)))
     }
 
     /// Brings the text into canonical form.

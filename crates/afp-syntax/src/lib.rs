@@ -1,5 +1,4 @@
-//! Texts of Action Flow Plans: a lossless tree of them, what is wrong with them, and their
-//! canonical form.
+//! Texts of Action Flow Plans: a lossless tree of them, and what is wrong with them.
 //!
 //! It knows the grammar and nothing of what a text means. It does no I/O. Of the workspace it needs
 //! `afp-excerpt`, which shows where mistakes are, and `afp-number`, which reads numbers.
@@ -7,7 +6,6 @@
 pub mod ast;
 pub mod diagnostics;
 pub mod dimension;
-mod format;
 pub mod item;
 pub mod kind;
 mod lexer;
@@ -18,7 +16,6 @@ mod text;
 mod tree;
 pub mod units;
 
-pub use format::format;
 pub use kind::{Afp, Kind};
 pub use text::unquote;
 pub use tree::{Node, Parse, Token, count_tokens, node_span, parse, token_span};

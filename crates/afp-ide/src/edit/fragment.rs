@@ -4,8 +4,8 @@
 use super::Refused;
 use super::list::dedented;
 use super::tree::{children, is_comment, solid_range};
+use afp_format::format;
 use afp_syntax::diagnostics::{Diagnostics, Severity};
-use afp_syntax::format;
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, parse};
 

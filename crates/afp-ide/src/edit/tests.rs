@@ -7,7 +7,7 @@ mod items;
 mod structure;
 
 use super::{Binding, Change, Item, Refused, TextEdit, apply};
-use afp_syntax::format;
+use afp_format::format;
 use afp_syntax::source::Source;
 
 /// The edits of a file by itself.

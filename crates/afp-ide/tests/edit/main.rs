@@ -5,7 +5,7 @@ mod changes;
 mod compiled;
 mod inverse;
 mod model;
-#[path = "../../../afp-syntax/tests/format/mutate.rs"]
+#[path = "../../../afp-format/tests/format/mutate.rs"]
 mod mutate;
 
 use std::collections::BTreeMap;
@@ -36,7 +36,7 @@ const PLANS: &[&str] = &[
 fn text(base: prop::sample::Index, seeds: &[u8]) -> Option<String> {
     let plan = PLANS[base.index(PLANS.len())].split("\n// Graph:").next().unwrap_or_default();
     let text = mutate::mutated(plan, seeds);
-    afp_syntax::format(&text).is_ok().then_some(text)
+    afp_format::format(&text).is_ok().then_some(text)
 }
 
 /// How often each comment occurs.
@@ -98,7 +98,7 @@ proptest! {
             prop_assert!(false, "{:?} should be refused\n{}", change, before);
             return Ok(());
         };
-        prop_assert!(afp_syntax::format(&after).is_ok(), "{:?}\n{}\n---\n{}", change, before, after);
+        prop_assert!(afp_format::format(&after).is_ok(), "{:?}\n{}\n---\n{}", change, before, after);
         prop_assert_eq!(Model::of(&after), expected, "{:?}\n{}\n---\n{}", change, before, after);
         check_comments(&before, &after, &change)?;
         for edit in &edits {
@@ -132,7 +132,7 @@ proptest! {
         };
         let Ok(edits) = edit(&before, &extract) else { return Ok(()) };
         let extracted = apply(&before, &edits);
-        prop_assert!(afp_syntax::format(&extracted).is_ok(), "{}\n---\n{}", before, extracted);
+        prop_assert!(afp_format::format(&extracted).is_ok(), "{}\n---\n{}", before, extracted);
         prop_assert_eq!(counted(&extracted), counted(&before), "{}\n---\n{}", before, extracted);
         let inline = Change::Inline { plan: plan.name.clone(), element: "extracted".into() };
         let Ok(edits) = edit(&extracted, &inline) else { return Ok(()) };
@@ -224,8 +224,8 @@ proptest! {
             prop_assert!(pair[0].span.end <= pair[1].span.start, "{:?}", edits);
         }
         let after = apply(&text, &edits);
-        if afp_syntax::format(&text).is_ok() {
-            prop_assert!(afp_syntax::format(&after).is_ok(), "{:?}\n{}\n---\n{}", change, text, after);
+        if afp_format::format(&text).is_ok() {
+            prop_assert!(afp_format::format(&after).is_ok(), "{:?}\n{}\n---\n{}", change, text, after);
         }
     }
 }

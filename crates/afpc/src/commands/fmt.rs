@@ -86,7 +86,7 @@ fn read(name: &str) -> Result<String, RunError> {
 }
 
 fn formatted(shown: &str, text: &str) -> Result<String, NoPlan> {
-    afp_syntax::format(text).map_err(|diags| {
+    afp_format::format(text).map_err(|diags| {
         let mut sources = Sources::default();
         sources.add(Source::new(shown, text).into());
         anstream::eprintln!("{}", diags.render(&sources, true));

@@ -6,9 +6,10 @@ use afp_book::Block;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
+use afp_format::format;
 use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::parse;
 use afp_syntax::source::Source;
-use afp_syntax::{format, parse};
 
 use crate::{blocks, toolboxes};
 

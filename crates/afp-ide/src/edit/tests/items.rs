@@ -71,7 +71,7 @@ fn items_are_added_to_empty_plans_and_files() {
     };
     let plan = after(&plan, edge);
     let entry = add("in x: int", None, None);
-    let plan = afp_syntax::format(&after(&plan, entry)).unwrap();
+    let plan = afp_format::format(&after(&plan, entry)).unwrap();
     let expected = "\
 use std
 use carbot as c

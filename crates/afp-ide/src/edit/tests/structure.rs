@@ -106,7 +106,7 @@ scenario \"s\" for P {
     assert_eq!(extracted, expected);
     let back =
         after(&after(&extracted, inline()), Change::Remove { item: super::Item::plan("Align") });
-    assert_eq!(afp_syntax::format(&back).unwrap(), text);
+    assert_eq!(afp_format::format(&back).unwrap(), text);
 }
 
 #[test]

@@ -38,7 +38,7 @@ pub(super) fn run(
         let (file, graph) = file.checked()?;
         let path = place(&file.path, output, files.len() > 1)?;
         let made = generate(&file.path, &path, graph, templates)?;
-        let text = afp_syntax::format(&made.text).unwrap_or(made.text);
+        let text = afp_format::format(&made.text).unwrap_or(made.text);
         write_whole("cannot write the scenarios", &path, text)?;
         print(&format!("{}: {} scenarios\n", path.display(), made.scenarios))?;
         for why in &made.left_out {

@@ -8,8 +8,8 @@ mod align;
 mod printer;
 mod spacing;
 
-use crate::diagnostics::Diagnostics;
-use crate::tree::parse;
+use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::parse;
 
 use printer::Printer;
 

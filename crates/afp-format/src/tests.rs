@@ -2,7 +2,7 @@
 
 use super::format;
 
-const WALL_FOLLOWING: &str = include_str!("../../../../plans/wall_following.afp");
+const WALL_FOLLOWING: &str = include_str!("../../../plans/wall_following.afp");
 const SCENARIO: &str = "\
 afp 1
 use \"../plans/wall_following.afp\"

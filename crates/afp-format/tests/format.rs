@@ -30,7 +30,7 @@ fn shipped_files_are_formatted() {
     let mut wrong = Vec::new();
     for path in FOLDERS.iter().flat_map(|folder| files(folder)) {
         let text = fs::read_to_string(&path).unwrap();
-        let formatted = afp_syntax::format(&text).unwrap_or_else(|_| panic!("{}", path.display()));
+        let formatted = afp_format::format(&text).unwrap_or_else(|_| panic!("{}", path.display()));
         if formatted == text {
             continue;
         }
@@ -84,8 +84,8 @@ proptest! {
         seeds in prop::collection::vec(any::<u8>(), 1..400),
     ) {
         let text = mutate::mutated(CASES[which], &seeds);
-        if let Ok(once) = afp_syntax::format(&text) {
-            let twice = afp_syntax::format(&once).unwrap();
+        if let Ok(once) = afp_format::format(&text) {
+            let twice = afp_format::format(&once).unwrap();
             prop_assert_eq!(&twice, &once);
             prop_assert_eq!(content(&once), content(&text));
         }
@@ -105,8 +105,8 @@ proptest! {
         let piece = other[there..].iter().take(lengths.1).copied();
         text.splice(from..(from + lengths.0).min(text.len()), piece);
         let text: String = text.into_iter().collect();
-        if let Ok(once) = afp_syntax::format(&text) {
-            prop_assert_eq!(&afp_syntax::format(&once).unwrap(), &once);
+        if let Ok(once) = afp_format::format(&text) {
+            prop_assert_eq!(&afp_format::format(&once).unwrap(), &once);
             prop_assert_eq!(content(&once), content(&text));
         }
     }

@@ -5,8 +5,8 @@
 
 use super::align::{Columns, Line};
 use super::spacing;
-use crate::kind::Kind;
-use crate::{Node, Token};
+use afp_syntax::kind::Kind;
+use afp_syntax::{Node, Token};
 
 /// What stands before the next token.
 #[derive(Clone, Copy, Debug)]
@@ -333,7 +333,7 @@ fn begins_cell(node: &Node, token: &Token, before: Option<&Token>) -> bool {
 
 /// Whether a comma only separates items.
 fn is_list_comma(token: &Token) -> bool {
-    let solid = |next: rowan::SyntaxElement<crate::Afp>| !next.kind().is_trivia();
+    let solid = |next: rowan::SyntaxElement<afp_syntax::Afp>| !next.kind().is_trivia();
     token.kind() == Kind::Comma
         && !std::iter::successors(token.next_sibling_or_token(), |next| {
             next.next_sibling_or_token()

@@ -1,7 +1,7 @@
 //! What stands between two tokens of one item.
 
-use crate::Token;
-use crate::kind::Kind;
+use afp_syntax::Token;
+use afp_syntax::kind::Kind;
 
 /// Whether there is a blank between two neighbours on a line.
 pub(super) fn is_apart(before: &Token, next: &Token) -> bool {
