@@ -1,0 +1,5 @@
+//! What holds between the crates of the workspace.
+
+mod arrows;
+mod rebuilds;
+mod weight;

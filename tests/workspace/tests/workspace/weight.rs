@@ -1,0 +1,60 @@
+//! What `afpc` carries: no asynchronous run time, web server or protocol.
+
+use afp_workspace::{cargo, output};
+
+/// Families of crates by the beginning of their names.
+const FAMILIES: &[&str] = &[
+    "actix",
+    "async-",
+    "axum",
+    "embassy-",
+    "futures",
+    "h2",
+    "hyper",
+    "lsp-",
+    "native-tls",
+    "openssl",
+    "quinn",
+    "reqwest",
+    "rocket",
+    "rouille",
+    "rustls",
+    "smol",
+    "tiny_http",
+    "tokio",
+    "tonic",
+    "tower",
+    "tungstenite",
+    "warp",
+    "websocket",
+    "zenoh",
+];
+
+fn is_refused(name: &str) -> bool {
+    FAMILIES.iter().any(|family| {
+        let rest = name.strip_prefix(family);
+        rest.is_some_and(|rest| {
+            family.ends_with('-') || rest.is_empty() || rest.starts_with(['-', '_'])
+        })
+    })
+}
+
+#[test]
+fn the_command_line_carries_no_server() {
+    let options = ["--package", "afpc", "--edges", "normal,build", "--prefix", "none"];
+    let tree = output(cargo("tree").args(options).args(["--format", "{p}"]));
+    let names: Vec<_> = tree.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    assert!(names.contains(&"clap") && names.contains(&"afp-core"), "{tree}");
+    let refused: Vec<_> = names.iter().filter(|name| is_refused(name)).collect();
+    assert!(refused.is_empty(), "{refused:?}");
+}
+
+#[test]
+fn families_are_refused_and_their_namesakes_are_not() {
+    for name in ["tokio", "tokio-util", "async-std", "hyper", "tower-lsp", "lsp-server", "h2"] {
+        assert!(is_refused(name), "{name}");
+    }
+    for name in ["smolvec", "clap", "h2o", "towers", "afp-core"] {
+        assert!(!is_refused(name), "{name}");
+    }
+}
