@@ -4,7 +4,7 @@ use afp_core::trace::{
     self, Author, Cause, ComponentId, ComponentName, ERROR, Ending, EntryName, Names, Record,
     TraceEntryId, Verdict,
 };
-use afp_core::{Fault, Instant, ValueRef};
+use afp_core::{Duration, Fault, Instant, ValueRef};
 use prost_types::Timestamp;
 
 use crate::proto::afp::plan_event::{self, Kind};
@@ -69,6 +69,49 @@ pub(crate) fn table(names: &(impl Names + ?Sized)) -> PlanTable {
         time: Some(timestamp(Instant::ZERO)),
         components: (0..names.components()).map(|id| component(ComponentId(id))).collect(),
     }
+}
+
+/// The record behind an event of a log, as far as counting it matters: without values, and with one fault for all.
+/// `None` where it says nothing about components.
+pub fn record(event: &PlanEvent) -> Option<Record<'static>> {
+    let component = ComponentId(event.component_id);
+    let outcome = u16::try_from(event.outcome_id).ok()?;
+    let none = ValueRef::Unset;
+    Some(match event.kind() {
+        Kind::Started => Record::Started { component },
+        Kind::Finished => Record::Finished { element: component, state: outcome },
+        Kind::Interrupted => Record::Interrupted { element: component },
+        Kind::Event => Record::Event { supervisor: component, event: outcome },
+        Kind::Faulted => Record::Faulted { component, fault: Fault::INTERNAL },
+        Kind::Polled => Record::Polled { supervisor: component, verdict: Verdict::Clear },
+        Kind::Missed => Record::Missed {
+            supervisor: component,
+            lateness: Duration::from_nanos(event.lateness_ns),
+            cause: match event.cause() {
+                plan_event::Cause::LongPoll => Cause::LongPoll,
+                plan_event::Cause::LateRelease | plan_event::Cause::NoCause => Cause::LateRelease,
+            },
+            skipped: event.skipped,
+        },
+        Kind::Ended => Record::Ended {
+            plan: component,
+            ending: match event.ending() {
+                plan_event::Ending::Error => Ending::Error(Fault::INTERNAL),
+                plan_event::Ending::EndedInterrupted => Ending::Interrupted,
+                plan_event::Ending::Ok | plan_event::Ending::NotEnded => Ending::Ok,
+            },
+        },
+        Kind::Committed => Record::Committed {
+            author: match event.component_id {
+                u32::MAX => Author::Outside,
+                _ => Author::Component(component),
+            },
+            entry: TraceEntryId(event.entry_id),
+            old: none,
+            new: none,
+        },
+        _ => return None,
+    })
 }
 
 /// An instant as protobuf writes it.

@@ -14,7 +14,7 @@ use crate::robot::{Image, Level, Pose2, Ranging, Shape, Transform};
 /// Rays that stand for the cone of one ranging.
 const RAYS: usize = 9;
 
-pub(crate) fn transforms(at: Instant, transforms: &[Transform]) -> FrameTransforms {
+pub(crate) fn transforms(at: Instant, transforms: &[Option<Transform>]) -> FrameTransforms {
     let one = |transform: &Transform| FrameTransform {
         timestamp: Some(timestamp(at)),
         parent_frame_id: transform.parent.to_owned(),
@@ -22,7 +22,7 @@ pub(crate) fn transforms(at: Instant, transforms: &[Transform]) -> FrameTransfor
         translation: Some(place(transform.pose, transform.height)),
         rotation: Some(turned(transform.pose.heading)),
     };
-    FrameTransforms { transforms: transforms.iter().map(one).collect() }
+    FrameTransforms { transforms: transforms.iter().flatten().map(one).collect() }
 }
 
 pub(crate) fn pose(at: Instant, frame: &str, at_pose: Pose2) -> PoseInFrame {

@@ -15,6 +15,7 @@ mod recorder;
 mod recover;
 pub mod robot;
 mod scan;
+mod session;
 pub mod statistics;
 mod write;
 
@@ -25,3 +26,4 @@ pub use names::NameTable;
 pub use read::{Heard, LogData, TopicInfo, instant, read};
 pub use recorder::{About, FRAMES, Recorder, WhenFull, Written};
 pub use recover::{Recovered, recover, recovered_name};
+pub use session::SessionLog;

@@ -10,8 +10,8 @@ use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration as Span, Instant as Wall};
 
-use afp_core::trace::{Record, Sink, TraceEntryId};
-use afp_core::{Instant, Value, ValueRef};
+use afp_core::Instant;
+use afp_core::trace::{Record, Sink};
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
 use crate::error::LogError;
@@ -59,13 +59,15 @@ pub struct Written {
     pub lost: u64,
 }
 
+/// Frames of one message.
+pub(crate) type Transforms = [Option<Transform>; FRAMES];
+
 /// What goes through the queue.
 pub(crate) enum Item {
     Record(OwnedRecord),
-    Initial { entry: TraceEntryId, value: Value },
     Started(Instant),
     Lost { at: Instant, count: u64 },
-    Transforms { at: Instant, transforms: [Transform; FRAMES] },
+    Transforms { at: Instant, transforms: Transforms },
     Pose { at: Instant, frame: &'static str, pose: Pose2 },
     Ranging { at: Instant, ranging: Ranging },
     Image { at: Instant, image: Image },
@@ -77,7 +79,6 @@ impl Item {
     fn at(&self) -> Option<Instant> {
         match self {
             Item::Record(owned) => Some(owned.at),
-            Item::Initial { .. } => None,
             Item::Started(at)
             | Item::Lost { at, .. }
             | Item::Transforms { at, .. }
@@ -139,19 +140,16 @@ impl Recorder {
         Ok(Recorder { queue, when_full, lost: 0, untold: 0, end, thread: Some(thread) })
     }
 
-    /// The value of an entry when the plan starts; call [`Recorder::started`] after the last.
-    pub fn initial(&mut self, entry: TraceEntryId, value: ValueRef<'_>) {
-        self.push(Item::Initial { entry, value: value.to_owned() }, Instant::ZERO);
-    }
-
     /// Writes the configuration that the plan starts with.
     pub fn started(&mut self, at: Instant) {
         self.push(Item::Started(at), at);
     }
 
-    /// Where the robot's frames stand.
-    pub fn transforms(&mut self, at: Instant, transforms: [Transform; FRAMES]) {
-        self.push(Item::Transforms { at, transforms }, at);
+    /// Where the robot's frames stand; of more than [`FRAMES`] the first ones.
+    pub fn transforms(&mut self, at: Instant, transforms: &[Transform]) {
+        let mut all = [None; FRAMES];
+        all.iter_mut().zip(transforms).for_each(|(slot, transform)| *slot = Some(*transform));
+        self.push(Item::Transforms { at, transforms: all }, at);
     }
 
     /// Where the robot is.

@@ -1,9 +1,11 @@
 //! What a log says about deadlines, interruptions and coverage.
 
 use afp_core::Duration;
+use afp_session::{Counts, Usage};
 
-use crate::proto::afp::plan_event::{Cause, Kind};
-use crate::proto::afp::{PlanEvent, PlanTable, plan_table};
+use crate::event;
+use crate::names::NameTable;
+use crate::proto::afp::plan_table;
 use crate::read::{LogData, instant};
 
 /// A supervisor's record.
@@ -17,6 +19,8 @@ pub struct SupervisorStatistics {
     pub polls: u64,
     /// Events taken, the missed deadlines among them where connected.
     pub events: u64,
+    /// How often it failed.
+    pub faults: u64,
     /// Deadlines missed because the poll began too late.
     pub late_releases: u64,
     /// Deadlines missed because the poll took too long.
@@ -59,124 +63,52 @@ pub struct Statistics {
 
 /// Counts what happened.
 pub fn statistics(log: &LogData) -> Statistics {
-    let mut count = Count::new(&log.table);
+    let mut counts = Counts::new(&NameTable::from_table(&log.table));
     for event in &log.events {
-        count.take(event);
-    }
-    let end = log.span.map(|(_, last)| last).unwrap_or_default();
-    for id in 0..count.components.len() {
-        count.stop(id, end);
-    }
-    count.finish(&log.table)
-}
-
-#[derive(Clone, Default)]
-struct Component {
-    activations: u64,
-    interruptions: u64,
-    faults: u64,
-    active: Duration,
-    since: Option<afp_core::Instant>,
-    supervisor: SupervisorStatistics,
-    outcomes: Vec<bool>,
-}
-
-struct Count {
-    components: Vec<Component>,
-    lost: u64,
-}
-
-impl Count {
-    fn new(table: &PlanTable) -> Self {
-        let component = |row: &plan_table::Component| Component {
-            outcomes: vec![false; row.outcomes.len()],
-            ..Component::default()
-        };
-        Count { components: table.components.iter().map(component).collect(), lost: 0 }
-    }
-
-    fn take(&mut self, event: &PlanEvent) {
-        let at = instant(&event.time);
-        self.lost += event.lost;
-        let id = event.component_id as usize;
-        if matches!(event.kind(), Kind::Interrupted | Kind::Finished | Kind::Ended) {
-            self.stop(id, at);
-        }
-        let Some(component) = self.components.get_mut(id) else { return };
-        match event.kind() {
-            Kind::Started => {
-                component.activations += 1;
-                component.since = Some(at);
-            }
-            Kind::Interrupted => component.interruptions += 1,
-            Kind::Faulted => component.faults += 1,
-            Kind::Polled => component.supervisor.polls += 1,
-            Kind::Missed => component.missed(event),
-            Kind::Event => {
-                component.supervisor.events += 1;
-                component.reached(event.outcome_id);
-            }
-            Kind::Finished => component.reached(event.outcome_id),
-            _ => {}
+        if let Some(record) = event::record(event) {
+            counts.record(instant(&event.time), &record);
         }
     }
-
-    fn stop(&mut self, id: usize, at: afp_core::Instant) {
-        if let Some(component) = self.components.get_mut(id)
-            && let Some(since) = component.since.take()
-        {
-            component.active = component.active + at.since(since);
-        }
-    }
-
-    fn finish(self, table: &PlanTable) -> Statistics {
-        let mut all = Statistics { lost: self.lost, ..Statistics::default() };
-        for (component, row) in self.components.into_iter().zip(&table.components) {
-            let path = row.path.clone();
-            for (seen, outcome) in component.outcomes.iter().zip(&row.outcomes) {
-                match seen {
-                    true => all.covered += 1,
-                    // What leads nowhere cannot happen.
-                    false if outcome.target.is_empty() || outcome.target == "ignore" => {}
-                    false => all.uncovered.push(format!("{path}.{}", outcome.name)),
-                }
-            }
-            let Component { activations, interruptions, faults, active, supervisor, .. } =
-                component;
-            match row.kind() {
-                plan_table::Kind::Supervisor => {
-                    all.supervisors.push(SupervisorStatistics { path, activations, ..supervisor });
-                }
-                plan_table::Kind::Plan | plan_table::Kind::Unknown => {}
-                _ => all.elements.push(ElementStatistics {
-                    path,
-                    activations,
-                    interruptions,
-                    faults,
-                    active,
-                }),
+    counts.finish(log.span.map(|(_, last)| last).unwrap_or_default());
+    let mut all = Statistics {
+        lost: log.events.iter().map(|event| event.lost).sum(),
+        ..Statistics::default()
+    };
+    for (usage, row) in counts.components.iter().zip(&log.table.components) {
+        let path = row.path.clone();
+        for (count, outcome) in usage.outcomes.iter().zip(&row.outcomes) {
+            match count {
+                1.. => all.covered += 1,
+                // What leads nowhere cannot happen.
+                0 if outcome.target.is_empty() || outcome.target == "ignore" => {}
+                0 => all.uncovered.push(format!("{path}.{}", outcome.name)),
             }
         }
-        all
+        match row.kind() {
+            plan_table::Kind::Supervisor => all.supervisors.push(supervisor(path, usage)),
+            plan_table::Kind::Plan | plan_table::Kind::Unknown => {}
+            _ => all.elements.push(ElementStatistics {
+                path,
+                activations: usage.starts,
+                interruptions: usage.interruptions,
+                faults: usage.faults,
+                active: usage.active,
+            }),
+        }
     }
+    all
 }
 
-impl Component {
-    fn reached(&mut self, outcome: u32) {
-        if let Some(seen) = self.outcomes.get_mut(outcome as usize) {
-            *seen = true;
-        }
-    }
-
-    fn missed(&mut self, event: &PlanEvent) {
-        let lateness = Duration::from_nanos(event.lateness_ns);
-        let own = &mut self.supervisor;
-        match event.cause() {
-            Cause::LateRelease => own.late_releases += 1,
-            Cause::LongPoll => own.long_polls += 1,
-            Cause::NoCause => {}
-        }
-        own.skipped += event.skipped;
-        own.worst_lateness = own.worst_lateness.max(lateness);
+fn supervisor(path: String, usage: &Usage) -> SupervisorStatistics {
+    SupervisorStatistics {
+        path,
+        activations: usage.starts,
+        polls: usage.polls,
+        events: usage.events(),
+        faults: usage.faults,
+        late_releases: usage.late_releases,
+        long_polls: usage.long_polls,
+        skipped: usage.skipped,
+        worst_lateness: usage.worst_lateness,
     }
 }

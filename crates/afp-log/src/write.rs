@@ -138,10 +138,6 @@ impl LogFile {
     pub(crate) fn write(&mut self, item: &Item) -> Result<(), LogError> {
         match item {
             Item::Record(owned) => self.record(owned.at, &owned.get()),
-            Item::Initial { entry, value } => {
-                self.set(*entry, value.borrow());
-                Ok(())
-            }
             Item::Started(at) => self.configuration(*at, String::new()),
             Item::Lost { at, count } => self.lost(*at, *count),
             Item::Transforms { at, transforms } => {

@@ -90,8 +90,10 @@ fn at(millis: u64) -> Instant {
 
 fn run(log: &mut Recorder) {
     let (go, touch) = (ComponentId(1), ComponentId(2));
-    log.initial(TraceEntryId(0), ValueRef::Float(0.3));
     log.started(at(0));
+    let (author, entry) = (Author::Component(ComponentId(0)), TraceEntryId(0));
+    let (old, new) = (ValueRef::Unset, ValueRef::Float(0.3));
+    log.record(at(0), &Record::Committed { author, entry, old, new });
     let square = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     let (id, frame, color) = ("box".into(), "world", [0.5, 0.5, 0.5, 1.0]);
     log.scene(at(0), vec![Shape { id, frame, outline: square, height: 0.4, color }]);
@@ -105,7 +107,7 @@ fn run(log: &mut Recorder) {
             let frames = ["odom", "base", "sonar"];
             log.transforms(
                 now,
-                frames.map(|child| Transform { parent: "world", child, pose, height: 0.1 }),
+                &frames.map(|child| Transform { parent: "world", child, pose, height: 0.1 }),
             );
             let range = (n % 100 == 0).then_some(1.5);
             log.ranging(
@@ -160,8 +162,8 @@ fn what_is_written_is_read() {
     assert_eq!(log.topics["/tf"].schema, "foxglove.FrameTransforms");
     assert_eq!(log.topics["/robot/ultrasonic"].messages, 40);
     assert_eq!(log.table.components[1].outcomes[0].target, "terminate");
-    assert_eq!(log.events.len(), 2008);
-    let event = &log.events[2002];
+    assert_eq!(log.events.len(), 2009);
+    let event = &log.events[2003];
     assert_eq!(event.kind(), plan_event::Kind::Event);
     assert_eq!(
         (&*event.component, &*event.outcome, &*event.target),
@@ -170,8 +172,8 @@ fn what_is_written_is_read() {
     let (time, pose) = log.poses[39];
     assert_eq!(time, at(2000));
     assert!((pose.x - 2.0).abs() < 1e-9 && (pose.heading - 0.25).abs() < 1e-9);
-    assert_eq!(log.configurations.len(), 2);
-    let values = log.configurations[1].entries.iter().map(|entry| format!("{:?}", entry.value));
+    assert_eq!(log.configurations.len(), 3);
+    let values = log.configurations[2].entries.iter().map(|entry| format!("{:?}", entry.value));
     let values: Vec<_> = values.collect();
     assert!(values[0].contains("Number(0.3)") && values[1].contains("Choice(\"Side.right\")"));
     assert_eq!(doctor(&path).unwrap(), [""; 0]);
@@ -212,7 +214,7 @@ fn a_log_cut_anywhere_is_read_as_far_as_it_goes() {
         assert!(!doctor(&part).unwrap().is_empty());
         most = most.max(log.events.len());
     }
-    assert_eq!(most, 2008, "a missing summary costs no message");
+    assert_eq!(most, 2009, "a missing summary costs no message");
     let saved = recover(&part, &recovered_name(&part)).unwrap();
     assert!(saved.damage.is_some());
     assert_eq!(saved.path, dir.path().join("b.recovered.mcap"));
@@ -298,7 +300,7 @@ fn two_logs_of_one_name_at_once_are_both_whole() {
     let [mut one, mut two] = [create(&path), create(&path)];
     run(&mut two);
     assert_eq!(two.finish().unwrap().path, path);
-    assert_eq!(read(&path).unwrap().events.len(), 2008);
+    assert_eq!(read(&path).unwrap().events.len(), 2009);
     one.record(at(0), &Record::StopRequested);
     assert_eq!(one.finish().unwrap().path, path);
     assert_eq!(read(&path).unwrap().events.len(), 1);
@@ -329,6 +331,6 @@ fn a_log_goes_through_a_pipe() {
         make(&pipe, &copy);
         fs::write(&copy, reader.join().unwrap()).unwrap();
         assert_eq!(doctor(&copy).unwrap(), [""; 0]);
-        assert_eq!(read(&copy).unwrap().events.len(), 2008);
+        assert_eq!(read(&copy).unwrap().events.len(), 2009);
     }
 }

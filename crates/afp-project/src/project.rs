@@ -8,6 +8,8 @@ use std::ops::Range;
 pub struct Project {
     /// The world that plans are run in.
     pub world: Option<String>,
+    /// The measures of the robot that runs are judged by, too.
+    pub measures: Vec<String>,
     /// Where generated crates take the `afp` crates from.
     pub afp: Option<Origin>,
     /// Toolboxes of the project, in the order of the file.

@@ -39,7 +39,7 @@ impl Reader {
     fn project(&mut self, table: &dyn TableLike, project: &mut Project) {
         for pair in pairs(table) {
             match pair.key {
-                "run" => project.world = self.run(&pair),
+                "run" => self.run(&pair, project),
                 "afp" => project.afp = self.afp(&pair),
                 "toolboxes" => project.toolboxes = self.each(&pair, Reader::toolbox),
                 "target" => project.targets = self.each(&pair, Reader::target),
@@ -52,15 +52,17 @@ impl Reader {
         }
     }
 
-    fn run(&mut self, run: &Pair<'_>) -> Option<String> {
-        let mut world = None;
+    fn run(&mut self, run: &Pair<'_>, project: &mut Project) {
         for pair in self.table(run, "world = \"worlds/room.toml\"") {
             match pair.key {
-                "world" => world = self.text(&pair, "the world file, such as \"worlds/room.toml\""),
-                _ => self.unknown(&pair, "'[run]'", "it has 'world'"),
+                "world" => {
+                    let what = "the world file, such as \"worlds/room.toml\"";
+                    project.world = self.text(&pair, what);
+                }
+                "measures" => project.measures = self.texts(&pair, "names in a list, [\"wall\"]"),
+                _ => self.unknown(&pair, "'[run]'", "it has 'world' and 'measures'"),
             }
         }
-        world
     }
 
     fn afp(&mut self, afp: &Pair<'_>) -> Option<Origin> {
@@ -196,6 +198,15 @@ impl Reader {
         text.map(str::to_owned)
     }
 
+    fn texts(&mut self, pair: &Pair<'_>, what: &str) -> Vec<String> {
+        let list = pair.item.as_array().map(|list| list.iter().map(|it| it.as_str()));
+        let texts = list.and_then(|list| list.map(|text| text.map(str::to_owned)).collect());
+        texts.unwrap_or_else(|| {
+            self.value(pair, what);
+            Vec::new()
+        })
+    }
+
     /// A value that cannot be.
     fn value(&mut self, pair: &Pair<'_>, what: &str) {
         let message = format!("'{}' cannot have this value", pair.key);
@@ -232,6 +243,7 @@ mod tests {
         let text = "\
 [run]
 world = 'w.toml'
+measures = ['wall']
 
 [toolboxes]
 b = { path = 'b.afp' }
@@ -250,6 +262,7 @@ version = '0.1'
         let (project, mistakes) = read(text);
         assert_eq!(mistakes, []);
         assert_eq!(project.world.as_deref(), Some("w.toml"));
+        assert_eq!(project.measures, ["wall"]);
         assert_eq!(project.afp, Some(Origin::Version("0.1".to_owned())));
         let names: Vec<_> = project.toolboxes.iter().map(|toolbox| &*toolbox.name).collect();
         assert_eq!(names, ["b", "a", "c"]);
@@ -276,6 +289,8 @@ version = '0.1'
     fn what_is_wrong_is_named_at_its_place_all_at_once() {
         assert_eq!(wrong("run = 3\n[rum]\n[afp]\npaht = 1"), ["3", "rum", "paht"]);
         assert_eq!(wrong("[run]\nworlds = 'x'\nworld = 7"), ["worlds", "7"]);
+        assert_eq!(wrong("[run]\nmeasures = 'wall'"), ["'wall'"]);
+        assert_eq!(wrong("[run]\nmeasures = [1]"), ["[1]"]);
         assert_eq!(wrong("[toolboxes]\na = 1\nb = {}\nc = { crate = 'x' }"), ["1", "b", "c"]);
         assert_eq!(wrong("[toolboxes]\na = { path = 'x', crate = 3 }"), ["3"]);
         assert_eq!(wrong("[toolboxes]\na = { path = '', krate = 'x' }"), ["''", "krate"]);

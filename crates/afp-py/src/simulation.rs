@@ -1,9 +1,9 @@
 //! `Runner`: a plan in a simulated world, driven from Python.
 
 mod event;
+mod keeper;
 mod session;
 mod stimuli;
-mod visitor;
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,6 +17,7 @@ use afp_core::trace::{Names, TraceEntryId};
 use afp_core::{Duration, Instant, Value};
 use afp_dsl::types::Type;
 use afp_dsl::{Compiled, scenario};
+use afp_session::{AnySession, Request, Waypoint};
 use afp_sim::Simulation;
 use numpy::PyArray2;
 use pyo3::exceptions::{PyKeyError, PyRuntimeError, PyValueError};
@@ -34,13 +35,13 @@ use crate::world::{World, table};
 
 use event::line;
 pub use event::{Event, value};
-use session::{Session, Setting};
-use stimuli::{Control, Deed, fault};
+use session::{Run, Setting};
+use stimuli::{control, fault};
 
 /// A plan in a simulated world. `afp.Simulation` is made of it.
 #[pyclass(module = "afp", frozen)]
 pub struct Runner {
-    session: Mutex<Session>,
+    session: Mutex<Run>,
     host: Option<Arc<Host>>,
     stop: Arc<AtomicBool>,
     process: u32,
@@ -80,7 +81,7 @@ impl Runner {
             Setting { graph, world: &world.loaded, seed, file: &file, log: log.as_deref() };
         let stop = Arc::new(AtomicBool::new(false));
         let pause = Pause::new(host.clone(), Arc::clone(&stop));
-        let session = Mutex::new(Session::new(loaded, &setting, pause)?);
+        let session = Mutex::new(Run::new(loaded, &setting, pause)?);
         let process = std::process::id();
         Ok(Runner { session, host, stop, process, compiled })
     }
@@ -121,7 +122,7 @@ impl Runner {
     /// The time, seconds.
     #[getter]
     fn time(&self) -> PyResult<f64> {
-        Ok(self.lock()?.rig.sim.now().as_secs_f64())
+        Ok(self.lock()?.session.robot().now().as_secs_f64())
     }
 
     /// How the plan ended: `ok`, `interrupted`, `error`; `running` before.
@@ -145,13 +146,13 @@ impl Runner {
     /// The hash of the trace so far, as `afpc run` tells it.
     #[getter]
     fn trace_hash(&self) -> PyResult<String> {
-        Ok(self.lock()?.rig.trace().to_string())
+        Ok(self.lock()?.session.trace().to_string())
     }
 
     /// Deadlines missed so far.
     #[getter]
     fn deadline_misses(&self) -> PyResult<u64> {
-        Ok(self.lock()?.rig.scheduler.misses())
+        Ok(self.lock()?.session.misses())
     }
 
     /// The path of the active element, sub-plans left out.
@@ -163,34 +164,39 @@ impl Runner {
     /// How many events there are.
     #[getter]
     fn event_count(&self) -> PyResult<usize> {
-        Ok(self.lock()?.visitor.records.len())
+        Ok(self.lock()?.keeper.records.len())
     }
 
     /// The events from the `first`-th on.
     fn events(&self, first: usize) -> PyResult<Vec<Event>> {
         let session = self.lock()?;
-        let news = session.visitor.records.get(first..).unwrap_or_default();
-        Ok(news.iter().map(|record| Event::new(record, session.rig.names())).collect())
+        let news = session.keeper.records.get(first..).unwrap_or_default();
+        Ok(news.iter().map(|record| Event::new(record, session.session.plan_names())).collect())
     }
 
     /// The timeline as `afpc run` prints it.
     #[getter]
     fn timeline(&self) -> PyResult<Vec<String>> {
         let session = self.lock()?;
-        let records = session.visitor.records.iter();
-        Ok(records.filter_map(|record| line(record, session.rig.names())).collect())
+        let records = session.keeper.records.iter();
+        Ok(records.filter_map(|record| line(record, session.session.plan_names())).collect())
     }
 
     /// Where the robot was every 20 ms: time, x, y, heading.
     fn path<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let path = self.lock()?.visitor.path.clone();
+        let session = self.lock()?;
+        let row = |point: &Waypoint| {
+            [point.at.as_secs_f64(), point.pose.x, point.pose.y, point.pose.heading]
+        };
+        let path: Vec<_> = session.track.path.iter().map(row).collect();
+        drop(session);
         table(py, &path)
     }
 
     /// Where the robot is: x, y, heading.
     #[getter]
     fn pose(&self) -> PyResult<(f64, f64, f64)> {
-        let pose = self.lock()?.rig.sim.truth().pose();
+        let pose = self.lock()?.session.robot().truth().pose();
         Ok((pose.x, pose.y, pose.heading))
     }
 
@@ -202,7 +208,7 @@ impl Runner {
 
     /// What a sensor says.
     fn sense<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-        let sensed = sense(&self.lock()?.rig.sim, name)?;
+        let sensed = sense(self.lock()?.session.robot(), name)?;
         sensed.into_bound(py)
     }
 
@@ -221,10 +227,10 @@ impl Runner {
     /// The value of an entry.
     fn get<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let session = self.lock()?;
-        let number = entry(session.rig.scheduler.plan(), name)?;
-        let value = session.rig.scheduler.plan().get(name).map(|value| value.to_owned());
+        let number = entry(session.session.plan(), name)?;
+        let value = session.session.plan().get(name).map(|value| value.to_owned());
         let id = TraceEntryId(number.into());
-        let names = session.rig.names().clone();
+        let names = session.session.plan_names().clone();
         drop(session);
         let value = value.unwrap_or_default();
         to_python(py, value.borrow(), |choice| names.choice(id, choice).to_owned())
@@ -236,24 +242,24 @@ impl Runner {
         // This may run Python, which must find the simulation free.
         let given = Given::new(value)?;
         let mut session = self.lock()?;
-        let plan = session.rig.scheduler.plan();
+        let plan = session.session.plan();
         let number = entry(plan, name)?;
         let value = given.for_entry(plan, number)?;
         let set = match at {
-            None => session.write(number, &value).map_err(|why| why.to_string()),
-            Some(at) => session.plan(instant(at)?, Deed::Write(number, value)),
+            None => session.write(number, value).map_err(|why| why.to_string()),
+            Some(at) => session.ask(instant(at)?, Request::Write(number, value)),
         };
         set.map_err(|why| error(format!("'{name}': {why}")))
     }
 
     /// Holds a control down for a while.
     fn hold(&self, control: &str, at: Option<f64>, time: f64) -> PyResult<()> {
-        let control = Control::named(control)?;
+        let control = self::control(control)?;
         let time = duration(time)?;
         let mut session = self.lock()?;
         let from = session.moment(at.map(instant).transpose()?)?;
-        session.plan(from, Deed::Hold(control, true)).map_err(error)?;
-        session.plan(from + time, Deed::Hold(control, false)).map_err(error)
+        session.ask(from, Request::Press(control, true)).map_err(error)?;
+        session.ask(from + time, Request::Press(control, false)).map_err(error)
     }
 
     /// Breaks something.
@@ -267,11 +273,12 @@ impl Runner {
         delay: Option<f64>,
         share: Option<f64>,
     ) -> PyResult<()> {
-        let fault = fault(device, kind, delay.map(duration).transpose()?, share)?;
+        let delay = delay.map(duration).transpose()?.map(Duration::as_secs_f64);
+        let (fault, amount) = fault(device, kind, delay, share)?;
         let lasting = lasting.map(duration).transpose()?.unwrap_or(Duration::MAX);
         let mut session = self.lock()?;
         let from = session.moment(at.map(instant).transpose()?)?;
-        session.plan(from, Deed::Break(fault, lasting)).map_err(error)
+        session.ask(from, Request::Break(fault, amount, lasting)).map_err(error)
     }
 
     /// Lets a component report an outcome that it did not see, with its outputs.
@@ -287,7 +294,7 @@ impl Runner {
         injection.outputs = self.brought(component, (injection.outcome, outcome), outputs)?;
         let mut session = self.lock()?;
         let from = session.moment(at.map(instant).transpose()?)?;
-        session.plan(from, Deed::Inject(injection)).map_err(error)
+        session.ask(from, Request::Inject(injection)).map_err(error)
     }
 
     /// Lets an actor, those of a sub-plan, or all of them do nothing from their next start on.
@@ -295,13 +302,7 @@ impl Runner {
         let mut session = self.lock()?;
         let element = element.map(|path| session.element(path)).transpose()?;
         let from = session.moment(at.map(instant).transpose()?)?;
-        match at {
-            None => {
-                session.rig.scheduler.plan_mut().idle(element);
-                Ok(())
-            }
-            Some(_) => session.plan(from, Deed::Idle(element)).map_err(error),
-        }
+        session.ask(from, Request::Idle(element)).map_err(error)
     }
 
     /// Ends the log, where there is one; its path.
@@ -336,7 +337,7 @@ impl Runner {
 
 impl Runner {
     /// The session, unless it is in use.
-    fn lock(&self) -> PyResult<MutexGuard<'_, Session>> {
+    fn lock(&self) -> PyResult<MutexGuard<'_, Run>> {
         if self.process != std::process::id() {
             let text =
                 "this simulation belongs to the process that was forked; make a new one here";
@@ -385,7 +386,7 @@ impl Runner {
     fn drive(
         &self,
         py: Python<'_>,
-        drive: impl FnOnce(&mut Session) -> PyResult<bool> + Send,
+        drive: impl FnOnce(&mut Run) -> PyResult<bool> + Send,
     ) -> PyResult<bool> {
         may_run()?;
         let mut session = self.lock()?;

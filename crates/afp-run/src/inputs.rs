@@ -49,7 +49,7 @@ pub fn set(plan: &mut impl NamedPlan, name: &str, text: &str) -> Result<Value, R
 }
 
 /// Why a plan does not start, as an error of the command line.
-pub fn missing(error: StartError, names: &impl Names) -> RunError {
+pub fn missing(error: StartError, names: &dyn Names) -> RunError {
     match error {
         StartError::InputMissing(entry) => {
             let EntryName { path, ty, .. } = names.entry(TraceEntryId(entry.into()));

@@ -3,28 +3,25 @@
 //! [`main()`] is the whole of a generated binary; [`run`] drives any plan on the simulated robot.
 //! Neither knows the language: a plan is what implements the scheduler's contract.
 
-mod attend;
 mod error;
 mod hash;
 pub mod inputs;
-pub mod judge;
 mod keys;
 pub mod options;
 mod output;
 mod pace;
 mod picture;
 mod report;
-pub mod rig;
-mod robot;
+pub mod requests;
 mod run;
 mod stop;
 mod svg;
-mod tracer;
 pub mod world;
 
 use std::process::ExitCode;
 
 use afp_core::rt::{NamedPlan, Plan};
+use afp_session::{AnySession, Session};
 use afp_sim::Simulation;
 use clap::{Args, Command, FromArgMatches};
 
@@ -54,6 +51,7 @@ pub struct Program<'a> {
 pub fn main<P>(program: Program<'static>, new: impl FnOnce() -> P) -> ExitCode
 where
     P: NamedPlan + Plan<Simulation>,
+    Session<P, Simulation>: AnySession,
 {
     let about = format!("Runs the plan {}.", program.name);
     // The help of the options' own struct must not take the place of the program's.

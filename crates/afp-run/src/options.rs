@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 
 use crate::error::RunError;
 
-pub use parse::{Button, Destination, Failure, Press, Speed};
+pub use parse::{Destination, Failure, Press, Speed, failure, press};
 
 /// How a run goes.
 #[derive(Args, Clone, Debug)]
@@ -45,6 +45,10 @@ pub struct RunOptions {
     /// Breaks something, for a while or for good: --fail ultrasonic.frozen@5s..7s, --fail wheels.slip=0.2@3s
     #[arg(long, value_name = "DEVICE.KIND[=AMOUNT]@TIME[..TIME]", value_parser = parse::failure)]
     pub fail: Vec<Failure>,
+
+    /// Judges the run by this measure of the robot, too: --measure wall
+    #[arg(long, value_name = "NAME")]
+    pub measure: Vec<String>,
 
     /// Where the log goes; 'none' for no log [default: target/afp/runs/<plan>.mcap]
     #[arg(long, value_name = "FILE", value_parser = parse::destination)]

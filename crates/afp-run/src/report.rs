@@ -5,6 +5,7 @@ mod progress;
 mod summary;
 mod timeline;
 
+use std::cell::RefCell;
 use std::io::{self, IsTerminal, Write};
 
 use afp_core::Instant;
@@ -12,9 +13,10 @@ use afp_core::trace::{Kind, Names, Record};
 use afp_log::LogData;
 use afp_log::event::describe;
 use afp_log::proto::afp::{plan_event, plan_table};
+use afp_session::{NamedRecord, Observer};
 
 use progress::Progress;
-pub(crate) use summary::{Figures, Ran, StoppedBy, Summary};
+pub(crate) use summary::{Ran, StoppedBy, Summary};
 
 /// The timeline of a log, line by line.
 pub fn timeline(log: &LogData) -> impl Iterator<Item = String> {
@@ -29,7 +31,7 @@ pub fn timeline(log: &LogData) -> impl Iterator<Item = String> {
 }
 
 /// A record as a line of the timeline; `None` for what is not worth one.
-pub fn line(at: Instant, record: &Record<'_>, names: &impl Names) -> Option<String> {
+pub fn line(at: Instant, record: &Record<'_>, names: &dyn Names) -> Option<String> {
     let template = match *record {
         Record::Polled { .. } | Record::Input { .. } => return None,
         Record::Started { component } => match names.component(component) {
@@ -39,6 +41,15 @@ pub fn line(at: Instant, record: &Record<'_>, names: &impl Names) -> Option<Stri
         _ => "",
     };
     timeline::line(&describe(at, record, names), template)
+}
+
+/// Tells of a run as an observer.
+pub(crate) struct Shown<'a>(pub &'a RefCell<Report>);
+
+impl Observer for Shown<'_> {
+    fn on_record(&mut self, named: &NamedRecord<'_>) {
+        self.0.borrow_mut().tell(named.at, named.record, named.names);
+    }
 }
 
 /// Writes to standard output as the run goes.
@@ -77,7 +88,7 @@ impl Report {
     }
 
     /// Tells of a record, if it is worth it.
-    pub(crate) fn tell(&mut self, at: Instant, record: &Record<'_>, names: &impl Names) {
+    pub(crate) fn tell(&mut self, at: Instant, record: &Record<'_>, names: &dyn Names) {
         if matches!(record, Record::Polled { .. } | Record::Input { .. }) {
             return;
         }

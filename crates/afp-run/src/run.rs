@@ -1,30 +1,32 @@
 //! One run from its options to its summary.
 
-use std::fs;
+mod gate;
+mod paths;
+
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
 use afp_core::rt::{NamedPlan, Plan};
-use afp_core::{Duration, Ending, Environment, Instant, StartError};
-use afp_log::{About, NameTable, Recorder, WhenFull, Written};
+use afp_core::{Ending, Instant, StartError};
+use afp_log::{About, NameTable, SessionLog, Written};
+use afp_project::ProjectFile;
+use afp_session::{AnySession, Counts, Go, Observer, Session, Simulated, Track};
 use afp_sim::{STEP, Simulation};
 
-use crate::attend::{Attendants, Stimuli};
 use crate::error::{EXIT_OK, EXIT_PLAN_ERROR, RunError};
 use crate::hash::hash;
-use crate::judge::Judge;
-use crate::options::{Destination, RunOptions, Speed};
-use crate::output::{check_writable, write_whole};
+use crate::options::{RunOptions, Speed};
+use crate::output::write_whole;
 use crate::pace::Pace;
-use crate::picture::{PictureFormat, Rasterizer};
-use crate::report::{Figures, Ran, Report, StoppedBy, Summary};
-use crate::rig::{Go, Rig};
+use crate::picture::Rasterizer;
+use crate::report::{Ran, Report, Shown, StoppedBy, Summary};
 use crate::stop::StopFlag;
 use crate::svg::{self, Picture};
 use crate::world::{self, LoadedWorld};
-use crate::{Program, inputs};
+use crate::{Program, inputs, requests};
 
-/// Where logs and pictures go unless told otherwise.
-const RUNS: &str = "target/afp/runs";
+use gate::RunGate;
+use paths::Paths;
 
 /// Runs a plan on the simulated robot; gives the exit code. Pictures are SVG.
 ///
@@ -34,6 +36,7 @@ const RUNS: &str = "target/afp/runs";
 pub fn run<P>(program: &Program<'_>, plan: P, options: &RunOptions) -> Result<u8, RunError>
 where
     P: NamedPlan + Plan<Simulation>,
+    Session<P, Simulation>: AnySession,
 {
     run_with(program, plan, options, None)
 }
@@ -50,183 +53,167 @@ pub fn run_with<P>(
 ) -> Result<u8, RunError>
 where
     P: NamedPlan + Plan<Simulation>,
+    Session<P, Simulation>: AnySession,
 {
     options.check()?;
     let mut world = world::find(options.world.as_deref(), Path::new(program.file))?;
     inputs::set_all(&mut plan, &mut world, &options.set)?;
-    let mut sim =
-        Simulation::new(&world.world, options.seed).map_err(|error| RunError::Content {
-            path: world.path.clone().unwrap_or_default(),
-            span: error.span,
-            text: world.text.clone(),
-            message: error.message,
-        })?;
-    for failure in &options.fail {
-        sim.inject(failure.fault, failure.from, failure.lasting);
+    let sim = Simulation::new(&world.world, options.seed).map_err(|error| RunError::Content {
+        path: world.path.clone().unwrap_or_default(),
+        span: error.span,
+        text: world.text.clone(),
+        message: error.message,
+    })?;
+    let mut session = Session::new(plan, sim);
+    for name in measures(program, options)? {
+        session.add_measure(Simulation::measure(&name).ok_or_else(|| no_measure(&name))?);
     }
-    let names = plan.names();
-    let paths = Paths::new(program, options)?;
-    let raster = paths.raster(rasterizer)?;
-    let log = match &paths.log {
-        None => None,
-        Some(path) => {
-            let about = about(program, options, &world);
-            Some(Recorder::create(path, &about, NameTable::new(&names), WhenFull::Wait)?)
-        }
-    };
-    let stop =
-        StopFlag::on_signals().map_err(RunError::file("cannot handle", "signals".as_ref()))?;
-    let mut attendants = Attendants {
-        judge: Judge::new(&names),
-        report: Report::new(options.json, options.end()),
-        pace: Pace::new(options.speed),
-        stop,
-        stimuli: Stimuli::new(&options.press),
-    };
-    let mut rig = Rig::new(plan, sim, Duration::ZERO);
-    if let Some(log) = log {
-        rig.record(log, &world.world, options.camera);
-    }
-    attendants.report.head(&head(program, options, &world));
-    let stopped_by = drive(&mut rig, &mut attendants, options.end())
-        .map_err(|error| inputs::missing(error, &names))?;
-    let setting = Setting { program, options, world: &world, stopped_by };
-    finish(rig, attendants, &paths, &setting, raster)
+    drive(&mut session, &Setting { program, options, world: &world, rasterizer })
 }
 
-/// Runs the plan to its end, or until it is stopped. The motors stand afterwards.
-fn drive<P>(
-    rig: &mut Rig<P>,
-    attendants: &mut Attendants,
-    end: Instant,
-) -> Result<Option<StoppedBy>, StartError>
-where
-    P: NamedPlan + Plan<Simulation>,
-{
-    let went = rig.run(end, attendants)?;
-    let stopped_by = match (went, rig.ending()) {
-        (Go::Stop, None) => Some(StoppedBy::Signal),
-        (_, None) => Some(StoppedBy::Until),
-        (_, Some(_)) => None,
-    };
-    if stopped_by.is_some() {
-        rig.stop(attendants);
-    }
-    rig.sim.emergency_stop();
-    Ok(stopped_by)
+/// The measures that the project asks for, and the options.
+fn measures(program: &Program<'_>, options: &RunOptions) -> Result<Vec<String>, RunError> {
+    let mut all = ProjectFile::of_plan(Path::new(program.file))?.project.measures;
+    all.extend(options.measure.iter().cloned());
+    all.sort_unstable();
+    all.dedup();
+    Ok(all)
 }
 
-/// What was asked for and how it came out.
+fn no_measure(name: &str) -> RunError {
+    RunError::usage(
+        format!("the robot has no measure '{name}'"),
+        format!("it has {}", Simulation::MEASURES.join(", ")),
+    )
+}
+
+/// What was asked for.
 struct Setting<'a> {
     program: &'a Program<'a>,
     options: &'a RunOptions,
     world: &'a LoadedWorld,
-    stopped_by: Option<StoppedBy>,
+    rasterizer: Option<Rasterizer<'a>>,
 }
 
-/// Closes the log, draws the picture, prints the summary.
-fn finish<P>(
-    mut rig: Rig<P>,
-    attendants: Attendants,
-    paths: &Paths,
-    setting: &Setting<'_>,
-    raster: Option<Rasterizer<'_>>,
-) -> Result<u8, RunError>
-where
-    P: NamedPlan + Plan<Simulation>,
-{
-    let Attendants { judge, report, pace, .. } = attendants;
-    let end = rig.sim.now();
-    let speed = end.as_secs_f64() / pace.spent();
-    let ran = Ran {
-        plan: setting.program.name,
-        world: &setting.world.world,
-        seed: setting.options.seed,
-        stopped_by: setting.stopped_by,
-        end,
-        misses: rig.scheduler.misses(),
-        collisions: rig.sim.truth().collisions(),
-        trace: rig.trace(),
+/// Drives a session to its end and says what it came to.
+fn drive(session: &mut dyn AnySession, setting: &Setting<'_>) -> Result<u8, RunError> {
+    let Setting { program, options, world, rasterizer } = *setting;
+    requests::make(session, &options.press, &options.fail)?;
+    let paths = Paths::new(program, options)?;
+    let raster = paths.raster(rasterizer)?;
+    let mut log = match &paths.log {
+        None => None,
+        Some(path) => {
+            let (about, names) = (about(setting), NameTable::new(session.names()));
+            let (devices, scene) = (session.devices(), world.world.scene());
+            Some(SessionLog::create(path, &about, names, devices, scene, options.camera)?)
+        }
     };
-    let figures = Figures::new(&ran, &judge, rig.names());
-    let written = rig.finish_log()?;
-    if let Some(path) = &paths.svg {
-        let picture = Picture {
-            world: &setting.world.world,
-            title: figures.plan.clone(),
-            subtitle: format!("{}, seed {}", figures.world, figures.seed),
-            path: &judge.path,
-            marks: &judge.marks,
-            figures: figures.for_picture(),
+    let stop =
+        StopFlag::on_signals().map_err(RunError::file("cannot handle", "signals".as_ref()))?;
+    let report = RefCell::new(Report::new(options.json, options.end()));
+    report.borrow_mut().head(&head(setting));
+    let mut counts = Counts::new(session.names());
+    let mut track = Track::new(session.devices());
+    let mut gate = RunGate::new(&report, Pace::new(options.speed), stop);
+    let mut shown = Shown(&report);
+    let mut observers: Vec<&mut dyn Observer> = vec![&mut counts, &mut track, &mut shown];
+    observers.extend(log.as_mut().map(|log| log as &mut dyn Observer));
+    let stopped_by = run_to_end(session, options.end(), &mut gate, &mut observers)
+        .map_err(|error| inputs::missing(error, session.names()))?;
+    let speed = session.now().as_secs_f64() / gate.spent();
+    drop(gate);
+    let written = log.map(SessionLog::finish).transpose()?;
+    let came = Came { stopped_by, speed, written, counts, track, raster };
+    came.finish(session, report.into_inner(), &paths, setting)
+}
+
+/// Runs the plan to its end, or until it is stopped.
+fn run_to_end(
+    session: &mut dyn AnySession,
+    end: Instant,
+    gate: &mut RunGate<'_>,
+    observers: &mut [&mut dyn Observer],
+) -> Result<Option<StoppedBy>, StartError> {
+    loop {
+        let went = session.run(end, gate, observers)?;
+        if let Some(at) = gate.take_escape() {
+            requests::press_escape(session, at);
+            continue;
+        }
+        let stopped_by = match (went, session.ending()) {
+            (_, Some(_)) => return Ok(None),
+            (Go::Stop, None) => StoppedBy::Signal,
+            (_, None) => StoppedBy::Until,
         };
-        let svg = svg::draw(&picture, rig.names());
-        let bytes = match raster {
-            Some(raster) => raster(&svg)?,
-            None => svg.into_bytes(),
-        };
-        write_whole("cannot write the picture", path, bytes)?;
-    }
-    let lost = written.as_ref().map_or(0, |written: &Written| written.lost);
-    let log = written.map(|written| written.path);
-    let summary = Summary { figures, speed, log, svg: paths.svg.clone(), lost };
-    let told = report.end(&summary);
-    told.map_err(RunError::file("cannot write to", "standard output".as_ref()))?;
-    match rig.ending() {
-        Some(Ending::Error(_)) => Ok(EXIT_PLAN_ERROR),
-        _ => Ok(EXIT_OK),
+        session.stop(observers);
+        return Ok(Some(stopped_by));
     }
 }
 
-/// Where output goes.
-struct Paths {
-    log: Option<PathBuf>,
-    svg: Option<PathBuf>,
+/// How a run came out.
+struct Came<'a> {
+    stopped_by: Option<StoppedBy>,
+    speed: f64,
+    written: Option<Written>,
+    counts: Counts,
+    track: Track,
+    /// What makes the picture's bytes of an SVG that is not to be one.
+    raster: Option<Rasterizer<'a>>,
 }
 
-impl Paths {
-    /// Makes the default folder where it is needed, and finds out now what would fail later.
-    fn new(program: &Program<'_>, options: &RunOptions) -> Result<Self, RunError> {
-        let stem = Path::new(program.file).file_stem().unwrap_or("plan".as_ref());
-        let path = |asked: &Option<Destination>, extension| -> Result<_, RunError> {
-            match asked {
-                Some(Destination::None) => Ok(None),
-                Some(Destination::File(path)) => Ok(Some(path.clone())),
-                None => {
-                    let folder = Path::new(RUNS);
-                    fs::create_dir_all(folder)
-                        .map_err(RunError::file("cannot make the folder", folder))?;
-                    let mut name = stem.to_owned();
-                    name.push(extension);
-                    Ok(Some(folder.join(name)))
-                }
-            }
+impl Came<'_> {
+    /// Draws the picture, prints the summary.
+    fn finish(
+        self,
+        session: &mut dyn AnySession,
+        report: Report,
+        paths: &Paths,
+        setting: &Setting<'_>,
+    ) -> Result<u8, RunError> {
+        let Came { stopped_by, speed, written, counts, track, raster } = self;
+        let measured = session.end();
+        let ran = Ran {
+            plan: setting.program.name,
+            world: &setting.world.world.name,
+            seed: setting.options.seed,
+            stopped_by,
+            end: session.now(),
+            misses: session.misses(),
+            trace: session.trace(),
+            distance: track.distance,
         };
-        let paths = Paths { log: path(&options.log, ".mcap")?, svg: path(&options.svg, ".svg")? };
+        let figures = ran.figures(&counts, measured, session.names());
         if let Some(path) = &paths.svg {
-            check_writable("cannot write the picture", path)?;
+            let picture = Picture {
+                world: &setting.world.world,
+                title: figures.plan.clone(),
+                subtitle: format!("{}, seed {}", figures.world, figures.seed),
+                path: &track.path,
+                marks: &track.marks,
+                figures: figures.for_picture(),
+            };
+            let svg = svg::draw(&picture, session.names());
+            let bytes = match raster {
+                Some(raster) => raster(&svg)?,
+                None => svg.into_bytes(),
+            };
+            write_whole("cannot write the picture", path, bytes)?;
         }
-        Ok(paths)
-    }
-
-    /// What makes the picture's bytes of an SVG; `None` where it is one.
-    fn raster<'a>(&self, all: Option<Rasterizer<'a>>) -> Result<Option<Rasterizer<'a>>, RunError> {
-        let Some(path) = &self.svg else { return Ok(None) };
-        match (PictureFormat::of(path)?, all) {
-            (PictureFormat::Svg, _) => Ok(None),
-            (PictureFormat::Png, Some(raster)) => Ok(Some(raster)),
-            (PictureFormat::Png, None) => Err(RunError::usage(
-                "this program draws SVG alone",
-                "'afpc log RUN.mcap --svg PICTURE.png' draws its log as a PNG",
-            )),
+        let lost = written.as_ref().map_or(0, |written: &Written| written.lost);
+        let log: Option<PathBuf> = written.map(|written| written.path);
+        let summary = Summary { figures, speed, log, svg: paths.svg.clone(), lost };
+        let told = report.end(&summary);
+        told.map_err(RunError::file("cannot write to", "standard output".as_ref()))?;
+        match session.ending() {
+            Some(Ending::Error(_)) => Ok(EXIT_PLAN_ERROR),
+            _ => Ok(EXIT_OK),
         }
     }
 }
 
-fn head(
-    program: &Program<'_>,
-    options: &RunOptions,
-    world: &LoadedWorld,
-) -> [(&'static str, String); 3] {
+fn head(setting: &Setting<'_>) -> [(&'static str, String); 3] {
+    let Setting { program, options, world, .. } = setting;
     let file = match &world.path {
         Some(path) => path.display().to_string(),
         None => "built-in room".to_owned(),
@@ -239,12 +226,15 @@ fn head(
 }
 
 /// What the log says of the run: enough to do it again.
-fn about(program: &Program<'_>, options: &RunOptions, world: &LoadedWorld) -> About {
+fn about(setting: &Setting<'_>) -> About {
+    let Setting { program, options, world, .. } = setting;
     let set = options.set.iter().map(|(name, value)| format!("{name}={value}"));
+    let lines = |all: &mut dyn Iterator<Item = String>| all.collect::<Vec<_>>().join("\n");
     let until = match options.end() {
         Instant::MAX => String::new(),
         end => end.as_nanos().to_string(),
     };
+    let clock = if options.speed == Speed::Max { "virtual" } else { "virtual, paced" };
     let facts = [
         ("plan", program.name.to_owned()),
         ("plan_file", program.file.to_owned()),
@@ -252,14 +242,13 @@ fn about(program: &Program<'_>, options: &RunOptions, world: &LoadedWorld) -> Ab
         ("robot", "sim".to_owned()),
         ("seed", options.seed.to_string()),
         ("set", set.collect::<Vec<_>>().join("\n")),
+        ("press", lines(&mut options.press.iter().map(ToString::to_string))),
+        ("fail", lines(&mut options.fail.iter().map(ToString::to_string))),
         ("world", world.world.name.clone()),
         ("world_hash", hash(&world.text)),
         ("physics_step_ns", STEP.as_nanos().to_string()),
         ("until_ns", until),
-        (
-            "clock",
-            if options.speed == Speed::Max { "virtual" } else { "virtual, paced" }.to_owned(),
-        ),
+        ("clock", clock.to_owned()),
         ("afp_version", env!("CARGO_PKG_VERSION").to_owned()),
     ];
     let texts = program.texts.iter();
@@ -276,22 +265,5 @@ fn plan_hash(program: &Program<'_>) -> String {
         texts => {
             hash(&texts.iter().map(|(path, text)| format!("{path}\0{text}\0")).collect::<String>())
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn pixels_take_a_program_that_can_make_them() {
-        let raster: Rasterizer<'_> = &|_| Ok(Vec::new());
-        let of = |name: &str, raster| {
-            let made = Paths { log: None, svg: Some(name.into()) }.raster(raster);
-            made.map(|made| made.is_some()).map_err(|error| error.code())
-        };
-        let usage = crate::EXIT_USAGE;
-        assert_eq!((of("a.svg", None), of("a.svg", Some(raster))), (Ok(false), Ok(false)));
-        assert_eq!((of("a.png", None), of("a.png", Some(raster))), (Err(usage), Ok(true)));
     }
 }

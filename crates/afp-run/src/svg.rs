@@ -8,10 +8,9 @@ mod marks;
 mod sonar;
 
 use afp_core::trace::{ComponentId, Names};
+use afp_session::{Mark, Waypoint};
 use afp_sim::world::{Mobility, Obstacle, Outline};
 use afp_sim::{Pose, World};
-
-use crate::judge::{Mark, Step};
 
 use canvas::{Canvas, View};
 pub use film::draw_film;
@@ -41,15 +40,15 @@ pub(crate) struct Picture<'a> {
     pub title: String,
     pub subtitle: String,
     /// Where the robot was.
-    pub path: &'a [Step],
+    pub path: &'a [Waypoint],
     /// What happened on the way.
     pub marks: &'a [Mark],
     /// Names and values below the legend.
-    pub figures: Vec<(&'static str, String)>,
+    pub figures: Vec<(String, String)>,
 }
 
 /// Draws the path of a run.
-pub(crate) fn draw(picture: &Picture<'_>, names: &impl Names) -> String {
+pub(crate) fn draw(picture: &Picture<'_>, names: &dyn Names) -> String {
     let Picture { world, path, marks, .. } = picture;
     let actors = actors(path);
     let color = |actor: Option<ComponentId>| {
@@ -113,7 +112,7 @@ fn room(world: &World, view: View) -> Canvas {
 }
 
 /// The actors that ran, in the order in which they first did.
-fn actors(path: &[Step]) -> Vec<ComponentId> {
+fn actors(path: &[Waypoint]) -> Vec<ComponentId> {
     let mut actors = Vec::new();
     for actor in path.iter().filter_map(|step| step.actor) {
         if !actors.contains(&actor) {
@@ -124,7 +123,7 @@ fn actors(path: &[Step]) -> Vec<ComponentId> {
 }
 
 /// The path cut where the actor changes; neighbours share a point.
-fn stretches(path: &[Step]) -> Vec<(Option<ComponentId>, Vec<[f64; 2]>)> {
+fn stretches(path: &[Waypoint]) -> Vec<(Option<ComponentId>, Vec<[f64; 2]>)> {
     let mut stretches: Vec<(Option<ComponentId>, Vec<[f64; 2]>)> = Vec::new();
     for step in path {
         let at = [step.pose.x, step.pose.y];
@@ -154,7 +153,7 @@ fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 /// The corners of everything: lower left, upper right.
-fn bounds(world: &World, path: &[Step]) -> [[f64; 2]; 2] {
+fn bounds(world: &World, path: &[Waypoint]) -> [[f64; 2]; 2] {
     let corners = world.obstacles.iter().flat_map(|obstacle| obstacle.outline.corners());
     let robot = |pose: Pose| World::robot_outline(pose);
     let path = path.iter().flat_map(|step| robot(step.pose));

@@ -22,6 +22,7 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod any;
+mod counts;
 mod faults;
 mod figures;
 mod observer;
@@ -30,8 +31,10 @@ mod request;
 mod robot;
 mod sample;
 mod session;
+mod track;
 
 pub use any::{AnySession, SetError};
+pub use counts::{Counts, Usage};
 pub use faults::{Active, Faults};
 pub use figures::{Figure, FigureValue, Figures, Span};
 pub use observer::{Gate, Go, NamedRecord, Observer, Open, Sampling, View};
@@ -40,3 +43,4 @@ pub use request::{HOLD, Request, RequestError, RequestId};
 pub use robot::{ControlOf, FaultOf, Measure, Refused, Robot, Simulated};
 pub use sample::{Image, Pose2, Ranging, SampleRef, Samples, Shape, Transform};
 pub use session::{SAMPLE, Session};
+pub use track::{Mark, Track, Waypoint};

@@ -174,7 +174,7 @@ where
 
     /// Whether nothing is left to do before `until`, or at it.
     #[inline]
-    fn is_over(&self, until: Instant) -> bool {
+    pub fn is_over(&self, until: Instant) -> bool {
         let now = self.robot.now();
         now >= until.min(self.last()) && self.due() > now && self.next_from_outside() > now
     }
@@ -228,10 +228,10 @@ where
     pub fn stop(&mut self, to: &mut [&mut dyn Observer]) {
         let now = self.robot.now();
         self.apply_due(now, to);
-        if self.wake.is_some() && self.ended.is_none() {
+        if self.ended.is_none() {
             self.scheduler.request_stop();
-            let wake = self.guarded_step(now);
-            self.woke(wake, now, to);
+            // A plan that has not started ends at its start; one that cannot start has nothing to stop.
+            let _ = self.step(now, to);
         }
         self.robot.emergency_stop();
     }

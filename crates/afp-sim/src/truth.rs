@@ -7,20 +7,10 @@ use crate::devices::sonar;
 use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
 use crate::world::Obstacle;
 use afp_core::Instant;
+pub use afp_session::Pose2 as Pose;
 use rapier2d::math::{Pose as Isometry, Vector};
 use rapier2d::parry::query;
 use rapier2d::parry::shape::{Segment, SharedShape};
-
-/// A true pose in the world's frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pose {
-    /// Metres.
-    pub x: f64,
-    /// Metres.
-    pub y: f64,
-    /// Radians, within half a turn of zero.
-    pub heading: f64,
-}
 
 /// A stretch of time in which the robot touched one obstacle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,94 +1,73 @@
-//! Who attends a run of a sweep: whoever judges it, and whoever may call it off.
+//! One run of a sweep, judged.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use afp::load::{LoadedPlan, PlanNames};
-use afp_core::trace::Record;
-use afp_core::{Environment, Instant};
-use afp_run::judge::Judge;
-use afp_run::rig::{Company, Go, Rig};
-use afp_sim::{Simulation, Truth};
+use afp_core::Instant;
+use afp_session::{AnySession, Counts, Go, Observer, Track};
 
 use crate::outcome::{Ending, Outcome};
-
-type Loaded = LoadedPlan<Simulation>;
-
-/// Everybody who attends a run.
-struct Attendants<'a> {
-    judge: Judge,
-    stop: &'a AtomicBool,
-}
-
-impl Company<Loaded> for Attendants<'_> {
-    fn wait(&mut self, _: Instant, _: Instant) -> Go {
-        if self.stop.load(Ordering::Relaxed) { Go::Stop } else { Go::On }
-    }
-
-    fn hear(&mut self, at: Instant, record: &Record<'_>, names: &PlanNames, truth: &Truth<'_>) {
-        self.judge.hear(at, record, names, truth);
-    }
-
-    fn looks(&self) -> bool {
-        true
-    }
-
-    fn look(&mut self, now: Instant, truth: &Truth<'_>) {
-        self.judge.look(now, truth);
-    }
-}
 
 /// Runs a plan as `afpc run` does; `None` when it was called off.
 pub(crate) fn drive(
     run: u64,
-    mut rig: Rig<Loaded>,
+    session: &mut dyn AnySession,
     until: Instant,
     stop: &AtomicBool,
 ) -> Option<Outcome> {
-    let mut attendants = Attendants { judge: Judge::new(rig.names()), stop };
-    match rig.run(until, &mut attendants) {
+    let mut counts = Counts::new(session.names());
+    let mut track = Track::new(session.devices());
+    let mut observers: [&mut dyn Observer; 2] = [&mut counts, &mut track];
+    let mut gate =
+        |_: Instant, _: Instant| if stop.load(Ordering::Relaxed) { Go::Stop } else { Go::On };
+    match session.run(until, &mut gate, &mut observers) {
         Ok(Go::Stop) => return None,
         Ok(_) => {}
         Err(error) => {
-            let why = afp_run::inputs::missing(error, rig.names()).to_string();
+            let why = afp_run::inputs::missing(error, session.names()).to_string();
             return Some(Outcome::failed(run, Ending::NotStarted, why));
         }
     }
-    let ending = match rig.ending() {
+    let ending = match session.ending() {
         Some(afp_core::Ending::Ok) => Ending::Ok,
         Some(afp_core::Ending::Interrupted) => Ending::Interrupted,
         Some(afp_core::Ending::Error(_)) => Ending::Error,
         None => {
-            rig.stop(&mut attendants);
-            match rig.ending() {
+            session.stop(&mut observers);
+            match session.ending() {
                 // Stopping may fail as well.
                 Some(afp_core::Ending::Error(_)) => Ending::Error,
                 _ => Ending::TimeLimit,
             }
         }
     };
-    rig.sim.emergency_stop();
-    Some(outcome(run, &rig, &attendants.judge, ending))
+    Some(outcome(run, session, &counts, track.distance, ending))
 }
 
-fn outcome(run: u64, rig: &Rig<Loaded>, judge: &Judge, ending: Ending) -> Outcome {
-    let judged = judge.wall.seconds() > 0.0;
+fn outcome(
+    run: u64,
+    session: &mut dyn AnySession,
+    counts: &Counts,
+    distance_m: f64,
+    ending: Ending,
+) -> Outcome {
+    let figures = session.end();
     let why = match ending {
         Ending::TimeLimit => "time limit".to_owned(),
-        _ => judge.cause(rig.names()),
+        _ => counts.cause(session.names()),
     };
     Outcome {
         run,
         ending,
-        place: judge.place(rig.names()).to_owned(),
+        place: counts.last(session.names()).to_owned(),
         why,
-        time_s: rig.sim.now().as_secs_f64(),
-        distance_m: judge.distance,
-        collisions: rig.sim.truth().collisions().len() as u64,
-        interruptions: judge.interruptions,
-        deadline_misses: rig.scheduler.misses(),
-        wall_error_mean_m: judged.then(|| judge.wall.mean()),
-        wall_error_max_m: judged.then_some(judge.wall.max),
-        trace: rig.trace().to_string(),
+        time_s: session.now().as_secs_f64(),
+        distance_m,
+        collisions: figures.spans("contacts").len() as u64,
+        interruptions: counts.interruptions,
+        deadline_misses: session.misses(),
+        wall_error_mean_m: figures.number("wall_error", "mean_m"),
+        wall_error_max_m: figures.number("wall_error", "max_m"),
+        trace: session.trace().to_string(),
         took_s: 0.0,
     }
 }

@@ -7,9 +7,9 @@ use std::thread;
 use std::time::Instant as Wall;
 
 use afp::load::LoadedPlan;
-use afp_core::{Duration, Fault, Instant};
+use afp_core::{Fault, Instant};
 use afp_run::RunError;
-use afp_run::rig::Rig;
+use afp_session::{Session, Simulated};
 use afp_sim::Simulation;
 
 use crate::grid::{Row, Sweep};
@@ -105,8 +105,11 @@ impl Engine<'_> {
                 return Some(Outcome::failed(row.run, Ending::NotStarted, first_line(&error)));
             }
         };
-        let rig = Rig::new(plan, sim, Duration::ZERO);
-        attend::drive(row.run, rig, Instant::ZERO + self.sweep.until, self.stop)
+        let mut session = Session::loaded(plan, sim);
+        for name in Simulation::MEASURES {
+            Simulation::measure(name).into_iter().for_each(|measure| session.add_measure(measure));
+        }
+        attend::drive(row.run, &mut session, Instant::ZERO + self.sweep.until, self.stop)
     }
 }
 

@@ -79,9 +79,9 @@ impl Coverage {
         let names = unfold(graph);
         let mut parts = Vec::new();
         let places = places(graph);
-        let components = names.components.iter().zip(&places).zip(&hits.components);
+        let components = names.components.iter().zip(&places).zip(hits.components());
         for ((names, place), touched) in components.skip(1) {
-            add(names, place, touched, &mut parts);
+            add(names, place, &touched, &mut parts);
         }
         let entries = names.entries.iter().zip(&hits.entries);
         parts.extend(entries.filter_map(|(entry, count)| of_entry(entry, *count)));

@@ -1,75 +1,84 @@
 //! One run of a scenario, in virtual time.
-//!
-//! Without a log, and unless claims are about the robot, the truth is looked at in the end only, since
-//! the simulation keeps its own list of collisions.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
-use afp::load::{LoadedPlan, PlanNames};
+use afp::load::LoadedPlan;
+use afp_core::devices::{SignalId, find_signal};
 use afp_core::rt::NamedPlan;
-use afp_core::trace::{Names, Record};
-use afp_core::{Duration, Environment, Instant, PlanState, StartError};
+use afp_core::{Duration, Instant, StartError};
 use afp_dsl::scenario::Scenario;
-use afp_dsl::scenario::devices::Control;
-use afp_log::{About, NameTable, Recorder, WhenFull};
+use afp_log::{About, NameTable, SessionLog};
 use afp_run::RunError;
-use afp_run::rig::{Company, Go, Rig};
-use afp_sim::{Simulation, Truth};
+use afp_session::{
+    AnySession, Go, NamedRecord, Observer, RequestError, RequestId, SampleRef, Sampling, Session,
+    View,
+};
+use afp_sim::Simulation;
 
 use crate::setting::Setting;
-use crate::stimuli::{Deed, Stimuli, owned};
+use crate::stimuli::{self, owned};
 use crate::verdict::{Broken, Verdict};
 use crate::watch::Watch;
 
 /// How long a run goes on when the plan has ended: the robot comes to rest.
 const REST: Duration = Duration::from_millis(1000);
+/// How often the robot is looked at where a claim is about it, and after each step.
+const LOOK: Duration = Duration::from_millis(5);
 
-type Loaded = LoadedPlan<Simulation>;
-
-/// Everybody who attends the run of a scenario.
-struct Attendants<'a> {
+/// Sees whether a scenario comes out as it says.
+struct Judge<'a> {
     scenario: &'a Scenario,
     watch: Watch<'a>,
-    stimuli: Stimuli,
+    /// The line of the scenario that each request stands for.
+    lines: BTreeMap<RequestId, usize>,
+    halted: Option<SignalId>,
+    standing: Option<SignalId>,
     broken: Vec<Broken>,
     /// Whether entries have always held what was committed.
     sound: bool,
     timeline: Vec<(Instant, String)>,
-    go_on: &'a mut dyn FnMut() -> bool,
 }
 
 /// Runs a scenario to its end; `None` when `go_on` called it off.
 pub(crate) fn run(
     scenario: &Scenario,
     setting: &Setting,
-    plan: Loaded,
+    plan: LoadedPlan<Simulation>,
     log: Option<&Path>,
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Option<Verdict>, RunError> {
-    let mut rig = rig(scenario, setting, plan, log)?;
-    let stimuli = Stimuli::new(scenario).map_err(|line| {
+    let mut session = session(scenario, setting, plan)?;
+    let lines = stimuli::request(&mut session, scenario).map_err(|(line, why)| {
         let line = scenario.stimuli.get(line).map_or("", |stimulus| &stimulus.text);
-        refused(scenario, &format!("the simulator cannot do '{line}'"))
+        refused(scenario, &format!("the simulator cannot do '{line}': {why}"))
     })?;
-    let mut attendants = Attendants {
+    let mut log = log.map(|path| self::log(path, scenario, setting, &session)).transpose()?;
+    let signal = |name| find_signal(session.devices(), "robot", name);
+    let mut judge = Judge {
         scenario,
-        watch: Watch::new(scenario, rig.names().entries() as usize),
-        stimuli,
+        watch: Watch::new(scenario, session.names().entries() as usize),
+        lines,
+        halted: signal("halted"),
+        standing: signal("standing"),
         broken: Vec::new(),
         sound: true,
         timeline: Vec::new(),
-        go_on,
     };
+    let mut observers: Vec<&mut dyn Observer> = vec![&mut judge];
+    observers.extend(log.as_mut().map(|log| log as &mut dyn Observer));
+    let mut gate = |_: Instant, _: Instant| if go_on() { Go::On } else { Go::Stop };
     let until = Instant::from_nanos(scenario.until);
-    let went = rig.run(until, &mut attendants).map_err(|error| cannot_start(scenario, error))?;
-    rig.sim.emergency_stop();
-    rig.finish_log()?;
+    let went = session.run(until, &mut gate, &mut observers);
+    let went = went.map_err(|error| cannot_start(scenario, error))?;
+    let figures = session.end();
+    log.map(SessionLog::finish).transpose()?;
     if went == Go::Stop {
         return Ok(None);
     }
-    let end = rig.sim.now();
-    let Attendants { mut watch, broken: refused, timeline, .. } = attendants;
-    let mut broken = watch.finish(end, rig.sim.truth().collisions());
+    let end = session.now();
+    let Judge { mut watch, broken: refused, timeline, .. } = judge;
+    let mut broken = watch.finish(end, figures.spans("contacts"));
     broken.extend(refused);
     broken.sort_by_key(|broken| broken.at);
     Ok(Some(Verdict {
@@ -79,78 +88,89 @@ pub(crate) fn run(
         hits: watch.hits,
         activations: watch.activations,
         timeline,
-        trace: rig.trace().get(),
+        trace: session.trace().get(),
     }))
 }
 
 /// The plan of a scenario on a robot in its world.
-fn rig(
+fn session(
     scenario: &Scenario,
     setting: &Setting,
-    mut plan: Loaded,
-    log: Option<&Path>,
-) -> Result<Rig<Loaded>, RunError> {
-    let world = &setting.world.world;
-    let sim = Simulation::new(world, scenario.seed)
+    mut plan: LoadedPlan<Simulation>,
+) -> Result<impl AnySession, RunError> {
+    let sim = Simulation::new(&setting.world.world, scenario.seed)
         .map_err(|error| RunError::usage(error.message, "look at the world's file"))?;
     for (entry, value) in &scenario.set {
         let set = NamedPlan::set_input(&mut plan, *entry, &owned(value));
         set.map_err(|why| refused(scenario, &why.to_string()))?;
     }
-    let mut rig = Rig::new(plan, sim, REST);
-    if let Some(path) = log {
-        let (about, names) = (about(scenario, setting), NameTable::new(rig.names()));
-        rig.record(Recorder::create(path, &about, names, WhenFull::Wait)?, world, false);
-    }
-    Ok(rig)
+    let mut session = Session::loaded(plan, sim);
+    session.set_rest(REST);
+    Ok(session)
 }
 
-impl Company<Loaded> for Attendants<'_> {
-    fn wait(&mut self, _: Instant, _: Instant) -> Go {
-        match (self.go_on)() {
-            true => Go::On,
-            false => Go::Stop,
+fn log(
+    path: &Path,
+    scenario: &Scenario,
+    setting: &Setting,
+    session: &dyn AnySession,
+) -> Result<SessionLog, RunError> {
+    let (about, names) = (about(scenario, setting), NameTable::new(session.names()));
+    let (devices, scene) = (session.devices(), setting.world.world.scene());
+    Ok(SessionLog::create(path, &about, names, devices, scene, false)?)
+}
+
+impl Observer for Judge<'_> {
+    fn on_record(&mut self, named: &NamedRecord<'_>) {
+        self.watch.hear(named.at, named.record);
+        if let Some(line) = afp_run::line(named.at, named.record, named.names) {
+            self.timeline.push((named.at, line));
         }
     }
 
-    fn next(&self) -> Instant {
-        self.stimuli.next()
+    fn after_step(&mut self, view: &View<'_>) {
+        self.watch.settle(view.now());
+        self.compare(view);
     }
 
-    fn happen(&mut self, rig: &mut Rig<Loaded>, now: Instant) {
-        while let Some((line, deed)) = self.stimuli.take_due(now) {
-            if let (Err(why), Some(stimulus)) =
-                (act(deed, rig, now), self.scenario.stimuli.get(line))
-            {
-                let (text, span) = (stimulus.text.clone(), stimulus.span);
-                self.broken.push(Broken { text, span, at: now, why });
-            }
+    fn sampling(&self) -> Sampling {
+        match self.watch.looks_at_robot() {
+            true => Sampling::Following(LOOK),
+            false => Sampling::Never,
         }
     }
 
-    fn hear(&mut self, at: Instant, record: &Record<'_>, names: &PlanNames, _: &Truth<'_>) {
-        self.watch.hear(at, record);
-        if let Some(line) = afp_run::line(at, record, names) {
-            self.timeline.push((at, line));
+    fn wants(&self, _: Instant, signal: SignalId) -> bool {
+        self.halted == Some(signal) || self.standing == Some(signal)
+    }
+
+    fn on_sample(&mut self, _: Instant, signal: SignalId, value: SampleRef<'_>) {
+        let SampleRef::Bool(truth) = value else { return };
+        if self.halted == Some(signal) {
+            self.watch.set_halted(truth);
+        } else {
+            self.watch.set_standing(truth);
         }
     }
 
-    fn settle(&mut self, rig: &Rig<Loaded>, now: Instant) {
-        self.watch.settle(now, &rig.sim.truth());
-        self.compare(rig, now);
+    fn after_samples(&mut self, at: Instant) {
+        self.watch.settle(at);
     }
 
-    fn follows(&self) -> bool {
-        self.watch.looks_at_robot()
+    fn on_refused(&mut self, at: Instant, request: RequestId, why: &RequestError) {
+        let line = self.lines.get(&request).and_then(|line| self.scenario.stimuli.get(*line));
+        if let Some(stimulus) = line {
+            let (text, span) = (stimulus.text.clone(), stimulus.span);
+            self.broken.push(Broken { text, span, at, why: why.to_string() });
+        }
     }
 }
 
-impl Attendants<'_> {
+impl Judge<'_> {
     /// Whatever the plan holds has been committed: half a commit would be seen here.
-    fn compare(&mut self, rig: &Rig<Loaded>, now: Instant) {
-        let plan = rig.scheduler.plan();
+    fn compare(&mut self, view: &View<'_>) {
         let entries = &self.scenario.graph.main().entries;
-        let held = (0..entries.len() as u16).map(|entry| plan.entry(entry));
+        let held = (0..entries.len() as u16).map(|entry| view.entry(entry));
         let Some((place, held, known)) = self.watch.differs(held).filter(|_| self.sound) else {
             return;
         };
@@ -158,39 +178,11 @@ impl Attendants<'_> {
         self.broken.push(Broken {
             text: "(entries hold what was committed)".to_owned(),
             span: self.scenario.span,
-            at: now,
+            at: view.now(),
             why: format!("'{name}' holds {held}, its last commit was {known}"),
         });
         self.sound = false;
     }
-}
-
-/// Does what a scenario lets happen.
-fn act(deed: Deed, rig: &mut Rig<Loaded>, now: Instant) -> Result<(), String> {
-    match deed {
-        Deed::Set(entry, value) => {
-            return rig.scheduler.write(entry, value).map_err(|why| why.to_string());
-        }
-        Deed::Hold(Control::Escape, true) => rig.sim.press_escape(),
-        Deed::Hold(Control::Escape, false) => rig.sim.release_escape(),
-        Deed::Hold(Control::Touch, true) => rig.sim.press_bumper(),
-        Deed::Hold(Control::Touch, false) => rig.sim.release_bumper(),
-        Deed::Break(fault, time) => rig.sim.inject(fault, now, time),
-        Deed::Idle(element) => {
-            if !rig.scheduler.plan_mut().idle(element) {
-                return Err("there is no such actor".to_owned());
-            }
-        }
-        Deed::Inject(injection) => {
-            let active = rig.scheduler.active();
-            let injected = rig.scheduler.plan_mut().inject(active, &injection);
-            return injected.map_err(|_| {
-                let path = rig.names().component(injection.component).path;
-                format!("'{path}' is not active")
-            });
-        }
-    }
-    Ok(())
 }
 
 fn refused(scenario: &Scenario, why: &str) -> RunError {

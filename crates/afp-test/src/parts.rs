@@ -168,7 +168,7 @@ impl<'a> Parts<'a> {
             entries: vec![0; plan.entries.len()],
         });
         let mut usage = Usage { plans: plans.collect() };
-        for (part, touched) in self.parts.iter().zip(&hits.components) {
+        for (part, touched) in self.parts.iter().zip(hits.components()) {
             let Some(plan) = usage.plans.get_mut(part.plan.index()) else { continue };
             let count = match part.what {
                 What::Element(id) => plan.elements.get_mut(id.index()),

@@ -1,86 +1,65 @@
-//! What happens to the robot and the plan in a scenario, in order of time.
+//! What a scenario does to the robot and the plan, as requests of a session.
 
 use std::collections::BTreeMap;
 
 use afp::load::Injection;
+use afp_core::devices::{find_control, find_fault};
 use afp_core::trace::ComponentId;
 use afp_core::{Duration, Instant, Text, Value};
 use afp_dsl::scenario::devices::{Control, Failure};
 use afp_dsl::scenario::{self, Action, Scenario};
 use afp_dsl::toolbox::Constant;
-use afp_sim::Fault;
+use afp_session::{AnySession, HOLD, Request, RequestError, RequestId};
 
-/// How long something is pressed unless a scenario says otherwise, as with `--press`.
-const HOLD: u64 = 200_000_000;
-
-/// Something to be done.
-#[derive(Clone, Debug)]
-pub(crate) enum Deed {
-    /// An entry is written.
-    Set(u16, Value),
-    /// A control is held down or let go.
-    Hold(Control, bool),
-    /// Something breaks.
-    Break(Fault, Duration),
-    /// A component reports what it does not see.
-    Inject(Injection),
-    /// An actor, or all of them, do nothing from their next start on.
-    Idle(Option<ComponentId>),
+/// Asks for all that happens in a scenario; gives the line that each request stands for.
+///
+/// # Errors
+/// A line that can never be done, and why.
+pub(crate) fn request(
+    session: &mut dyn AnySession,
+    scenario: &Scenario,
+) -> Result<BTreeMap<RequestId, usize>, (usize, RequestError)> {
+    let mut lines = BTreeMap::new();
+    for (line, stimulus) in scenario.stimuli.iter().enumerate() {
+        let at = Instant::from_nanos(stimulus.at);
+        let requests = requests(session, at, &stimulus.action).map_err(|why| (line, why))?;
+        for (at, request) in requests {
+            lines.insert(session.at(at, request).map_err(|why| (line, why))?, line);
+        }
+    }
+    Ok(lines)
 }
 
-/// What is still to happen; at one instant in the order of the text.
-#[derive(Debug, Default)]
-pub(crate) struct Stimuli {
-    deeds: BTreeMap<(u64, usize), (usize, Deed)>,
-}
-
-impl Stimuli {
-    /// All of a scenario.
-    ///
-    /// # Errors
-    /// The line of a fault that the simulator does not have.
-    pub(crate) fn new(scenario: &Scenario) -> Result<Self, usize> {
-        let mut deeds = BTreeMap::new();
-        let mut add = |at: u64, line: usize, deed| {
-            let order = deeds.len();
-            deeds.insert((at, order), (line, deed));
-        };
-        for (line, stimulus) in scenario.stimuli.iter().enumerate() {
-            let at = stimulus.at;
-            match &stimulus.action {
-                Action::Set(entry, value) => add(at, line, Deed::Set(*entry, owned(value))),
-                Action::Press(control, time) => {
-                    add(at, line, Deed::Hold(*control, true));
-                    let end = at.saturating_add(time.unwrap_or(HOLD));
-                    add(end, line, Deed::Hold(*control, false));
-                }
-                Action::Release(control) => add(at, line, Deed::Hold(*control, false)),
-                Action::Fail(failure, time) => {
-                    let fault = fault(failure).ok_or(line)?;
-                    let time = time.map_or(Duration::MAX, Duration::from_nanos);
-                    add(at, line, Deed::Break(fault, time));
-                }
-                Action::Idle(element) => {
-                    add(at, line, Deed::Idle(element.map(ComponentId)));
-                }
-                Action::Inject(injection) => add(at, line, Deed::Inject(injected(injection))),
-            }
+/// What an action asks for, and when.
+fn requests(
+    session: &dyn AnySession,
+    at: Instant,
+    action: &Action,
+) -> Result<Vec<(Instant, Request)>, RequestError> {
+    let press = |at: Instant, control: &Control, held| {
+        let id = find_control(session.devices(), control.word()).ok_or(RequestError::NoControl)?;
+        Ok((at, Request::Press(id, held)))
+    };
+    Ok(match action {
+        Action::Set(entry, value) => vec![(at, Request::Write(*entry, owned(value)))],
+        Action::Press(control, time) => {
+            let end = at + time.map_or(HOLD, Duration::from_nanos);
+            vec![press(at, control, true)?, press(end, control, false)?]
         }
-        Ok(Stimuli { deeds })
-    }
-
-    /// When the next thing happens.
-    pub(crate) fn next(&self) -> Instant {
-        self.deeds.keys().next().map_or(Instant::MAX, |(at, _)| Instant::from_nanos(*at))
-    }
-
-    /// The next thing that is due, with the number of its stimulus.
-    pub(crate) fn take_due(&mut self, now: Instant) -> Option<(usize, Deed)> {
-        if self.next() > now {
-            return None;
+        Action::Release(control) => vec![press(at, control, false)?],
+        Action::Fail(failure, time) => {
+            let Failure { device, kind, amount } = failure;
+            let id = find_fault(session.devices(), device, kind).ok_or(RequestError::NoFault)?;
+            let amount = match amount {
+                Some(Constant::Float(amount)) => Some(*amount),
+                _ => None,
+            };
+            let lasting = time.map_or(Duration::MAX, Duration::from_nanos);
+            vec![(at, Request::Break(id, amount, lasting))]
         }
-        self.deeds.pop_first().map(|(_, due)| due)
-    }
+        Action::Idle(element) => vec![(at, Request::Idle(element.map(ComponentId)))],
+        Action::Inject(injection) => vec![(at, Request::Inject(injected(injection)))],
+    })
 }
 
 /// A value as the run time has it.
@@ -101,13 +80,4 @@ fn injected(injection: &scenario::Injection) -> Injection {
         outcome: injection.outcome,
         outputs: injection.outputs.iter().map(|(port, value)| (*port, owned(value))).collect(),
     }
-}
-
-/// The simulator's fault.
-pub(crate) fn fault(failure: &Failure) -> Option<Fault> {
-    let amount = match &failure.amount {
-        Some(Constant::Float(amount)) => Some(*amount),
-        _ => None,
-    };
-    afp_carbot::table::named(failure.device, failure.kind, amount)
 }

@@ -9,7 +9,7 @@ use afp_core::trace::{Author, ComponentId, DEADLINE_MISSED, ERROR, Ending, Recor
 use afp_core::{Instant, Value, ValueRef};
 use afp_dsl::scenario::{Cause, Claim, Destination, EndCause, Expectation, Outcome, Scenario};
 use afp_dsl::unfold::{Goal, Place, places};
-use afp_sim::{Collision, Truth};
+use afp_session::Span;
 
 use crate::verdict::Broken;
 use hits::Hits;
@@ -102,7 +102,7 @@ impl<'a> Watch<'a> {
 
     /// Takes a record into account.
     pub(crate) fn hear(&mut self, at: Instant, record: &Record<'_>) {
-        self.hits.hear(record);
+        self.hits.hear(at, record);
         if !matches!(record, Record::Committed { .. }) {
             self.commit = None;
         }
@@ -150,16 +150,25 @@ impl<'a> Watch<'a> {
         pairs.find(|(_, held, committed)| held != committed)
     }
 
+    /// Whether the last command to the drive was to stand still.
+    pub(crate) fn set_halted(&mut self, halted: bool) {
+        self.state.halted = halted;
+    }
+
+    /// Whether the robot does not move.
+    pub(crate) fn set_standing(&mut self, standing: bool) {
+        self.state.standing = standing;
+    }
+
     /// The step at this instant is over: what holds now holds until the next one.
-    pub(crate) fn settle(&mut self, at: Instant, truth: &Truth<'_>) {
-        (self.state.halted, self.state.standing) = (truth.is_halted(), truth.is_standing());
+    pub(crate) fn settle(&mut self, at: Instant) {
         for look in &mut self.looks {
             look.settle(at.as_nanos(), &self.state);
         }
     }
 
     /// The run is over.
-    pub(crate) fn finish(&mut self, end: Instant, collisions: &[Collision]) -> Vec<Broken> {
+    pub(crate) fn finish(&mut self, end: Instant, contacts: &[Span]) -> Vec<Broken> {
         for id in 0..self.since.len() as u32 {
             self.set_active(end, ComponentId(id), false);
         }
@@ -168,9 +177,7 @@ impl<'a> Watch<'a> {
         let mut broken: Vec<_> = std::mem::take(&mut self.looks)
             .into_iter()
             .zip(expectations)
-            .filter_map(|(look, expectation)| {
-                look.finish(end, &self.state, collisions, expectation)
-            })
+            .filter_map(|(look, expectation)| look.finish(end, &self.state, contacts, expectation))
             .collect();
         broken.extend(self.unexpected_error(end));
         broken.sort_by_key(|broken| broken.at);

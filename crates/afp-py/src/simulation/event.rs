@@ -1,12 +1,12 @@
 //! `Event`: one thing that happened.
 
 use afp::load::PlanNames;
-use afp_log::OwnedRecord;
 use afp_log::event::{describe, ending_word, kind_word};
 use afp_log::instant;
 use afp_log::proto::afp::plan_event::{Cause, Kind};
 use afp_log::proto::afp::value::Value as Told;
 use afp_log::proto::afp::{PlanEvent, Value};
+use afp_session::OwnedRecord;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 

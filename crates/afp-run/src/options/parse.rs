@@ -1,12 +1,10 @@
 //! The values of options as people write them.
 
+use std::fmt;
 use std::path::PathBuf;
 
-use afp_carbot::table::{Carbot, TABLE};
-use afp_core::devices::{AmountRow, Devices, faults};
-use afp_core::{Duration, Instant};
+use afp_core::Instant;
 use afp_project::duration;
-use afp_sim::Fault;
 
 /// How fast simulated time passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,33 +15,47 @@ pub enum Speed {
     Times(f64),
 }
 
-/// A button pressed at an instant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// A control that is pressed at an instant.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Press {
     /// Which one.
-    pub button: Button,
+    pub control: String,
     /// When.
     pub at: Instant,
 }
 
-/// What can be pressed on the robot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Button {
-    /// The escape button.
-    Escape,
-    /// The bumper.
-    Touch,
-}
-
 /// Something that breaks at an instant.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failure {
-    /// What breaks, and how.
-    pub fault: Fault,
+    /// What breaks.
+    pub device: String,
+    /// How.
+    pub kind: String,
+    /// By how much, as it is written.
+    pub amount: Option<String>,
     /// From when on.
     pub from: Instant,
-    /// For how long; [`Duration::MAX`] for good.
-    pub lasting: Duration,
+    /// Up to when; `None` for good.
+    pub to: Option<Instant>,
+}
+
+impl fmt::Display for Press {
+    /// As it is written.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}@{}s", self.control, self.at.as_secs_f64())
+    }
+}
+
+impl fmt::Display for Failure {
+    /// As it is written.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}", self.device, self.kind)?;
+        if let Some(amount) = &self.amount {
+            write!(f, "={amount}")?;
+        }
+        write!(f, "@{}s", self.from.as_secs_f64())?;
+        self.to.map_or(Ok(()), |to| write!(f, "..{}s", to.as_secs_f64()))
+    }
 }
 
 /// Where output goes.
@@ -66,70 +78,41 @@ pub(super) fn speed(text: &str) -> Result<Speed, String> {
     }
 }
 
-pub(super) fn press(text: &str) -> Result<Press, String> {
-    let (button, time) =
+/// Reads `escape@20s`. Whether there is such a control, the robot knows.
+///
+/// # Errors
+/// It is not written so.
+pub fn press(text: &str) -> Result<Press, String> {
+    let (control, time) =
         text.split_once('@').ok_or("expected a button and a time, such as escape@20s")?;
-    let button = match button {
-        "escape" => Button::Escape,
-        "touch" => Button::Touch,
-        other => {
-            return Err(format!("the robot has no button '{other}'; it has 'escape' and 'touch'"));
-        }
-    };
-    Ok(Press { button, at: instant(time)? })
+    Ok(Press { control: control.to_owned(), at: instant(time)? })
 }
 
-pub(super) fn failure(text: &str) -> Result<Failure, String> {
+/// Reads `wheels.slip=0.2@3s..5s`. Whether there is such a fault, the robot knows.
+///
+/// # Errors
+/// It is not written so.
+pub fn failure(text: &str) -> Result<Failure, String> {
     let (what, when) = text
         .split_once('@')
         .ok_or("expected what fails, how and when, such as ultrasonic.frozen@5s..7s")?;
     let (what, amount) = match what.split_once('=') {
-        Some((what, amount)) => (what, Some(amount)),
+        Some((what, amount)) => (what, Some(amount.to_owned())),
         None => (what, None),
     };
     let (device, kind) = what.split_once('.').unwrap_or((what, ""));
-    let found = faults(TABLE).find(|(_, at, row)| at.name == device && row.name == kind);
-    let (id, _, row) = found.ok_or_else(|| no_fault(device, kind))?;
-    let amount = amount.map(|text| self::amount(text, row.amount)).transpose()?;
-    let fault = Carbot::fault(id, amount).ok_or_else(|| no_fault(device, kind))?;
     let (from, to) = match when.split_once("..") {
-        Some((from, to)) => (instant(from)?, instant(to)?),
-        None => (instant(when)?, Instant::MAX),
+        Some((from, to)) => (instant(from)?, Some(instant(to)?)),
+        None => (instant(when)?, None),
     };
-    if to <= from {
+    if to.is_some_and(|to| to <= from) {
         return Err("it ends before it begins".to_owned());
     }
-    let lasting = if to == Instant::MAX { Duration::MAX } else { to.since(from) };
-    Ok(Failure { fault, from, lasting })
+    Ok(Failure { device: device.to_owned(), kind: kind.to_owned(), amount, from, to })
 }
 
 fn instant(text: &str) -> Result<Instant, String> {
     Ok(Instant::ZERO + duration(text)?)
-}
-
-/// How much of a fault, in SI units.
-fn amount(text: &str, of: Option<AmountRow>) -> Result<f64, String> {
-    let of = of.ok_or_else(|| format!("there is no more or less of it: leave '={text}' out"))?;
-    let AmountRow { name, from, to, .. } = of;
-    let wrong = || format!("'{text}' is no {name} from {from} to {to}");
-    let amount = match of.unit {
-        "s" => duration(text)?.as_secs_f64(),
-        _ => text.parse().map_err(|_| wrong())?,
-    };
-    of.checked(Some(amount)).ok_or_else(wrong)
-}
-
-fn no_fault(device: &str, kind: &str) -> String {
-    let of_device = faults(TABLE).filter(|(_, at, _)| at.name == device);
-    let kinds: Vec<_> = of_device.map(|(_, _, row)| row.name).collect();
-    if !kinds.is_empty() {
-        let what = format!("'{device}' cannot be '{kind}'");
-        return format!("{what}; it can be {}", kinds.join(", "));
-    }
-    let mut devices: Vec<_> = faults(TABLE).map(|(_, at, _)| at.name).collect();
-    devices.sort_unstable();
-    devices.dedup();
-    format!("nothing called '{device}' can fail; there are {}", devices.join(", "))
 }
 
 pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
@@ -150,40 +133,34 @@ pub(super) fn destination(text: &str) -> Result<Destination, String> {
 
 #[cfg(test)]
 mod tests {
+    use afp_core::Duration;
+
     use super::*;
 
     #[test]
-    fn buttons_have_names() {
+    fn what_is_pressed_has_a_name_and_a_time() {
         let at = Instant::ZERO + Duration::from_secs(20);
-        assert_eq!(press("escape@20s"), Ok(Press { button: Button::Escape, at }));
+        assert_eq!(press("escape@20s"), Ok(Press { control: "escape".to_owned(), at }));
         assert!(press("escape").is_err());
-        assert!(press("start@1s").unwrap_err().contains("no button 'start'"));
     }
 
     #[test]
-    fn what_fails_has_a_kind_an_amount_and_a_time() {
-        use afp_sim::{Defect, Sensor};
-        let secs = |s: u64| Instant::ZERO + Duration::from_secs(s);
-        let frozen = Fault::Sensor(Sensor::Ultrasonic, Defect::Frozen);
-        let lasting = Duration::from_secs(2);
-        let told = failure("ultrasonic.frozen@5s..7s");
-        assert_eq!(told, Ok(Failure { fault: frozen, from: secs(5), lasting }));
-        let late = Defect::Delayed(Duration::from_millis(300));
-        let told = failure("odometry.delayed=300ms@1s").unwrap();
-        assert_eq!(told.fault, Fault::Sensor(Sensor::Odometry, late));
-        assert_eq!(told.lasting, Duration::MAX);
-        assert_eq!(failure("wheels.slip=0.3@0s").unwrap().fault, Fault::Slip(0.3));
+    fn what_is_read_shows_as_it_is_written() {
+        for text in
+            ["ultrasonic.frozen@5s..7s", "odometry.delayed=300ms@1.5s", "wheels.slip=0.3@0s"]
+        {
+            assert_eq!(failure(text).map(|failure| failure.to_string()), Ok(text.to_owned()));
+        }
+        assert_eq!(
+            press("touch@0.25s").map(|press| press.to_string()),
+            Ok("touch@0.25s".to_owned())
+        );
     }
 
     #[test]
-    fn what_cannot_fail_so_is_told_what_can() {
+    fn what_fails_has_a_time_that_goes_on() {
         for (text, says) in [
             ("ultrasonic.frozen", "such as ultrasonic.frozen@5s..7s"),
-            ("battery.stuck@1s", "'battery' cannot be 'stuck'; it can be frozen, lost"),
-            ("sonar.lost@1s", "nothing called 'sonar' can fail; there are battery, buttons"),
-            ("wheels.slip=3@1s", "no share from 0 to 1"),
-            ("touch.lost=3@1s", "no more or less of it"),
-            ("touch.slow=3@1s", "20s or 500ms"),
             ("touch.lost@3s..2s", "it ends before it begins"),
             ("touch.lost@3", "20s or 500ms"),
         ] {

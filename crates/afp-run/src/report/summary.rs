@@ -5,11 +5,10 @@ use std::path::PathBuf;
 
 use afp_core::Instant;
 use afp_core::trace::{ComponentId, Ending, Kind, Names, TraceHash};
-use afp_sim::{Collision, World};
+use afp_session::{Counts, Figure, FigureValue, Figures, Span, Usage};
 use anstyle::{AnsiColor, Style};
+use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
-
-use crate::judge::Judge;
 
 const QUIET: Style = Style::new().dimmed();
 const STRONG: Style = Style::new().bold();
@@ -27,7 +26,7 @@ pub(crate) enum StoppedBy {
 
 /// What is the same on every machine.
 #[derive(Clone, Debug, Serialize)]
-pub(crate) struct Figures {
+pub(crate) struct RunFigures {
     pub plan: String,
     pub world: String,
     pub seed: u64,
@@ -41,35 +40,23 @@ pub(crate) struct Figures {
     activations: Vec<(String, u64)>,
     #[serde(serialize_with = "in_order")]
     outcomes: Vec<(String, u64)>,
+    #[serde(serialize_with = "in_order", skip_serializing_if = "Vec::is_empty")]
+    faults: Vec<(String, u64)>,
     interruptions: u64,
     deadline_misses: u64,
     distance_m: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    wall_error: Option<Wall>,
-    contacts: Vec<Contact>,
+    /// What measures and robot say.
+    #[serde(flatten, serialize_with = "by_name")]
+    measured: Figures,
     /// The hash of the trace.
     trace: String,
-}
-
-#[derive(Clone, Copy, Debug, Serialize)]
-struct Wall {
-    mean_m: f64,
-    max_m: f64,
-    judged_s: f64,
-}
-
-#[derive(Clone, Debug, Serialize)]
-struct Contact {
-    obstacle: String,
-    begin_s: f64,
-    end_s: f64,
 }
 
 /// The figures and where things are.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Summary {
     #[serde(flatten)]
-    pub figures: Figures,
+    pub figures: RunFigures,
     /// How many times as fast as real time.
     pub speed: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -84,83 +71,101 @@ pub(crate) struct Summary {
 /// What a run was, for its summary.
 pub(crate) struct Ran<'a> {
     pub plan: &'a str,
-    pub world: &'a World,
+    pub world: &'a str,
     pub seed: u64,
     pub stopped_by: Option<StoppedBy>,
     pub end: Instant,
     pub misses: u64,
     pub trace: TraceHash,
-    pub collisions: &'a [Collision],
+    pub distance: f64,
 }
 
-impl Figures {
-    pub(crate) fn new(ran: &Ran<'_>, judge: &Judge, names: &impl Names) -> Self {
-        let (ending, fault) = match judge.ending {
+impl Ran<'_> {
+    pub(crate) fn figures(
+        &self,
+        counts: &Counts,
+        measured: Figures,
+        names: &dyn Names,
+    ) -> RunFigures {
+        let (ending, fault) = match counts.ending {
             None => ("running", None),
             Some(Ending::Ok) => ("ok", None),
             Some(Ending::Interrupted) => ("interrupted", None),
             Some(Ending::Error(fault)) => ("error", Some(fault.code())),
         };
-        let contact = |collision: &Collision| Contact {
-            obstacle: match ran.world.obstacles.get(collision.obstacle) {
-                Some(obstacle) => obstacle.name.clone(),
-                None => String::new(),
-            },
-            begin_s: collision.begin.as_secs_f64(),
-            end_s: collision.end.as_secs_f64(),
-        };
-        let (mean_m, max_m, judged_s) = (judge.wall.mean(), judge.wall.max, judge.wall.seconds());
-        Figures {
-            plan: ran.plan.to_owned(),
-            world: ran.world.name.clone(),
-            seed: ran.seed,
+        let is_element = |kind| !matches!(kind, Kind::Plan | Kind::Supervisor);
+        RunFigures {
+            plan: self.plan.to_owned(),
+            world: self.world.to_owned(),
+            seed: self.seed,
             ending,
             fault,
-            stopped_by: ran.stopped_by,
-            time_s: ran.end.as_secs_f64(),
-            activations: activations(judge, names),
-            outcomes: outcomes(judge, names),
-            interruptions: judge.interruptions,
-            deadline_misses: ran.misses,
-            distance_m: judge.distance,
-            wall_error: (judged_s > 0.0).then_some(Wall { mean_m, max_m, judged_s }),
-            contacts: ran.collisions.iter().map(contact).collect(),
-            trace: ran.trace.to_string(),
+            stopped_by: self.stopped_by,
+            time_s: self.end.as_secs_f64(),
+            activations: counted(counts, names, |kind, usage| {
+                (is_element(kind) && usage.starts + usage.faults > 0).then_some(usage.starts)
+            }),
+            outcomes: outcomes(counts, names),
+            faults: counted(counts, names, |kind, usage| {
+                (kind != Kind::Plan && usage.faults > 0).then_some(usage.faults)
+            }),
+            interruptions: counts.interruptions,
+            deadline_misses: self.misses,
+            distance_m: self.distance,
+            measured,
+            trace: self.trace.to_string(),
         }
     }
 }
 
-impl Figures {
+impl RunFigures {
     /// The figures that a picture shows.
-    pub(crate) fn for_picture(&self) -> Vec<(&'static str, String)> {
+    pub(crate) fn for_picture(&self) -> Vec<(String, String)> {
+        let of = |key: &str, value: String| (key.to_owned(), value);
         let mut lines = vec![
-            ("time", format!("{:.1} s", self.time_s)),
-            ("distance", format!("{:.2} m", self.distance_m)),
-            ("interruptions", self.interruptions.to_string()),
-            ("contacts", self.contacts.len().to_string()),
+            of("time", format!("{:.1} s", self.time_s)),
+            of("distance", format!("{:.2} m", self.distance_m)),
+            of("interruptions", self.interruptions.to_string()),
         ];
-        if let Some(wall) = self.wall_error {
-            lines.push(("wall error", format!("{:.1} cm mean", wall.mean_m * 100.0)));
+        for figure in &self.measured.0 {
+            let value = match &figure.value {
+                FigureValue::Count(count) => count.to_string(),
+                FigureValue::Spans { spans, .. } => spans.len().to_string(),
+                // There is room for the first number only.
+                FigureValue::Numbers(_) => {
+                    figure.text.split(',').next().unwrap_or_default().to_owned()
+                }
+            };
+            lines.push((spaced(figure), value));
         }
         lines
     }
 }
 
-/// Elements that ran, in the order of the plan.
-fn activations(judge: &Judge, names: &impl Names) -> Vec<(String, u64)> {
-    let counts = (0..).map(ComponentId).zip(&judge.activations);
-    let elements = counts.filter(|(id, count)| {
-        let kind = names.component(*id).kind;
-        **count > 0 && !matches!(kind, Kind::Plan | Kind::Supervisor)
+/// The name of a figure in words.
+fn spaced(figure: &Figure) -> String {
+    figure.name.replace('_', " ")
+}
+
+/// What `count` says of the components of which it says something, in the order of the plan.
+fn counted(
+    counts: &Counts,
+    names: &dyn Names,
+    count: impl Fn(Kind, &Usage) -> Option<u64>,
+) -> Vec<(String, u64)> {
+    let all = (0..).map(ComponentId).zip(&counts.components);
+    let told = all.filter_map(|(id, usage)| {
+        let name = names.component(id);
+        Some((name.path.to_owned(), count(name.kind, usage)?))
     });
-    elements.map(|(id, count)| (names.component(id).path.to_owned(), *count)).collect()
+    told.collect()
 }
 
 /// States and events that came, in the order of the plan.
-fn outcomes(judge: &Judge, names: &impl Names) -> Vec<(String, u64)> {
+fn outcomes(counts: &Counts, names: &dyn Names) -> Vec<(String, u64)> {
     let mut all = Vec::new();
-    for (id, counts) in (0..).map(ComponentId).zip(&judge.outcomes) {
-        for (outcome, count) in (0..).zip(counts) {
+    for (id, usage) in (0..).map(ComponentId).zip(&counts.components) {
+        for (outcome, count) in (0..).zip(&usage.outcomes) {
             if *count > 0 {
                 let (path, name) = (names.component(id).path, names.outcome(id, outcome));
                 all.push((format!("{path}.{name}"), *count));
@@ -168,6 +173,45 @@ fn outcomes(judge: &Judge, names: &impl Names) -> Vec<(String, u64)> {
         }
     }
     all
+}
+
+/// Figures by their names: a count, numbers by their names, stretches of time in a list.
+fn by_name<S: Serializer>(figures: &Figures, to: S) -> Result<S::Ok, S::Error> {
+    let mut map = to.serialize_map(None)?;
+    for figure in &figures.0 {
+        match &figure.value {
+            FigureValue::Count(count) => map.serialize_entry(figure.name, count)?,
+            FigureValue::Numbers(all) => map.serialize_entry(figure.name, &Numbers(all))?,
+            FigureValue::Spans { of, spans } => {
+                let rows: Vec<_> = spans.iter().map(|span| SpanRow { of, span }).collect();
+                map.serialize_entry(figure.name, &rows)?;
+            }
+        }
+    }
+    map.end()
+}
+
+struct Numbers<'a>(&'a [(&'static str, f64)]);
+
+impl Serialize for Numbers<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_map(self.0.iter().copied())
+    }
+}
+
+struct SpanRow<'a> {
+    of: &'a str,
+    span: &'a Span,
+}
+
+impl Serialize for SpanRow<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut map = to.serialize_map(Some(3))?;
+        map.serialize_entry(self.of, &self.span.name)?;
+        map.serialize_entry("begin_s", &self.span.begin.as_secs_f64())?;
+        map.serialize_entry("end_s", &self.span.end.as_secs_f64())?;
+        map.end()
+    }
 }
 
 fn in_order<S: Serializer>(pairs: &[(String, u64)], to: S) -> Result<S::Ok, S::Error> {
@@ -207,19 +251,24 @@ impl Summary {
         };
         line("active", counts(&figures.activations));
         line("states, events", counts(&figures.outcomes));
+        if !figures.faults.is_empty() {
+            line("faults", counts(&figures.faults));
+        }
         line("interruptions", figures.interruptions.to_string());
         line("deadline misses", figures.deadline_misses.to_string());
         line("distance", format!("{:.2} m", figures.distance_m));
-        if let Some(Wall { mean_m, max_m, judged_s }) = figures.wall_error {
-            let (mean, max) = (mean_m * 100.0, max_m * 100.0);
-            line(
-                "wall error",
-                format!("{mean:.2} cm mean, {max:.2} cm at most, {judged_s:.1} s judged"),
-            );
-        }
-        for contact in &figures.contacts {
-            let (begin, end) = (contact.begin_s, contact.end_s);
-            line("contact", format!("{} from {begin:.2} s to {end:.2} s", contact.obstacle));
+        for figure in &figures.measured.0 {
+            if !figure.text.is_empty() {
+                line(&spaced(figure), figure.text.clone());
+            }
+            if let FigureValue::Spans { spans, .. } = &figure.value {
+                let name = spaced(figure);
+                for Span { name: what, begin, end } in spans {
+                    let (begin, end) = (begin.as_secs_f64(), end.as_secs_f64());
+                    let text = format!("{what} from {begin:.2} s to {end:.2} s");
+                    line(name.strip_suffix('s').unwrap_or(&name), text);
+                }
+            }
         }
         line("trace", figures.trace.clone());
         line("speed", format!("{:.0} x real time", self.speed));
@@ -235,7 +284,7 @@ impl Summary {
     }
 
     fn ending(&self) -> String {
-        let Figures { ending, fault, stopped_by, time_s, .. } = &self.figures;
+        let RunFigures { ending, fault, stopped_by, time_s, .. } = &self.figures;
         let why = match (stopped_by, fault) {
             (Some(StoppedBy::Until), _) => ", its time was up".to_owned(),
             (Some(StoppedBy::Signal), _) => ", asked to stop".to_owned(),

@@ -3,13 +3,12 @@
 use afp_core::Instant;
 use afp_core::trace::{ComponentId, Kind, Names};
 use afp_log::proto::afp::{PlanEvent, plan_event};
-use afp_log::robot::Pose2;
 use afp_log::{LogData, NameTable, instant};
+use afp_session::{Mark, Waypoint};
 use afp_sim::{Pose, World};
 
 use super::{Picture, draw};
 use crate::error::RunError;
-use crate::judge::{Mark, Step};
 
 /// The attachment that holds the world.
 const WORLD: &str = "world.toml";
@@ -33,8 +32,8 @@ pub fn draw_log(log: &LogData) -> Result<String, RunError> {
         title: fact("plan"),
         subtitle: subtitle(&world, log),
         figures: vec![
-            ("time", format!("{time:.1} s")),
-            ("distance", format!("{:.2} m", way.sum::<f64>())),
+            ("time".to_owned(), format!("{time:.1} s")),
+            ("distance".to_owned(), format!("{:.2} m", way.sum::<f64>())),
         ],
         path: &path,
         marks: &marks,
@@ -65,7 +64,7 @@ pub(super) fn subtitle(world: &World, log: &LogData) -> String {
 }
 
 /// The path with the actor at each point, and the events on it.
-pub(super) fn follow(log: &LogData, names: &NameTable) -> (Vec<Step>, Vec<Mark>) {
+pub(super) fn follow(log: &LogData, names: &NameTable) -> (Vec<Waypoint>, Vec<Mark>) {
     let (mut path, mut marks) = (Vec::new(), Vec::new());
     let (mut actor, mut last) = (None, Pose::default());
     let mut events = log.events.iter().peekable();
@@ -84,9 +83,9 @@ pub(super) fn follow(log: &LogData, names: &NameTable) -> (Vec<Step>, Vec<Mark>)
                 actor = active(event).unwrap_or(actor);
             }
         }
-        if let Some(Pose2 { x, y, heading }) = pose {
-            last = Pose { x: *x, y: *y, heading: *heading };
-            path.push(Step { pose: last, actor });
+        if let Some(pose) = pose {
+            last = *pose;
+            path.push(Waypoint { at, pose: last, actor });
         }
     }
     (path, marks)

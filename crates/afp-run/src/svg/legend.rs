@@ -89,7 +89,7 @@ impl Legend {
         self.text("name", INDENT, text);
     }
 
-    pub(super) fn figures(&mut self, figures: &[(&str, String)]) {
+    pub(super) fn figures(&mut self, figures: &[(String, String)]) {
         self.section("RUN");
         for (key, value) in figures {
             self.text("quiet", 0.0, key);

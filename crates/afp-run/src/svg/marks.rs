@@ -1,9 +1,9 @@
 //! Symbols for events, one for each kind that was taken.
 
 use afp_core::trace::{ComponentId, Names};
+use afp_session::Mark;
 
 use super::canvas::Canvas;
-use crate::judge::Mark;
 
 /// The kinds of events in the order in which they first came.
 pub(super) fn kinds(marks: &[Mark]) -> Vec<(ComponentId, u16)> {
@@ -29,7 +29,7 @@ pub(super) fn draw(canvas: &mut Canvas, marks: &[Mark], kinds: &[(ComponentId, u
 pub(super) fn counted<'a>(
     marks: &'a [Mark],
     kinds: &'a [(ComponentId, u16)],
-    names: &'a impl Names,
+    names: &'a dyn Names,
 ) -> impl Iterator<Item = (String, usize)> + 'a {
     kinds.iter().map(|&(id, event)| {
         let same = marks.iter().filter(|mark| (mark.supervisor, mark.event) == (id, event));

@@ -12,7 +12,6 @@ use super::from_log::{follow, subtitle, world_of};
 use super::legend::Legend;
 use super::{bounds, marks, room};
 use crate::error::RunError;
-use crate::robot::beyond;
 
 /// An echo in the world: where it seems to come from, and the ends of the arc that the cone leaves open.
 struct Echo {
@@ -62,16 +61,16 @@ pub fn draw_sonar(log: &LogData) -> Result<String, RunError> {
     Ok(canvas.finish(legend))
 }
 
-fn figures(log: &LogData, heard: usize) -> Vec<(&'static str, String)> {
+fn figures(log: &LogData, heard: usize) -> Vec<(String, String)> {
     let time = log.span.map_or(0.0, |(_, last)| last.as_secs_f64());
     let mut figures = vec![
-        ("time", format!("{time:.1} s")),
-        ("echoes", format!("{heard}")),
-        ("silent", format!("{}", log.rangings.len() - heard)),
+        ("time".to_owned(), format!("{time:.1} s")),
+        ("echoes".to_owned(), format!("{heard}")),
+        ("silent".to_owned(), format!("{}", log.rangings.len() - heard)),
     ];
     if let (Some((_, pose)), Some((_, believed))) = (log.poses.last(), log.believed.last()) {
         let drift = libm::hypot(pose.x - believed.x, pose.y - believed.y);
-        figures.push(("drift", format!("{:.0} cm", drift * 100.0)));
+        figures.push(("drift".to_owned(), format!("{:.0} cm", drift * 100.0)));
     }
     figures
 }
@@ -87,7 +86,7 @@ fn echoes<'a>(
 ) -> impl Iterator<Item = Echo> + 'a {
     rangings.iter().filter_map(|heard| {
         let (range, robot) = (heard.range?, pose_at(poses, heard.at)?);
-        let sensor = beyond(robot, heard.pose);
+        let sensor = robot.beyond(heard.pose);
         let at = |turn: f64| {
             let (sin, cos) = libm::sincos(sensor.heading + turn);
             [sensor.x + range * cos, sensor.y + range * sin]

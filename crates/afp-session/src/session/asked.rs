@@ -159,7 +159,10 @@ where
     }
 
     /// Writes an entry: before the start an `in` entry at once, later with the next step.
-    fn write(&mut self, entry: u16, value: Value) -> Result<(), afp_core::WriteError> {
+    ///
+    /// # Errors
+    /// The value does not fit, the plan has ended, or too many writes wait.
+    pub fn write(&mut self, entry: u16, value: Value) -> Result<(), afp_core::WriteError> {
         match self.wake {
             None => self.scheduler.plan_mut().set_input(entry, &value),
             Some(_) => self.scheduler.write(entry, value),

@@ -71,7 +71,7 @@ impl Robot for Simulation {
         if to.wants(table::BELIEVED) {
             let moved =
                 Pose2 { x: odometry.x.si(), y: odometry.y.si(), heading: odometry.heading.si() };
-            let pose = plane(self.start).beyond(moved);
+            let pose = self.start.beyond(moved);
             to.put(table::BELIEVED, frame(WORLD, BELIEVED, pose, 0.0));
         }
         to.put(table::BEARING, SampleRef::Float(rotator));
@@ -109,7 +109,7 @@ impl Simulation {
     fn sample_truth(&self, to: &mut Samples<'_, '_>) {
         let truth = self.truth();
         if to.wants(table::POSE) {
-            to.put(table::POSE, frame(WORLD, BASE, plane(truth.pose()), 0.0));
+            to.put(table::POSE, frame(WORLD, BASE, truth.pose(), 0.0));
         }
         to.put(table::HALTED, SampleRef::Bool(truth.is_halted()));
         to.put(table::STANDING, SampleRef::Bool(truth.is_standing()));
@@ -195,8 +195,4 @@ fn frame(
     height: f64,
 ) -> SampleRef<'static> {
     SampleRef::Pose(Transform { parent, child, pose, height })
-}
-
-fn plane(pose: Pose) -> Pose2 {
-    Pose2 { x: pose.x, y: pose.y, heading: pose.heading }
 }

@@ -4,7 +4,7 @@ use afp_core::trace::{Author, ComponentId};
 use afp_core::{Ending, Instant, Value};
 use afp_dsl::scenario::{Claim, Expectation, Wanted};
 use afp_dsl::toolbox::Constant;
-use afp_sim::Collision;
+use afp_session::Span;
 
 use super::{Happening, State, ends, fits, leads};
 use crate::verdict::Broken;
@@ -108,13 +108,13 @@ impl<'a> Look<'a> {
         mut self,
         end: u64,
         state: &State,
-        collisions: &[Collision],
+        contacts: &[Span],
         expectation: &Expectation,
     ) -> Option<Broken> {
         // The last state holds to the end of the scenario, even if the run was cut short.
         self.pass(u64::MAX);
         if expectation.claim == Claim::Collision {
-            self.touch(collisions);
+            self.touch(contacts);
         }
         let window = expectation.window;
         let (at, why) = match expectation.wanted {
@@ -133,16 +133,16 @@ impl<'a> Look<'a> {
         Some(Broken { text, span, at: Instant::from_nanos(at), why })
     }
 
-    /// Takes the robot's collisions into account.
-    fn touch(&mut self, collisions: &[Collision]) {
+    /// Takes the robot's contacts into account.
+    fn touch(&mut self, contacts: &[Span]) {
         let window = self.expectation.window;
-        let within = |collision: &&Collision| {
-            collision.end.as_nanos() >= window.from && collision.begin.as_nanos() <= window.to
+        let within = |contact: &&Span| {
+            contact.end.as_nanos() >= window.from && contact.begin.as_nanos() <= window.to
         };
         let first =
-            collisions.iter().filter(within).map(|c| c.begin.as_nanos().max(window.from)).min();
+            contacts.iter().filter(within).map(|c| c.begin.as_nanos().max(window.from)).min();
         self.held = first;
-        let whole = collisions
+        let whole = contacts
             .iter()
             .any(|c| c.begin.as_nanos() <= window.from && c.end.as_nanos() >= window.to);
         self.failed = (!whole).then_some(window.from);

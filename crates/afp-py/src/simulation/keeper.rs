@@ -1,0 +1,26 @@
+//! What is kept of a run.
+
+use afp_core::Instant;
+use afp_session::{NamedRecord, Observer, OwnedRecord, RequestError, RequestId};
+use pyo3::PyErr;
+
+use crate::errors::error;
+
+/// Keeps what happens.
+#[derive(Default)]
+pub struct Keeper {
+    /// What happened, without polls that saw nothing.
+    pub records: Vec<OwnedRecord>,
+    /// What was asked for and cannot be done.
+    pub refused: Option<PyErr>,
+}
+
+impl Observer for Keeper {
+    fn on_record(&mut self, named: &NamedRecord<'_>) {
+        self.records.push(OwnedRecord::new(named.at, named.record));
+    }
+
+    fn on_refused(&mut self, at: Instant, _: RequestId, why: &RequestError) {
+        self.refused = Some(error(format!("at {} s: {why}", at.as_secs_f64())));
+    }
+}

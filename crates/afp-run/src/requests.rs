@@ -1,0 +1,136 @@
+//! `--press` and `--fail` as requests of a session.
+
+use afp_core::devices::{AmountRow, ControlId, DeviceRow, FaultId, controls, faults, find_control};
+use afp_core::{Duration, Instant};
+use afp_project::duration;
+use afp_session::{AnySession, HOLD, Request, RequestError};
+
+use crate::error::RunError;
+use crate::options::{Failure, Press};
+
+/// What the Escape key of the terminal presses, where the robot has it.
+const ESCAPE: &str = "escape";
+
+/// Asks a session for what the options say.
+///
+/// # Errors
+/// The robot has no such control or fault.
+pub fn make(
+    session: &mut dyn AnySession,
+    presses: &[Press],
+    failures: &[Failure],
+) -> Result<(), RunError> {
+    let table = session.devices();
+    for failure in failures {
+        let (id, amount) = find_fault(table, failure)?;
+        let lasting = failure.to.map_or(Duration::MAX, |to| to.since(failure.from));
+        let made = session.at(failure.from, Request::Break(id, amount, lasting));
+        made.map_err(|why| refused(&failure.to_string(), &why))?;
+    }
+    for press in presses {
+        let id = find_control(table, &press.control).ok_or_else(|| {
+            RunError::usage(no_control(table, &press.control), "press one of these")
+        })?;
+        hold(session, id, press.at).map_err(|why| refused(&press.to_string(), &why))?;
+    }
+    Ok(())
+}
+
+/// Presses the escape button; a robot that has none hears nothing.
+pub(crate) fn press_escape(session: &mut dyn AnySession, at: Instant) {
+    if let Some(id) = find_control(session.devices(), ESCAPE) {
+        // It refuses nothing but what is over, and that makes no difference any more.
+        let _ = hold(session, id, at);
+    }
+}
+
+fn hold(session: &mut dyn AnySession, id: ControlId, at: Instant) -> Result<(), RequestError> {
+    session.at(at, Request::Press(id, true))?;
+    session.at(at + HOLD, Request::Press(id, false))?;
+    Ok(())
+}
+
+fn refused(what: &str, why: &RequestError) -> RunError {
+    RunError::usage(format!("'{what}': {why}"), "leave it out")
+}
+
+/// What cannot be pressed, and what can.
+pub fn no_control(table: &[DeviceRow], name: &str) -> String {
+    let names: Vec<_> = controls(table).map(|(_, _, row)| format!("'{}'", row.name)).collect();
+    format!("the robot has no button '{name}'; it has {}", names.join(" and "))
+}
+
+/// A fault and its amount in SI units.
+fn find_fault(table: &[DeviceRow], failure: &Failure) -> Result<(FaultId, Option<f64>), RunError> {
+    let Failure { device, kind, .. } = failure;
+    let mut all = faults(table);
+    let found = all.find(|(_, at, row)| at.name == device && row.name == kind);
+    let wrong = |why: String| RunError::usage(why, "such as --fail ultrasonic.frozen@5s..7s");
+    let (id, _, row) = found.ok_or_else(|| wrong(no_fault(table, device, kind)))?;
+    let amount = failure.amount.as_deref().map(|text| amount(text, row.amount));
+    Ok((id, amount.transpose().map_err(wrong)?))
+}
+
+/// How much of a fault, in SI units.
+fn amount(text: &str, of: Option<AmountRow>) -> Result<f64, String> {
+    let of = of.ok_or_else(|| format!("there is no more or less of it: leave '={text}' out"))?;
+    let AmountRow { name, from, to, .. } = of;
+    let wrong = || format!("'{text}' is no {name} from {from} to {to}");
+    let amount = match of.unit {
+        "s" => duration(text)?.as_secs_f64(),
+        _ => text.parse().map_err(|_| wrong())?,
+    };
+    of.checked(Some(amount)).ok_or_else(wrong)
+}
+
+/// What cannot fail so, and what can.
+pub fn no_fault(table: &[DeviceRow], device: &str, kind: &str) -> String {
+    let of_device = faults(table).filter(|(_, at, _)| at.name == device);
+    let kinds: Vec<_> = of_device.map(|(_, _, row)| row.name).collect();
+    if !kinds.is_empty() {
+        let what = format!("'{device}' cannot be '{kind}'");
+        return format!("{what}; it can be {}", kinds.join(", "));
+    }
+    let mut devices: Vec<_> = faults(table).map(|(_, at, _)| at.name).collect();
+    devices.sort_unstable();
+    devices.dedup();
+    format!("nothing called '{device}' can fail; there are {}", devices.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use afp_carbot::table::TABLE;
+    use afp_core::devices::find_fault as id;
+
+    use super::*;
+    use crate::options::failure;
+
+    #[test]
+    fn amounts_are_those_of_the_table() {
+        for (text, device, kind, amount) in [
+            ("ultrasonic.frozen@5s..7s", "ultrasonic", "frozen", None),
+            ("odometry.delayed=300ms@1s", "odometry", "delayed", Some(0.3)),
+            ("wheels.slip=0.3@0s", "wheels", "slip", Some(0.3)),
+        ] {
+            let found = find_fault(TABLE, &failure(text).unwrap()).unwrap();
+            assert_eq!(found, (id(TABLE, device, kind).unwrap(), amount), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_is_told_what_can() {
+        for (text, says) in [
+            ("battery.stuck@1s", "'battery' cannot be 'stuck'; it can be frozen, lost"),
+            ("sonar.lost@1s", "nothing called 'sonar' can fail; there are battery, buttons"),
+            ("wheels.slip=3@1s", "no share from 0 to 1"),
+            ("touch.lost=3@1s", "no more or less of it"),
+            ("touch.slow=3@1s", "20s or 500ms"),
+        ] {
+            let error = find_fault(TABLE, &failure(text).unwrap()).unwrap_err().to_string();
+            assert!(error.contains(says), "{text}: {error}");
+        }
+        assert!(
+            no_control(TABLE, "start").contains("no button 'start'; it has 'touch' and 'escape'")
+        );
+    }
+}

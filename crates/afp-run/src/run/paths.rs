@@ -1,0 +1,78 @@
+//! Where the output of a run goes.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::Program;
+use crate::error::RunError;
+use crate::options::{Destination, RunOptions};
+use crate::output::check_writable;
+use crate::picture::{PictureFormat, Rasterizer};
+
+/// Where logs and pictures go unless told otherwise.
+const RUNS: &str = "target/afp/runs";
+
+/// Where output goes.
+pub(super) struct Paths {
+    pub(super) log: Option<PathBuf>,
+    pub(super) svg: Option<PathBuf>,
+}
+
+impl Paths {
+    /// Makes the default folder where it is needed, and finds out now what would fail later.
+    pub(super) fn new(program: &Program<'_>, options: &RunOptions) -> Result<Self, RunError> {
+        let stem = Path::new(program.file).file_stem().unwrap_or("plan".as_ref());
+        let path = |asked: &Option<Destination>, extension| -> Result<_, RunError> {
+            match asked {
+                Some(Destination::None) => Ok(None),
+                Some(Destination::File(path)) => Ok(Some(path.clone())),
+                None => {
+                    let folder = Path::new(RUNS);
+                    fs::create_dir_all(folder)
+                        .map_err(RunError::file("cannot make the folder", folder))?;
+                    let mut name = stem.to_owned();
+                    name.push(extension);
+                    Ok(Some(folder.join(name)))
+                }
+            }
+        };
+        let paths = Paths { log: path(&options.log, ".mcap")?, svg: path(&options.svg, ".svg")? };
+        if let Some(path) = &paths.svg {
+            check_writable("cannot write the picture", path)?;
+        }
+        Ok(paths)
+    }
+
+    /// What makes the picture's bytes of an SVG; `None` where it is one.
+    pub(super) fn raster<'a>(
+        &self,
+        all: Option<Rasterizer<'a>>,
+    ) -> Result<Option<Rasterizer<'a>>, RunError> {
+        let Some(path) = &self.svg else { return Ok(None) };
+        match (PictureFormat::of(path)?, all) {
+            (PictureFormat::Svg, _) => Ok(None),
+            (PictureFormat::Png, Some(raster)) => Ok(Some(raster)),
+            (PictureFormat::Png, None) => Err(RunError::usage(
+                "this program draws SVG alone",
+                "'afpc log RUN.mcap --svg PICTURE.png' draws its log as a PNG",
+            )),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_take_a_program_that_can_make_them() {
+        let raster: Rasterizer<'_> = &|_| Ok(Vec::new());
+        let of = |name: &str, raster| {
+            let made = Paths { log: None, svg: Some(name.into()) }.raster(raster);
+            made.map(|made| made.is_some()).map_err(|error| error.code())
+        };
+        let usage = crate::EXIT_USAGE;
+        assert_eq!((of("a.svg", None), of("a.svg", Some(raster))), (Ok(false), Ok(false)));
+        assert_eq!((of("a.png", None), of("a.png", Some(raster))), (Err(usage), Ok(true)));
+    }
+}

@@ -1,0 +1,91 @@
+//! What everybody who drives the simulator has in common: one clock, one trace, whoever looks.
+
+use afp::load::{LoadedPlan, Registry};
+use afp_carbot::table::{TABLE, TOUCHED};
+use afp_core::devices::find_fault;
+use afp_core::{Duration, Instant};
+use afp_dsl::compile;
+use afp_dsl::files::Texts;
+use afp_dsl::toolbox::Toolboxes;
+use afp_log::{About, NameTable, SessionLog};
+use afp_session::{
+    AnySession, Counts, Go, Observer, Open, Request, Robot, SampleRef, Session, Simulated, Track,
+};
+use afp_sim::{Simulation, World};
+use afp_syntax::source::Source;
+
+const PLAN: &str = include_str!("../../../plans/wall_following.afp");
+const ROOM: &str = include_str!("../../../worlds/wall_following.toml");
+
+type Loaded = Session<LoadedPlan<Simulation>, Simulation>;
+
+fn session() -> Loaded {
+    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+    let compiled = compile(&Source::new("plan.afp", PLAN), &toolboxes, &Texts::default());
+    let graph = compiled.graph.as_ref().unwrap_or_else(|| panic!("{}", compiled.render(false)));
+    let mut registry = Registry::new();
+    afp_carbot::templates::register(&mut registry);
+    let plan = LoadedPlan::new(graph, &registry).unwrap();
+    let sim = <Simulation as Simulated>::new(&World::parse(ROOM).unwrap(), 3).unwrap();
+    Session::loaded(plan, sim)
+}
+
+fn at(seconds: u64) -> Instant {
+    Instant::ZERO + Duration::from_secs(seconds)
+}
+
+#[test]
+fn a_slow_sensor_makes_polls_late_whoever_drives() {
+    let mut session = session();
+    let slow = find_fault(TABLE, "touch", "slow").unwrap();
+    session.at(Instant::ZERO, Request::Break(slow, None, Duration::MAX)).unwrap();
+    assert_eq!(session.run(at(2), &mut Open, &mut []), Ok(Go::On));
+    assert!(session.misses() > 50, "{}", session.misses());
+}
+
+#[test]
+fn looking_judging_logging_and_pausing_do_not_change_the_run() {
+    let mut whole = session();
+    assert_eq!(whole.run(at(26), &mut Open, &mut []), Ok(Go::On));
+    let mut parts = session();
+    Simulation::MEASURES.iter().filter_map(|name| Simulation::measure(name)).for_each(|measure| {
+        parts.add_measure(measure);
+    });
+    let folder = tempfile::tempdir().unwrap();
+    let (about, names) = (About::default(), NameTable::new(parts.names()));
+    let path = folder.path().join("a.mcap");
+    let mut log =
+        SessionLog::create(&path, &about, names, parts.devices(), Vec::new(), true).unwrap();
+    let (mut counts, mut track) = (Counts::new(parts.names()), Track::new(parts.devices()));
+    let mut observers: [&mut dyn Observer; 3] = [&mut counts, &mut track, &mut log];
+    let mut gate = |target: Instant, _: Instant| if target > at(7) { Go::Stop } else { Go::On };
+    assert_eq!(parts.run(at(20), &mut gate, &mut observers), Ok(Go::Stop));
+    assert!(parts.now() <= at(7));
+    assert_eq!(parts.run(at(11), &mut Open, &mut observers), Ok(Go::On));
+    assert_eq!(parts.run(at(26), &mut Open, &mut observers), Ok(Go::On));
+    assert_eq!((parts.trace(), parts.now()), (whole.trace(), at(26)));
+    parts.stop(&mut observers);
+    assert_ne!(parts.trace(), whole.trace());
+    assert!(parts.ending().is_some());
+    assert_eq!((track.path.len(), log.finish().unwrap().lost), (1301, 0));
+    assert!(parts.end().number("wall_error", "judged_s").unwrap() > 1.0);
+}
+
+#[test]
+fn every_sample_is_of_the_type_that_its_row_says() {
+    let mut session = session();
+    session.run(at(1), &mut Open, &mut []).unwrap();
+    for (id, device, row) in afp_core::devices::signals(TABLE) {
+        let mut seen = 0;
+        session.read(id, &mut |value| {
+            assert!(value.is(row.ty), "{}.{}: {value:?}", device.name, row.name);
+            seen += 1;
+        });
+        // Nothing moves in that room.
+        assert_eq!(seen > 0, device.name != "world", "{}.{}", device.name, row.name);
+    }
+    let mut touched = None;
+    session.read(TOUCHED, &mut |value| touched = Some(value == SampleRef::Bool(true)));
+    assert_eq!(touched, Some(false));
+    assert_eq!(session.robot().figures().len(), 1);
+}

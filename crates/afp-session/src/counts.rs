@@ -1,0 +1,260 @@
+//! How often a run used each part of its plan, and where it ended: the one place that counts.
+
+use afp_core::trace::{Cause, ComponentId, DEADLINE_MISSED, ERROR, Ending, Kind, Names, Record};
+use afp_core::{Duration, Fault, Instant};
+
+use crate::observer::{NamedRecord, Observer};
+
+/// How often a run used each part of its plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Counts {
+    /// The components, by id.
+    pub components: Vec<Usage>,
+    /// How often an actor was interrupted.
+    pub interruptions: u64,
+    /// How the plan ended, once it has.
+    pub ending: Option<Ending>,
+    /// The actor that is active.
+    pub actor: Option<ComponentId>,
+    kinds: Vec<Kind>,
+    /// The actor or computation that was left last.
+    left: Option<ComponentId>,
+    /// What it was left for.
+    cause: Option<LeftFor>,
+}
+
+/// How often a component was used.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Usage {
+    /// Its starts; for a computation, its runs.
+    pub starts: u64,
+    /// How often each of its states was reached or events taken, by position.
+    pub outcomes: Vec<u64>,
+    /// How often a missed deadline of a supervisor was taken as an event.
+    pub deadline_events: u64,
+    /// How often it failed.
+    pub faults: u64,
+    /// How often it was interrupted.
+    pub interruptions: u64,
+    /// How often a supervisor was polled, where polls that saw nothing are told.
+    pub polls: u64,
+    /// Deadlines missed because the poll began too late.
+    pub late_releases: u64,
+    /// Deadlines missed because the poll took too long.
+    pub long_polls: u64,
+    /// Releases that passed without a poll.
+    pub skipped: u64,
+    /// The longest time after a deadline.
+    pub worst_lateness: Duration,
+    /// For how long it was active.
+    pub active: Duration,
+    /// Since when it is.
+    since: Option<Instant>,
+}
+
+/// What ends an activity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum LeftFor {
+    /// A state or event.
+    Outcome(ComponentId, u16),
+    /// A fault of a component.
+    Fault(ComponentId, Fault),
+    /// A request from outside.
+    Stop,
+}
+
+impl Usage {
+    /// Events taken, missed deadlines among them.
+    pub fn events(&self) -> u64 {
+        self.outcomes.iter().sum::<u64>() + self.deadline_events
+    }
+}
+
+impl Counts {
+    /// Nothing has happened yet.
+    pub fn new(names: &dyn Names) -> Self {
+        let ids = || (0..names.components()).map(ComponentId);
+        let known = |id| (0..ERROR).take_while(|n| !names.outcome(id, *n).is_empty()).count();
+        let usage = |id| Usage { outcomes: vec![0; known(id)], ..Usage::default() };
+        Counts {
+            components: ids().map(usage).collect(),
+            interruptions: 0,
+            ending: None,
+            actor: None,
+            kinds: ids().map(|id| names.component(id).kind).collect(),
+            left: None,
+            cause: None,
+        }
+    }
+
+    /// Takes a record into account.
+    pub fn record(&mut self, at: Instant, record: &Record<'_>) {
+        match *record {
+            Record::Started { component } => self.started(at, component),
+            Record::Interrupted { element } => {
+                self.with(element, |usage| usage.interruptions += 1);
+                if self.kind(element) == Some(Kind::Actor) {
+                    self.interruptions += 1;
+                }
+                self.stopped(at, element);
+                self.leave(element);
+            }
+            Record::Finished { element, state } => {
+                // A computation is over when it starts.
+                if self.kind(element) == Some(Kind::Computation) {
+                    self.with(element, |usage| usage.starts += 1);
+                }
+                self.reached(element, state);
+                self.stopped(at, element);
+                if self.leave(element) {
+                    self.cause = Some(LeftFor::Outcome(element, state));
+                }
+            }
+            Record::Faulted { component, fault } => {
+                self.with(component, |usage| usage.faults += 1);
+                let active = self.actor;
+                self.leave(component);
+                let failed = if component == ComponentId(0) { active } else { Some(component) };
+                self.cause = Some(LeftFor::Fault(failed.unwrap_or(component), fault));
+            }
+            Record::Event { supervisor, event } => {
+                self.reached(supervisor, event);
+                self.cause = Some(LeftFor::Outcome(supervisor, event));
+            }
+            Record::Polled { supervisor, .. } => self.with(supervisor, |usage| usage.polls += 1),
+            Record::Missed { supervisor, lateness, cause, skipped } => {
+                self.with(supervisor, |usage| usage.missed(lateness, cause, skipped));
+            }
+            Record::StopRequested => self.cause = Some(LeftFor::Stop),
+            Record::Ended { plan, ending } => {
+                self.stopped(at, plan);
+                if plan == ComponentId(0) {
+                    self.ending = Some(ending);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Whether a component watches.
+    pub fn is_supervisor(&self, id: ComponentId) -> bool {
+        self.kind(id) == Some(Kind::Supervisor)
+    }
+
+    /// Adds how often another run of the same plan used each component.
+    pub fn add(&mut self, other: &Counts) {
+        for (mine, other) in self.components.iter_mut().zip(&other.components) {
+            mine.starts += other.starts;
+            mine.deadline_events += other.deadline_events;
+            mine.faults += other.faults;
+            mine.interruptions += other.interruptions;
+            mine.polls += other.polls;
+            mine.late_releases += other.late_releases;
+            mine.long_polls += other.long_polls;
+            mine.skipped += other.skipped;
+            mine.worst_lateness = mine.worst_lateness.max(other.worst_lateness);
+            mine.active = mine.active + other.active;
+            for (mine, other) in mine.outcomes.iter_mut().zip(&other.outcomes) {
+                *mine += other;
+            }
+        }
+        self.interruptions += other.interruptions;
+    }
+
+    /// Whatever is still active was so up to the end.
+    pub fn finish(&mut self, end: Instant) {
+        for id in 0..self.components.len() as u32 {
+            self.stopped(end, ComponentId(id));
+        }
+    }
+
+    /// Where the run was when it ended: the path of the actor, computation or supervisor that was left or failed
+    /// last.
+    pub fn last<'n>(&self, names: &'n dyn Names) -> &'n str {
+        let failed = match self.cause {
+            Some(LeftFor::Fault(id, _)) => Some(id),
+            _ => None,
+        };
+        failed.or(self.left).map_or("", |id| names.component(id).path)
+    }
+
+    /// What ended the run: a state or an event with its component, a fault by its code, or `stop`.
+    pub fn cause(&self, names: &dyn Names) -> String {
+        match self.cause {
+            None => String::new(),
+            Some(LeftFor::Outcome(id, outcome)) => {
+                format!("{}.{}", names.component(id).path, names.outcome(id, outcome))
+            }
+            Some(LeftFor::Fault(_, fault)) => fault.code().to_owned(),
+            Some(LeftFor::Stop) => "stop".to_owned(),
+        }
+    }
+
+    fn kind(&self, id: ComponentId) -> Option<Kind> {
+        self.kinds.get(id.0 as usize).copied()
+    }
+
+    fn with(&mut self, id: ComponentId, count: impl FnOnce(&mut Usage)) {
+        if let Some(usage) = self.components.get_mut(id.0 as usize) {
+            count(usage);
+        }
+    }
+
+    fn started(&mut self, at: Instant, id: ComponentId) {
+        self.with(id, |usage| {
+            usage.starts += 1;
+            usage.since = Some(at);
+        });
+        if self.kind(id) == Some(Kind::Actor) {
+            self.actor = Some(id);
+        }
+    }
+
+    fn stopped(&mut self, at: Instant, id: ComponentId) {
+        self.with(id, |usage| {
+            if let Some(since) = usage.since.take() {
+                usage.active = usage.active + at.since(since);
+            }
+        });
+    }
+
+    /// An element is left; whether it is one that does something itself.
+    fn leave(&mut self, id: ComponentId) -> bool {
+        if self.actor == Some(id) {
+            self.actor = None;
+        }
+        let inner = !matches!(self.kind(id), Some(Kind::Plan | Kind::SubPlan));
+        if inner {
+            self.left = Some(id);
+        }
+        inner
+    }
+
+    fn reached(&mut self, id: ComponentId, outcome: u16) {
+        self.with(id, |usage| match outcome {
+            DEADLINE_MISSED => usage.deadline_events += 1,
+            outcome => {
+                if let Some(count) = usage.outcomes.get_mut(usize::from(outcome)) {
+                    *count += 1;
+                }
+            }
+        });
+    }
+}
+
+impl Usage {
+    fn missed(&mut self, lateness: Duration, cause: Cause, skipped: u64) {
+        match cause {
+            Cause::LateRelease => self.late_releases += 1,
+            Cause::LongPoll => self.long_polls += 1,
+        }
+        self.skipped += skipped;
+        self.worst_lateness = self.worst_lateness.max(lateness);
+    }
+}
+
+impl Observer for Counts {
+    fn on_record(&mut self, named: &NamedRecord<'_>) {
+        self.record(named.at, named.record);
+    }
+}

@@ -1,0 +1,124 @@
+//! Where the robot went, and what happened on the way.
+
+use afp_core::Instant;
+use afp_core::devices::{DeviceRow, SignalId, find_signal};
+use afp_core::trace::{ComponentId, Kind, Record};
+
+use crate::observer::{NamedRecord, Observer, Sampling, View};
+use crate::sample::{Pose2, SampleRef};
+use crate::session::SAMPLE;
+
+/// A point of a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Waypoint {
+    /// When the robot was there.
+    pub at: Instant,
+    /// Where it was.
+    pub pose: Pose2,
+    /// The actor that was active.
+    pub actor: Option<ComponentId>,
+}
+
+/// An event on a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mark {
+    /// When it was taken.
+    pub at: Instant,
+    /// Where the robot was then.
+    pub pose: Pose2,
+    /// Its supervisor.
+    pub supervisor: ComponentId,
+    /// The event.
+    pub event: u16,
+}
+
+/// Follows the pose of a robot that signals one (`robot.pose`), every [`SAMPLE`].
+#[derive(Clone, Debug)]
+pub struct Track {
+    /// Where the robot was.
+    pub path: Vec<Waypoint>,
+    /// The events that were taken.
+    pub marks: Vec<Mark>,
+    /// How far the robot went, metres.
+    pub distance: f64,
+    signal: Option<SignalId>,
+    actor: Option<ComponentId>,
+    /// Marks of this step, whose pose is not known yet, are from here on.
+    unplaced: usize,
+}
+
+impl Track {
+    /// For a robot with those devices.
+    pub fn new(devices: &[DeviceRow]) -> Self {
+        Track {
+            path: Vec::new(),
+            marks: Vec::new(),
+            distance: 0.0,
+            signal: find_signal(devices, "robot", "pose"),
+            actor: None,
+            unplaced: 0,
+        }
+    }
+}
+
+impl Observer for Track {
+    fn on_record(&mut self, named: &NamedRecord<'_>) {
+        match *named.record {
+            Record::Started { component }
+                if named.names.component(component).kind == Kind::Actor =>
+            {
+                self.actor = Some(component);
+            }
+            Record::Interrupted { element: left }
+            | Record::Finished { element: left, .. }
+            | Record::Faulted { component: left, .. }
+                if self.actor == Some(left) =>
+            {
+                self.actor = None;
+            }
+            Record::Event { supervisor, event } => {
+                let pose = Pose2::default();
+                self.marks.push(Mark { at: named.at, pose, supervisor, event });
+            }
+            _ => {}
+        }
+    }
+
+    fn after_step(&mut self, view: &View<'_>) {
+        // The path begins with the actor that starts first.
+        if let [only] = &mut self.path[..]
+            && only.at == view.now()
+        {
+            only.actor = self.actor;
+        }
+        if let (Some(signal), true) = (self.signal, self.unplaced < self.marks.len()) {
+            let marks = self.marks.get_mut(self.unplaced..).unwrap_or_default();
+            view.read(signal, &mut |value| {
+                if let SampleRef::Pose(frame) = value {
+                    marks.iter_mut().for_each(|mark| mark.pose = frame.pose);
+                }
+            });
+        }
+        self.unplaced = self.marks.len();
+    }
+
+    fn sampling(&self) -> Sampling {
+        match self.signal {
+            Some(_) => Sampling::Every(SAMPLE),
+            None => Sampling::Never,
+        }
+    }
+
+    fn wants(&self, _: Instant, signal: SignalId) -> bool {
+        self.signal == Some(signal)
+    }
+
+    fn on_sample(&mut self, at: Instant, _: SignalId, value: SampleRef<'_>) {
+        let SampleRef::Pose(frame) = value else { return };
+        let pose = frame.pose;
+        if let Some(last) = self.path.last() {
+            self.distance += libm::hypot(pose.x - last.pose.x, pose.y - last.pose.y);
+        }
+        self.path.push(Waypoint { at, pose, actor: self.actor });
+    }
+}
