@@ -72,6 +72,8 @@ impl Report<'_> {
                 continue;
             }
             let spans = self.marks.iter().enumerate().filter(|(_, other)| is_here(other));
+            let ranges = spans.clone().filter_map(|(_, other)| other.span.as_ref());
+            let (lines, first) = lines(mark.text, ranges.map(|span| range(mark.text, span)));
             let mut annotations = spans
                 .filter_map(|(index, other)| {
                     let kind = match index {
@@ -79,13 +81,16 @@ impl Report<'_> {
                         _ => AnnotationKind::Context,
                     };
                     let span = range(other.text, other.span.as_ref()?);
+                    let span = span.start - lines.start..span.end - lines.start;
                     let label = (!other.label.is_empty()).then_some(other.label.as_str());
                     Some(kind.span(span).label(label))
                 })
                 .peekable();
             group = match annotations.peek() {
-                Some(_) => group
-                    .element(Snippet::source(mark.text).path(mark.path).annotations(annotations)),
+                Some(_) => {
+                    let text = Snippet::source(&mark.text[lines.clone()]).line_start(first);
+                    group.element(text.path(mark.path).annotations(annotations))
+                }
                 None => group.element(Origin::path(mark.path)),
             };
         }
@@ -116,6 +121,15 @@ fn range(text: &str, span: &Range<usize>) -> Range<usize> {
     let end = text.len().min(span.end);
     let start = text.floor_char_boundary(span.start.min(end));
     start..text.ceil_char_boundary(end)
+}
+
+/// The lines that ranges of a text reach over, and the number of the first. To show a mark takes
+/// as long as these lines are, not the text.
+fn lines(text: &str, ranges: impl Iterator<Item = Range<usize>>) -> (Range<usize>, usize) {
+    let all = ranges.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or(0..0);
+    let start = text[..all.start].rfind('\n').map_or(0, |at| at + 1);
+    let end = text[all.end..].find('\n').map_or(text.len(), |at| all.end + at + 1);
+    (start..end, text[..start].bytes().filter(|byte| *byte == b'\n').count() + 1)
 }
 
 #[cfg(test)]

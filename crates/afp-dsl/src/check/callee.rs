@@ -68,10 +68,11 @@ impl Context<'_> {
             return None;
         };
         let is_fit = signature.kind.keyword() == wanted.keyword;
-        match is_fit || !self.file.types.incomplete {
-            true => record.definition(name.span, span),
-            // What would fit may be in the toolbox that is missing.
-            false => record.unknown(name.span),
+        let is_plan = matches!(signature.kind, SignatureKind::Plan(_));
+        match !is_fit && is_plan && self.file.types.incomplete {
+            // The template of that name may be in the toolbox that is missing.
+            true => record.unknown(name.span),
+            false => record.definition(name.span, span),
         }
         if is_fit {
             return Some(signature);

@@ -87,3 +87,34 @@ fn ten_times_the_plan_takes_about_ten_times_as_long() {
     // A quadratic part would show as a hundred times; the machine may be busy.
     assert!(long < short * 35, "{short:?} for 400 actors, {long:?} for 4000");
 }
+
+#[test]
+fn thousands_of_unknown_names_are_answered_in_time() {
+    let toolboxes = support::toolboxes();
+    let mut text = String::from("use carbot\nplan P {\n    start a0\n");
+    for at in 0..3000 {
+        let _ = writeln!(
+            text,
+            "    actor a{at}: Forward {{ ForwardSuccessful -> b{} }}",
+            at * 7 % 3001
+        );
+    }
+    let begin = Instant::now();
+    let compiled = support::compile(&(text + "}\n"), &toolboxes);
+    let took = begin.elapsed();
+    let unknown = compiled.diags.iter().filter(|each| each.code.as_str() == "E0216");
+    assert_eq!(unknown.count(), 3000);
+    // Unoptimised and on a busy machine; comparing all pairs takes minutes there.
+    assert!(took < Duration::from_secs(30), "{took:?}");
+}
+
+#[test]
+fn a_line_that_is_wrong_thousands_of_times_is_not_shown_as_often() {
+    let text = "plan P { start a actor a: B ".to_owned() + &"{ supervise x: Y ".repeat(4000);
+    let compiled = support::compile(&text, &support::toolboxes());
+    let count = compiled.diags.len();
+    assert!(count > 1000, "{count}");
+    let shown = compiled.render(false);
+    assert!(shown.ends_with(&format!("... and {} more about line 1", count - 20)), "{count}");
+    assert!(shown.len() < 30 * text.len(), "{} bytes", shown.len());
+}

@@ -11,11 +11,33 @@ pub fn list<'a>(names: impl IntoIterator<Item = &'a str>, joint: &str) -> String
 }
 
 /// The candidate that differs least from `name`, when it is near enough to be a slip.
+///
+/// Only what looks alike is compared letter by letter, and not more than some hundreds of those, so
+/// that thousands of unknown names among thousands of known ones are no trouble.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let limit = (name.chars().count() / 3).clamp(1, 3);
-    let scored = candidates.into_iter().map(|candidate| (distance(name, candidate), candidate));
+    let alike = candidates.into_iter().filter(|candidate| look_alike(name, candidate, limit));
+    let scored = alike.take(MOST_ALIKE).map(|candidate| (distance(name, candidate), candidate));
     scored.filter(|(score, _)| *score <= limit).min_by_key(|(score, _)| *score).map(|(_, c)| c)
 }
+
+/// Whether two words are about as long and begin or end with the same letter; short ones and those
+/// with foreign letters always are.
+fn look_alike(left: &str, right: &str, limit: usize) -> bool {
+    if !left.is_ascii() || !right.is_ascii() {
+        return true;
+    }
+    let (a, b) = (left.as_bytes(), right.as_bytes());
+    let same = |x: Option<&u8>, y: Option<&u8>| match (x, y) {
+        (Some(x), Some(y)) => x.eq_ignore_ascii_case(y),
+        _ => false,
+    };
+    let ends = a.len() <= 3 || same(a.first(), b.first()) || same(a.last(), b.last());
+    ends && a.len().abs_diff(b.len()) <= limit
+}
+
+/// How many candidates are compared letter by letter.
+const MOST_ALIKE: usize = 200;
 
 /// How many letters have to be changed, added, removed or swapped with their neighbour; case
 /// counts for nothing.
@@ -51,6 +73,8 @@ mod tests {
         assert_eq!(nearest("forward", names), Some("Forward"));
         assert_eq!(nearest("SearchWal", names), Some("SearchWall"));
         assert_eq!(nearest("Curve", names), None);
+        assert_eq!(nearest("oFrward", names), Some("Forward"));
+        assert_eq!(nearest("ba", ["ab", "cd"]), Some("ab"));
     }
 
     #[test]
