@@ -97,18 +97,7 @@ impl Bound<'_> {
                 quote!(config: & #lifetime Config,)
             }
         });
-        let arguments = match (borrows, self.generic.filter(|_| generic)) {
-            (true, Some(ty)) => self.context.with_home(|home| {
-                let ty = home.value(ty);
-                quote!(<'a, #ty>)
-            }),
-            (true, None) => quote!(<'a>),
-            (false, Some(ty)) => self.context.with_home(|home| {
-                let ty = home.value(ty);
-                quote!(<#ty>)
-            }),
-            (false, None) => TokenStream::new(),
-        };
+        let arguments = self.arguments(borrows, generic);
         let generics = lifetime.map(|lifetime| quote!(<#lifetime>));
         let (help, at) = (doc("", about), at(self.span));
         let config_call = reads
@@ -125,6 +114,22 @@ impl Bound<'_> {
                     Ok(#module::#ty { #(#fields),* })
                 }
             },
+        }
+    }
+
+    /// The arguments of the type of a template's inputs.
+    fn arguments(&self, borrows: bool, generic: bool) -> TokenStream {
+        match (borrows, self.generic.filter(|_| generic)) {
+            (true, Some(ty)) => self.context.with_home(|home| {
+                let ty = home.value(ty);
+                quote!(<'a, #ty>)
+            }),
+            (true, None) => quote!(<'a>),
+            (false, Some(ty)) => self.context.with_home(|home| {
+                let ty = home.value(ty);
+                quote!(<#ty>)
+            }),
+            (false, None) => TokenStream::new(),
         }
     }
 

@@ -4,12 +4,12 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::bindings::Function;
-use super::context::Context;
+use super::context::{ComponentNames, Context};
 use super::elements::{self, passes, results};
 use super::rules::wanted;
 use super::supervisors;
 use crate::layout::at;
-use afp_dsl::graph::Component;
+use afp_dsl::graph::{Component, Element, PlanId};
 
 /// `impl Plan<E>`, for every platform on which all components run.
 pub fn plan(context: &Context<'_>) -> TokenStream {
@@ -150,63 +150,7 @@ fn poll_supervisor(context: &Context<'_>) -> TokenStream {
 
 fn start_element(context: &Context<'_>) -> TokenStream {
     let all = context.plan.elements.iter().zip(&context.elements);
-    let arms = all.map(|(element, names)| {
-        let (number, variant) = (&names.number, &names.variant);
-        let at = at(element.span);
-        match element.component {
-            Component::Actor(id) => {
-                let bound = elements::bound(context, element, names, id);
-                let Function { rooms, call, .. } = bound.inputs();
-                quote! {
-                    #at
-                    #number => {
-                        #rooms
-                        cx.start_actor(#call).map(Active::#variant)
-                    }
-                }
-            }
-            Component::Computation(id) => {
-                let bound = elements::bound(context, element, names, id);
-                let (marker, implementation) = (&bound.paths.marker, &bound.paths.implementation);
-                let (Function { rooms, call, .. }, outputs) =
-                    (bound.inputs(), bound.outputs().call);
-                quote! {
-                    #at
-                    #number => {
-                        #rooms
-                        let computed = cx.compute::<#marker, #implementation>(#call);
-                        return Started::computed(computed, #outputs);
-                    }
-                }
-            }
-            Component::SubPlan(id) => {
-                let (module, ty) = context.child(id);
-                let (gives, reads) = passes(element);
-                let mutable = gives.then(|| quote!(mut));
-                let given = gives.then(|| {
-                    let (function, config) = (&names.inputs, reads.then(|| quote!(&self.config,)));
-                    quote! {
-                        if let Err(fault) = #function(#config &mut plan.config) {
-                            return Started::Failed(fault);
-                        }
-                    }
-                });
-                let (place, stage) = (&names.place, stage_results(names, element));
-                quote! {
-                    #at
-                    #number => {
-                        let #mutable plan = super::#module::#ty::new();
-                        #given
-                        let mut machine = Machine::new(plan);
-                        let flow = cx.start_sub_plan(#place, &mut machine);
-                        let started = Started::sub_plan(flow, || #stage);
-                        self.active = Active::#variant(machine);
-                        return started;
-                    }
-                }
-            }
-        }
-    });
+    let arms = all.map(|(element, names)| start_arm(context, element, names));
     let arms: Vec<_> = arms.collect();
     let body = select(quote!(element), &arms, quote!(Err(Fault::INTERNAL)));
     let [number, cx] = [quote!(element), quote!(cx)].map(|name| used(name, !arms.is_empty()));
@@ -228,11 +172,75 @@ fn start_element(context: &Context<'_>) -> TokenStream {
     }
 }
 
-/// Stages what a sub-plan gives back.
-fn stage_results(
-    names: &super::context::ComponentNames,
-    element: &afp_dsl::graph::Element,
+/// Starts an element.
+fn start_arm(context: &Context<'_>, element: &Element, names: &ComponentNames) -> TokenStream {
+    let (number, variant) = (&names.number, &names.variant);
+    let at = at(element.span);
+    match element.component {
+        Component::Actor(id) => {
+            let bound = elements::bound(context, element, names, id);
+            let Function { rooms, call, .. } = bound.inputs();
+            quote! {
+                #at
+                #number => {
+                    #rooms
+                    cx.start_actor(#call).map(Active::#variant)
+                }
+            }
+        }
+        Component::Computation(id) => {
+            let bound = elements::bound(context, element, names, id);
+            let (marker, implementation) = (&bound.paths.marker, &bound.paths.implementation);
+            let (Function { rooms, call, .. }, outputs) = (bound.inputs(), bound.outputs().call);
+            quote! {
+                #at
+                #number => {
+                    #rooms
+                    let computed = cx.compute::<#marker, #implementation>(#call);
+                    return Started::computed(computed, #outputs);
+                }
+            }
+        }
+        Component::SubPlan(id) => start_sub_plan_arm(context, element, names, id),
+    }
+}
+
+/// Starts a sub-plan with what it is given.
+fn start_sub_plan_arm(
+    context: &Context<'_>,
+    element: &Element,
+    names: &ComponentNames,
+    id: PlanId,
 ) -> TokenStream {
+    let (number, variant, at) = (&names.number, &names.variant, at(element.span));
+    let (module, ty) = context.child(id);
+    let (gives, reads) = passes(element);
+    let mutable = gives.then(|| quote!(mut));
+    let given = gives.then(|| {
+        let (function, config) = (&names.inputs, reads.then(|| quote!(&self.config,)));
+        quote! {
+            if let Err(fault) = #function(#config &mut plan.config) {
+                return Started::Failed(fault);
+            }
+        }
+    });
+    let (place, stage) = (&names.place, stage_results(names, element));
+    quote! {
+        #at
+        #number => {
+            let #mutable plan = super::#module::#ty::new();
+            #given
+            let mut machine = Machine::new(plan);
+            let flow = cx.start_sub_plan(#place, &mut machine);
+            let started = Started::sub_plan(flow, || #stage);
+            self.active = Active::#variant(machine);
+            return started;
+        }
+    }
+}
+
+/// Stages what a sub-plan gives back.
+fn stage_results(names: &ComponentNames, element: &Element) -> TokenStream {
     let function = &names.outputs;
     if results(element) {
         quote!(#function(&mut self.staged, &machine.plan().config))

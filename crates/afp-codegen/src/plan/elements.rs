@@ -7,7 +7,7 @@ use super::bindings::{Bound, converted, reads_entries};
 use super::context::{ComponentNames, Context, is_bare};
 use crate::formula::{Formulas, is_literal};
 use crate::layout::{at, comment, doc};
-use afp_dsl::graph::{Component, Element, Entry, EntryKind, PlanId, TemplateId};
+use afp_dsl::graph::{Component, Element, Entry, EntryKind, Plan, PlanId, TemplateId};
 use afp_dsl::rows::ElementRow;
 use afp_dsl::types::{Conversion, Dimension, Type};
 
@@ -109,18 +109,7 @@ fn sub_plan(
     let [components, entries] =
         [row.child.components, row.child.entries].map(Literal::u32_unsuffixed);
     let place = &names.place;
-    let ins = child.entries.iter().zip(&fields).filter(|(entry, _)| entry.kind == EntryKind::In);
-    let sets: Vec<_> = ins
-        .zip(&element.inputs)
-        .map(|((_, field), formula)| {
-            let value = context.with_home(|home| {
-                let value = Formulas::new(home, &context.entries).value(formula);
-                let checked = matches!(formula.ty, Type::Quantity(_)) && !is_literal(formula);
-                if checked { quote!(finite(#value)?) } else { value }
-            });
-            quote!(to.#field.set(#value);)
-        })
-        .collect();
+    let sets = given(context, element, child, &fields);
     let outs = child.entries.iter().zip(&fields).filter(|(entry, _)| entry.kind == EntryKind::Out);
     let gets: Vec<_> = (0..)
         .zip(outs)
@@ -158,6 +147,25 @@ fn sub_plan(
         #inputs
         #outputs
     }
+}
+
+/// Sets the `in` entries of a sub-plan.
+fn given(
+    context: &Context<'_>,
+    element: &Element,
+    child: &Plan,
+    fields: &[proc_macro2::Ident],
+) -> Vec<TokenStream> {
+    let ins = child.entries.iter().zip(fields).filter(|(entry, _)| entry.kind == EntryKind::In);
+    let sets = ins.zip(&element.inputs).map(|((_, field), formula)| {
+        let value = context.with_home(|home| {
+            let value = Formulas::new(home, &context.entries).value(formula);
+            let checked = matches!(formula.ty, Type::Quantity(_)) && !is_literal(formula);
+            if checked { quote!(finite(#value)?) } else { value }
+        });
+        quote!(to.#field.set(#value);)
+    });
+    sets.collect()
 }
 
 /// Stages one result of a sub-plan, if it was written.

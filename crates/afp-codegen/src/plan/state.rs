@@ -94,6 +94,21 @@ fn number(index: usize) -> Literal {
     Literal::usize_unsuffixed(index)
 }
 
+/// Moves each staged value into its entry.
+fn commits(context: &Context<'_>) -> Vec<TokenStream> {
+    let written = context.entries.iter().zip(&context.written).enumerate();
+    let written = written.filter(|(_, (_, written))| **written);
+    let commits = written.map(|(index, (name, _))| {
+        let index = number(index);
+        quote! {
+            if let Some(value) = self.staged.#name.take() {
+                to.write(#index, &mut self.config.#name, value);
+            }
+        }
+    });
+    commits.collect()
+}
+
 /// The plan without its platform.
 pub fn plan_state(context: &Context<'_>) -> TokenStream {
     let (plan, ty) = (context.plan, &context.ty);
@@ -111,17 +126,7 @@ pub fn plan_state(context: &Context<'_>) -> TokenStream {
             quote!(#index => self.config.#name.as_value(),)
         })
         .collect();
-    let written = || entries().zip(&context.written).filter(|(_, written)| **written);
-    let commits: Vec<_> = written()
-        .map(|((index, (_, name)), _)| {
-            let index = number(index);
-            quote! {
-                if let Some(value) = self.staged.#name.take() {
-                    to.write(#index, &mut self.config.#name, value);
-                }
-            }
-        })
-        .collect();
+    let commits = commits(context);
     let [of_entry, to] = [!values.is_empty(), !commits.is_empty()];
     let of_entry = if of_entry { quote!(entry) } else { quote!(_) };
     let to = if to { quote!(to) } else { quote!(_) };

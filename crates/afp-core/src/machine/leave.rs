@@ -1,0 +1,167 @@
+//! Leaving an element: it reached a state, it failed, or it is interrupted; then edges are followed.
+
+use super::{Edge, Flow, Level, Stop, component};
+use crate::clock::Clock;
+use crate::component::Environment;
+use crate::fault::Fault;
+use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, Polled, Tables, Target};
+use crate::trace::{Author, Ending, Record, Sink};
+
+impl<P: PlanState> Level<P> {
+    /// The active element has finished or failed.
+    pub(super) fn left<E, S, C>(
+        &mut self,
+        t: &P::Tables,
+        element: u16,
+        row: &ElementRow,
+        polled: Polled,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Flow
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        let edge = match polled {
+            Polled::Done(state) => self.finished(t, element, row, state, cx),
+            Polled::Forced(state) => match self.interrupt_element(t, element, cx) {
+                Ok(()) => self.finished(t, element, row, state, cx),
+                Err(fault) => Err(Stop::Run(fault)),
+            },
+            Polled::Failed(fault) => {
+                cx.trace(&Record::Faulted { component: component(cx, element), fault });
+                if row.kind == ElementKind::SubPlan {
+                    // It ended by itself and interrupted what was active inside.
+                    self.active = None;
+                }
+                self.plan.discard();
+                match self.interrupt_active(t, cx) {
+                    Ok(()) => self.error_edge(element, row, fault),
+                    Err(fault) => Err(Stop::Run(fault)),
+                }
+            }
+            Polled::SubPlan(Flow::Fatal(fault)) => Err(Stop::Run(fault)),
+            Polled::Pending | Polled::SubPlan(_) => Err(Stop::Run(Fault::INTERNAL)),
+        };
+        match edge {
+            Ok(edge) => self.follow(t, edge, cx),
+            Err(stop) => self.stop(stop, cx),
+        }
+    }
+
+    /// Takes edges until an element is active or the plan ends.
+    pub(super) fn follow<E, S, C>(
+        &mut self,
+        t: &P::Tables,
+        mut edge: Edge,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Flow
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        loop {
+            match cx.step.edges_left.checked_sub(1) {
+                Some(left) => cx.step.edges_left = left,
+                None => return Flow::Fatal(Fault::LIVELOCK),
+            }
+            let element = match edge.target {
+                Target::Element(element) => element,
+                Target::Terminate => return self.end(edge.ending, cx),
+                Target::Ignore | Target::None => return Flow::Fatal(Fault::INTERNAL),
+            };
+            match self.enter(t, element, cx) {
+                Ok(None) => return Flow::Running(self.wake(t)),
+                Ok(Some(next)) => edge = next,
+                Err(stop) => return self.stop(stop, cx),
+            }
+        }
+    }
+
+    /// An element reached a state: its outputs are staged.
+    pub(super) fn finished<E, S, C>(
+        &mut self,
+        t: &P::Tables,
+        element: u16,
+        row: &ElementRow,
+        state: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<Edge, Stop>
+    where
+        E: ?Sized,
+        S: Sink,
+        P: Plan<E>,
+    {
+        let id = component(cx, element);
+        self.active = None;
+        cx.trace(&Record::Finished { element: id, state });
+        self.commit(Author::Component(id), cx);
+        self.plan.leave(element);
+        Ok(Edge { target: t.table().edge(row.states, state), ending: Ending::Ok })
+    }
+
+    /// The edge of an element that failed; unconnected, the plan ends.
+    pub(super) fn error_edge<E: ?Sized>(
+        &mut self,
+        element: u16,
+        row: &ElementRow,
+        fault: Fault,
+    ) -> Result<Edge, Stop>
+    where
+        P: Plan<E>,
+    {
+        self.plan.leave(element);
+        match row.on_error {
+            Target::None => Err(Stop::Plan(Ending::Error(fault))),
+            target => Ok(Edge { target, ending: Ending::Ok }),
+        }
+    }
+
+    /// Interrupts the active element, if there is one, and drops it.
+    pub(super) fn interrupt_active<E, S, C>(
+        &mut self,
+        t: &P::Tables,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), Fault>
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        let Some(element) = self.active.take() else { return Ok(()) };
+        let result = self.interrupt_element(t, element, cx);
+        if result.is_ok() {
+            cx.trace(&Record::Interrupted { element: component(cx, element) });
+        }
+        self.plan.leave(element);
+        result
+    }
+
+    /// Interrupts an element; an actor that cannot be is traced.
+    pub(super) fn interrupt_element<E, S, C>(
+        &mut self,
+        t: &P::Tables,
+        element: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), Fault>
+    where
+        E: Environment + ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        let id = component(cx, element);
+        cx.place.component = id;
+        let result = cx.call(id, |cx| self.plan.interrupt_element(element, cx));
+        if let Err(fault) = result
+            && t.table().element(element).is_some_and(|row| row.kind == ElementKind::Actor)
+        {
+            cx.trace(&Record::Faulted { component: id, fault });
+        }
+        result
+    }
+}
