@@ -14,13 +14,14 @@ mod build;
 mod component;
 mod findings;
 mod identity;
+mod look_up;
 
 use std::sync::Arc;
 
 use crate::graph::EntryKind;
-use crate::toolbox::{Constant, Template, Toolbox};
+use crate::toolbox::{Constant, Toolbox};
 use crate::types::Type;
-use afp_syntax::ast::{ElementKind, Name};
+use afp_syntax::ast::Name;
 use afp_syntax::diagnostics::Severity;
 use afp_syntax::item::Item;
 use afp_syntax::source::Span;
@@ -426,78 +427,4 @@ pub struct Findings {
     pub worst: Option<Severity>,
     /// Where it stands among the diagnostics of the compilation.
     pub list: Vec<u32>,
-}
-
-impl Outline {
-    /// A plan by index.
-    pub fn plan(&self, id: PlanId) -> &Plan {
-        &self.plans[id.index()]
-    }
-}
-
-impl Plan {
-    /// The file that it stands in, as [`Span::file`] says it.
-    pub fn file(&self) -> u16 {
-        self.span.file
-    }
-
-    /// Elements and supervisors: the global supervisors, then each element with its own ones.
-    pub fn components(&self) -> impl Iterator<Item = &Component> {
-        let elements = self.elements.iter();
-        let elements = elements.flat_map(|one| std::iter::once(one).chain(&one.supervisors));
-        self.supervisors.iter().chain(elements)
-    }
-
-    /// The global supervisors, then the local ones, element by element: the order of those of a
-    /// graph.
-    pub fn all_supervisors(&self) -> impl Iterator<Item = &Component> {
-        self.supervisors.iter().chain(self.elements.iter().flat_map(|one| &one.supervisors))
-    }
-}
-
-impl Component {
-    /// The template that it is made from, unless it is a plan or unknown.
-    pub fn template(&self) -> Option<&Template> {
-        match self.template.as_ref()?.made_from.as_ref()? {
-            MadeFrom::Template { toolbox, index } => toolbox.templates.get(*index),
-            MadeFrom::Plan(_) => None,
-        }
-    }
-
-    /// The toolbox of its template.
-    pub fn toolbox(&self) -> Option<&Arc<Toolbox>> {
-        match self.template.as_ref()?.made_from.as_ref()? {
-            MadeFrom::Template { toolbox, .. } => Some(toolbox),
-            MadeFrom::Plan(_) => None,
-        }
-    }
-
-    /// The plan that it is made from.
-    pub fn sub_plan(&self) -> Option<PlanId> {
-        match self.template.as_ref()?.made_from.as_ref()? {
-            MadeFrom::Template { .. } => None,
-            MadeFrom::Plan(plan) => Some(*plan),
-        }
-    }
-}
-
-impl ComponentKind {
-    /// What the keyword of an element says.
-    pub(crate) fn of(kind: ElementKind) -> ComponentKind {
-        match kind {
-            ElementKind::Actor => ComponentKind::Actor,
-            ElementKind::Computation => ComponentKind::Computation,
-            ElementKind::SubPlan => ComponentKind::SubPlan,
-        }
-    }
-
-    /// The keyword that puts it into a plan.
-    pub fn keyword(self) -> &'static str {
-        match self {
-            ComponentKind::Actor => "actor",
-            ComponentKind::Computation => "computation",
-            ComponentKind::SubPlan => "subplan",
-            ComponentKind::Supervisor => "supervise",
-        }
-    }
 }

@@ -5,6 +5,7 @@
 
 mod config;
 mod element;
+mod error;
 mod formula;
 mod inject;
 mod names;
@@ -14,8 +15,9 @@ mod registry;
 mod slots;
 mod tables;
 
+pub use error::{InputError, LoadError};
 pub use inject::{Injection, NotActive};
 pub use names::PlanNames;
-pub use plan::{InputError, LoadError, LoadedPlan};
+pub use plan::LoadedPlan;
 pub use registry::Registry;
 pub use slots::{ActorSlot, ComputationSlot, See, SupervisorSlot};

@@ -1,18 +1,19 @@
 //! An instance of a graph: the interpreter's side of the contract with the scheduler.
 
-use std::fmt;
+mod loader;
 
 use afp_core::rt::{
-    Child, Committer, Cx, Events, Fired, Machine, NamedPlan, Plan, Polled, Scale, Slot, Started,
-    Tables, Unit, int_to_float,
+    Committer, Cx, Events, Fired, NamedPlan, Plan, Polled, Scale, Slot, Started, Tables, Unit,
+    int_to_float,
 };
 use afp_core::trace::{ComponentId, Sink};
 use afp_core::{Clock, Environment, Fault, PlanState, Value, ValueRef, WriteError};
-use afp_dsl::graph::{self, Component, EntryKind, Graph, PlanId};
+use afp_dsl::graph::{self, EntryKind, Graph};
 use afp_dsl::types::Type;
 
 use super::config::{Config, ObjectCell};
-use super::element::{ElementSlot, Running};
+use super::element::ElementSlot;
+use super::error::{InputError, LoadError};
 use super::formula::{Formula, spellings};
 use super::inject::{Injected, Injection, NotActive};
 use super::names::PlanNames;
@@ -20,6 +21,7 @@ use super::outputs::{Binding, Inputs, Stage};
 use super::registry::Registry;
 use super::slots::SupervisorSlot;
 use super::tables::LoadedTables;
+use loader::Loader;
 
 /// A plan loaded at run time, for platform `E`.
 pub struct LoadedPlan<E: ?Sized + 'static> {
@@ -65,60 +67,6 @@ impl<E: ?Sized + 'static> WatchSlot<E> {
         self.injected = None;
     }
 }
-
-/// Why a graph cannot be loaded.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum LoadError {
-    /// No Rust type was registered for a template.
-    NoComponent {
-        /// The toolbox.
-        toolbox: String,
-        /// The template.
-        template: String,
-    },
-    /// No Rust type was registered for an object type.
-    NoObject {
-        /// The toolbox.
-        toolbox: String,
-        /// The object type.
-        name: String,
-    },
-}
-
-/// Why an input of a plan cannot be set.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum InputError {
-    /// The plan has no such entry.
-    Unknown(String),
-    /// The entry is there, but not with this value.
-    Refused(String, WriteError),
-}
-
-impl fmt::Display for LoadError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            LoadError::NoComponent { toolbox, template } => {
-                write!(f, "no implementation of '{toolbox}.{template}' is registered")
-            }
-            LoadError::NoObject { toolbox, name } => {
-                write!(f, "no Rust type of object '{toolbox}.{name}' is registered")
-            }
-        }
-    }
-}
-
-impl std::error::Error for LoadError {}
-
-impl fmt::Display for InputError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            InputError::Unknown(name) => write!(f, "the plan has no entry '{name}'"),
-            InputError::Refused(name, why) => write!(f, "'{name}': {why}"),
-        }
-    }
-}
-
-impl std::error::Error for InputError {}
 
 impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     /// Makes an instance of the graph's main plan and of all its sub-plans.
@@ -247,91 +195,6 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     }
 }
 
-/// Loads a graph, plan by plan.
-struct Loader<'a, E: ?Sized + 'static> {
-    graph: &'a Graph,
-    registry: &'a Registry<E>,
-    names: PlanNames,
-}
-
-impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
-    fn plan(&self, id: PlanId) -> Result<LoadedPlan<E>, LoadError> {
-        let plan = self.graph.plan(id);
-        let tables = LoadedTables::new(self.graph.rows(id));
-        self.check_objects(plan)?;
-        let rows = tables.table();
-        let elements = plan.elements.iter().zip(rows.elements);
-        let supervisors = plan.supervisors.iter().zip(rows.supervisors);
-        Ok(LoadedPlan {
-            config: Config::new(&plan.entries, |ty| match ty {
-                Type::Object(object) => self.registry.object_cell(&object.toolbox, &object.name),
-                _ => None,
-            }),
-            entries: plan.entries.iter().map(EntryInfo::new).collect(),
-            names: self.names.clone(),
-            initial: initial(plan),
-            elements: elements
-                .map(|(element, row)| self.element(element, row.child))
-                .collect::<Result<_, _>>()?,
-            supervisors: supervisors
-                .map(|(supervisor, row)| self.supervisor(supervisor, row.wanted))
-                .collect::<Result<_, _>>()?,
-            tables,
-        })
-    }
-
-    fn check_objects(&self, plan: &graph::Plan) -> Result<(), LoadError> {
-        for entry in &plan.entries {
-            let Type::Object(object) = &entry.ty else { continue };
-            if self.registry.object_cell(&object.toolbox, &object.name).is_none() {
-                let (toolbox, name) = (object.toolbox.clone(), object.name.clone());
-                return Err(LoadError::NoObject { toolbox, name });
-            }
-        }
-        Ok(())
-    }
-
-    fn element(&self, element: &graph::Element, child: Child) -> Result<ElementSlot<E>, LoadError> {
-        let component = match element.component {
-            Component::Actor(id) => Running::Actor(self.find(id, Registry::new_actor)?),
-            Component::Computation(id) => {
-                Running::Computation(self.find(id, Registry::new_computation)?)
-            }
-            Component::SubPlan(id) => {
-                Running::SubPlan { child, machine: Box::new(Machine::new(self.plan(id)?)) }
-            }
-        };
-        Ok(ElementSlot::new(element, component))
-    }
-
-    fn supervisor(
-        &self,
-        supervisor: &graph::Supervisor,
-        wanted: Events,
-    ) -> Result<WatchSlot<E>, LoadError> {
-        Ok(WatchSlot {
-            inputs: Inputs::new(&supervisor.inputs),
-            outputs: Binding::all(&supervisor.outputs),
-            wanted,
-            injected: None,
-            slot: self.find(supervisor.template, Registry::new_supervisor)?,
-        })
-    }
-
-    fn find<T>(
-        &self,
-        id: graph::TemplateId,
-        new: impl FnOnce(&Registry<E>, &str, &str) -> Option<T>,
-    ) -> Result<T, LoadError> {
-        let toolbox = &self.graph.toolboxes[id.toolbox.index()].name;
-        let template = &self.graph.template(id).name;
-        new(self.registry, toolbox, template).ok_or_else(|| LoadError::NoComponent {
-            toolbox: toolbox.clone(),
-            template: template.clone(),
-        })
-    }
-}
-
 /// Items with their 16-bit numbers, of which the tables of a plan have no more.
 pub(super) fn numbered<T>(items: impl IntoIterator<Item = T>) -> impl Iterator<Item = (u16, T)> {
     (0..=u16::MAX).zip(items)
@@ -343,21 +206,6 @@ fn fit(ty: Option<&Type>, value: &Value) -> Value {
         (Some(Type::Quantity(_)), Value::Int(int)) => Value::Float(int_to_float(*int)),
         _ => value.clone(),
     }
-}
-
-/// Initial values in the order in which they may refer to one another: `const`, `in`, the rest.
-fn initial(plan: &graph::Plan) -> Vec<(u16, Formula)> {
-    let rank = |kind| match kind {
-        EntryKind::Const => 0,
-        EntryKind::In => 1,
-        EntryKind::Var | EntryKind::Out => 2,
-    };
-    let mut order: Vec<_> = numbered(&plan.entries).collect();
-    order.sort_by_key(|(_, entry)| rank(entry.kind));
-    let formulas = order
-        .into_iter()
-        .filter_map(|(number, entry)| entry.init.as_ref().map(|init| (number, Formula::new(init))));
-    formulas.collect()
 }
 
 impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {

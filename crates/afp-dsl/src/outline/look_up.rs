@@ -1,0 +1,81 @@
+//! Questions that an outline answers.
+
+use std::sync::Arc;
+
+use super::{Component, ComponentKind, MadeFrom, Outline, Plan, PlanId};
+use crate::toolbox::{Template, Toolbox};
+use afp_syntax::ast::ElementKind;
+
+impl Outline {
+    /// A plan by index.
+    pub fn plan(&self, id: PlanId) -> &Plan {
+        &self.plans[id.index()]
+    }
+}
+
+impl Plan {
+    /// The file that it stands in, as [`Span::file`] says it.
+    pub fn file(&self) -> u16 {
+        self.span.file
+    }
+
+    /// Elements and supervisors: the global supervisors, then each element with its own ones.
+    pub fn components(&self) -> impl Iterator<Item = &Component> {
+        let elements = self.elements.iter();
+        let elements = elements.flat_map(|one| std::iter::once(one).chain(&one.supervisors));
+        self.supervisors.iter().chain(elements)
+    }
+
+    /// The global supervisors, then the local ones, element by element: the order of those of a
+    /// graph.
+    pub fn all_supervisors(&self) -> impl Iterator<Item = &Component> {
+        self.supervisors.iter().chain(self.elements.iter().flat_map(|one| &one.supervisors))
+    }
+}
+
+impl Component {
+    /// The template that it is made from, unless it is a plan or unknown.
+    pub fn template(&self) -> Option<&Template> {
+        match self.template.as_ref()?.made_from.as_ref()? {
+            MadeFrom::Template { toolbox, index } => toolbox.templates.get(*index),
+            MadeFrom::Plan(_) => None,
+        }
+    }
+
+    /// The toolbox of its template.
+    pub fn toolbox(&self) -> Option<&Arc<Toolbox>> {
+        match self.template.as_ref()?.made_from.as_ref()? {
+            MadeFrom::Template { toolbox, .. } => Some(toolbox),
+            MadeFrom::Plan(_) => None,
+        }
+    }
+
+    /// The plan that it is made from.
+    pub fn sub_plan(&self) -> Option<PlanId> {
+        match self.template.as_ref()?.made_from.as_ref()? {
+            MadeFrom::Template { .. } => None,
+            MadeFrom::Plan(plan) => Some(*plan),
+        }
+    }
+}
+
+impl ComponentKind {
+    /// What the keyword of an element says.
+    pub(crate) fn of(kind: ElementKind) -> ComponentKind {
+        match kind {
+            ElementKind::Actor => ComponentKind::Actor,
+            ElementKind::Computation => ComponentKind::Computation,
+            ElementKind::SubPlan => ComponentKind::SubPlan,
+        }
+    }
+
+    /// The keyword that puts it into a plan.
+    pub fn keyword(self) -> &'static str {
+        match self {
+            ComponentKind::Actor => "actor",
+            ComponentKind::Computation => "computation",
+            ComponentKind::SubPlan => "subplan",
+            ComponentKind::Supervisor => "supervise",
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! Makes the instance of a plan from its graph: every component that it may ever need.
+
+use afp_core::Environment;
+use afp_core::rt::{Child, Events, Machine, Tables};
+use afp_dsl::graph::{self, Component, EntryKind, Graph, PlanId};
+use afp_dsl::types::Type;
+
+use super::{EntryInfo, LoadedPlan, WatchSlot, numbered};
+use crate::load::config::Config;
+use crate::load::element::{ElementSlot, Running};
+use crate::load::error::LoadError;
+use crate::load::formula::Formula;
+use crate::load::names::PlanNames;
+use crate::load::outputs::{Binding, Inputs};
+use crate::load::registry::Registry;
+use crate::load::tables::LoadedTables;
+
+/// Loads a graph, plan by plan.
+pub(super) struct Loader<'a, E: ?Sized + 'static> {
+    pub(super) graph: &'a Graph,
+    pub(super) registry: &'a Registry<E>,
+    pub(super) names: PlanNames,
+}
+
+impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
+    /// A plan with those that it uses.
+    ///
+    /// # Errors
+    /// A template or object type that the registry does not know.
+    pub(super) fn plan(&self, id: PlanId) -> Result<LoadedPlan<E>, LoadError> {
+        let plan = self.graph.plan(id);
+        let tables = LoadedTables::new(self.graph.rows(id));
+        self.check_objects(plan)?;
+        let rows = tables.table();
+        let elements = plan.elements.iter().zip(rows.elements);
+        let supervisors = plan.supervisors.iter().zip(rows.supervisors);
+        Ok(LoadedPlan {
+            config: Config::new(&plan.entries, |ty| match ty {
+                Type::Object(object) => self.registry.object_cell(&object.toolbox, &object.name),
+                _ => None,
+            }),
+            entries: plan.entries.iter().map(EntryInfo::new).collect(),
+            names: self.names.clone(),
+            initial: initial(plan),
+            elements: elements
+                .map(|(element, row)| self.element(element, row.child))
+                .collect::<Result<_, _>>()?,
+            supervisors: supervisors
+                .map(|(supervisor, row)| self.supervisor(supervisor, row.wanted))
+                .collect::<Result<_, _>>()?,
+            tables,
+        })
+    }
+
+    fn check_objects(&self, plan: &graph::Plan) -> Result<(), LoadError> {
+        for entry in &plan.entries {
+            let Type::Object(object) = &entry.ty else { continue };
+            if self.registry.object_cell(&object.toolbox, &object.name).is_none() {
+                let (toolbox, name) = (object.toolbox.clone(), object.name.clone());
+                return Err(LoadError::NoObject { toolbox, name });
+            }
+        }
+        Ok(())
+    }
+
+    fn element(&self, element: &graph::Element, child: Child) -> Result<ElementSlot<E>, LoadError> {
+        let component = match element.component {
+            Component::Actor(id) => Running::Actor(self.find(id, Registry::new_actor)?),
+            Component::Computation(id) => {
+                Running::Computation(self.find(id, Registry::new_computation)?)
+            }
+            Component::SubPlan(id) => {
+                Running::SubPlan { child, machine: Box::new(Machine::new(self.plan(id)?)) }
+            }
+        };
+        Ok(ElementSlot::new(element, component))
+    }
+
+    fn supervisor(
+        &self,
+        supervisor: &graph::Supervisor,
+        wanted: Events,
+    ) -> Result<WatchSlot<E>, LoadError> {
+        Ok(WatchSlot {
+            inputs: Inputs::new(&supervisor.inputs),
+            outputs: Binding::all(&supervisor.outputs),
+            wanted,
+            injected: None,
+            slot: self.find(supervisor.template, Registry::new_supervisor)?,
+        })
+    }
+
+    fn find<T>(
+        &self,
+        id: graph::TemplateId,
+        new: impl FnOnce(&Registry<E>, &str, &str) -> Option<T>,
+    ) -> Result<T, LoadError> {
+        let toolbox = &self.graph.toolboxes[id.toolbox.index()].name;
+        let template = &self.graph.template(id).name;
+        new(self.registry, toolbox, template).ok_or_else(|| LoadError::NoComponent {
+            toolbox: toolbox.clone(),
+            template: template.clone(),
+        })
+    }
+}
+
+/// Initial values in the order in which they may refer to one another: `const`, `in`, the rest.
+fn initial(plan: &graph::Plan) -> Vec<(u16, Formula)> {
+    let rank = |kind| match kind {
+        EntryKind::Const => 0,
+        EntryKind::In => 1,
+        EntryKind::Var | EntryKind::Out => 2,
+    };
+    let mut order: Vec<_> = numbered(&plan.entries).collect();
+    order.sort_by_key(|(_, entry)| rank(entry.kind));
+    let formulas = order
+        .into_iter()
+        .filter_map(|(number, entry)| entry.init.as_ref().map(|init| (number, Formula::new(init))));
+    formulas.collect()
+}
