@@ -1,0 +1,109 @@
+//! Files and functions stay small enough to be read at once.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Lines of a file.
+const MOST_LINES: usize = 450;
+/// Lines of code in the body of a function. Arms of a `match` that take one line do not count: a table
+/// is no harder to read for being long.
+const MOST_IN_FUNCTION: usize = 60;
+
+/// Where sources are.
+const FOLDERS: [&str; 7] = ["bench", "crates", "examples", "firmware", "fuzz", "tests", "xtask"];
+
+/// Rust that the code generator made.
+const GOLDEN: &str = "tests/codegen";
+
+fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let is_source = path.extension().is_some_and(|extension| extension == "rs");
+        if path.is_dir() && !path.ends_with("target") && !path.ends_with(GOLDEN) {
+            sources(&path, found);
+        } else if is_source {
+            found.push(path);
+        }
+    }
+}
+
+/// The first lines and the lengths of the functions in a text. It is formatted, so a function ends with
+/// the first brace that stands where it began.
+fn functions(text: &str) -> Vec<(&str, usize)> {
+    let lines: Vec<&str> = text.lines().collect();
+    let begins = lines.iter().enumerate().filter(|(_, line)| is_signature(line));
+    let function = |(first, line): (usize, &&'_ str)| {
+        let indent = &line[..line.len() - line.trim_start().len()];
+        let is_at = |line: &str, what: &str| line.strip_prefix(indent) == Some(what);
+        let rest = &lines[first..];
+        let opening = rest.iter().position(|line| line.ends_with('{'))?;
+        let closing = rest.iter().position(|line| is_at(line, "}"))?;
+        let body = rest.get(opening + 1..closing)?;
+        Some((lines[first].trim(), body.iter().filter(|line| counts(line)).count()))
+    };
+    begins.filter_map(function).collect()
+}
+
+fn is_signature(line: &str) -> bool {
+    let words = line.split_whitespace().take_while(|word| *word != "fn");
+    let before = words.clone().count();
+    let qualifiers = ["pub", "const", "async", "unsafe", "extern", "default"];
+    let all = words.into_iter().all(|word| {
+        word.starts_with("pub(") || word.starts_with('"') || qualifiers.contains(&word)
+    });
+    all && line.split_whitespace().nth(before) == Some("fn") && !line.ends_with([';', '}'])
+}
+
+fn counts(line: &str) -> bool {
+    let line = line.trim();
+    let is_arm = (line.contains(" => ") && line.ends_with(',')) || line.starts_with("| ");
+    !(line.is_empty() || line.starts_with("//") || is_arm)
+}
+
+#[test]
+fn functions_are_counted() {
+    let text = "
+impl A {
+    /// Does it.
+    pub(crate) const fn long(
+        &self,
+    ) -> u8 {
+        // why
+
+        match self {
+            A => 1,
+            B => {
+                2
+            }
+        }
+    }
+
+    fn short(&self) {}
+}
+
+unsafe fn last() {
+    a();
+}
+";
+    assert_eq!(functions(text), [("pub(crate) const fn long(", 5), ("unsafe fn last() {", 1)]);
+}
+
+#[test]
+fn no_file_and_no_function_is_too_long() {
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
+    let mut files = Vec::new();
+    FOLDERS.iter().for_each(|folder| sources(&root.join(folder), &mut files));
+    assert!(files.len() > 500, "{} files are not all", files.len());
+    let mut long = Vec::new();
+    for path in files {
+        let text = fs::read_to_string(&path).unwrap();
+        let name = path.strip_prefix(root).unwrap().display();
+        let lines = text.lines().count();
+        if lines > MOST_LINES {
+            long.push(format!("{name}: {lines} lines"));
+        }
+        let functions = functions(&text).into_iter().filter(|(_, lines)| *lines > MOST_IN_FUNCTION);
+        long.extend(functions.map(|(first, lines)| format!("{name}: {lines} lines in '{first}'")));
+    }
+    assert!(long.is_empty(), "split at a seam:\n{}", long.join("\n"));
+}
