@@ -84,7 +84,7 @@ fn drawn(layout: &Layout) {
         placed.set(Item::inner(&plan.name, name), position);
     }
     let positions = vec![placed; compiled.sources.len()];
-    let picture = svg(graph, &Options { positions: &positions, ..Options::default() });
+    let picture = svg(&compiled.outline, &Options { positions: &positions, ..Options::default() });
     assert!(picture.ends_with("</svg>\n") && !picture.contains("NaN"), "{picture}");
 }
 

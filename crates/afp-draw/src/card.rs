@@ -11,16 +11,22 @@ mod supervisors;
 
 use super::layout;
 use super::metrics::width;
-use super::sketch::{Anchor, Frame, Glyph, Label, Picture, Rect, Shape, Sketch};
+use super::sketch::{Anchor, Frame, Glyph, Label, Picture, Piece, Rect, Shape, Sketch};
 use super::usage::{Class, Use, times};
-use super::view::{Exit, Input, View};
-use afp_dsl::graph::{Component, Element};
+use super::view::{Exit, Input, View, name};
+use afp_dsl::outline::{Component, ComponentKind, Part};
+use afp_syntax::diagnostics::Severity;
+use afp_syntax::item::Item;
 use parts::{ROW, Tag, chip_width, exit_below, inflow, outflow, pill_width, tag_width};
 
 pub(super) use start::start;
 
 /// A card, and where flow leaves and reaches it.
 pub(super) struct Card<'a> {
+    /// Under what it is placed.
+    pub(super) item: Item,
+    /// The box itself; its corner is what has a position.
+    pub(super) rect: Rect,
     pub(super) sketch: Sketch<'a>,
     pub(super) width: f64,
     pub(super) height: f64,
@@ -31,6 +37,10 @@ pub(super) struct Card<'a> {
 
 /// An exit that leads to an element.
 pub(super) struct Leaving {
+    /// The element, supervisor or plan that it belongs to, and which of its exits it is.
+    pub(super) item: Item,
+    pub(super) part: Part,
+    pub(super) severity: Option<Severity>,
     pub(super) at: layout::Exit,
     /// The element's index.
     pub(super) to: usize,
@@ -51,49 +61,56 @@ const REACH: f64 = 24.0;
 const EXIT_GAP: f64 = 10.0;
 
 /// The card of an element.
-pub(super) fn element<'a>(view: &View<'a>, element: &'a Element) -> Card<'a> {
-    let mut card = Card::empty();
-    let (inputs, outputs) = (bound(view.inputs(element)), view.outputs(element));
-    let data = inputs.iter().map(|input| pill_width(&input.text));
-    let data = data.chain(outputs.iter().map(|(_, entry)| pill_width(entry)));
+pub(super) fn element<'a>(view: &View<'a>, element: &'a Component) -> Card<'a> {
+    let mut card = Card::empty(element.item.clone());
+    let (inputs, outputs) = (shown(view.inputs(element)), view.outputs(element));
+    let data = inputs.iter().map(|input| pill_width(input.shown()));
+    let data = data.chain(outputs.iter().map(|output| pill_width(output.text())));
     let data = data.fold(0.0, f64::max);
     let left = if data > 0.0 { data + REACH } else { 0.0 };
     let template = &template(view, element);
-    let head = 44.0 + width(&element.name, NAME, true).max(width(template, TEMPLATE, false)) + 16.0;
-    let states = view.states(element);
+    let head = 44.0 + width(name(element), NAME, true).max(width(template, TEMPLATE, false)) + 16.0;
+    let states = view.exits(element);
     let exits = states.iter().map(|exit| exit_width(exit) + EXIT_GAP).sum::<f64>() + 16.0;
     let rows = (inputs.len() + outputs.len()) as f64;
     let own = HEAD + rows * ROW + 16.0;
-    let stack = supervisors::Stack::new(view, &view.supervisors(Some(element)));
-    let rect = Rect { x: left, y: 0.0, width: head.max(exits), height: own.max(stack.height) };
+    let stack = supervisors::Stack::new(view, &element.supervisors);
+    let rect = Rect { x: left, y: 0.0, width: head.max(exits), height: own.max(stack.first) };
     let (shape, class) = look(view, element);
     card.sketch.frames.push(Frame { rect, shape, class, title: title(element, template) });
     heading(view, &mut card, element, template, rect);
     let mut y = HEAD + ROW / 2.0;
     for input in &inputs {
-        inflow(&mut card.sketch, (left, y), input, REACH, Anchor::Start);
+        inflow(&mut card.sketch, element, (left, y), input, Anchor::Start);
         y += ROW;
     }
-    for (port, entry) in outputs {
-        outflow(&mut card.sketch, (left, y), port, entry, REACH, Anchor::Start);
+    for output in &outputs {
+        outflow(&mut card.sketch, element, (left, y), output, Anchor::Start);
         y += ROW;
     }
     let mut x = left + (rect.width - (exits - 16.0 - EXIT_GAP)) / 2.0;
     card.height = rect.bottom();
     for exit in &states {
         let width = exit_width(exit);
-        exit_below(&mut card, (x + width / 2.0, rect.bottom()), exit);
+        exit_below(&mut card, element, (x + width / 2.0, rect.bottom()), exit);
         x += width + EXIT_GAP;
     }
     card.entry = (rect.x + 20.0, rect.right() - 20.0);
     card.width = rect.right();
+    card.rect = rect;
+    let severity = view.severity(element.findings.worst);
+    let item = element.item.clone();
+    card.sketch.pieces.push(Piece { item, part: Part::Whole, rect, severity });
+    card.sketch.mark(severity, (rect.x + 2.0, rect.y + 2.0));
     stack.attach(view, &mut card, rect);
     card
 }
 
 impl Card<'_> {
-    fn empty() -> Self {
+    fn empty(item: Item) -> Self {
         Card {
+            item,
+            rect: Rect::default(),
             sketch: Sketch::default(),
             width: 0.0,
             height: 0.0,
@@ -103,55 +120,56 @@ impl Card<'_> {
     }
 }
 
-/// What the plan itself connects; defaults would only hide it.
-fn bound(inputs: Vec<Input>) -> Vec<Input> {
-    inputs.into_iter().filter(|input| input.bound).collect()
+/// What the plan itself connects or should; defaults would only hide it.
+fn shown(inputs: Vec<Input>) -> Vec<Input> {
+    inputs.into_iter().filter(|input| input.bound || input.missing).collect()
 }
 
 /// The room that an exit needs below a box: its own or that of the tag it leads to.
 fn exit_width(exit: &Exit) -> f64 {
-    chip_width(&exit.text()).max(Tag::of(exit.target).map_or(0.0, tag_width))
+    chip_width(&exit.text()).max(Tag::of(exit.to).map_or(0.0, tag_width))
 }
 
-fn look(view: &View, element: &Element) -> (Shape, Class) {
-    let (shape, name) = match element.component {
-        Component::Actor(_) => (Shape::Round(9.0), "actor"),
-        Component::Computation(_) => (Shape::Cut(12.0), "computation"),
-        Component::SubPlan(_) => (Shape::Double(9.0), "subplan"),
+fn look(view: &View, element: &Component) -> (Shape, Class) {
+    let (shape, name) = match element.kind {
+        ComponentKind::Computation => (Shape::Cut(12.0), "computation"),
+        ComponentKind::SubPlan => (Shape::Double(9.0), "subplan"),
+        ComponentKind::Actor | ComponentKind::Supervisor => (Shape::Round(9.0), "actor"),
     };
-    let usage = view.element_count(element).map(|count| {
-        let states = view.states(element);
+    let usage = view.count(element).map(|count| {
+        let states = view.exits(element);
         Use::with_exits(count.starts, states.iter().filter_map(|exit| exit.count))
     });
     (shape, Class { name, usage })
 }
 
 /// The name of an element's template; where use is shown, with how often it started.
-fn template(view: &View, element: &Element) -> String {
+fn template(view: &View, element: &Component) -> String {
     let name = view.template_name(element);
-    match view.element_count(element) {
+    match view.count(element) {
         None => name.to_owned(),
         Some(count) => format!("{name} · {}", times(count.starts)),
     }
 }
 
-fn title(element: &Element, template: &str) -> String {
-    let head = format!("{}: {template}", element.name);
+fn title(element: &Component, template: &str) -> String {
+    let head = format!("{}: {template}", name(element));
     if element.doc.is_empty() { head } else { format!("{head}\n{}", element.doc) }
 }
 
 fn heading<'a>(
     view: &View<'a>,
     card: &mut Card<'a>,
-    element: &Element,
+    element: &'a Component,
     template: &str,
     rect: Rect,
 ) {
-    let (icon, fallback) = match element.component {
-        Component::Actor(id) => (view.icon(id), Glyph::Actor),
-        Component::Computation(id) => (view.icon(id), Glyph::Computation),
-        Component::SubPlan(_) => (None, Glyph::SubPlan),
+    let fallback = match element.kind {
+        ComponentKind::Computation => Glyph::Computation,
+        ComponentKind::SubPlan => Glyph::SubPlan,
+        ComponentKind::Actor | ComponentKind::Supervisor => Glyph::Actor,
     };
+    let icon = view.icon(element);
     let (_, class) = look(view, element);
     card.sketch.pictures.push(Picture {
         x: rect.x + 12.0,
@@ -170,6 +188,6 @@ fn heading<'a>(
         anchor: Anchor::Start,
         class: Class::from(class),
     };
-    card.sketch.labels.push(label(&element.name, 22.0, NAME, true, "name"));
+    card.sketch.labels.push(label(name(element), 22.0, NAME, true, "name"));
     card.sketch.labels.push(label(template, 37.0, TEMPLATE, false, "template"));
 }

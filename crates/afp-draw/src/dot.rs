@@ -1,101 +1,127 @@
-//! The graph as GraphViz text, for those who lay out with tools of their own.
+//! A plan as GraphViz text, for those who lay out with tools of their own.
 
 use std::fmt::Write;
 
 use super::Options;
-use super::view::{Exit, ExitKind, View};
-use afp_dsl::graph::{Component, Element, Graph, Supervisor, Target};
+use super::view::{Exit, To, View, name};
+use afp_dsl::outline::{Component, ComponentKind, ExitKind, Outline};
 
-/// The graph in the DOT language: a cluster for each plan, solid edges for states, dashed ones for
-/// events, named after what takes them. Ignored events are left out.
-pub fn dot(graph: &Graph, options: &Options) -> String {
-    let mut text = format!("digraph {} {{\n", quoted(&graph.main().name));
+/// The plan in the DOT language: a cluster for each plan, solid edges for states, dashed ones for
+/// events, named after what takes them. Ignored events are left out, and what leads nowhere.
+pub fn dot(outline: &Outline, options: &Options) -> String {
+    let views = View::all(outline, options);
+    let title = views.first().map_or("", View::name);
+    let mut text = format!("digraph {} {{\n", quoted(title));
     text += "  node [fontname=\"Helvetica\", shape=box, style=rounded];\n";
     text += "  edge [fontname=\"Helvetica\", fontsize=10];\n";
-    for (index, view) in View::all(graph, options).iter().enumerate() {
-        cluster(&mut text, index, view);
+    for (index, view) in views.iter().enumerate() {
+        // Plans of other files may have the same name.
+        let before = views[..index].iter().filter(|other| other.name() == view.name()).count();
+        let prefix = match before {
+            0 => view.name().to_owned(),
+            before => format!("{}_{}", view.name(), before + 1),
+        };
+        Cluster { view, prefix }.write(&mut text, index);
     }
     text + "}\n"
 }
 
-fn cluster(text: &mut String, index: usize, view: &View) {
-    let plan = view.plan;
-    let start = format!("{}!start", plan.name);
-    line(text, 1, &format!("subgraph cluster_{index} {{"));
-    line(text, 2, &format!("label={};", quoted(&plan.name)));
-    line(text, 2, &format!("{} [label={}, shape=cds];", quoted(&start), quoted(&plan.name)));
-    for element in &plan.elements {
-        node(text, view, element);
-    }
-    if reaches_end(view) {
-        let end = quoted(&node_name(view, Target::Terminate));
-        line(text, 2, &format!("{end} [label=\"terminate\", shape=oval];"));
-    }
-    line(text, 1, "}");
-    let first = node_name(view, Target::Element(plan.start));
-    line(text, 1, &format!("{} -> {} [penwidth=2];", quoted(&start), quoted(&first)));
-    edges(text, view, &start, None);
-    for element in &plan.elements {
-        edges(text, view, &format!("{}:{}", plan.name, element.name), Some(element));
-    }
+/// One plan.
+struct Cluster<'a, 'v> {
+    view: &'v View<'a>,
+    /// What the names of its nodes begin with.
+    prefix: String,
 }
 
-fn node(text: &mut String, view: &View, element: &Element) {
-    let name = format!("{}:{}", view.plan.name, element.name);
-    let shape = match element.component {
-        Component::Actor(_) => "shape=box",
-        Component::Computation(_) => "shape=hexagon, style=solid",
-        Component::SubPlan(_) => "shape=box, peripheries=2",
-    };
-    let mut label = format!("{}\n{}", element.name, view.template_name(element));
-    for input in view.inputs(element).iter().filter(|input| input.bound) {
-        label += &format!("\n{} = {}", input.port, input.text);
-    }
-    for (port, entry) in view.outputs(element) {
-        label += &format!("\n{port} => {entry}");
-    }
-    line(text, 2, &format!("{} [label={}, {shape}];", quoted(&name), quoted(&label)));
-}
-
-fn edges(text: &mut String, view: &View, from: &str, owner: Option<&Element>) {
-    for exit in owner.map(|element| view.states(element)).unwrap_or_default() {
-        edge(text, view, from, &exit, exit.name);
-    }
-    for supervisor in view.supervisors(owner) {
-        for exit in view.events(supervisor) {
-            edge(text, view, from, &exit, &event_label(supervisor, &exit));
+impl<'a> Cluster<'a, '_> {
+    fn write(&self, text: &mut String, index: usize) {
+        let (view, plan) = (self.view, self.view.plan);
+        let start = format!("{}!start", self.prefix);
+        line(text, 1, &format!("subgraph cluster_{index} {{"));
+        line(text, 2, &format!("label={};", quoted(view.name())));
+        line(text, 2, &format!("{} [label={}, shape=cds];", quoted(&start), quoted(view.name())));
+        for element in &plan.elements {
+            self.node(text, element);
+        }
+        if self.reaches_end() {
+            let end = quoted(&self.node_name(To::Terminate));
+            line(text, 2, &format!("{end} [label=\"terminate\", shape=oval];"));
+        }
+        line(text, 1, "}");
+        for first in &plan.starts {
+            let to = To::of(first.target.as_ref());
+            if to != To::Nowhere {
+                let to = quoted(&self.node_name(to));
+                line(text, 1, &format!("{} -> {to} [penwidth=2];", quoted(&start)));
+            }
+        }
+        self.events(text, &start, &plan.supervisors);
+        for element in &plan.elements {
+            let from = self.element_name(element);
+            for exit in view.exits(element) {
+                self.edge(text, &from, &exit, exit.name);
+            }
+            self.events(text, &from, &element.supervisors);
         }
     }
-}
 
-fn event_label(supervisor: &Supervisor, exit: &Exit) -> String {
-    format!("{}: {}", supervisor.name, exit.name)
-}
-
-fn edge(text: &mut String, view: &View, from: &str, exit: &Exit, label: &str) {
-    if exit.target == Target::Ignore {
-        return;
+    fn node(&self, text: &mut String, element: &'a Component) {
+        let view = self.view;
+        let shape = match element.kind {
+            ComponentKind::Computation => "shape=hexagon, style=solid",
+            ComponentKind::SubPlan => "shape=box, peripheries=2",
+            ComponentKind::Actor | ComponentKind::Supervisor => "shape=box",
+        };
+        let mut label = format!("{}\n{}", name(element), view.template_name(element));
+        for input in view.inputs(element).iter().filter(|input| input.bound) {
+            label += &format!("\n{} = {}", input.port, input.text);
+        }
+        for output in view.outputs(element) {
+            label += &format!("\n{} => {}", output.port, output.entry);
+        }
+        let node = quoted(&self.element_name(element));
+        line(text, 2, &format!("{node} [label={}, {shape}];", quoted(&label)));
     }
-    let style = match exit.kind {
-        ExitKind::State => "solid",
-        ExitKind::Error => "dotted",
-        ExitKind::Event | ExitKind::Missed => "dashed",
-    };
-    let (from, to, label) = (quoted(from), quoted(&node_name(view, exit.target)), quoted(label));
-    line(text, 1, &format!("{from} -> {to} [label={label}, style={style}];"));
-}
 
-/// Tags get a name that no element can have.
-fn node_name(view: &View, target: Target) -> String {
-    let mark = if matches!(target, Target::Element(_)) { ':' } else { '!' };
-    format!("{}{mark}{}", view.plan.name, view.target_name(target))
-}
+    fn events(&self, text: &mut String, from: &str, supervisors: &'a [Component]) {
+        for supervisor in supervisors {
+            for exit in self.view.exits(supervisor) {
+                self.edge(text, from, &exit, &format!("{}: {}", name(supervisor), exit.name));
+            }
+        }
+    }
 
-fn reaches_end(view: &View) -> bool {
-    let elements = view.plan.elements.iter();
-    let ends = |exits: Vec<Exit>| exits.iter().any(|exit| exit.target == Target::Terminate);
-    elements.into_iter().any(|element| ends(view.states(element)))
-        || view.plan.supervisors.iter().any(|supervisor| ends(view.events(supervisor)))
+    fn edge(&self, text: &mut String, from: &str, exit: &Exit<'a>, label: &str) {
+        if matches!(exit.to, To::Ignore | To::Nowhere) {
+            return;
+        }
+        let style = match exit.kind {
+            ExitKind::State => "solid",
+            ExitKind::Error => "dotted",
+            ExitKind::Event | ExitKind::Missed => "dashed",
+        };
+        let (from, to) = (quoted(from), quoted(&self.node_name(exit.to)));
+        line(text, 1, &format!("{from} -> {to} [label={}, style={style}];", quoted(label)));
+    }
+
+    fn element_name(&self, element: &Component) -> String {
+        format!("{}:{}", self.prefix, element.item.name())
+    }
+
+    /// Tags get a name that no element can have.
+    fn node_name(&self, to: To<'a>) -> String {
+        match to {
+            To::Element(id) => self.element_name(&self.view.plan.elements[id.index()]),
+            other => format!("{}!{}", self.prefix, self.view.target_name(other)),
+        }
+    }
+
+    fn reaches_end(&self) -> bool {
+        let ends = |component: &'a Component| {
+            self.view.exits(component).iter().any(|exit| exit.to == To::Terminate)
+        };
+        self.view.plan.components().any(ends)
+    }
 }
 
 fn line(text: &mut String, depth: usize, content: &str) {

@@ -1,6 +1,7 @@
 //! Formulas as text: as written where the source is at hand, else printed from the graph.
 
 use afp_dsl::graph::{Formula, FormulaKind, Operator, Plan};
+use afp_dsl::toolbox::Constant;
 use afp_dsl::types::text::{number, quantity};
 use afp_dsl::types::{Conversion, Type};
 use afp_syntax::source::Sources;
@@ -17,6 +18,19 @@ pub fn text(formula: &Formula, plan: &Plan, sources: Option<&Sources>) -> String
         printed(formula, plan)
     } else {
         written.to_owned()
+    }
+}
+
+/// A value as text, in a unit that suits its size.
+pub(super) fn constant(value: &Constant, ty: Option<&Type>) -> String {
+    match (value, ty) {
+        (Constant::Bool(value), _) => value.to_string(),
+        (Constant::Int(value), _) => value.to_string(),
+        (Constant::Float(value), Some(Type::Quantity(dimension))) => quantity(*value, *dimension),
+        (Constant::Float(value), _) => number(*value),
+        (Constant::Text(value), _) => format!("{value:?}"),
+        (Constant::Choice(place), Some(ty)) => choice(*place, ty),
+        (Constant::Choice(place), None) => place.to_string(),
     }
 }
 

@@ -2,74 +2,100 @@
 
 use serde_json::{Map, Value, json};
 
-use super::view::{Exit, Input, View, entry_kind_name, kind_name};
-use super::{Options, formula};
+use super::scene::{Drawn, DrawnPlan};
+use super::view::{Exit, Input, Output, To, View, entry_kind_name, entry_name, entry_type, name};
+use super::{Options, Rect};
 use crate::layout_file::Position;
-use afp_dsl::graph::{Element, Graph, Plan, Supervisor};
+use afp_dsl::outline::{Component, Outline, Part, Plan};
+use afp_syntax::item::Item;
 
-/// The graph as one indented JSON object.
+/// The plan as one indented JSON object, with where everything is drawn.
 ///
 /// Keys of a plan: `plan` (its name), `doc`, `first`, `global_supervisors`, `actors` (all elements as
-/// written), `entries` and `timing`; of the main plan also `sub_plans`, an array of plans. An
+/// written), `entries`, `timing` and `edges`; of the main plan also `sub_plans`, an array of plans. An
 /// element has `name`, `kind`, `template`, `inputs` (the texts of the bound inputs in the order of
 /// the template's ports), `outputs` (entries, likewise), `states` (targets by state, `Error`
-/// included), `supervisors`, `position` (where it has been placed, in pixels), and `ports` (texts by input port, entries by output port); what is
-/// empty is left out. Supervisors have `name`, `template`, `inputs`, `outputs`, `events`; their
-/// periods and deadlines stand in `timing`, in nanoseconds.
-pub fn json(graph: &Graph, options: &Options) -> String {
-    let options = Options { data: true, ..*options };
-    let view = |plan| View { graph, plan, options: &options };
-    let mut object = plan_object(&view(graph.main()));
-    let others = graph.plans.iter().enumerate();
-    let others = others.filter(|(index, _)| *index != graph.main.index());
-    let others: Vec<_> = others.map(|(_, plan)| plan_object(&view(plan)).into()).collect();
-    put(&mut object, "sub_plans", Value::Array(others));
+/// included), `supervisors`, `position` (where it has been placed, in pixels), `rect` (where its box
+/// is drawn: left, top, width, height), and `ports` (texts by input port, entries by output port); what
+/// is empty is left out. Supervisors have `name`, `template`, `inputs`, `outputs`, `events`; their
+/// periods and deadlines stand in `timing`, in nanoseconds. An edge has `from` (the path of what it
+/// leaves), `exit`, `to` and the corners of its route, `points`.
+pub fn json(outline: &Outline, options: &Options) -> String {
+    let options = Options { data: true, sub_plans: true, ..*options };
+    let drawn = Drawn::new(outline, &options, None);
+    let mut plans = drawn.plans.iter().map(plan_object);
+    let mut object = plans.next().unwrap_or_default();
+    put(&mut object, "sub_plans", plans.map(Value::Object).collect());
     format!("{:#}\n", Value::Object(object))
 }
 
-fn plan_object(view: &View) -> Map<String, Value> {
-    let plan = view.plan;
-    let supervisors = |owner| supervisor_objects(view, owner);
+fn plan_object(drawn: &DrawnPlan) -> Map<String, Value> {
+    let (view, plan) = (&drawn.view, drawn.view.plan);
+    let first = plan.starts.first().map(|start| To::of(start.target.as_ref()));
+    let elements = plan.elements.iter().map(|element| element_object(drawn, element)).collect();
     let mut object = Map::new();
-    put(&mut object, "plan", json!(plan.name));
+    put(&mut object, "plan", json!(view.name()));
     put(&mut object, "doc", json!(plan.doc));
-    put(&mut object, "first", json!(view.element(plan.start).name));
-    put(&mut object, "global_supervisors", supervisors(None));
-    let elements = plan.elements.iter().map(|element| element_object(view, element)).collect();
+    put(&mut object, "first", json!(first.map(|first| view.target_name(first))));
+    put(&mut object, "global_supervisors", supervisor_objects(view, &plan.supervisors));
     put(&mut object, "actors", Value::Array(elements));
     put(&mut object, "entries", entries(view));
     put(&mut object, "timing", timing(plan));
+    put(&mut object, "edges", edges(drawn));
     object
 }
 
-fn element_object(view: &View, element: &Element) -> Value {
+fn element_object<'a>(drawn: &DrawnPlan<'a>, element: &'a Component) -> Value {
+    let view = &drawn.view;
     let mut object = Map::new();
-    put(&mut object, "name", json!(element.name));
+    put(&mut object, "name", json!(name(element)));
     put(&mut object, "doc", json!(element.doc));
-    put(&mut object, "kind", json!(kind_name(element)));
+    put(&mut object, "kind", json!(element.kind.keyword()));
     put(&mut object, "template", json!(view.template_name(element)));
-    let position = view.position(&element.name);
+    let position = view.position(&element.item);
     put(&mut object, "position", json!(position.map(|Position { x, y }| [x, y])));
+    put(&mut object, "rect", json!(drawn.rect(&element.item).map(rectangle)));
     let (inputs, outputs) = (view.inputs(element), view.outputs(element));
     put_data(&mut object, &inputs, &outputs);
-    put(&mut object, "states", targets(view, &view.states(element)));
-    put(&mut object, "supervisors", supervisor_objects(view, Some(element)));
+    put(&mut object, "states", targets(view, &view.exits(element)));
+    put(&mut object, "supervisors", supervisor_objects(view, &element.supervisors));
     put(&mut object, "ports", ports(&inputs, &outputs));
     Value::Object(object)
 }
 
-fn supervisor_objects(view: &View, owner: Option<&Element>) -> Value {
-    let objects = view.supervisors(owner).into_iter().map(|supervisor| {
+fn supervisor_objects<'a>(view: &View<'a>, supervisors: &'a [Component]) -> Value {
+    let objects = supervisors.iter().map(|supervisor| {
         let mut object = Map::new();
-        put(&mut object, "name", json!(supervisor.name));
-        put(&mut object, "template", json!(view.graph.template(supervisor.template).name));
-        let (inputs, outputs) =
-            (view.supervisor_inputs(supervisor), view.supervisor_outputs(supervisor));
+        put(&mut object, "name", json!(name(supervisor)));
+        put(&mut object, "template", json!(view.template_name(supervisor)));
+        let (inputs, outputs) = (view.inputs(supervisor), view.outputs(supervisor));
         put_data(&mut object, &inputs, &outputs);
-        put(&mut object, "events", targets(view, &view.events(supervisor)));
+        put(&mut object, "events", targets(view, &view.exits(supervisor)));
         Value::Object(object)
     });
     Value::Array(objects.collect())
+}
+
+fn edges(drawn: &DrawnPlan) -> Value {
+    let objects = drawn.edges.iter().map(|edge| {
+        let exit = match &edge.part {
+            Part::Exit { name, .. } => name.as_str(),
+            _ => "start",
+        };
+        let points: Vec<_> = edge.points.iter().map(|(x, y)| [tenth(*x), tenth(*y)]).collect();
+        let to = edge.to.as_ref().map(Item::name);
+        json!({ "from": edge.item.to_string(), "exit": exit, "to": to, "points": points })
+    });
+    Value::Array(objects.collect())
+}
+
+fn rectangle(rect: Rect) -> [f64; 4] {
+    [rect.x, rect.y, rect.width, rect.height].map(tenth)
+}
+
+/// Rounded to a tenth of a pixel.
+fn tenth(value: f64) -> f64 {
+    (value * 10.0).round() / 10.0 + 0.0
 }
 
 /// Adds what is not empty.
@@ -86,50 +112,55 @@ fn put(object: &mut Map<String, Value>, key: &str, value: Value) {
     }
 }
 
-fn put_data(object: &mut Map<String, Value>, inputs: &[Input], outputs: &[(&str, &str)]) {
+fn put_data(object: &mut Map<String, Value>, inputs: &[Input], outputs: &[Output]) {
     let bound = inputs.iter().filter(|input| input.bound);
     put(object, "inputs", bound.map(|input| json!(input.text)).collect());
-    put(object, "outputs", outputs.iter().map(|(_, entry)| json!(entry)).collect());
+    put(object, "outputs", outputs.iter().map(|output| json!(output.entry)).collect());
 }
 
-fn ports(inputs: &[Input], outputs: &[(&str, &str)]) -> Value {
-    let inputs = inputs.iter().map(|input| (input.port.to_owned(), json!(input.text)));
-    let outputs = outputs.iter().map(|(port, entry)| ((*port).to_owned(), json!(entry)));
+fn ports(inputs: &[Input], outputs: &[Output]) -> Value {
+    let inputs = inputs.iter().filter(|input| !input.missing);
+    let inputs = inputs.map(|input| (input.port.to_owned(), json!(input.text)));
+    let outputs = outputs.iter().map(|output| (output.port.to_owned(), json!(output.entry)));
     let mut object = Map::new();
     put(&mut object, "in", Value::Object(inputs.collect()));
     put(&mut object, "out", Value::Object(outputs.collect()));
     Value::Object(object)
 }
 
-fn targets(view: &View, exits: &[Exit]) -> Value {
-    let pair = |exit: &Exit| (exit.name.to_owned(), json!(view.target_name(exit.target)));
-    Value::Object(exits.iter().map(pair).collect())
+fn targets<'a>(view: &View<'a>, exits: &[Exit<'a>]) -> Value {
+    let exits = exits.iter().filter(|exit| exit.to != To::Nowhere);
+    let pair = |exit: &Exit<'a>| (exit.name.to_owned(), json!(view.target_name(exit.to)));
+    Value::Object(exits.map(pair).collect())
 }
 
 fn entries(view: &View) -> Value {
     let objects = view.plan.entries.iter().map(|entry| {
-        let init = entry.init.as_ref();
-        let init = init.map(|init| formula::text(init, view.plan, view.options.sources));
         let mut object = Map::new();
-        put(&mut object, "name", json!(entry.name));
+        put(&mut object, "name", json!(entry_name(entry)));
         put(&mut object, "doc", json!(entry.doc));
         put(&mut object, "kind", json!(entry_kind_name(entry.kind)));
-        put(&mut object, "type", json!(entry.ty.to_string()));
-        put(&mut object, "init", json!(init));
+        put(&mut object, "type", json!(entry_type(entry)));
+        put(&mut object, "init", json!(entry.init.as_ref().map(|init| &init.text)));
         Value::Object(object)
     });
     Value::Array(objects.collect())
 }
 
 fn timing(plan: &Plan) -> Value {
-    let object = |supervisor: &Supervisor| {
-        let owner = supervisor.owner.map(|owner| plan.elements[owner.index()].name.as_str());
-        json!({
+    let global = plan.supervisors.iter().map(|each| (None, each));
+    let local = plan
+        .elements
+        .iter()
+        .flat_map(|owner| owner.supervisors.iter().map(move |each| (Some(name(owner)), each)));
+    let object = |(owner, supervisor): (Option<&str>, &Component)| {
+        let times = supervisor.times?;
+        Some(json!({
             "element": owner,
-            "supervisor": supervisor.name,
-            "every_ns": supervisor.every,
-            "deadline_ns": supervisor.deadline,
-        })
+            "supervisor": name(supervisor),
+            "every_ns": times.every,
+            "deadline_ns": times.deadline,
+        }))
     };
-    Value::Array(plan.supervisors.iter().map(object).collect())
+    Value::Array(global.chain(local).filter_map(object).collect())
 }

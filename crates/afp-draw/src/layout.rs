@@ -22,6 +22,7 @@ pub(super) use placed::layout_around;
 use rows::Rows;
 
 use super::router::{self, Bounds, Heading, Point, Wire};
+use super::sketch::Rect;
 
 /// A box with everything attached to it; edges keep away from it.
 #[derive(Clone, Debug)]
@@ -54,17 +55,27 @@ pub(super) enum Exit {
     Right(f64, f64),
 }
 
-/// The result: places in pixels, the drawing's upper left corner at the origin.
+/// What is known about places before.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Placement {
+    /// The upper left corner of each node that has to be somewhere, by node.
+    pub(super) fixed: Vec<Option<Point>>,
+    /// Where the nodes were in the layout before.
+    pub(super) before: Vec<Option<Point>>,
+    /// The routes that the links had.
+    pub(super) routes: Vec<Option<Vec<Point>>>,
+}
+
+/// The result: places in pixels. Where nothing has a place of its own, the uppermost box touches
+/// the upper and the leftmost one the left axis.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Layout {
     /// The upper left corner of each node.
     pub(super) corners: Vec<Point>,
     /// The corners of each link's polyline, start and tip included.
     pub(super) routes: Vec<Vec<Point>>,
-    /// Width of everything.
-    pub(super) width: f64,
-    /// Height of everything.
-    pub(super) height: f64,
+    /// What everything takes.
+    pub(super) bounds: Rect,
 }
 
 /// How often boxes give way to edges.
@@ -88,7 +99,7 @@ pub(super) fn layout(nodes: &[Node], links: &[Link]) -> Layout {
         // A box at which too many edges arrive cannot give way.
         let mut narrow = found.crowded.iter().filter(|narrow| !narrow.arrives).peekable();
         if narrow.peek().is_none() || round == ROUNDS {
-            return moved_to_origin(nodes, corners, found.corners);
+            return Layout::new(nodes, corners, found.corners);
         }
         for narrow in narrow {
             rows.give_way(&mut grid, narrow);
@@ -121,16 +132,16 @@ fn wires(nodes: &[Node], links: &[Link], corners: &[Point]) -> Vec<Wire> {
     links.iter().map(wire).collect()
 }
 
-fn moved_to_origin(nodes: &[Node], mut corners: Vec<Point>, mut routes: Vec<Vec<Point>>) -> Layout {
-    let ends = corners.iter().zip(nodes);
-    let ends: Vec<_> = ends.map(|((x, y), node)| (x + node.width, y + node.height)).collect();
-    let points = || corners.iter().chain(routes.iter().flatten());
-    let left = points().map(|point| point.0).fold(f64::INFINITY, f64::min);
-    let top = points().map(|point| point.1).fold(f64::INFINITY, f64::min);
-    let right = points().chain(&ends).map(|point| point.0).fold(left, f64::max);
-    let bottom = points().chain(&ends).map(|point| point.1).fold(top, f64::max);
-    for point in corners.iter_mut().chain(routes.iter_mut().flatten()) {
-        *point = (point.0 - left, point.1 - top);
+impl Layout {
+    fn new(nodes: &[Node], corners: Vec<Point>, routes: Vec<Vec<Point>>) -> Layout {
+        let ends = corners.iter().zip(nodes);
+        let ends: Vec<_> = ends.map(|((x, y), node)| (x + node.width, y + node.height)).collect();
+        let points = || corners.iter().chain(&ends).chain(routes.iter().flatten());
+        let fold = |of: fn(&Point) -> f64, to: fn(f64, f64) -> f64| points().map(of).reduce(to);
+        let (left, right) = (fold(|point| point.0, f64::min), fold(|point| point.0, f64::max));
+        let (top, bottom) = (fold(|point| point.1, f64::min), fold(|point| point.1, f64::max));
+        let (x, y) = (left.unwrap_or(0.0), top.unwrap_or(0.0));
+        let (width, height) = (right.unwrap_or(x) - x, bottom.unwrap_or(y) - y);
+        Layout { corners, routes, bounds: Rect { x, y, width, height } }
     }
-    Layout { corners, routes, width: right - left, height: bottom - top }
 }

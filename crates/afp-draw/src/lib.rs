@@ -1,8 +1,8 @@
-//! Drawings of plans: the paper's notation as SVG, GraphViz text, the graph as JSON, and the flow of
-//! action as State Chart XML.
+//! Drawings of plans: the paper's notation as a [`Scene`] and as SVG, GraphViz text, JSON with
+//! places, and the flow of action as State Chart XML.
 //!
-//! All of them read the static graph alone; a caller that has the plan's text at hand passes it along
-//! and gets formulas as they were written.
+//! Drawings read the outline, so that plans with errors are drawn too, with what is wrong marked
+//! where it is. A state chart is for other engines to run, so it reads the graph.
 
 mod card;
 mod dot;
@@ -13,6 +13,7 @@ pub mod layout_file;
 mod legend;
 mod metrics;
 mod router;
+mod scene;
 mod scxml;
 mod sketch;
 mod svg;
@@ -27,23 +28,28 @@ mod tests;
 use std::fmt;
 
 use crate::layout_file::Layout;
+use afp_dsl::outline::PlanId;
 use afp_dsl::toolbox::Toolbox;
 use afp_syntax::source::Sources;
 
 pub use dot::dot;
 pub use json::json;
+pub use scene::{EdgeScene, ElementScene, PieceScene, PlanScene, Point, Scene, Symbol};
 pub use scxml::scxml;
-pub use svg::svg;
+pub use sketch::Rect;
+pub use svg::{picture, sheet, svg};
 pub use usage::{Count, PlanUsage, Usage};
 
 /// Finds the SVG text of an icon that a template of a toolbox names.
 pub type Icons<'a> = &'a dyn Fn(&Toolbox, &str) -> Option<String>;
 
-/// What a drawing can use besides the graph. The default draws a plan from its graph alone, for
-/// light and dark pages, with its sub-plans below.
+/// What a drawing can use besides the outline. The default draws the main plan for light and dark
+/// pages, with its sub-plans below.
 #[derive(Clone, Copy)]
 pub struct Options<'a> {
-    /// The texts that the spans of the graph point into; formulas are then shown as written.
+    /// The plan to be drawn; without one the main plan.
+    pub plan: Option<PlanId>,
+    /// The texts that the spans of a graph point into; a state chart then shows formulas as written.
     pub sources: Option<&'a Sources>,
     /// Where icons come from; without one, and for icons that it does not know, each kind of
     /// element has a simple picture of its own.
@@ -60,6 +66,8 @@ pub struct Options<'a> {
     pub positions: &'a [Layout],
     /// Whether entries, formulas and what they are bound to are shown; JSON always has them.
     pub data: bool,
+    /// Whether warnings and notes are marked where they belong, too; errors always are.
+    pub warnings: bool,
     /// How often each part was used: an SVG then shows that by colours and numbers, with a legend.
     pub usage: Option<&'a Usage>,
 }
@@ -79,12 +87,14 @@ pub enum Theme {
 impl Default for Options<'_> {
     fn default() -> Self {
         Options {
+            plan: None,
             sources: None,
             icons: None,
             positions: &[],
             theme: Theme::Auto,
             sub_plans: true,
             data: true,
+            warnings: false,
             usage: None,
         }
     }
@@ -93,6 +103,8 @@ impl Default for Options<'_> {
 impl fmt::Debug for Options<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Options")
+            .field("plan", &self.plan)
+            .field("warnings", &self.warnings)
             .field("sources", &self.sources.is_some())
             .field("icons", &self.icons.is_some())
             .field("positions", &self.positions.len())

@@ -105,3 +105,25 @@ fn element(index: u64, onwards: &str, [one, two, three]: [String; 3]) -> String 
         ),
     }
 }
+
+/// Whether a file declares a toolbox.
+pub(super) fn is_toolbox(text: &str) -> bool {
+    text.lines().any(|line| line.starts_with("toolbox "))
+}
+
+/// All `.afp` files below a folder, generated ones aside.
+pub(super) fn afp_files(folder: &str) -> Vec<std::path::PathBuf> {
+    let mut found = Vec::new();
+    let mut folders = vec![std::path::PathBuf::from(folder)];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            match path.extension() {
+                _ if path.is_dir() && !path.ends_with("target") => folders.push(path),
+                Some(extension) if extension == "afp" => found.push(path),
+                _ => {}
+            }
+        }
+    }
+    found
+}

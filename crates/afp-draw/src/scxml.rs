@@ -6,12 +6,13 @@
 
 mod chart;
 mod names;
+mod view;
 
 use super::Options;
-use super::view::View;
 use afp_dsl::graph::Graph;
 use chart::Chart;
 use names::Home;
+use view::View;
 
 /// The control flow of the main plan as a State Chart XML document, sub-plans unfolded.
 ///

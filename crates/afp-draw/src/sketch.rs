@@ -4,16 +4,26 @@
 
 use super::metrics;
 use super::usage::Class;
+use afp_dsl::outline::Part;
 use afp_dsl::toolbox::Toolbox;
+use afp_syntax::diagnostics::Severity;
+use afp_syntax::item::Item;
 
 /// A rectangle in pixels, y downwards.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Rect {
-    pub(super) x: f64,
-    pub(super) y: f64,
-    pub(super) width: f64,
-    pub(super) height: f64,
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rect {
+    /// Left border.
+    pub x: f64,
+    /// Upper border.
+    pub y: f64,
+    /// From left to right.
+    pub width: f64,
+    /// From top to bottom.
+    pub height: f64,
 }
+
+/// Width of the signs at what is wrong.
+const SIGN: f64 = 14.0;
 
 /// The outline of a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,6 +90,18 @@ pub(super) enum Glyph {
     SubPlan,
     Supervisor,
     Start,
+    Error,
+    Warning,
+    Note,
+}
+
+/// Something of a drawing that has an identity in the text.
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    pub(super) item: Item,
+    pub(super) part: Part,
+    pub(super) rect: Rect,
+    pub(super) severity: Option<Severity>,
 }
 
 /// A line with an arrow tip at its end.
@@ -98,14 +120,22 @@ pub(super) struct Sketch<'a> {
     pub(super) labels: Vec<Label>,
     pub(super) pictures: Vec<Picture<'a>>,
     pub(super) arrows: Vec<Arrow>,
+    pub(super) pieces: Vec<Piece>,
 }
 
 impl Rect {
-    pub(super) fn right(&self) -> f64 {
+    /// The same elsewhere.
+    pub(super) fn moved(self, (dx, dy): (f64, f64)) -> Rect {
+        Rect { x: self.x + dx, y: self.y + dy, ..self }
+    }
+
+    /// Right border.
+    pub fn right(&self) -> f64 {
         self.x + self.width
     }
 
-    pub(super) fn bottom(&self) -> f64 {
+    /// Lower border.
+    pub fn bottom(&self) -> f64 {
         self.y + self.height
     }
 }
@@ -125,7 +155,21 @@ impl Label {
 }
 
 impl<'a> Sketch<'a> {
+    /// Adds a sign at a place where something is wrong.
+    pub(super) fn mark(&mut self, severity: Option<Severity>, (x, y): (f64, f64)) {
+        let (fallback, class) = match severity {
+            None => return,
+            Some(Severity::Error) => (Glyph::Error, "wrong"),
+            Some(Severity::Warning) => (Glyph::Warning, "doubtful"),
+            Some(Severity::Note) => (Glyph::Note, "note"),
+        };
+        let class = class.into();
+        let (x, y) = (x - SIGN / 2.0, y - SIGN / 2.0);
+        self.pictures.push(Picture { x, y, size: SIGN, class, icon: None, fallback });
+    }
+
     /// Adds another drawing, moved by `(dx, dy)`.
+    #[cfg(test)]
     pub(super) fn add(&mut self, other: Sketch<'a>, (dx, dy): (f64, f64)) {
         self.frames.extend(other.frames.into_iter().map(|mut frame| {
             frame.rect.x += dx;
@@ -141,6 +185,11 @@ impl<'a> Sketch<'a> {
             picture.x += dx;
             picture.y += dy;
             picture
+        }));
+        self.pieces.extend(other.pieces.into_iter().map(|mut piece| {
+            piece.rect.x += dx;
+            piece.rect.y += dy;
+            piece
         }));
         self.arrows.extend(other.arrows.into_iter().map(|mut arrow| {
             for point in &mut arrow.points {

@@ -1,89 +1,61 @@
 //! Plans as SVG in the paper's notation.
 //!
-//! Thick arrows are flow of action, thin ones flow of data. The picture needs nothing from outside
-//! and sets no ids, so it can stand in a page as often as one likes.
+//! Thick arrows are flow of action, thin ones flow of data. A picture is put together from the
+//! [`Scene`] and needs nothing from outside.
 
 mod icon;
-mod paint;
+pub(super) mod paint;
 mod style;
 
-use super::Options;
-use super::card::{self, Card};
-use super::layout::{Link, Node, layout_around};
-use super::legend::legend;
-use super::sketch::{Arrow, Sketch};
-use super::view::View;
-use crate::layout_file::Position;
-use afp_dsl::graph::Graph;
+use super::scene::{PlanScene, Scene};
+use super::{Options, Theme};
+use afp_dsl::outline::Outline;
+use paint::{escaped, line, number};
 
-/// Space around everything, in pixels.
-const MARGIN: f64 = 24.0;
-
-/// Distance between the drawings of two plans.
-const BETWEEN: f64 = 64.0;
-
-/// Distance between the drawings and the legend.
-const LEGEND: f64 = 32.0;
+pub use style::sheet;
 
 /// The main plan as an SVG picture, its sub-plans below it unless the options say otherwise.
 ///
-/// Texts come from the graph and are escaped. The picture's size is in pixels and given by the
-/// plan. The same graph and options give the same text.
-pub fn svg(graph: &Graph, options: &Options) -> String {
-    let (sketch, size) = sketch(graph, options);
-    paint::picture(&sketch, size, graph.main(), options)
+/// Texts come from the plan and are escaped. The picture's size is in pixels and given by the
+/// plan. The same outline and options give the same text.
+pub fn svg(outline: &Outline, options: &Options) -> String {
+    picture(&Scene::new(outline, options, None), options.theme)
 }
 
-/// Everything to be drawn, and the size of the picture.
-pub(super) fn sketch<'a>(graph: &'a Graph, options: &'a Options<'a>) -> (Sketch<'a>, (f64, f64)) {
-    let mut all = Sketch::default();
-    let mut size = (0.0_f64, 0.0);
-    for view in View::all(graph, options) {
-        let top = if size.1 > 0.0 { size.1 + BETWEEN } else { MARGIN };
-        let (sketch, width, height) = plan(&view);
-        all.add(sketch, (MARGIN, top));
-        size = (size.0.max(width), top + height);
+/// A scene as a picture.
+pub fn picture(scene: &Scene, theme: Theme) -> String {
+    let (width, height) = (scene.size.0.ceil(), scene.size.1.ceil());
+    let main = scene.plans.first();
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"afp-plan\" role=\"img\" \
+         width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n\
+         <title>{}</title>\n",
+        escaped(main.map_or("", |plan| &plan.name))
+    );
+    if let Some(plan) = main.filter(|plan| !plan.doc.is_empty()) {
+        line(&mut out, &format!("<desc>{}</desc>", escaped(&plan.doc)));
     }
-    if options.usage.is_some() {
-        let (legend, width, height) = legend();
-        let top = size.1 + LEGEND;
-        all.add(legend, (MARGIN, top));
-        size = (size.0.max(width), top + height);
+    let sheet = style::sheet(theme, scene.legend.is_some());
+    line(&mut out, &format!("<style>\n{sheet}</style>"));
+    if !scene.symbols.is_empty() {
+        line(&mut out, "<defs>");
+        scene.symbols.iter().for_each(|symbol| line(&mut out, &symbol.svg));
+        line(&mut out, "</defs>");
     }
-    (all, (size.0 + 2.0 * MARGIN, size.1 + MARGIN))
+    line(&mut out, "<rect class=\"page\" width=\"100%\" height=\"100%\"/>");
+    for plan in &scene.plans {
+        plan_group(&mut out, plan);
+    }
+    out.extend(scene.legend.iter().map(String::as_str));
+    out + "</svg>\n"
 }
 
-fn pixels(position: Position) -> (f64, f64) {
-    (position.x.into(), position.y.into())
-}
-
-fn plan<'a>(view: &View<'a>) -> (Sketch<'a>, f64, f64) {
-    let elements = view.plan.elements.iter().map(|element| card::element(view, element));
-    let cards: Vec<Card> = std::iter::once(card::start(view)).chain(elements).collect();
-    let nodes: Vec<_> = cards
-        .iter()
-        .map(|card| Node { width: card.width, height: card.height, entry: card.entry })
-        .collect();
-    let exits = cards.iter().enumerate();
-    let exits: Vec<_> =
-        exits.flat_map(|(from, card)| card.exits.iter().map(move |exit| (from, exit))).collect();
-    // The start tag is node 0, so elements count from 1.
-    let link = |(from, exit): &(usize, &card::Leaving)| Link {
-        from: *from,
-        to: exit.to + 1,
-        exit: exit.at,
-    };
-    let links: Vec<_> = exits.iter().map(link).collect();
-    let elements = view.plan.elements.iter().map(|element| view.position(&element.name));
-    let fixed: Vec<_> = std::iter::once(view.position("start")).chain(elements).collect();
-    let fixed: Vec<_> = fixed.iter().map(|place| place.map(pixels)).collect();
-    let placed = layout_around(&nodes, &links, &fixed);
-    let mut sketch = Sketch::default();
-    for ((_, exit), points) in exits.iter().zip(placed.routes) {
-        sketch.arrows.push(Arrow { points, class: exit.class, thick: true });
-    }
-    for (card, corner) in cards.into_iter().zip(placed.corners) {
-        sketch.add(card.sketch, corner);
-    }
-    (sketch, placed.width, placed.height)
+/// Edges below boxes.
+fn plan_group(out: &mut String, plan: &PlanScene) {
+    let (x, y) = (number(plan.offset.0), number(plan.offset.1));
+    let item = escaped(&plan.plan.to_string());
+    line(out, &format!("<g class=\"plan\" data-item=\"{item}\" transform=\"translate({x} {y})\">"));
+    out.extend(plan.edges.iter().map(|edge| edge.svg.as_str()));
+    out.extend(plan.elements.iter().map(|element| element.svg.as_str()));
+    line(out, "</g>");
 }

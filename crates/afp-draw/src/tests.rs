@@ -1,11 +1,14 @@
 //! Tests of whole drawings: nothing lies on top of anything else.
 
-use super::sample::{EVERY_PART, WALL_FOLLOWING, compiled, compiled_with, generated};
+use super::sample::{
+    EVERY_PART, WALL_FOLLOWING, afp_files, compiled, compiled_with, generated, is_toolbox,
+};
+use super::scene::Drawn;
 use super::sketch::{Arrow, Rect, Shape, Sketch};
-use super::svg::sketch;
 use super::{Count, Options, PlanUsage, Theme, Usage, svg};
 use crate::layout_file::Layout;
 use afp_dsl::Compiled;
+use afp_dsl::outline::Outline;
 use afp_dsl::toolbox::Toolbox;
 use afp_syntax::source::Source;
 
@@ -30,27 +33,6 @@ fn nothing_overlaps_in_the_plans_that_are_shipped() {
     for plan in plans {
         check_all(&compiled_with(&plan, &toolboxes));
     }
-}
-
-fn is_toolbox(text: &str) -> bool {
-    text.lines().any(|line| line.starts_with("toolbox "))
-}
-
-/// All `.afp` files below a folder, generated ones aside.
-fn afp_files(folder: &str) -> Vec<std::path::PathBuf> {
-    let mut found = Vec::new();
-    let mut folders = vec![std::path::PathBuf::from(folder)];
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            match path.extension() {
-                _ if path.is_dir() && !path.ends_with("target") => folders.push(path),
-                Some(extension) if extension == "afp" => found.push(path),
-                _ => {}
-            }
-        }
-    }
-    found
 }
 
 #[test]
@@ -93,7 +75,7 @@ fn what_has_been_placed_stays_and_the_rest_goes_around_it() {
         let positions = in_every_file(&plan, positions);
         let options = Options { positions: &positions, ..Options::default() };
         check(&plan, &options);
-        let (sketch, _) = sketch(plan.graph.as_ref().unwrap(), &options);
+        let (sketch, _) = sketch(&plan.outline, &options);
         let place = |name| sketch.labels.iter().find(|label| label.text == name).unwrap();
         let (one, two) = (place("backupCollision"), place("followWall"));
         (two.x - one.x, two.y - one.y)
@@ -132,6 +114,7 @@ fn what_was_used_is_told_by_classes_and_numbers() {
         special: 0,
     };
     let plans = graph.plans.iter().map(|plan| PlanUsage {
+        plan: plan.span,
         elements: (0..).zip(&plan.elements).map(|(n, each)| count(each.states.len(), n)).collect(),
         supervisors: plan.supervisors.iter().map(|each| count(each.events.len(), 7)).collect(),
         entries: (0..plan.entries.len() as u64).collect(),
@@ -139,7 +122,7 @@ fn what_was_used_is_told_by_classes_and_numbers() {
     let usage = Usage { plans: plans.collect() };
     let options = Options { usage: Some(&usage), ..Options::default() };
     check(&compiled, &options);
-    let picture = svg(graph, &options);
+    let picture = svg(&compiled.outline, &options);
     for class in ["actor unused", "partly", "flow state unused", "error unused", "missed unused"] {
         assert!(picture.contains(class), "no {class}");
     }
@@ -147,8 +130,21 @@ fn what_was_used_is_told_by_classes_and_numbers() {
     {
         assert!(picture.contains(text), "no {text}");
     }
-    let plain = svg(graph, &Options::default());
+    let plain = svg(&compiled.outline, &Options::default());
     assert!(!plain.contains("unused") && !plain.contains('×'), "a plain drawing counts nothing");
+}
+
+/// Everything that is drawn, and the size of the picture.
+fn sketch<'a>(outline: &'a Outline, options: &'a Options<'a>) -> (Sketch<'a>, (f64, f64)) {
+    let drawn = Drawn::new(outline, options, None);
+    let mut all = Sketch::default();
+    for plan in drawn.plans {
+        all.add(plan.sketch(), (0.0, 0.0));
+    }
+    if let Some((legend, at)) = drawn.legend {
+        all.add(legend, at);
+    }
+    (all, drawn.size)
 }
 
 fn in_every_file(compiled: &Compiled, positions: Layout) -> Vec<Layout> {
@@ -156,8 +152,7 @@ fn in_every_file(compiled: &Compiled, positions: Layout) -> Vec<Layout> {
 }
 
 fn check(compiled: &Compiled, options: &Options) {
-    let options = Options { sources: Some(&compiled.sources), ..*options };
-    let (sketch, size) = sketch(compiled.graph.as_ref().unwrap(), &options);
+    let (sketch, size) = sketch(&compiled.outline, options);
     boxes_are_apart(&sketch, size);
     labels_are_apart(&sketch);
     arrows_keep_away_from_boxes(&sketch);
@@ -182,7 +177,9 @@ fn boxes_are_apart(sketch: &Sketch, (width, height): (f64, f64)) {
         for two in &sketch.frames[..place] {
             let nested = two.class.name == "configuration" && one.class.name == "entry";
             let attached = is_exit(one.class.name) != is_exit(two.class.name);
-            let apart = nested || attached || !overlap(&one.rect, &two.rect);
+            // What supervisors hang on goes into their element.
+            let hangs = one.class.name == "spine" || two.class.name == "spine";
+            let apart = nested || hangs || attached || !overlap(&one.rect, &two.rect);
             assert!(apart, "{one:?} lies on {two:?}");
         }
     }
@@ -275,9 +272,8 @@ fn run_on_each_other(a: &Rect, b: &Rect) -> f64 {
 #[test]
 fn every_kind_of_part_has_its_symbol() {
     let compiled = compiled(EVERY_PART);
-    let graph = compiled.graph.unwrap();
-    let options = Options { sources: Some(&compiled.sources), ..Options::default() };
-    let (sketch, _) = sketch(&graph, &options);
+    let options = Options::default();
+    let (sketch, _) = sketch(&compiled.outline, &options);
     for class in [
         "start",
         "actor",
@@ -308,9 +304,9 @@ fn every_kind_of_part_has_its_symbol() {
 
 #[test]
 fn sub_plans_are_left_out_when_not_wanted() {
-    let graph = compiled(EVERY_PART).graph.unwrap();
-    let with = svg(&graph, &Options::default());
-    let without = svg(&graph, &Options { sub_plans: false, ..Options::default() });
+    let outline = compiled(EVERY_PART).outline;
+    let with = svg(&outline, &Options::default());
+    let without = svg(&outline, &Options { sub_plans: false, ..Options::default() });
     assert!(with.contains(">away</text>") && !without.contains(">away</text>"));
 }
 
@@ -318,18 +314,20 @@ fn sub_plans_are_left_out_when_not_wanted() {
 fn a_picture_is_the_same_each_time_and_needs_nothing_from_outside() {
     let icons = |_: &Toolbox, name: &str| afp_toolboxes::icon(name).map(str::to_owned);
     let options = Options { icons: Some(&icons), ..Options::default() };
-    let picture = |text| svg(&compiled(text).graph.unwrap(), &options);
+    let picture = |text| svg(&compiled(text).outline, &options);
     let text = picture(WALL_FOLLOWING);
     assert_eq!(text, picture(WALL_FOLLOWING));
     assert_eq!(text.matches("http").count(), 1, "only the name space");
-    assert!(!text.contains("url(") && !text.contains(" id="));
+    assert!(!text.contains("url(") && !text.contains("style="));
+    let (uses, ids) = (text.matches("href=\"#afp-"), text.matches(" id=\"afp-"));
+    assert!(uses.count() > ids.count(), "icons are there once");
     assert!(text.contains(r#"<path d="M12 21V4"/>"#), "the icon of 'Forward'");
 }
 
 #[test]
 fn themes_differ_in_colours_only() {
-    let graph = compiled(WALL_FOLLOWING).graph.unwrap();
-    let of = |theme| svg(&graph, &Options { theme, ..Options::default() });
+    let outline = compiled(WALL_FOLLOWING).outline;
+    let of = |theme| svg(&outline, &Options { theme, ..Options::default() });
     let (auto, light, dark) = (of(Theme::Auto), of(Theme::Light), of(Theme::Dark));
     assert!(auto.contains("prefers-color-scheme:dark"));
     assert!(!light.contains("prefers-color-scheme") && !dark.contains("prefers-color-scheme"));
@@ -342,7 +340,7 @@ fn themes_differ_in_colours_only() {
 fn texts_of_plans_cannot_break_the_picture() {
     let text = "use std\nplan P {\nstart log\n\
                 computation log: Log(value = \"</text><script>&\") { Done -> terminate }\n}\n";
-    let picture = svg(&compiled(text).graph.unwrap(), &Options::default());
+    let picture = svg(&compiled(text).outline, &Options::default());
     assert!(!picture.contains("<script"));
     assert!(picture.contains("&lt;script&gt;&amp;"));
 }

@@ -1,8 +1,8 @@
 //! How often the parts of a plan were used: a drawing with it is coloured by use rather than by kind.
 
-/// How often the parts of the plans of a graph were used, by [`PlanId`].
-///
-/// [`PlanId`]: afp_dsl::graph::PlanId
+use afp_syntax::source::Span;
+
+/// How often the parts of plans were used.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Usage {
     /// The plans.
@@ -10,8 +10,10 @@ pub struct Usage {
 }
 
 /// How often the parts of a plan were used, wherever it is a sub-plan.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlanUsage {
+    /// The plan: the place of its name in the text.
+    pub plan: Span,
     /// Its elements, by their place.
     pub elements: Vec<Count>,
     /// Its supervisors, by their place.

@@ -1,46 +1,78 @@
-//! The graph as a drawing sees it: ports with their texts, exits with their names.
+//! The outline as a drawing sees it: ports with their texts, exits with their names.
 //!
-//! The three drawings agree on what an element shows, since all of them ask here.
+//! The drawings agree on what an element shows, since all of them ask here. Whatever parses is
+//! there, in plans with errors too.
 
 use std::borrow::Cow;
 
 use super::usage::{Count, PlanUsage, times};
 use super::{Options, formula};
 use crate::layout_file::Position;
-use afp_dsl::graph::{
-    Component, Element, ElementId, Entry, EntryKind, Formula, FormulaKind, Graph, Output, Plan,
-    PlanId, Supervisor, Target, TemplateId,
+use afp_dsl::graph::EntryKind;
+use afp_dsl::outline::{
+    Component, ComponentKind, Destination, ElementId, Entry, ExitKind, Outline, Plan, PlanId,
+    Target,
 };
-use afp_dsl::toolbox::{InPort, Template, Toolbox};
+use afp_dsl::toolbox::Toolbox;
+use afp_dsl::types::text::duration;
+use afp_syntax::diagnostics::Severity;
 use afp_syntax::item::Item;
-use afp_syntax::source::Span;
 
-/// A plan in its graph, with the options of the drawing.
+/// A plan in its outline, with the options of the drawing.
 #[derive(Clone, Copy)]
 pub(super) struct View<'a> {
-    pub(super) graph: &'a Graph,
+    pub(super) outline: &'a Outline,
     pub(super) plan: &'a Plan,
     pub(super) options: &'a Options<'a>,
+    usage: Option<&'a PlanUsage>,
 }
 
 /// An input port and what feeds it.
 pub(super) struct Input<'a> {
     pub(super) port: &'a str,
+    pub(super) nth: u16,
+    /// What it is bound to, else its default; empty when something is missing.
     pub(super) text: String,
     /// Whether the plan binds it; otherwise the text is the port's default.
     pub(super) bound: bool,
     /// Whether it is fed by an entry alone.
     pub(super) plain: bool,
+    /// Whether nothing feeds it, although something must.
+    pub(super) missing: bool,
+    pub(super) severity: Option<Severity>,
+}
+
+/// An output port that is bound.
+pub(super) struct Output<'a> {
+    pub(super) port: &'a str,
+    pub(super) nth: u16,
+    /// The entry that takes its value.
+    pub(super) entry: &'a str,
+    pub(super) severity: Option<Severity>,
 }
 
 /// A way out of an element or a supervisor.
 #[derive(Clone, Copy)]
 pub(super) struct Exit<'a> {
     pub(super) name: &'a str,
-    pub(super) target: Target,
+    pub(super) nth: u16,
     pub(super) kind: ExitKind,
+    pub(super) to: To<'a>,
     /// How often it was taken, where that is shown.
     pub(super) count: Option<u64>,
+    pub(super) severity: Option<Severity>,
+}
+
+/// Where an exit leads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum To<'a> {
+    Element(ElementId),
+    Terminate,
+    Ignore,
+    /// To what the plan does not have.
+    Unknown(&'a str),
+    /// Nowhere, although it must lead somewhere.
+    Nowhere,
 }
 
 impl Exit<'_> {
@@ -53,41 +85,64 @@ impl Exit<'_> {
     }
 }
 
-/// What makes control leave.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ExitKind {
-    State,
-    Error,
-    Event,
-    Missed,
+impl<'a> To<'a> {
+    pub(super) fn of(target: Option<&'a Target>) -> To<'a> {
+        match target.map(|target| (target.to, target.text.as_str())) {
+            Some((Destination::Element(id), _)) => To::Element(id),
+            Some((Destination::Terminate, _)) => To::Terminate,
+            Some((Destination::Ignore, _)) => To::Ignore,
+            Some((Destination::Unknown, text)) if !text.is_empty() => To::Unknown(text),
+            _ => To::Nowhere,
+        }
+    }
 }
 
 impl<'a> View<'a> {
-    /// The plans to be drawn: the main one first, the ones it uses after it where wanted.
-    pub(super) fn all(graph: &'a Graph, options: &'a Options<'a>) -> Vec<View<'a>> {
-        let main = graph.main;
-        let indices = (0..graph.plans.len()).rev().filter(|index| *index != main.index());
-        let others = indices.filter(|_| options.sub_plans).map(|index| &graph.plans[index]);
-        let plans = std::iter::once(graph.main()).chain(others);
-        plans.map(|plan| View { graph, plan, options }).collect()
+    /// The plans to be drawn: the main one first, the ones it uses after it where wanted, in the
+    /// order in which they are met.
+    pub(super) fn all(outline: &'a Outline, options: &'a Options<'a>) -> Vec<View<'a>> {
+        let Some(main) = options.plan.or(outline.main) else { return Vec::new() };
+        let mut order = vec![main];
+        let mut place = 0;
+        while let Some(plan) = order.get(place).filter(|_| options.sub_plans) {
+            for element in &outline.plan(*plan).elements {
+                if let Some(used) = element.sub_plan().filter(|used| !order.contains(used)) {
+                    order.push(used);
+                }
+            }
+            place += 1;
+        }
+        order.into_iter().map(|plan| View::new(outline, plan, options)).collect()
     }
 
-    pub(super) fn element(&self, id: ElementId) -> &'a Element {
-        &self.plan.elements[id.index()]
+    fn new(outline: &'a Outline, plan: PlanId, options: &'a Options<'a>) -> View<'a> {
+        let plan = outline.plan(plan);
+        let is_own = |usage: &&PlanUsage| plan.span.contains(usage.plan);
+        let usage = options.usage.and_then(|usage| usage.plans.iter().find(is_own));
+        View { outline, plan, options, usage }
+    }
+
+    /// The plan's name.
+    pub(super) fn name(&self) -> &'a str {
+        self.plan.name.as_ref().map_or(self.plan.item.name(), |name| &name.text)
     }
 
     /// The name of the template or of the sub-plan.
-    pub(super) fn template_name(&self, element: &Element) -> &'a str {
-        match element.component {
-            Component::Actor(id) | Component::Computation(id) => &self.graph.template(id).name,
-            Component::SubPlan(id) => &self.graph.plan(id).name,
-        }
+    pub(super) fn template_name(&self, component: &'a Component) -> &'a str {
+        let plan = component.sub_plan().and_then(|id| self.outline.plan(id).name.as_ref());
+        let known = component.template().map(|template| template.name.as_str());
+        let written = component.template.as_ref().map(|template| template.text.as_str());
+        known.or(plan.map(|name| name.text.as_str())).or(written).unwrap_or("?")
     }
 
     /// Where an element, or the start tag under the name `start`, has been placed.
-    pub(super) fn position(&self, name: &str) -> Option<Position> {
-        let file = self.options.positions.get(usize::from(self.plan.span.file))?;
-        file.get(&Item::inner(&self.plan.name, name))
+    pub(super) fn position(&self, item: &Item) -> Option<Position> {
+        self.options.positions.get(usize::from(self.plan.span.file))?.get(item)
+    }
+
+    /// The item under which the start tag is placed.
+    pub(super) fn start_item(&self) -> Item {
+        Item::inner(self.plan.item.name(), "start")
     }
 
     /// The entries of the plan, if data is shown.
@@ -95,32 +150,40 @@ impl<'a> View<'a> {
         self.shown(&self.plan.entries)
     }
 
-    pub(super) fn inputs(&self, element: &Element) -> Vec<Input<'a>> {
-        match element.component {
-            Component::Actor(id) | Component::Computation(id) => {
-                self.template_inputs(id, &element.inputs)
+    pub(super) fn inputs(&self, component: &'a Component) -> Vec<Input<'a>> {
+        let inputs = self.shown(&component.inputs).iter().map(|input| {
+            let value = input.binding.as_ref().and_then(|binding| binding.value.as_ref());
+            let default = input.default.as_ref();
+            let default = || default.map(|value| formula::constant(value, input.ty.as_ref()));
+            let text = match &input.binding {
+                Some(_) => value.map(|value| value.text.clone()),
+                None => default(),
+            };
+            Input {
+                port: &input.name,
+                nth: input.nth,
+                bound: input.binding.is_some(),
+                plain: value.is_some_and(|value| value.entry.is_some()),
+                missing: text.is_none() && (input.required || input.binding.is_some()),
+                text: text.unwrap_or_default(),
+                severity: self.severity(input.findings.worst),
             }
-            Component::SubPlan(id) => self.plan_inputs(id, &element.inputs),
-        }
+        });
+        inputs.collect()
     }
 
-    pub(super) fn supervisor_inputs(&self, supervisor: &Supervisor) -> Vec<Input<'a>> {
-        self.template_inputs(supervisor.template, &supervisor.inputs)
-    }
-
-    fn template_inputs(&self, id: TemplateId, formulas: &[Formula]) -> Vec<Input<'a>> {
-        let ports = self.graph.template(id).inputs.iter();
-        let with =
-            |(port, formula): (&'a InPort, &Formula)| self.input(&port.name, port.span, formula);
-        ports.zip(self.shown(formulas)).map(with).collect()
-    }
-
-    fn plan_inputs(&self, id: PlanId, formulas: &[Formula]) -> Vec<Input<'a>> {
-        let entries = self.graph.plan(id).entries.iter();
-        let ports = entries.filter(|entry| entry.kind == EntryKind::In);
-        let with =
-            |(entry, formula): (&'a Entry, &Formula)| self.input(&entry.name, entry.span, formula);
-        ports.zip(self.shown(formulas)).map(with).collect()
+    /// The bound output ports.
+    pub(super) fn outputs(&self, component: &'a Component) -> Vec<Output<'a>> {
+        let outputs = self.shown(&component.outputs).iter().filter_map(|output| {
+            let value = output.binding.as_ref()?.value.as_ref();
+            Some(Output {
+                port: &output.name,
+                nth: output.nth,
+                entry: value.map_or("", |value| &value.text),
+                severity: self.severity(output.findings.worst),
+            })
+        });
+        outputs.collect()
     }
 
     /// All or nothing, as the options say.
@@ -128,166 +191,78 @@ impl<'a> View<'a> {
         if self.options.data { data } else { &[] }
     }
 
-    /// A formula that stands where the port is declared is the port's default.
-    fn input(&self, port: &'a str, declared: Span, formula: &Formula) -> Input<'a> {
-        let bound = formula.span != declared;
-        let sources = self.options.sources.filter(|_| bound);
-        Input {
-            port,
-            text: formula::text(formula, self.plan, sources),
-            bound,
-            plain: is_entry(formula),
-        }
+    /// What is marked: errors always, the rest where that is wanted.
+    pub(super) fn severity(&self, worst: Option<Severity>) -> Option<Severity> {
+        worst.filter(|severity| self.options.warnings || *severity == Severity::Error)
     }
 
-    /// The connected output ports, each with the entry it writes.
-    pub(super) fn outputs(&self, element: &Element) -> Vec<(&'a str, &'a str)> {
-        match element.component {
-            Component::Actor(id) | Component::Computation(id) => {
-                self.template_outputs(id, &element.outputs)
+    /// The ways out that are connected or must be.
+    pub(super) fn exits(&self, component: &'a Component) -> Vec<Exit<'a>> {
+        let counts = self.count(component);
+        let exits = component.exits.iter().enumerate().filter_map(|(place, exit)| {
+            if exit.edge.is_none() && !exit.required {
+                return None;
             }
-            Component::SubPlan(id) => {
-                let entries = self.graph.plan(id).entries.iter();
-                let ports = entries.filter(|entry| entry.kind == EntryKind::Out);
-                let names: Vec<_> = ports.map(|entry| entry.name.as_str()).collect();
-                self.named_outputs(&names, &element.outputs)
-            }
-        }
-    }
-
-    pub(super) fn supervisor_outputs(&self, supervisor: &Supervisor) -> Vec<(&'a str, &'a str)> {
-        self.template_outputs(supervisor.template, &supervisor.outputs)
-    }
-
-    fn template_outputs(&self, id: TemplateId, outputs: &[Output]) -> Vec<(&'a str, &'a str)> {
-        let ports = self.graph.template(id).outputs.iter();
-        let names: Vec<_> = ports.map(|port| port.name.as_str()).collect();
-        self.named_outputs(&names, outputs)
-    }
-
-    fn named_outputs(&self, names: &[&'a str], outputs: &[Output]) -> Vec<(&'a str, &'a str)> {
-        let mut outputs: Vec<_> = self.shown(outputs).iter().collect();
-        outputs.sort_by_key(|output| output.port);
-        let named = outputs.into_iter().filter_map(|output| {
-            let port = names.get(usize::from(output.port))?;
-            Some((*port, self.plan.entries[output.entry.index()].name.as_str()))
-        });
-        named.collect()
-    }
-
-    /// The connected states, `Error` last.
-    pub(super) fn states(&self, element: &Element) -> Vec<Exit<'a>> {
-        let names: Vec<&'a str> = match element.component {
-            Component::Actor(id) | Component::Computation(id) => {
-                outcome_names(self.graph.template(id))
-            }
-            Component::SubPlan(_) => vec!["OK", "Interrupted"],
-        };
-        let counts = self.element_count(element);
-        let count = |place: usize| counts?.outcomes.get(place).copied();
-        let states = names.into_iter().zip(&element.states).enumerate();
-        let states = states.filter_map(|(place, (name, target))| {
-            let count = count(place);
-            target.map(|target| Exit { name, target, kind: ExitKind::State, count })
-        });
-        let error = element.on_error.map(|target| Exit {
-            name: "Error",
-            target,
-            kind: ExitKind::Error,
-            count: counts.map(|counts| counts.special),
-        });
-        states.chain(error).collect()
-    }
-
-    /// The events, `DeadlineMissed` last where it is connected.
-    pub(super) fn events(&self, supervisor: &Supervisor) -> Vec<Exit<'a>> {
-        let names = outcome_names(self.graph.template(supervisor.template));
-        let counts = self.supervisor_count(supervisor);
-        let event = |(place, (name, target)): (usize, (&'a str, &Target))| Exit {
-            name,
-            target: *target,
-            kind: ExitKind::Event,
+            let to = To::of(exit.edge.as_ref().and_then(|edge| edge.target.as_ref()));
+            let count = counts.and_then(|counts| match exit.kind {
+                ExitKind::State | ExitKind::Event => counts.outcomes.get(place).copied(),
+                ExitKind::Error | ExitKind::Missed => Some(counts.special),
+            });
             // What is ignored is never taken, so that counting it would say nothing.
-            count: counts
-                .and_then(|counts| counts.outcomes.get(place).copied())
-                .filter(|_| *target != Target::Ignore),
-        };
-        let missed = supervisor.on_miss.map(|target| Exit {
-            name: "DeadlineMissed",
-            target,
-            kind: ExitKind::Missed,
-            count: counts.map(|counts| counts.special),
+            let count = count.filter(|_| to != To::Ignore);
+            let severity = self.severity(exit.findings.worst);
+            Some(Exit { name: &exit.name, nth: exit.nth, kind: exit.kind, to, count, severity })
         });
-        names.into_iter().zip(&supervisor.events).enumerate().map(event).chain(missed).collect()
+        exits.collect()
     }
 
-    /// How often the parts of the plan were used, where that is shown.
-    fn usage(&self) -> Option<&'a PlanUsage> {
-        let usage = self.options.usage?;
-        let place = self.graph.plans.iter().position(|plan| std::ptr::eq(plan, self.plan))?;
-        usage.plans.get(place)
-    }
-
-    /// How often an element of the plan was used.
-    pub(super) fn element_count(&self, element: &Element) -> Option<&'a Count> {
-        let elements = &self.plan.elements;
-        let place = elements.iter().position(|each| std::ptr::eq(each, element))?;
-        self.usage()?.elements.get(place)
-    }
-
-    /// How often a supervisor of the plan was used.
-    pub(super) fn supervisor_count(&self, supervisor: &Supervisor) -> Option<&'a Count> {
-        let supervisors = &self.plan.supervisors;
-        let place = supervisors.iter().position(|each| std::ptr::eq(each, supervisor))?;
-        self.usage()?.supervisors.get(place)
+    /// How often an element or supervisor of the plan was used, where that is shown.
+    pub(super) fn count(&self, component: &Component) -> Option<&'a Count> {
+        let usage = self.usage?;
+        let is_it = |each: &Component| each.item == component.item;
+        if component.kind == ComponentKind::Supervisor {
+            let place = self.plan.all_supervisors().position(is_it)?;
+            return usage.supervisors.get(place);
+        }
+        usage.elements.get(self.plan.elements.iter().position(is_it)?)
     }
 
     /// How often an entry of the plan was written.
     pub(super) fn writes(&self, entry: usize) -> Option<u64> {
-        self.usage()?.entries.get(entry).copied()
+        self.usage?.entries.get(entry).copied()
     }
 
     /// Where an exit leads, in the words of the language.
-    pub(super) fn target_name(&self, target: Target) -> &'a str {
-        match target {
-            Target::Element(id) => &self.element(id).name,
-            Target::Terminate => "terminate",
-            Target::Ignore => "ignore",
+    pub(super) fn target_name(&self, to: To<'a>) -> &'a str {
+        match to {
+            To::Element(id) => name(&self.plan.elements[id.index()]),
+            To::Terminate => "terminate",
+            To::Ignore => "ignore",
+            To::Unknown(text) => text,
+            To::Nowhere => "",
         }
     }
 
     /// The template's toolbox and its icon's name.
-    pub(super) fn icon(&self, id: TemplateId) -> Option<(&'a Toolbox, &'a str)> {
-        let icon = self.graph.template(id).icon.as_deref()?;
-        Some((&self.graph.toolboxes[id.toolbox.index()], icon))
-    }
-
-    /// The supervisors of an element, or the global ones.
-    pub(super) fn supervisors(&self, owner: Option<&Element>) -> Vec<&'a Supervisor> {
-        let all = &self.plan.supervisors;
-        match owner {
-            None => all.iter().take(usize::from(self.plan.globals)).collect(),
-            Some(element) => element.supervisors.iter().map(|id| &all[id.index()]).collect(),
-        }
+    pub(super) fn icon(&self, component: &'a Component) -> Option<(&'a Toolbox, &'a str)> {
+        Some((component.toolbox()?, component.template()?.icon.as_deref()?))
     }
 }
 
-/// Whether it is an entry's value, perhaps converted.
-fn is_entry(formula: &Formula) -> bool {
-    match &formula.kind {
-        FormulaKind::Entry(_) => true,
-        FormulaKind::Convert(_, inner) => is_entry(inner),
-        _ => false,
-    }
+/// The name of an element or supervisor.
+pub(super) fn name(component: &Component) -> &str {
+    component.name.as_ref().map_or(component.item.name(), |name| &name.text)
 }
 
-/// The word for an element's kind.
-pub(super) fn kind_name(element: &Element) -> &'static str {
-    match element.component {
-        Component::Actor(_) => "actor",
-        Component::Computation(_) => "computation",
-        Component::SubPlan(_) => "subplan",
-    }
+/// The name of an entry.
+pub(super) fn entry_name(entry: &Entry) -> &str {
+    entry.name.as_ref().map_or(entry.item.name(), |name| &name.text)
+}
+
+/// The type of an entry.
+pub(super) fn entry_type(entry: &Entry) -> String {
+    let written = || entry.written_type.as_ref().map(|name| name.text.clone());
+    entry.ty.as_ref().map(ToString::to_string).or_else(written).unwrap_or_default()
 }
 
 /// The word for an entry's kind.
@@ -300,6 +275,10 @@ pub(super) fn entry_kind_name(kind: EntryKind) -> &'static str {
     }
 }
 
-fn outcome_names(template: &Template) -> Vec<&str> {
-    template.outcomes.iter().map(|outcome| outcome.name.as_str()).collect()
+/// When a supervisor is polled, for its tooltip.
+pub(super) fn timing(component: &Component) -> String {
+    component.times.map_or(String::new(), |times| {
+        let (every, deadline) = (duration(times.every), duration(times.deadline));
+        format!("every {every}, deadline {deadline}")
+    })
 }

@@ -22,8 +22,7 @@ fn compiled(text: &str) -> Compiled {
 
 fn json_of(text: &str) -> Value {
     let compiled = compiled(text);
-    let options = Options { sources: Some(&compiled.sources), ..Options::default() };
-    serde_json::from_str(&json(&compiled.graph.unwrap(), &options)).unwrap()
+    serde_json::from_str(&json(&compiled.outline, &Options::default())).unwrap()
 }
 
 /// Takes the units from the inputs, so that `10000 cm` reads like the paper's `10000`.
@@ -88,8 +87,7 @@ fn json_has_entries_timing_ports_and_sub_plans() {
 
 #[test]
 fn dot_names_every_element_and_every_edge_but_ignored_ones() {
-    let graph = compiled(EVERY_PART).graph.unwrap();
-    let text = dot(&graph, &Options::default());
+    let text = dot(&compiled(EVERY_PART).outline, &Options::default());
     for expected in [
         "\"Square!start\" -> \"Square:drive\" [penwidth=2];",
         "\"Square:drive\" -> \"Square:turn\" [label=\"ForwardSuccessful\", style=solid];",

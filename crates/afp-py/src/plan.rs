@@ -134,8 +134,8 @@ impl Plan {
                 return Err(PyValueError::new_err(text));
             }
         };
-        self.draw(py, |graph, options| {
-            afp_draw::svg(graph, &Options { theme, sub_plans: !fold, data, ..*options })
+        self.draw(py, |outline, options| {
+            afp_draw::svg(outline, &Options { theme, sub_plans: !fold, data, ..*options })
         })
     }
 
@@ -151,7 +151,10 @@ impl Plan {
 
     /// The flow of action as State Chart XML.
     fn scxml(&self, py: Python<'_>) -> PyResult<String> {
-        self.draw(py, afp_draw::scxml)
+        let compiled = self.compiled(py);
+        let graph = compiled.graph.as_ref().ok_or_else(|| plan_error(py, &compiled))?;
+        let options = Options { sources: Some(&compiled.sources), ..Options::default() };
+        Ok(afp_draw::scxml(graph, &options))
     }
 
     /// The names of the plans of the file.
@@ -203,14 +206,15 @@ impl Plan {
     fn draw(
         &self,
         py: Python<'_>,
-        draw: impl FnOnce(&afp_dsl::graph::Graph, &Options<'_>) -> String,
+        draw: impl FnOnce(&afp_dsl::outline::Outline, &Options<'_>) -> String,
     ) -> PyResult<String> {
         let compiled = self.compiled(py);
-        let graph = compiled.graph.as_ref().ok_or_else(|| plan_error(py, &compiled))?;
+        if compiled.graph.is_none() {
+            return Err(plan_error(py, &compiled));
+        }
         let icons = |_: &Declared, name: &str| afp_toolboxes::icon(name).map(str::to_owned);
-        let options =
-            Options { sources: Some(&compiled.sources), icons: Some(&icons), ..Options::default() };
-        Ok(draw(graph, &options))
+        let options = Options { icons: Some(&icons), ..Options::default() };
+        Ok(draw(&compiled.outline, &options))
     }
 
     fn change(&self, change: &Change) -> PyResult<()> {

@@ -163,6 +163,7 @@ impl<'a> Parts<'a> {
     /// Adds up what was used, plan by plan, over all places at which a plan is used.
     pub(crate) fn usage(&self, hits: &Hits) -> Usage {
         let plans = self.graph.plans.iter().map(|plan| PlanUsage {
+            plan: plan.span,
             elements: plan.elements.iter().map(|each| none(each.states.len())).collect(),
             supervisors: plan.supervisors.iter().map(|each| none(each.events.len())).collect(),
             entries: vec![0; plan.entries.len()],

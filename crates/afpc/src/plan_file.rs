@@ -97,14 +97,19 @@ impl PlanFile {
         PlanFile::read(argument)?.checked()
     }
 
+    /// Tells standard error what is wrong.
+    pub fn report(&self) {
+        if !self.compiled.diags.is_empty() {
+            anstream::eprintln!("{}", self.compiled.render(true));
+        }
+    }
+
     /// Tells standard error what is wrong, and gives the graph.
     ///
     /// # Errors
     /// The plan has errors.
     pub fn checked(mut self) -> Result<(PlanFile, Graph), NoPlan> {
-        if !self.compiled.diags.is_empty() {
-            anstream::eprintln!("{}", self.compiled.render(true));
-        }
+        self.report();
         let graph = self.compiled.graph.take().ok_or(NoPlan::Wrong)?;
         Ok((self, graph))
     }

@@ -1,5 +1,6 @@
 //! The toolboxes of the project, with the crates that implement them.
 
+use std::fs;
 use std::sync::Arc;
 
 use afp_dsl::graph::Graph;
@@ -78,6 +79,23 @@ impl OwnToolboxes {
             }
         }
         if mistakes.is_empty() { Ok(used) } else { Err(self.project.wrong(mistakes)) }
+    }
+}
+
+impl OwnToolboxes {
+    /// The text of an icon: `icons/NAME.svg` beside the file of the project's toolbox, else that of a
+    /// built-in one.
+    pub fn icon(&self, toolbox: &Toolbox, name: &str) -> Option<String> {
+        let plain = |each: char| each.is_ascii_alphanumeric() || matches!(each, '-' | '_');
+        if name.is_empty() || !name.chars().all(plain) {
+            return None;
+        }
+        let own = self.files.iter().find(|file| file.toolbox.name == toolbox.name);
+        if let Some(folder) = own.and_then(|file| file.path.parent()) {
+            return fs::read_to_string(folder.join("icons").join(format!("{name}.svg"))).ok();
+        }
+        let built_in = afp_toolboxes::ALL.iter().any(|each| each.name == toolbox.name);
+        built_in.then(|| afp_toolboxes::icon(name)).flatten().map(str::to_owned)
     }
 }
 

@@ -125,10 +125,10 @@ fn pictures_have_the_size_and_the_colours_asked_for() {
 }
 
 #[test]
-fn a_wrong_plan_is_neither_drawn_nor_run_nor_built() {
+fn a_wrong_plan_is_neither_charted_nor_run_nor_built() {
     let place = Place::new();
     place.write("a.afp", "plan A { start b }");
-    for command in ["graph a.afp -o a.svg", "run a.afp", "build a.afp"] {
+    for command in ["graph a.afp -o a.scxml", "run a.afp", "build a.afp"] {
         place.afpc(command).fails(1, &["error[E02", "--> a.afp:1:"]);
     }
     assert_eq!(place.files(), ["a.afp"]);

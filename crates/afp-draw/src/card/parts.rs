@@ -2,11 +2,11 @@
 
 use super::super::layout;
 use super::super::metrics::{shorten, width};
-use super::super::sketch::{Anchor, Arrow, Label, Rect, Sketch};
+use super::super::sketch::{Anchor, Arrow, Label, Piece, Rect, Sketch};
 use super::super::usage::{Class, Use};
-use super::super::view::{Exit, ExitKind, Input};
-use super::{Card, Leaving};
-use afp_dsl::graph::Target;
+use super::super::view::{Exit, Input, Output, To};
+use super::{Card, Leaving, REACH};
+use afp_dsl::outline::{Component, ExitKind, Part};
 
 /// Height of a row with a port or an exit.
 pub(super) const ROW: f64 = 22.0;
@@ -14,6 +14,9 @@ pub(super) const ROW: f64 = 22.0;
 /// Sizes of texts in pixels.
 pub(super) const PORT_SIZE: f64 = 11.0;
 const CHIP_SIZE: f64 = 11.0;
+
+/// Stands where something is missing.
+const HOLE: &str = "?";
 
 /// Height of data and of exits.
 const PILL: f64 = 18.0;
@@ -26,32 +29,21 @@ const STUB: f64 = 20.0;
 
 /// The ends of flow that are no elements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Tag {
-    Terminate,
-    Ignore,
+pub(super) struct Tag<'a> {
+    text: &'a str,
+    class: &'static str,
 }
 
-impl Tag {
-    pub(super) fn of(target: Target) -> Option<Tag> {
-        match target {
-            Target::Element(_) => None,
-            Target::Terminate => Some(Tag::Terminate),
-            Target::Ignore => Some(Tag::Ignore),
-        }
-    }
-
-    fn text(self) -> &'static str {
-        match self {
-            Tag::Terminate => "Terminate",
-            Tag::Ignore => "Ignore",
-        }
-    }
-
-    fn class(self) -> &'static str {
-        match self {
-            Tag::Terminate => "terminate",
-            Tag::Ignore => "ignore",
-        }
+impl<'a> Tag<'a> {
+    pub(super) fn of(to: To<'a>) -> Option<Tag<'a>> {
+        let (text, class) = match to {
+            To::Element(_) => return None,
+            To::Terminate => ("Terminate", "terminate"),
+            To::Ignore => ("Ignore", "ignore"),
+            To::Unknown(text) => (text, "unknown"),
+            To::Nowhere => ("?", "nowhere"),
+        };
+        Some(Tag { text, class })
     }
 }
 
@@ -60,7 +52,7 @@ pub(super) fn chip_width(name: &str) -> f64 {
 }
 
 pub(super) fn tag_width(tag: Tag) -> f64 {
-    width(tag.text(), CHIP_SIZE, false) + 20.0
+    width(&shorten(tag.text), CHIP_SIZE, false) + 20.0
 }
 
 pub(super) fn pill_width(text: &str) -> f64 {
@@ -69,48 +61,86 @@ pub(super) fn pill_width(text: &str) -> f64 {
 
 /// How far to the right of its box an exit with its tag reaches.
 pub(super) fn reach_right(exit: &Exit) -> f64 {
-    STAND_OUT + Tag::of(exit.target).map_or(0.0, |tag| STUB + tag_width(tag))
+    STAND_OUT + Tag::of(exit.to).map_or(0.0, |tag| STUB + tag_width(tag))
 }
 
 /// Data that flows into a port at `at`; on the side named by `side`.
-pub(super) fn inflow(sketch: &mut Sketch, at: (f64, f64), input: &Input, reach: f64, side: Anchor) {
-    let class = if input.plain { "entry" } else { "formula" };
-    let edge = data(sketch, at, &input.text, class, reach, side);
-    sketch.arrows.push(Arrow { points: vec![edge, at], class: "data".into(), thick: false });
+pub(super) fn inflow(
+    sketch: &mut Sketch,
+    of: &Component,
+    at: (f64, f64),
+    input: &Input,
+    side: Anchor,
+) {
+    let (text, class) = match input {
+        Input { missing: true, .. } => (HOLE, "hole"),
+        Input { plain: true, text, .. } => (text.as_str(), "entry"),
+        Input { text, .. } => (text.as_str(), "formula"),
+    };
+    let rect = data(sketch, at, text, class, side);
+    let points = vec![attached(rect, at), at];
+    sketch.arrows.push(Arrow { points, class: "data".into(), thick: false });
     port(sketch, at, input.port, side);
+    let part = Part::Input { name: input.port.to_owned(), nth: input.nth };
+    sketch.pieces.push(Piece { item: of.item.clone(), part, rect, severity: input.severity });
+    sketch.mark(input.severity, signed(rect, at));
 }
 
 /// Data that flows out of a port at `at`.
 pub(super) fn outflow(
     sketch: &mut Sketch,
+    of: &Component,
     at: (f64, f64),
-    name: &str,
-    entry: &str,
-    reach: f64,
+    output: &Output,
     side: Anchor,
 ) {
-    let edge = data(sketch, at, entry, "entry", reach, side);
-    sketch.arrows.push(Arrow { points: vec![at, edge], class: "data".into(), thick: false });
-    port(sketch, at, name, side);
+    let class = if output.entry.is_empty() { "hole" } else { "entry" };
+    let rect = data(sketch, at, output.text(), class, side);
+    let points = vec![at, attached(rect, at)];
+    sketch.arrows.push(Arrow { points, class: "data".into(), thick: false });
+    port(sketch, at, output.port, side);
+    let part = Part::Output { name: output.port.to_owned(), nth: output.nth };
+    sketch.pieces.push(Piece { item: of.item.clone(), part, rect, severity: output.severity });
+    sketch.mark(output.severity, signed(rect, at));
 }
 
-/// Draws the datum beside the port and returns where its arrow is attached.
+impl Output<'_> {
+    /// What its datum says.
+    pub(super) fn text(&self) -> &str {
+        if self.entry.is_empty() { HOLE } else { self.entry }
+    }
+}
+
+impl Input<'_> {
+    /// What its datum says.
+    pub(super) fn shown(&self) -> &str {
+        if self.missing { HOLE } else { &self.text }
+    }
+}
+
+/// The end of a datum that is next to its port.
+fn attached(rect: Rect, (x, y): (f64, f64)) -> (f64, f64) {
+    (if rect.x < x { rect.right() } else { rect.x }, y)
+}
+
+/// Where the sign of a datum stands: at its end away from the port.
+fn signed(rect: Rect, (x, _): (f64, f64)) -> (f64, f64) {
+    (if rect.x < x { rect.x } else { rect.right() }, rect.y)
+}
+
+/// Draws the datum beside the port.
 fn data(
     sketch: &mut Sketch,
     (x, y): (f64, f64),
     text: &str,
     class: &'static str,
-    reach: f64,
     side: Anchor,
-) -> (f64, f64) {
+) -> Rect {
     let width = pill_width(text);
-    let (left, edge) = match side {
-        Anchor::Start => (x - reach - width, x - reach),
-        _ => (x + reach, x + reach),
-    };
+    let left = if side == Anchor::Start { x - REACH - width } else { x + REACH };
     let rect = Rect { x: left, y: y - PILL / 2.0, width, height: PILL };
     sketch.pill(rect, class, text, PORT_SIZE);
-    (edge, y)
+    rect
 }
 
 fn port(sketch: &mut Sketch, (x, y): (f64, f64), name: &str, side: Anchor) {
@@ -127,45 +157,60 @@ fn port(sketch: &mut Sketch, (x, y): (f64, f64), name: &str, side: Anchor) {
 }
 
 /// A state on the lower border of a box, centred at `at`, with its tag.
-pub(super) fn exit_below(card: &mut Card, (x, y): (f64, f64), exit: &Exit) {
+pub(super) fn exit_below(card: &mut Card, of: &Component, (x, y): (f64, f64), exit: &Exit) {
     let text = exit.text();
     let width = chip_width(&text);
     let rect = Rect { x: x - width / 2.0, y: y - PILL + STAND_OUT, width, height: PILL };
-    card.sketch.pill(rect, exit_class(exit), &text, CHIP_SIZE);
+    chip(card, of, rect, exit, &text);
     let bottom = rect.bottom();
     card.height = card.height.max(bottom);
-    let Some(tag) = Tag::of(exit.target) else {
-        leave(card, layout::Exit::Below(x, bottom), exit);
+    let Some(tag) = Tag::of(exit.to) else {
+        leave(card, of, layout::Exit::Below(x, bottom), exit);
         return;
     };
     let points = vec![(x, bottom), (x, bottom + STUB)];
     card.sketch.arrows.push(Arrow { points, class: exit_class(exit), thick: true });
     let width = tag_width(tag);
     let rect = Rect { x: x - width / 2.0, y: bottom + STUB, width, height: PILL };
-    card.sketch.pill(rect, tag.class(), tag.text(), CHIP_SIZE);
+    card.sketch.pill(rect, tag.class, tag.text, CHIP_SIZE);
     card.height = card.height.max(rect.bottom());
 }
 
 /// An event on the right border of a box at `at`, with its tag.
-pub(super) fn exit_right(card: &mut Card, (x, y): (f64, f64), exit: &Exit) {
+pub(super) fn exit_right(card: &mut Card, of: &Component, (x, y): (f64, f64), exit: &Exit) {
     let text = exit.text();
     let width = chip_width(&text);
     let right = x + STAND_OUT;
     let rect = Rect { x: right - width, y: y - PILL / 2.0, width, height: PILL };
-    card.sketch.pill(rect, exit_class(exit), &text, CHIP_SIZE);
-    let Some(tag) = Tag::of(exit.target) else {
-        leave(card, layout::Exit::Right(right, y), exit);
+    chip(card, of, rect, exit, &text);
+    let Some(tag) = Tag::of(exit.to) else {
+        leave(card, of, layout::Exit::Right(right, y), exit);
         return;
     };
     let points = vec![(right, y), (right + STUB, y)];
     card.sketch.arrows.push(Arrow { points, class: exit_class(exit), thick: true });
     let rect = Rect { x: right + STUB, y: y - PILL / 2.0, width: tag_width(tag), height: PILL };
-    card.sketch.pill(rect, tag.class(), tag.text(), CHIP_SIZE);
+    card.sketch.pill(rect, tag.class, tag.text, CHIP_SIZE);
 }
 
-fn leave(card: &mut Card, at: layout::Exit, exit: &Exit) {
-    if let Target::Element(id) = exit.target {
-        card.exits.push(Leaving { at, to: id.index(), class: exit_class(exit) });
+/// The exit itself: hollow when it leads nowhere.
+fn chip(card: &mut Card, of: &Component, rect: Rect, exit: &Exit, text: &str) {
+    let class = if exit.to == To::Nowhere { "open".into() } else { exit_class(exit) };
+    card.sketch.pill(rect, class, text, CHIP_SIZE);
+    let (part, severity) = (part(exit), exit.severity);
+    card.sketch.pieces.push(Piece { item: of.item.clone(), part, rect, severity });
+    card.sketch.mark(exit.severity, (rect.x, rect.y));
+}
+
+fn part(exit: &Exit) -> Part {
+    Part::Exit { name: exit.name.to_owned(), nth: exit.nth }
+}
+
+fn leave(card: &mut Card, of: &Component, at: layout::Exit, exit: &Exit) {
+    if let To::Element(id) = exit.to {
+        let (item, part, severity) = (of.item.clone(), part(exit), exit.severity);
+        let class = exit_class(exit);
+        card.exits.push(Leaving { item, part, severity, at, to: id.index(), class });
     }
 }
 

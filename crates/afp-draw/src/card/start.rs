@@ -1,18 +1,23 @@
 //! The start tag: the plan's name, its configuration, its global supervisors.
 
-use super::super::formula;
 use super::super::layout;
 use super::super::metrics::{shorten, width};
-use super::super::sketch::{Anchor, Frame, Glyph, Label, Picture, Rect, Shape, Sketch};
+use super::super::sketch::{
+    Anchor, Arrow, Frame, Glyph, Label, Picture, Piece, Rect, Shape, Sketch,
+};
 use super::super::usage::{Class, Use, times};
-use super::super::view::{View, entry_kind_name};
+use super::super::view::{To, View, entry_kind_name, entry_name, entry_type};
 use super::parts::{PORT_SIZE, ROW, pill_width};
 use super::supervisors::Stack;
 use super::{Card, Leaving};
-use afp_dsl::graph::{Entry, EntryKind};
+use afp_dsl::graph::EntryKind;
+use afp_dsl::outline::{Entry, Part};
 
 /// Size of the plan's name in pixels.
 const NAME: f64 = 15.0;
+
+/// Length of the arrow from the tag to nothing.
+const STUB: f64 = 20.0;
 
 /// Distance between the configuration and the tag.
 const GAP: f64 = 28.0;
@@ -23,14 +28,14 @@ const KIND: f64 = 40.0;
 /// The card of a plan's start tag. Its flow leads to the first element.
 pub(in super::super) fn start<'a>(view: &View<'a>) -> Card<'a> {
     let plan = view.plan;
-    let mut card = Card::empty();
+    let mut card = Card::empty(view.start_item());
     let table = configuration(view, &mut card.sketch);
     let left = if table.width > 0.0 { table.width + GAP } else { 0.0 };
-    let stack = Stack::new(view, &view.supervisors(None));
-    let name = width(&plan.name, NAME, true);
-    let rect = Rect { x: left, y: 0.0, width: name + 66.0, height: stack.height.max(46.0) };
+    let stack = Stack::new(view, &plan.supervisors);
+    let name = width(view.name(), NAME, true);
+    let rect = Rect { x: left, y: 0.0, width: name + 66.0, height: stack.first.max(46.0) };
     let shape = if stack.height > 0.0 { Shape::Round(9.0) } else { Shape::Round(23.0) };
-    let title = if plan.doc.is_empty() { plan.name.clone() } else { plan.doc.clone() };
+    let title = if plan.doc.is_empty() { view.name().to_owned() } else { plan.doc.clone() };
     card.sketch.frames.push(Frame { rect, shape, class: "start".into(), title });
     let middle = rect.height / 2.0;
     card.sketch.pictures.push(Picture {
@@ -44,30 +49,66 @@ pub(in super::super) fn start<'a>(view: &View<'a>) -> Card<'a> {
     card.sketch.labels.push(Label {
         x: rect.x + 46.0,
         y: middle + 0.36 * NAME,
-        text: plan.name.clone(),
+        text: view.name().to_owned(),
         size: NAME,
         bold: true,
         anchor: Anchor::Start,
         class: "start".into(),
     });
-    let at = layout::Exit::Below(rect.x + rect.width / 2.0, rect.bottom());
-    card.exits.push(Leaving { at, to: plan.start.index(), class: "start".into() });
     card.width = rect.right();
     card.height = rect.bottom().max(table.height);
+    card.rect = rect;
+    let severity = view.severity(plan.findings.worst);
+    card.sketch.pieces.push(Piece { item: plan.item.clone(), part: Part::Whole, rect, severity });
+    card.sketch.mark(severity, (rect.x + 4.0, rect.y + 4.0));
+    leave(view, &mut card, rect);
     card.entry = (rect.x, rect.right());
     stack.attach(view, &mut card, rect);
     card
 }
 
+/// Leads flow from the tag to the first element, or to a tag with what is wrong there.
+fn leave(view: &View, card: &mut Card, rect: Rect) {
+    let count = view.plan.starts.len() as f64;
+    for (number, start) in (1_u16..).zip(&view.plan.starts) {
+        let x = rect.x + rect.width * f64::from(number) / (count + 1.0);
+        let (class, severity) = ("start".into(), view.severity(start.findings.worst));
+        let (item, part) = (view.plan.item.clone(), Part::Start(number));
+        match To::of(start.target.as_ref()) {
+            To::Element(id) => {
+                let at = layout::Exit::Below(x, rect.bottom());
+                card.exits.push(Leaving { item, part, severity, at, to: id.index(), class });
+                card.sketch.mark(severity, (x, rect.bottom()));
+            }
+            to => {
+                let points = vec![(x, rect.bottom()), (x, rect.bottom() + STUB)];
+                card.sketch.arrows.push(Arrow { points, class, thick: true });
+                let (text, class) = match to {
+                    To::Unknown(text) => (text, "unknown"),
+                    other => (view.target_name(other), "nowhere"),
+                };
+                let text = if text.is_empty() { "?" } else { text };
+                let width = pill_width(text);
+                let top = rect.bottom() + STUB;
+                let tag = Rect { x: x - width / 2.0, y: top, width, height: 18.0 };
+                card.sketch.pill(tag, class, text, PORT_SIZE);
+                card.sketch.pieces.push(Piece { item, part, rect: tag, severity });
+                card.sketch.mark(severity, (tag.x, tag.y));
+                card.height = card.height.max(tag.bottom());
+            }
+        }
+    }
+}
+
 /// Draws the entries of the plan at the origin; an empty rectangle when there are none.
-fn configuration(view: &View, sketch: &mut Sketch) -> Rect {
+fn configuration<'a>(view: &View<'a>, sketch: &mut Sketch<'a>) -> Rect {
     let entries = view.entries();
     if entries.is_empty() {
         return Rect { x: 0.0, y: 0.0, width: 0.0, height: 0.0 };
     }
     let pills: Vec<_> = (0..).zip(entries).map(|(id, entry)| pill(view, id, entry)).collect();
     let names = pills.iter().map(|(text, _)| pill_width(text)).fold(0.0, f64::max);
-    let texts: Vec<_> = entries.iter().map(|entry| declaration(view, entry)).collect();
+    let texts: Vec<_> = entries.iter().map(declaration).collect();
     let right = texts.iter().map(|text| width(text, PORT_SIZE, false)).fold(0.0, f64::max);
     let inner = KIND + names + 10.0 + right;
     let rect = Rect {
@@ -86,6 +127,9 @@ fn configuration(view: &View, sketch: &mut Sketch) -> Rect {
         let width = pill_width(text_in_pill);
         let pill = Rect { x: 12.0 + KIND, y: y - 9.0, width, height: 18.0 };
         sketch.pill(pill, *class, text_in_pill, PORT_SIZE);
+        let (item, severity) = (entry.item.clone(), view.severity(entry.findings.worst));
+        sketch.pieces.push(Piece { item, part: Part::Whole, rect: pill, severity });
+        sketch.mark(severity, (pill.x, pill.y));
         sketch.labels.push(label((22.0 + KIND + names, base), text, PORT_SIZE, "port"));
     }
     rect
@@ -94,23 +138,20 @@ fn configuration(view: &View, sketch: &mut Sketch) -> Rect {
 /// The name of an entry; where use is shown and the plan can write it, with how often it did.
 fn pill(view: &View, id: usize, entry: &Entry) -> (String, Class) {
     match view.writes(id).filter(|_| matches!(entry.kind, EntryKind::Var | EntryKind::Out)) {
-        None => (entry.name.clone(), "entry".into()),
+        None => (entry_name(entry).to_owned(), "entry".into()),
         Some(count) => {
             let class = Class { name: "entry", usage: Some(Use::of(count)) };
-            (format!("{}  {}", entry.name, times(count)), class)
+            (format!("{}  {}", entry_name(entry), times(count)), class)
         }
     }
 }
 
 /// Type and initial value.
-fn declaration(view: &View, entry: &Entry) -> String {
-    let ty = entry.ty.to_string();
+fn declaration(entry: &Entry) -> String {
+    let ty = entry_type(entry);
     match &entry.init {
         None => ty,
-        Some(init) => {
-            let init = formula::text(init, view.plan, view.options.sources);
-            format!("{ty} = {}", shorten(&init))
-        }
+        Some(init) => format!("{ty} = {}", shorten(&init.text)),
     }
 }
 

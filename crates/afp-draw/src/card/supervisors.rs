@@ -1,14 +1,14 @@
 //! Supervisors that lean on the right side of a box.
 
 use super::super::metrics::width;
-use super::super::sketch::{Anchor, Frame, Glyph, Label, Picture, Rect, Shape, Sketch};
+use super::super::sketch::{Anchor, Frame, Glyph, Label, Picture, Piece, Rect, Shape, Sketch};
 use super::super::usage::{Class, Use, times};
-use super::super::view::{Exit, Input, View};
+use super::super::view::{Exit, Input, Output, To, View, name, timing};
 use super::parts::{
     PORT_SIZE, ROW, STAND_OUT, chip_width, exit_right, inflow, outflow, pill_width, reach_right,
 };
-use super::{Card, REACH, bound};
-use afp_dsl::graph::{Supervisor, Target};
+use super::{Card, REACH, shown};
+use afp_dsl::outline::{Component, Part};
 use afp_dsl::types::text::duration;
 
 /// Sizes of texts in pixels.
@@ -30,25 +30,28 @@ pub(super) struct Stack<'a> {
     ports: f64,
     /// Height of all together; 0 without supervisors.
     pub(super) height: f64,
+    /// Height of a box that the first one leans on as a whole.
+    pub(super) first: f64,
 }
 
 struct Row<'a> {
-    supervisor: &'a Supervisor,
+    supervisor: &'a Component,
     template: String,
     usage: Option<Use>,
     events: Vec<Exit<'a>>,
     inputs: Vec<Input<'a>>,
-    outputs: Vec<(&'a str, &'a str)>,
+    outputs: Vec<Output<'a>>,
 }
 
 impl<'a> Stack<'a> {
-    pub(super) fn new(view: &View<'a>, supervisors: &[&'a Supervisor]) -> Stack<'a> {
+    pub(super) fn new(view: &View<'a>, supervisors: &'a [Component]) -> Stack<'a> {
         let rows: Vec<_> = supervisors.iter().map(|each| Row::new(view, each)).collect();
         let head = rows.iter().map(Row::head).fold(0.0, f64::max);
         let ports = rows.iter().map(Row::ports).fold(0.0, f64::max);
         let heights: f64 = rows.iter().map(|row| row.height() + GAP).sum();
         let height = if rows.is_empty() { 0.0 } else { GAP + heights };
-        Stack { rows, head, ports, height }
+        let first = rows.first().map_or(0.0, |row| row.height() + 2.0 * GAP);
+        Stack { rows, head, ports, height, first }
     }
 
     /// Draws the supervisors on the right side of `rect` and widens the card accordingly.
@@ -62,20 +65,39 @@ impl<'a> Stack<'a> {
             y = own.bottom() + GAP;
         }
         card.height = card.height.max(rect.y + self.height);
+        if let Some(beyond) = Some(y - GAP - rect.bottom()).filter(|beyond| *beyond > 0.0) {
+            // They hang on the box where they reach below it.
+            let spine = Rect {
+                x: rect.right() - 1.0,
+                y: rect.bottom() - 9.0,
+                width: 2.0,
+                height: beyond + 9.0,
+            };
+            card.sketch.frames.insert(
+                0,
+                Frame {
+                    rect: spine,
+                    shape: Shape::Round(1.0),
+                    class: "spine".into(),
+                    title: String::new(),
+                },
+            );
+        }
     }
 }
 
 impl<'a> Row<'a> {
-    fn new(view: &View<'a>, supervisor: &'a Supervisor) -> Row<'a> {
-        let template = view.graph.template(supervisor.template);
-        let mut name = template.name.clone();
-        if template.every != supervisor.every {
-            name += &format!(" · every {}", duration(supervisor.every));
+    fn new(view: &View<'a>, supervisor: &'a Component) -> Row<'a> {
+        let mut name = view.template_name(supervisor).to_owned();
+        let every = supervisor.times.map(|times| times.every);
+        let usual = supervisor.template().map(|template| template.every);
+        if let Some(every) = every.filter(|every| usual.is_some_and(|usual| usual != *every)) {
+            name += &format!(" · every {}", duration(every));
         }
-        let events = view.events(supervisor);
-        let counts = || events.iter().filter(|exit| exit.target != Target::Ignore);
+        let events = view.exits(supervisor);
+        let counts = || events.iter().filter(|exit| exit.to != To::Ignore);
         let counts = || counts().filter_map(|exit| exit.count);
-        let usage = view.supervisor_count(supervisor).map(|_| {
+        let usage = view.count(supervisor).map(|_| {
             let sum: u64 = counts().sum();
             name += &format!(" · {}", times(sum));
             Use::with_exits(sum, counts())
@@ -85,20 +107,20 @@ impl<'a> Row<'a> {
             template: name,
             usage,
             events,
-            inputs: bound(view.supervisor_inputs(supervisor)),
-            outputs: view.supervisor_outputs(supervisor),
+            inputs: shown(view.inputs(supervisor)),
+            outputs: view.outputs(supervisor),
         }
     }
 
     fn head(&self) -> f64 {
-        let name = width(&self.supervisor.name, NAME, true);
+        let name = width(name(self.supervisor), NAME, true);
         36.0 + name.max(width(&self.template, TEMPLATE, false)) + 16.0
     }
 
     fn ports(&self) -> f64 {
         let events = self.events.iter().map(|event| chip_width(&event.text()) - STAND_OUT);
         let inputs = self.inputs.iter().map(|input| input.port);
-        let names = inputs.chain(self.outputs.iter().map(|(port, _)| *port));
+        let names = inputs.chain(self.outputs.iter().map(|output| output.port));
         events.chain(names.map(|name| width(name, PORT_SIZE, false) + 10.0)).fold(0.0, f64::max)
     }
 
@@ -109,8 +131,8 @@ impl<'a> Row<'a> {
 
     /// How far it reaches to the right of its box.
     fn reach(&self) -> f64 {
-        let texts = self.inputs.iter().map(|input| input.text.as_str());
-        let data = texts.chain(self.outputs.iter().map(|(_, entry)| *entry));
+        let texts = self.inputs.iter().map(Input::shown);
+        let data = texts.chain(self.outputs.iter().map(Output::text));
         let data = data.map(|text| REACH + pill_width(text));
         data.chain(self.events.iter().map(reach_right)).fold(0.0, f64::max)
     }
@@ -121,27 +143,30 @@ impl<'a> Row<'a> {
         let class = Class { name: "supervisor", usage: self.usage };
         card.sketch.frames.push(Frame { rect, shape, class, title });
         self.heading(view, &mut card.sketch, rect);
+        let severity = view.severity(self.supervisor.findings.worst);
+        let item = self.supervisor.item.clone();
+        card.sketch.pieces.push(Piece { item, part: Part::Whole, rect, severity });
+        card.sketch.mark(severity, (rect.x + 2.0, rect.y + 2.0));
         let single = self.events.len() == 1 && self.inputs.is_empty() && self.outputs.is_empty();
         let mut y = if single { rect.y + rect.height / 2.0 } else { rect.y + 4.0 + ROW / 2.0 };
         for event in &self.events {
-            exit_right(card, (rect.right(), y), event);
+            exit_right(card, self.supervisor, (rect.right(), y), event);
             y += ROW;
         }
         for input in &self.inputs {
-            inflow(&mut card.sketch, (rect.right(), y), input, REACH, Anchor::End);
+            inflow(&mut card.sketch, self.supervisor, (rect.right(), y), input, Anchor::End);
             y += ROW;
         }
-        for (port, entry) in &self.outputs {
-            outflow(&mut card.sketch, (rect.right(), y), port, entry, REACH, Anchor::End);
+        for output in &self.outputs {
+            outflow(&mut card.sketch, self.supervisor, (rect.right(), y), output, Anchor::End);
             y += ROW;
         }
     }
 
     fn title(&self) -> String {
-        let Supervisor { name, doc, every, deadline, .. } = self.supervisor;
-        let timing = format!("every {}, deadline {}", duration(*every), duration(*deadline));
-        let head = format!("{name}: {}\n{timing}", self.template);
-        if doc.is_empty() { head } else { format!("{head}\n{doc}") }
+        let head = format!("{}: {}", name(self.supervisor), self.template);
+        let lines = [head, timing(self.supervisor), self.supervisor.doc.clone()];
+        lines.into_iter().filter(|line| !line.is_empty()).collect::<Vec<_>>().join("\n")
     }
 
     fn heading(&self, view: &View<'a>, sketch: &mut Sketch<'a>, rect: Rect) {
@@ -150,7 +175,7 @@ impl<'a> Row<'a> {
             y: rect.y + 12.0,
             size: 20.0,
             class: Class { name: "supervisor", usage: self.usage },
-            icon: view.icon(self.supervisor.template),
+            icon: view.icon(self.supervisor),
             fallback: Glyph::Supervisor,
         });
         let label = |text: &str, y, size, bold, class| Label {
@@ -162,7 +187,7 @@ impl<'a> Row<'a> {
             anchor: Anchor::Start,
             class: Class::from(class),
         };
-        sketch.labels.push(label(&self.supervisor.name, 20.0, NAME, true, "name"));
+        sketch.labels.push(label(name(self.supervisor), 20.0, NAME, true, "name"));
         sketch.labels.push(label(&self.template, 34.0, TEMPLATE, false, "template"));
     }
 }

@@ -3,47 +3,97 @@
 //! The others keep the places of the automatic layout relative to placed neighbours and give way
 //! downwards. Edges then find their ways through the gaps that are left.
 
-use super::super::router;
-use super::{Layout, Link, Node, bounds, layout, moved_to_origin, wires};
+use super::super::router::{self, Bounds, Point, Wire};
+use super::{Layout, Link, Node, Placement, bounds, layout, wires};
 
 /// Least distance between a box that gives way and the next one.
 const GAP: f64 = 48.0;
 
-/// Lays out the nodes; `fixed` has the upper left corner of those that stay where they are, in
-/// pixels. The result is moved as a whole, so that nothing is left of or above the origin.
+/// Least distance of boxes that stay where they were, and of a route that does from a box.
+const NEAR: f64 = 8.0;
+
+/// Lays out the nodes around those that have places. Those that were somewhere before stay there
+/// unless another one is in the way, and routes stay whose ends do and that no box has come near.
 pub(in super::super) fn layout_around(
     nodes: &[Node],
     links: &[Link],
-    fixed: &[Option<(f64, f64)>],
+    placement: Placement,
 ) -> Layout {
-    let automatic = layout(nodes, links);
-    if fixed.iter().all(Option::is_none) {
-        return automatic;
+    let known = placement.fixed.iter().zip(&placement.before);
+    if known.into_iter().all(|(fixed, before)| fixed.is_none() && before.is_none()) {
+        return layout(nodes, links);
     }
-    let corners = places(nodes, links, fixed, &automatic.corners);
-    let found = router::route(&bounds(nodes, &corners), &wires(nodes, links, &corners), &[]);
-    moved_to_origin(nodes, corners, found.corners)
+    let corners = places(nodes, links, &placement);
+    let (boxes, wires) = (bounds(nodes, &corners), wires(nodes, links, &corners));
+    let kept: Vec<_> = placement
+        .routes
+        .into_iter()
+        .zip(&wires)
+        .map(|(route, wire)| route.filter(|route| is_still_good(route, wire, &boxes)))
+        .collect();
+    let found = router::route(&boxes, &wires, &kept);
+    Layout::new(nodes, corners, found.corners)
+}
+
+/// Whether a route has the ends of its edge and passes no box too closely.
+fn is_still_good(route: &[Point], wire: &Wire, boxes: &[Bounds]) -> bool {
+    let (Some(start), Some(tip)) = (route.first(), route.last()) else { return false };
+    let (left, right) = wire.arrival;
+    let near = |a: f64, b: f64| (a - b).abs() < 0.01;
+    let starts = near(start.0, wire.start.0) && near(start.1, wire.start.1);
+    let ends = starts && near(tip.1, wire.tip) && left <= tip.0 + 0.01 && tip.0 <= right + 0.01;
+    let passes = |each: &Bounds, pair: &[Point]| {
+        let (a, b) = (pair[0], pair[1]);
+        let apart = a.0.max(b.0) <= each.left - NEAR
+            || each.right + NEAR <= a.0.min(b.0)
+            || a.1.max(b.1) <= each.top - NEAR
+            || each.bottom + NEAR <= a.1.min(b.1);
+        !apart
+    };
+    let last = route.len().saturating_sub(2);
+    let free = |(at, pair): (usize, &[Point])| {
+        boxes.iter().enumerate().all(|(index, each)| {
+            // It touches its own boxes with its ends.
+            let own = index == wire.from && at <= 1 || index == wire.to && at == last;
+            own || !passes(each, pair)
+        })
+    };
+    ends && route.windows(2).enumerate().all(free)
 }
 
 /// The corner of each node.
-fn places(
-    nodes: &[Node],
-    links: &[Link],
-    fixed: &[Option<(f64, f64)>],
-    automatic: &[(f64, f64)],
-) -> Vec<(f64, f64)> {
-    let mut corners: Vec<_> = fixed.to_vec();
-    let mut free: Vec<_> = (0..nodes.len()).filter(|node| fixed[*node].is_none()).collect();
-    free.sort_by(|a, b| automatic[*a].1.total_cmp(&automatic[*b].1));
-    for node in free {
-        let (dx, dy) = shift(node, links, fixed, automatic);
-        let mut corner = (automatic[node].0 + dx, automatic[node].1 + dy);
-        while let Some(bottom) = obstacle(nodes, &corners, node, corner) {
+fn places(nodes: &[Node], links: &[Link], placement: &Placement) -> Vec<Point> {
+    let mut corners: Vec<Option<Point>> = placement.fixed.clone();
+    let mut moved: Vec<(usize, Point)> = Vec::new();
+    for (node, before) in placement.before.iter().enumerate() {
+        let Some(before) = before.filter(|_| corners[node].is_none()) else { continue };
+        match obstacle(nodes, &corners, node, before, NEAR) {
+            None => corners[node] = Some(before),
+            Some(_) => moved.push((node, before)),
+        }
+    }
+    for (node, mut corner) in moved {
+        while let Some(bottom) = obstacle(nodes, &corners, node, corner, GAP) {
             corner.1 = bottom + GAP;
         }
         corners[node] = Some(corner);
     }
-    corners.into_iter().zip(automatic).map(|(corner, other)| corner.unwrap_or(*other)).collect()
+    if corners.iter().all(Option::is_some) {
+        return corners.into_iter().flatten().collect();
+    }
+    let automatic = layout(nodes, links).corners;
+    let fixed = corners.clone();
+    let mut free: Vec<_> = (0..nodes.len()).filter(|node| fixed[*node].is_none()).collect();
+    free.sort_by(|a, b| automatic[*a].1.total_cmp(&automatic[*b].1));
+    for node in free {
+        let (dx, dy) = shift(node, links, &fixed, &automatic);
+        let mut corner = (automatic[node].0 + dx, automatic[node].1 + dy);
+        while let Some(bottom) = obstacle(nodes, &corners, node, corner, GAP) {
+            corner.1 = bottom + GAP;
+        }
+        corners[node] = Some(corner);
+    }
+    corners.into_iter().zip(automatic).map(|(corner, other)| corner.unwrap_or(other)).collect()
 }
 
 /// How far the placed neighbours of a node, else all placed nodes, are from where they would be.
@@ -66,21 +116,22 @@ fn shift(
     (sum.0 / count, sum.1 / count)
 }
 
-/// The lower border of a node that lies where another one would go.
+/// The lower border of what lies nearer than `gap` to where a node would go.
 fn obstacle(
     nodes: &[Node],
-    corners: &[Option<(f64, f64)>],
+    corners: &[Option<Point>],
     node: usize,
-    (x, y): (f64, f64),
+    (x, y): Point,
+    gap: f64,
 ) -> Option<f64> {
     let own = &nodes[node];
     let meets = |other: usize| {
         let (left, top) = corners[other]?;
         let (right, bottom) = (left + nodes[other].width, top + nodes[other].height);
-        let apart = x + own.width + GAP <= left
-            || right + GAP <= x
-            || y + own.height + GAP <= top
-            || bottom + GAP <= y;
+        let apart = x + own.width + gap <= left
+            || right + gap <= x
+            || y + own.height + gap <= top
+            || bottom + gap <= y;
         (!apart).then_some(bottom)
     };
     (0..nodes.len()).filter_map(meets).reduce(f64::max)

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use super::super::view::{Exit, ExitKind, Input, View};
 use super::names::{End, Home, target};
+use super::view::{Exit, ExitKind, Input, View};
 use afp_dsl::graph::{Component, Element, Supervisor, Target};
 
 /// What a reader of the chart has to know.

@@ -1,65 +1,192 @@
 //! Icons inside the drawing.
 //!
-//! A toolbox's icon is a file that somebody wrote; only plain shapes are taken from it, so that a
-//! drawing never runs scripts or loads anything.
+//! A toolbox's icon is a file that somebody wrote. It is read, and what is on the lists below is
+//! written anew: plain shapes with plain attributes. An icon with anything else is not used, so
+//! that a drawing never runs scripts or loads anything.
 
 use super::super::sketch::Glyph;
 
-/// What an icon must not contain, in lower case.
-const REFUSED: &[&str] =
-    &["<script", "<style", "<foreignobject", "<image", "<!", "<?", "href", "url(", "javascript:"];
+/// Elements that an icon may consist of.
+const ELEMENTS: &[&str] =
+    &["g", "path", "rect", "circle", "ellipse", "line", "polyline", "polygon"];
 
-/// The content of an icon as a group at `(x, y)` that is `size` pixels wide; `None` when the text
-/// is no SVG element with a `viewBox`, or holds more than shapes.
-pub(super) fn embedded(svg: &str, (x, y): (f64, f64), size: f64) -> Option<String> {
+/// Attributes whose values are numbers, letters of paths and separators.
+const GEOMETRY: &[&str] = &[
+    "d",
+    "points",
+    "x",
+    "y",
+    "x1",
+    "x2",
+    "y1",
+    "y2",
+    "cx",
+    "cy",
+    "r",
+    "rx",
+    "ry",
+    "width",
+    "height",
+    "stroke-width",
+    "stroke-dasharray",
+    "stroke-dashoffset",
+    "stroke-miterlimit",
+    "opacity",
+    "fill-opacity",
+    "stroke-opacity",
+];
+
+/// Attributes whose values are a word or a colour.
+const WORDS: &[&str] =
+    &["fill", "stroke", "fill-rule", "clip-rule", "stroke-linecap", "stroke-linejoin", "color"];
+
+/// The attribute that may have brackets.
+const TRANSFORM: &str = "transform";
+
+/// Attributes of the icon's root that are left out, since they mean nothing in a symbol.
+const FRAME: &[&str] = &["xmlns", "width", "height", "x", "y", "id", "class", "version", "role"];
+
+/// More than this is no icon.
+const LONGEST: usize = 64 * 1024;
+const DEEPEST: usize = 16;
+
+/// The icon as a `symbol` element with an id; `None` when it holds more than plain shapes.
+pub(super) fn symbol(svg: &str, id: &str) -> Option<String> {
     let svg = svg.trim();
-    let lower = svg.to_ascii_lowercase();
-    if REFUSED.iter().any(|word| lower.contains(word)) || has_handler(&lower) {
+    if svg.len() > LONGEST {
         return None;
     }
-    let (tag, rest) = svg.strip_prefix("<svg")?.split_once('>')?;
-    let content = rest.strip_suffix("</svg>")?.trim();
-    let attributes = attributes(tag)?;
-    let view_box = attributes.iter().find(|(name, _)| *name == "viewBox")?.1;
-    let numbers: Vec<f64> =
-        view_box.split_whitespace().map(str::parse).collect::<Result<_, _>>().ok()?;
-    let [left, top, width, height] = numbers[..] else { return None };
-    let scale = size / width.max(height);
-    if !scale.is_finite() || scale <= 0.0 {
+    let mut reader = Reader { rest: svg };
+    let root = reader.tag()?;
+    if root.name != "svg" || root.kind != TagKind::Opening {
         return None;
     }
-    let kept = attributes.iter().filter(|(name, _)| !FRAME.contains(name));
-    let kept: String = kept.map(|(name, value)| format!(" {name}=\"{value}\"")).collect();
-    let (x, y) = (super::paint::number(x - left * scale), super::paint::number(y - top * scale));
-    let scale = (scale * 1e4).round() / 1e4;
-    Some(format!("<g transform=\"translate({x} {y}) scale({scale})\"{kept}>{content}</g>"))
+    let view_box = root.attributes.iter().find(|(name, _)| *name == "viewBox")?.1;
+    is_view_box(view_box).then_some(())?;
+    let frame = |name: &str| name == "viewBox" || FRAME.contains(&name);
+    let own = root.attributes.iter().filter(|(name, _)| !frame(name));
+    let own = own.map(attribute).collect::<Option<String>>()?;
+    let content = content(&mut reader)?;
+    let open = format!("<symbol id=\"{id}\" viewBox=\"{view_box}\">");
+    reader.rest.is_empty().then(|| format!("{open}<g{own}>{content}</g></symbol>"))
 }
 
-/// Attributes of the icon's root that have no meaning on a group.
-const FRAME: &[&str] = &["xmlns", "viewBox", "width", "height", "x", "y", "id", "class", "version"];
-
-/// Whether any attribute such as `onload` is there.
-fn has_handler(lower: &str) -> bool {
-    lower.split_whitespace().any(|word| {
-        word.starts_with("on") && word.split_once('=').is_some_and(|(name, _)| name.len() > 2)
-    })
-}
-
-/// Names and values of the attributes of a tag; `None` when it is not well formed.
-fn attributes(tag: &str) -> Option<Vec<(&str, &str)>> {
-    let mut found = Vec::new();
-    let mut rest = tag.trim();
-    while !rest.is_empty() {
-        let (name, after) = rest.split_once('=')?;
-        let quote = after.trim_start().chars().next().filter(|mark| matches!(mark, '"' | '\''))?;
-        let (value, after) = after.trim_start()[1..].split_once(quote)?;
-        if value.contains(['"', '<', '&']) {
+/// What stands in the root, written anew up to its end.
+fn content(reader: &mut Reader) -> Option<String> {
+    let mut out = String::new();
+    let mut open: Vec<&str> = Vec::new();
+    loop {
+        reader.rest = reader.rest.trim_start();
+        let tag = reader.tag()?;
+        if tag.kind == TagKind::Closing {
+            match open.pop() {
+                Some(name) if name == tag.name => out += &format!("</{name}>"),
+                None if tag.name == "svg" => return Some(out),
+                _ => return None,
+            }
+            continue;
+        }
+        if !ELEMENTS.contains(&tag.name) || open.len() >= DEEPEST {
             return None;
         }
-        found.push((name.trim(), value));
-        rest = after.trim_start();
+        let attributes = tag.attributes.iter().map(attribute).collect::<Option<String>>()?;
+        let empty = tag.kind == TagKind::Empty;
+        out += &format!("<{}{attributes}{}>", tag.name, if empty { "/" } else { "" });
+        if !empty {
+            open.push(tag.name);
+        }
     }
-    Some(found)
+}
+
+/// A listed attribute with a plain value, written anew.
+fn attribute((name, value): &(&str, &str)) -> Option<String> {
+    let plain =
+        |more: &str| value.chars().all(|each| each.is_ascii_alphanumeric() || more.contains(each));
+    let fits = match *name {
+        name if GEOMETRY.contains(&name) => plain(" .,-+%\n\t"),
+        name if WORDS.contains(&name) => plain("#-"),
+        TRANSFORM => plain(" .,-+()"),
+        _ => false,
+    };
+    fits.then(|| format!(" {name}=\"{value}\""))
+}
+
+fn is_view_box(text: &str) -> bool {
+    let numbers: Option<Vec<f64>> =
+        text.split_ascii_whitespace().map(|word| word.parse().ok()).collect();
+    let plain = text.chars().all(|each| each.is_ascii_digit() || " .-".contains(each));
+    plain
+        && matches!(numbers.as_deref(), Some([_, _, width, height]) if *width > 0.0 && *height > 0.0)
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum TagKind {
+    Opening,
+    Closing,
+    /// Without content.
+    Empty,
+}
+
+struct Tag<'t> {
+    name: &'t str,
+    kind: TagKind,
+    attributes: Vec<(&'t str, &'t str)>,
+}
+
+/// Reads tags and nothing else: comments, instructions and text are no part of an icon.
+struct Reader<'t> {
+    rest: &'t str,
+}
+
+impl<'t> Reader<'t> {
+    fn tag(&mut self) -> Option<Tag<'t>> {
+        self.rest = self.rest.strip_prefix('<')?;
+        let closing = self.eat("/");
+        let name = self.word();
+        let mut attributes = Vec::new();
+        loop {
+            self.rest = self.rest.trim_start();
+            if self.eat(">") {
+                let kind = if closing { TagKind::Closing } else { TagKind::Opening };
+                return (attributes.is_empty() || !closing).then_some(Tag {
+                    name,
+                    kind,
+                    attributes,
+                });
+            }
+            if self.eat("/>") {
+                return (!closing).then_some(Tag { name, kind: TagKind::Empty, attributes });
+            }
+            let pair = self.pair()?;
+            if attributes.iter().any(|(known, _)| *known == pair.0) {
+                return None;
+            }
+            attributes.push(pair);
+        }
+    }
+
+    fn pair(&mut self) -> Option<(&'t str, &'t str)> {
+        let name = self.word();
+        self.rest = self.rest.trim_start().strip_prefix('=')?.trim_start();
+        let quote = self.rest.chars().next().filter(|mark| matches!(mark, '"' | '\''))?;
+        let (value, after) = self.rest[1..].split_once(quote)?;
+        self.rest = after;
+        (!name.is_empty()).then_some((name, value))
+    }
+
+    fn word(&mut self) -> &'t str {
+        let is_part = |each: char| each.is_ascii_alphanumeric() || matches!(each, '-' | ':' | '_');
+        let end = self.rest.find(|each| !is_part(each)).unwrap_or(self.rest.len());
+        let (word, rest) = self.rest.split_at(end);
+        self.rest = rest;
+        word
+    }
+
+    fn eat(&mut self, text: &str) -> bool {
+        let rest = self.rest.strip_prefix(text);
+        self.rest = rest.unwrap_or(self.rest);
+        rest.is_some()
+    }
 }
 
 /// The simple pictures for elements without icon, 24 x 24 in the current colour.
@@ -90,47 +217,118 @@ pub(super) fn glyph(glyph: Glyph) -> &'static str {
             "<svg viewBox=\"0 0 24 24\" fill=\"currentColor\" stroke=\"currentColor\" ",
             "stroke-width=\"2\" stroke-linejoin=\"round\"><path d=\"M6 4l14 8-14 8z\"/></svg>"
         ),
+        // An octagon, a triangle and a disc: the form says what the colour says.
+        Glyph::Error => concat!(
+            "<svg viewBox=\"0 0 24 24\" fill=\"currentColor\">",
+            "<path fill-rule=\"evenodd\" d=\"M7 1h10l6 6v10l-6 6H7l-6-6V7zM10.500 ",
+            "5v8.500h3V5zM10.500 16v3h3v-3z\"/></svg>"
+        ),
+        Glyph::Warning => concat!(
+            "<svg viewBox=\"0 0 24 24\" fill=\"currentColor\">",
+            "<path fill-rule=\"evenodd\" d=\"M12 1l11.500 21H.500zM10.500 8v7h3V8zM10.500 ",
+            "17v2.500h3V17z\"/></svg>"
+        ),
+        Glyph::Note => concat!(
+            "<svg viewBox=\"0 0 24 24\" fill=\"currentColor\">",
+            "<path fill-rule=\"evenodd\" d=\"M12 1a11 11 0 100 22a11 11 0 000-22zM10.500 ",
+            "10v8.500h3V10zM10.500 5v3h3V5z\"/></svg>"
+        ),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Glyph, embedded, glyph};
+    use super::{Glyph, glyph, symbol};
 
-    #[test]
-    fn icons_are_moved_and_scaled() {
-        let svg = r#"<svg xmlns="x" viewBox="0 0 24 24" fill="none"><path d="M0 0h9"/></svg>"#;
-        let group = embedded(svg, (10.0, 20.0), 12.0).unwrap();
-        let expected = r#"<g transform="translate(10 20) scale(0.5)" fill="none">"#;
-        assert_eq!(group, format!(r#"{expected}<path d="M0 0h9"/></g>"#));
+    fn within(content: &str) -> Option<String> {
+        symbol(&format!("<svg viewBox=\"0 0 24 24\">{content}</svg>"), "i")
     }
 
     #[test]
-    fn built_in_icons_and_glyphs_can_be_embedded() {
+    fn shapes_are_written_anew() {
+        let svg = "<svg xmlns=\"x\" viewBox=\"0 0 24 24\" fill='none'>\n  <path\td = \"M0 0h9\" />\
+                   <g transform=\"rotate(5)\"><circle r=\"2\"/></g></svg>\n";
+        let expected = "<symbol id=\"i\" viewBox=\"0 0 24 24\"><g fill=\"none\"><path d=\"M0 0h9\"/>\
+                        <g transform=\"rotate(5)\"><circle r=\"2\"/></g></g></symbol>";
+        assert_eq!(symbol(svg, "i").as_deref(), Some(expected));
+    }
+
+    #[test]
+    fn built_in_icons_and_glyphs_can_be_used() {
         for (name, svg) in afp_toolboxes::ICONS {
-            assert!(embedded(svg, (0.0, 0.0), 24.0).is_some(), "{name}");
+            assert!(symbol(svg, "i").is_some(), "{name}");
         }
-        let glyphs =
-            [Glyph::Actor, Glyph::Computation, Glyph::SubPlan, Glyph::Supervisor, Glyph::Start];
-        for each in glyphs {
-            assert!(embedded(glyph(each), (0.0, 0.0), 24.0).is_some(), "{each:?}");
+        for each in [
+            Glyph::Actor,
+            Glyph::Computation,
+            Glyph::SubPlan,
+            Glyph::Supervisor,
+            Glyph::Start,
+            Glyph::Error,
+            Glyph::Warning,
+            Glyph::Note,
+        ] {
+            assert!(symbol(glyph(each), "i").is_some(), "{each:?}");
         }
     }
 
     #[test]
-    fn icons_that_could_act_are_refused() {
+    fn icons_with_anything_else_are_refused() {
         for content in [
             "<script>x</script>",
+            "<SCRIPT/>",
+            "<animate/onbegin=alert(1)>",
+            "<animate attributeName=\"x\" onbegin=\"alert(1)\"/>",
+            "<set/>",
             "<path onclick=\"x\"/>",
+            "<path/onclick=\"x\"/>",
+            "<path ONCLICK=\"x\"/>",
+            "<path d=\"M0 0\" style=\"fill:red\"/>",
             "<use href=\"http://x\"/>",
+            "<use xlink:href=\"#x\"/>",
+            "<a href=\"javascript:x\"><path/></a>",
+            "<image href=\"x\"/>",
+            "<foreignObject><p/></foreignObject>",
             "<path fill=\"url(http://x)\"/>",
+            "<path fill=\"u&#114;l(x)\"/>",
+            "<path fill=\"red;x\"/>",
+            "<path transform=\"url(#x)&\"/>",
+            "<path id=\"x\"/>",
+            "<path class=\"x\"/>",
+            "<path d=\"M0 0\" d=\"M1 1\"/>",
+            "<path d=M0/>",
+            "<path d/>",
+            "<path d=\"",
+            "<style>*{}</style>",
             "<!-- a -->",
+            "<![CDATA[a]]>",
+            "<?php x?>",
+            "<!DOCTYPE x>",
+            "&lt;",
+            "text",
+            "<g>",
+            "</g>",
+            "<g></path>",
+            "</svg><script/>",
+            "<svg viewBox=\"0 0 1 1\"></svg>",
         ] {
-            let svg = format!("<svg viewBox=\"0 0 1 1\">{content}</svg>");
-            assert_eq!(embedded(&svg, (0.0, 0.0), 1.0), None, "{content}");
+            assert_eq!(within(content), None, "{content}");
         }
-        assert_eq!(embedded("<svg><path/></svg>", (0.0, 0.0), 1.0), None);
-        assert_eq!(embedded("no picture", (0.0, 0.0), 1.0), None);
-        assert_eq!(embedded("<svg viewBox=\"0 0 0 0\"></svg>", (0.0, 0.0), 1.0), None);
+        for svg in [
+            "<svg><path/></svg>",
+            "<svg viewBox=\"0 0 0 0\"></svg>",
+            "<svg viewBox=\"0 0 1 1 1\"></svg>",
+            "<svg viewBox=\"0 0 1 NaN\"></svg>",
+            "<svg viewBox=\"0 0 1 1\" onload=\"x\"></svg>",
+            "<svg viewBox=\"0 0 1 1\"/>",
+            "<svg viewBox=\"0 0 1 1\">",
+            "<?xml version=\"1.0\"?><svg viewBox=\"0 0 1 1\"></svg>",
+            "no picture",
+            "",
+        ] {
+            assert_eq!(symbol(svg, "i"), None, "{svg}");
+        }
+        assert_eq!(within(&"<g>".repeat(1000)), None);
+        assert_eq!(within(&"<path/>".repeat(20_000)), None);
     }
 }

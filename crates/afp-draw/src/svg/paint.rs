@@ -1,11 +1,14 @@
-//! Writes a sketch as SVG elements.
+//! Writes the parts of a scene as SVG elements.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use super::super::Options;
+use super::super::Icons;
+use super::super::scene::{Point, Symbol};
 use super::super::sketch::{Anchor, Arrow, Frame, Label, Picture, Rect, Shape, Sketch};
-use super::{icon, style};
-use afp_dsl::graph::Plan;
+use super::icon;
+use afp_dsl::outline::Part;
+use afp_syntax::item::Item;
 
 /// Radius of the corners of thick arrows.
 const BEND: f64 = 7.0;
@@ -14,41 +17,111 @@ const BEND: f64 = 7.0;
 const THICK_TIP: (f64, f64) = (10.0, 5.5);
 const THIN_TIP: (f64, f64) = (7.0, 3.2);
 
-/// The whole picture.
-pub(super) fn picture(
-    sketch: &Sketch,
-    (width, height): (f64, f64),
-    plan: &Plan,
-    options: &Options,
-) -> String {
-    let (width, height) = (width.ceil(), height.ceil());
-    let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"afp-plan\" role=\"img\" \
-         width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n\
-         <title>{}</title>\n",
-        escaped(&plan.name)
-    );
-    if !plan.doc.is_empty() {
-        line(&mut out, &format!("<desc>{}</desc>", escaped(&plan.doc)));
+/// Paints parts and remembers which icons they use.
+pub(in super::super) struct Painter<'a> {
+    icons: Option<Icons<'a>>,
+    /// The id of each icon asked for; none for those that cannot be used.
+    known: BTreeMap<(String, String), Option<String>>,
+    symbols: Vec<Symbol>,
+}
+
+impl<'a> Painter<'a> {
+    pub(in super::super) fn new(icons: Option<Icons<'a>>) -> Painter<'a> {
+        Painter { icons, known: BTreeMap::new(), symbols: Vec::new() }
     }
-    line(
-        &mut out,
-        &format!("<style>\n{}</style>", style::sheet(options.theme, options.usage.is_some())),
-    );
-    line(&mut out, "<rect class=\"page\" width=\"100%\" height=\"100%\"/>");
-    for arrow in &sketch.arrows {
+
+    /// The icons that have been used.
+    pub(in super::super) fn symbols(self) -> Vec<Symbol> {
+        self.symbols
+    }
+
+    /// An element with all that is attached to it, as a group at its place.
+    pub(in super::super) fn element(&mut self, item: &Item, sketch: &Sketch, at: Point) -> String {
+        let attributes = format!("element\" data-item=\"{}", escaped(&item.to_string()));
+        self.group(&attributes, sketch, at)
+    }
+
+    /// A drawing as a group of a class, moved.
+    pub(in super::super) fn group(
+        &mut self,
+        class: &str,
+        sketch: &Sketch,
+        (x, y): Point,
+    ) -> String {
+        let (x, y) = (number(x), number(y));
+        let mut out = format!("<g class=\"{class}\" transform=\"translate({x} {y})\">\n");
+        sketch.arrows.iter().for_each(|arrow| paint_arrow(&mut out, arrow));
+        sketch.frames.iter().for_each(|frame| paint_frame(&mut out, frame));
+        sketch.labels.iter().for_each(|label| paint_label(&mut out, label));
+        sketch.pictures.iter().for_each(|picture| self.paint_picture(&mut out, picture));
+        out + "</g>\n"
+    }
+
+    /// An edge as a group.
+    pub(in super::super) fn edge(&self, item: &Item, part: &Part, arrow: &Arrow) -> String {
+        let exit = match part {
+            Part::Exit { name, .. } => name.as_str(),
+            _ => "start",
+        };
+        let (item, exit) = (escaped(&item.to_string()), escaped(exit));
+        let mut out = format!("<g class=\"edge\" data-item=\"{item}\" data-exit=\"{exit}\">\n");
         paint_arrow(&mut out, arrow);
+        out + "</g>\n"
     }
-    for frame in &sketch.frames {
-        paint_frame(&mut out, frame);
+
+    fn paint_picture(&mut self, out: &mut String, picture: &Picture) {
+        let own = picture.icon.and_then(|(toolbox, name)| {
+            let find = self.icons?;
+            let key = (toolbox.name.clone(), name.to_owned());
+            self.id(key, || find(toolbox, name))
+        });
+        let key = || (String::new(), format!("{:?}", picture.fallback).to_ascii_lowercase());
+        let id = own.or_else(|| self.id(key(), || Some(icon::glyph(picture.fallback).to_owned())));
+        let Some(id) = id else { return };
+        let (x, y, size) = (number(picture.x), number(picture.y), number(picture.size));
+        let class = picture.class;
+        line(
+            out,
+            &format!(
+                "<use class=\"icon {class}\" href=\"#{id}\" x=\"{x}\" y=\"{y}\" \
+                 width=\"{size}\" height=\"{size}\"/>"
+            ),
+        );
     }
-    for picture in &sketch.pictures {
-        paint_picture(&mut out, picture, options);
+
+    /// The id of an icon, which is read when it is asked for first.
+    fn id(
+        &mut self,
+        key: (String, String),
+        read: impl FnOnce() -> Option<String>,
+    ) -> Option<String> {
+        if let Some(known) = self.known.get(&key) {
+            return known.clone();
+        }
+        let symbol = read().and_then(|svg| {
+            let id = symbol_id(&key, &svg);
+            Some(Symbol { svg: icon::symbol(&svg, &id)?, id })
+        });
+        let id = symbol.as_ref().map(|symbol| symbol.id.clone());
+        let fresh = symbol.filter(|new| self.symbols.iter().all(|known| known.id != new.id));
+        self.symbols.extend(fresh);
+        self.known.insert(key, id.clone());
+        id
     }
-    for label in &sketch.labels {
-        paint_label(&mut out, label);
-    }
-    out + "</svg>\n"
+}
+
+/// An id that is the same for the same icon only, so that several pictures can stand in one page.
+fn symbol_id((toolbox, name): &(String, String), svg: &str) -> String {
+    // FNV-1a.
+    let add = |hash: u32, byte: u8| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193);
+    let hash = svg.bytes().fold(0x811c_9dc5, add);
+    let plain: String =
+        format!("{toolbox}-{name}").chars().filter(|each| is_plain(*each)).collect();
+    format!("afp-{}-{hash:08x}", plain.trim_start_matches('-'))
+}
+
+fn is_plain(character: char) -> bool {
+    character.is_ascii_alphanumeric() || matches!(character, '-' | '_')
 }
 
 /// A coordinate with one decimal, without trailing zeros.
@@ -58,7 +131,8 @@ pub(super) fn number(value: f64) -> String {
     (rounded + 0.0).to_string()
 }
 
-fn line(out: &mut String, text: &str) {
+/// Adds a line of text.
+pub(super) fn line(out: &mut String, text: &str) {
     // Writing to a string cannot fail.
     let _ = writeln!(out, "{text}");
 }
@@ -120,17 +194,6 @@ fn cut_path(rect: &Rect, cut: f64) -> String {
         (number(rect.width - 2.0 * cut), number(rect.height - 2.0 * cut), number(cut));
     let (x, y) = (number(rect.x + cut), number(rect.y));
     format!("M{x} {y}h{along}l{c} {c}v{down}l-{c} {c}h-{along}l-{c} -{c}v-{down}z")
-}
-
-fn paint_picture(out: &mut String, picture: &Picture, options: &Options) {
-    let at = (picture.x, picture.y);
-    let own =
-        picture.icon.and_then(|(toolbox, name)| options.icons.and_then(|find| find(toolbox, name)));
-    let own = own.and_then(|svg| icon::embedded(&svg, at, picture.size));
-    let group = own.or_else(|| icon::embedded(icon::glyph(picture.fallback), at, picture.size));
-    if let Some(group) = group {
-        line(out, &format!("<g class=\"icon {}\">{group}</g>", picture.class));
-    }
 }
 
 fn paint_label(out: &mut String, label: &Label) {
@@ -206,7 +269,7 @@ fn distance(a: (f64, f64), b: (f64, f64)) -> f64 {
 }
 
 /// Text for XML content and attributes; control characters that XML forbids are left out.
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for character in text.chars() {
         match character {

@@ -1,4 +1,7 @@
-//! The colours and fonts of the SVG, for light and dark pages.
+//! The colours and fonts of drawings, for light and dark pages and for paper.
+//!
+//! The tables below are the only place where colours stand. A test measures them: texts differ
+//! from what they stand on by 4.5 : 1, lines and signs by 3 : 1, in every theme.
 
 use super::super::Theme;
 
@@ -16,6 +19,8 @@ const COMMON: &str = "\
 .afp-plan .flow.missed{stroke-dasharray:2 4}
 .afp-plan rect.formula{stroke-dasharray:3 2}
 .afp-plan rect.ignore{stroke-dasharray:3 3}
+.afp-plan rect.open,.afp-plan rect.hole,.afp-plan rect.nowhere,.afp-plan rect.unknown{stroke-dasharray:3 2}
+.afp-plan rect.spine{stroke:none}
 ";
 
 /// Selector below `.afp-plan`, declarations on light, declarations on dark.
@@ -31,14 +36,14 @@ const RULES: &[Rule] = &[
     (".box.subplan", "fill:#f4f1fd;stroke:#7b68c4", "fill:#231f35;stroke:#8f7dd8"),
     (".inner.subplan", "stroke:#7b68c4", "stroke:#8f7dd8"),
     (".icon.subplan", "color:#5a45ad", "color:#b6a6f5"),
-    (".box.supervisor", "fill:#fff5ec;stroke:#d08a4e", "fill:#2c2119;stroke:#b87a45"),
+    (".box.supervisor", "fill:#fff5ec;stroke:#b06a2c", "fill:#2c2119;stroke:#b87a45"),
     (".icon.supervisor", "color:#b45309", "color:#f0a868"),
     (".box.start", "fill:#1f2b3d;stroke:#1f2b3d", "fill:#dfe7f2;stroke:#dfe7f2"),
     ("text.start", "fill:#ffffff", "fill:#12161d"),
     (".icon.start", "color:#7ddba3", "color:#1a7f46"),
     (".flow.start", "stroke:#1f2b3d", "stroke:#dfe7f2"),
     (".tip.start", "fill:#1f2b3d", "fill:#dfe7f2"),
-    (".box.configuration", "fill:#f7fbfa;stroke:#b9d8d1", "fill:#15201f;stroke:#31514b"),
+    (".box.configuration", "fill:#f7fbfa;stroke:#6b9b91", "fill:#15201f;stroke:#5a7f78"),
     (".box.entry", "fill:#cdeee6;stroke:#2c8c7a", "fill:#17443c;stroke:#41a592"),
     (".box.formula", "fill:#ffffff;stroke:#2c8c7a", "fill:#12161d;stroke:#41a592"),
     ("text.entry,text.formula", "fill:#0d4d41", "fill:#bdeee3"),
@@ -47,7 +52,7 @@ const RULES: &[Rule] = &[
     (".box.state", "fill:#2f66b8;stroke:#2f66b8", "fill:#3a70c2;stroke:#3a70c2"),
     (".flow.state", "stroke:#2f66b8", "stroke:#6c9fe6"),
     (".tip.state", "fill:#2f66b8", "fill:#6c9fe6"),
-    (".box.event", "fill:#c65d14;stroke:#c65d14", "fill:#b9571a;stroke:#b9571a"),
+    (".box.event", "fill:#b4530f;stroke:#b4530f", "fill:#b9571a;stroke:#b9571a"),
     (".flow.event", "stroke:#d0702c", "stroke:#e0894a"),
     (".tip.event", "fill:#d0702c", "fill:#e0894a"),
     (".box.error", "fill:#b3263a;stroke:#b3263a", "fill:#b8354a;stroke:#b8354a"),
@@ -59,6 +64,17 @@ const RULES: &[Rule] = &[
     ("text.state,text.event,text.error,text.missed", "fill:#ffffff", "fill:#ffffff"),
     (".box.terminate", "fill:#1f2b3d;stroke:#1f2b3d", "fill:#dfe7f2;stroke:#dfe7f2"),
     ("text.terminate", "fill:#ffffff", "fill:#12161d"),
+    (".box.spine", "fill:#b06a2c", "fill:#b87a45"),
+    (".box.open", "fill:#ffffff;stroke:#b3263a", "fill:#12161d;stroke:#ff8a94"),
+    (
+        ".box.hole,.box.unknown,.box.nowhere",
+        "fill:#ffffff;stroke:#b3263a",
+        "fill:#12161d;stroke:#ff8a94",
+    ),
+    ("text.open,text.hole,text.unknown,text.nowhere", "fill:#b3263a", "fill:#ff8a94"),
+    (".icon.wrong", "color:#b3263a", "color:#ff8a94"),
+    (".icon.doubtful", "color:#8a5a00", "color:#f0c24b"),
+    (".icon.note", "color:#5b6675", "color:#9aa7b8"),
     (".box.ignore", "fill:#ffffff;stroke:#8b95a3", "fill:#12161d;stroke:#8b95a3"),
     ("text.ignore", "fill:#5b6675", "fill:#9aa7b8"),
 ];
@@ -73,15 +89,15 @@ const USAGE_COMMON: &str = "\
 ";
 
 const USAGE_RULES: &[Rule] = &[
-    (".box.entry,.box.formula", "fill:#f2f4f6;stroke:#a5aeb8", "fill:#1d232c;stroke:#5c6774"),
+    (".box.entry,.box.formula", "fill:#f2f4f6;stroke:#828d99", "fill:#1d232c;stroke:#5c6774"),
     ("text.entry,text.formula", "fill:#4c5764", "fill:#aeb9c5"),
-    (".box.configuration", "fill:#fafbfc;stroke:#ccd3da", "fill:#161b22;stroke:#39424d"),
-    (".thin.data", "stroke:#a5aeb8", "stroke:#5c6774"),
-    (".tip.data", "fill:#a5aeb8", "fill:#5c6774"),
-    (".box.ignore", "fill:#ffffff;stroke:#a5aeb8", "fill:#12161d;stroke:#5c6774"),
-    (".box.event,.box.state", "fill:#9aa4af;stroke:#9aa4af", "fill:#4a545f;stroke:#4a545f"),
-    (".flow.event,.flow.state", "stroke:#9aa4af", "stroke:#6b7681"),
-    (".tip.event,.tip.state", "fill:#9aa4af", "fill:#6b7681"),
+    (".box.configuration", "fill:#fafbfc;stroke:#828d99", "fill:#161b22;stroke:#66717d"),
+    (".thin.data", "stroke:#828d99", "stroke:#5c6774"),
+    (".tip.data", "fill:#828d99", "fill:#5c6774"),
+    (".box.ignore", "fill:#ffffff;stroke:#828d99", "fill:#12161d;stroke:#5c6774"),
+    (".box.event,.box.state", "fill:#66717d;stroke:#66717d", "fill:#4a545f;stroke:#6b7681"),
+    (".flow.event,.flow.state", "stroke:#7f8a96", "stroke:#6b7681"),
+    (".tip.event,.tip.state", "fill:#7f8a96", "fill:#6b7681"),
     (".box.used", "fill:#dceefa;stroke:#0072b2", "fill:#0f2c40;stroke:#56b4e9"),
     (".box.partly", "fill:#fbf0c0;stroke:#0072b2", "fill:#3d3512;stroke:#56b4e9"),
     (".box.unused", "fill:#ffffff;stroke:#d55e00", "fill:#12161d;stroke:#f0924a"),
@@ -111,16 +127,19 @@ const USAGE_RULES: &[Rule] = &[
     (".tip.unused", "fill:#d55e00", "fill:#f0924a"),
 ];
 
-/// The style sheet of a theme, for a drawing by kind or by use.
-pub(super) fn sheet(theme: Theme, usage: bool) -> String {
+/// The style sheet of a theme, for a drawing by kind or by use: for pages that put a scene together
+/// themselves. Paper is always light.
+pub fn sheet(theme: Theme, usage: bool) -> String {
     let sets = if usage { &[RULES, USAGE_RULES][..] } else { &[RULES] };
     let light = || sets.iter().map(|set| rules(set, |rule| rule.1)).collect::<String>();
     let dark = || sets.iter().map(|set| rules(set, |rule| rule.2)).collect::<String>();
     let colours = match theme {
         Theme::Light => light(),
-        Theme::Dark => dark(),
+        // Paper is light.
+        Theme::Dark => format!("{}@media print{{\n{}}}\n", dark(), light()),
         Theme::Auto => {
-            format!("{}@media (prefers-color-scheme:dark){{\n{}}}\n", light(), dark())
+            let dark = dark();
+            format!("{}@media screen and (prefers-color-scheme:dark){{\n{dark}}}\n", light())
         }
     };
     let more = if usage { USAGE_COMMON } else { "" };
@@ -136,3 +155,6 @@ fn rules(rules: &[Rule], declarations: impl Fn(&Rule) -> &'static str) -> String
     };
     rules.iter().map(|rule| format!("{}{{{}}}\n", scoped(rule.0), declarations(rule))).collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -7,9 +7,10 @@ use std::path::{Path, PathBuf};
 use afp_draw::layout_file::Layout;
 use afp_draw::{Options, Usage};
 use afp_dsl::graph::Graph;
+use afp_dsl::outline::{Outline, PlanId};
 use afp_dsl::toolbox::Toolbox;
-use afp_run::{EXIT_OK, PictureFormat, RunError, write_whole};
-use afp_syntax::source::{Source, Sources};
+use afp_run::{EXIT_FAILED, EXIT_OK, PictureFormat, RunError, write_whole};
+use afp_syntax::source::Source;
 use clap::{Args, ValueEnum};
 
 use super::print;
@@ -83,16 +84,20 @@ Examples:
   afpc graph plans/wall_following.afp --format scxml
   afpc graph plans/wall_following.afp --format dot | dot -Tpdf -o plan.pdf";
 
-/// Draws a plan.
+/// Draws a plan, one with errors too: what is wrong is marked where it is, and said.
 ///
 /// # Errors
-/// The options do not fit the format, the plan is wrong, the file cannot be written.
+/// The options do not fit the format, a file cannot be read or written, a plan with errors shall be
+/// a state chart.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let format = arguments.format();
     arguments.fit(format)?;
-    let (file, graph) = PlanFile::graph(&arguments.plan.plan)?;
-    let positions = positions(&file.compiled.sources, &graph);
-    let icons = |toolbox: &Toolbox, name: &str| icon(toolbox, name);
+    let file = PlanFile::read(&arguments.plan.plan)?;
+    file.report();
+    let code = if file.compiled.diags.has_errors() { EXIT_FAILED } else { EXIT_OK };
+    let positions = positions(&file);
+    let icons = |toolbox: &Toolbox, name: &str| file.own.icon(toolbox, name);
+    let outline = &file.compiled.outline;
     let options = Options {
         sources: Some(&file.compiled.sources),
         icons: Some(&icons),
@@ -100,52 +105,59 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
         theme: arguments.theme(format),
         sub_plans: !arguments.fold,
         data: !arguments.no_data,
-        usage: None,
+        ..Options::default()
     };
     let text = match format {
-        Format::Png => return pixels(arguments, &graph, &options),
-        Format::Svg => afp_draw::svg(&graph, &options),
-        Format::Json => afp_draw::json(&graph, &options),
-        Format::Dot => afp_draw::dot(&graph, &options),
-        Format::Scxml => afp_draw::scxml(&graph, &options),
+        Format::Png => return pixels(arguments, outline, &options).map(|_| code),
+        Format::Svg => afp_draw::svg(outline, &options),
+        Format::Json => afp_draw::json(outline, &options),
+        Format::Dot => afp_draw::dot(outline, &options),
+        Format::Scxml => {
+            let graph = file.compiled.graph.as_ref().ok_or(NoPlan::Wrong)?;
+            afp_draw::scxml(graph, &options)
+        }
     };
     match &arguments.output {
-        Some(path) => write(path, text.as_bytes()),
-        None => print(&text),
-    }
+        Some(path) => write(path, text.as_bytes())?,
+        None => print(&text)?,
+    };
+    Ok(code)
 }
 
-/// A drawing of a plan with what was used of it, in the colours for the file that it goes to.
+/// A drawing of a plan of a file with what was used of it, in the colours for the picture's file.
 ///
 /// # Errors
-/// The name of the file is not that of a picture.
+/// The name of the picture's file is not that of a picture.
 pub(super) fn with_usage(
+    file: &PlanFile,
     graph: &Graph,
-    sources: &Sources,
     usage: &Usage,
     path: &Path,
 ) -> Result<String, RunError> {
-    let icons = |toolbox: &Toolbox, name: &str| icon(toolbox, name);
+    let icons = |toolbox: &Toolbox, name: &str| file.own.icon(toolbox, name);
+    let plans = (0..).map(PlanId).zip(&file.compiled.outline.plans);
+    let mut own = plans.filter(|(_, plan)| plan.span.contains(graph.main().span));
     let options = Options {
-        sources: Some(sources),
+        plan: own.next().map(|(id, _)| id),
         icons: Some(&icons),
-        positions: &positions(sources, graph),
+        positions: &positions(file),
         theme: picture::theme(PictureFormat::of(path)?),
         usage: Some(usage),
         ..Options::default()
     };
-    Ok(afp_draw::svg(graph, &options))
+    Ok(afp_draw::svg(&file.compiled.outline, &options))
 }
 
 /// The positions of the plans' side files, by file.
-fn positions(sources: &Sources, graph: &Graph) -> Vec<Layout> {
+fn positions(file: &PlanFile) -> Vec<Layout> {
+    let outline = &file.compiled.outline;
     let holds_plans =
-        |file: usize| graph.plans.iter().any(|plan| usize::from(plan.span.file) == file);
+        |file: usize| outline.plans.iter().any(|plan| usize::from(plan.file()) == file);
     let read = |(file, source): (usize, &Source)| match holds_plans(file) {
         true => layout(&format!("{}.layout", source.name)),
         false => Layout::default(),
     };
-    sources.iter().enumerate().map(read).collect()
+    file.compiled.sources.iter().enumerate().map(read).collect()
 }
 
 /// The positions of a side file, none without one. What cannot be used there is told on standard
@@ -173,13 +185,13 @@ fn write(path: &Path, drawing: &[u8]) -> Result<u8, NoPlan> {
     Ok(EXIT_OK)
 }
 
-fn pixels(arguments: &Arguments, graph: &Graph, options: &Options) -> Result<u8, NoPlan> {
+fn pixels(arguments: &Arguments, outline: &Outline, options: &Options) -> Result<u8, NoPlan> {
     if arguments.output.is_none() && std::io::stdout().is_terminal() {
         let error = "a picture cannot be shown in a terminal";
         return Err(RunError::usage(error, "name a file: -o plan.png").into());
     }
     let scale = arguments.scale.unwrap_or(picture::DEFAULT_SCALE);
-    let picture = picture::pixels(&afp_draw::svg(graph, options), scale)?;
+    let picture = picture::pixels(&afp_draw::svg(outline, options), scale)?;
     match &arguments.output {
         Some(path) => write(path, &picture),
         None => super::print_bytes(&picture),
@@ -234,11 +246,4 @@ impl Arguments {
             format!("it is for {}", formats.join(", ")),
         ))
     }
-}
-
-/// The icon of a built-in toolbox. Icons of other toolboxes stand beside their files, which the
-/// graph does not name.
-fn icon(toolbox: &Toolbox, name: &str) -> Option<String> {
-    let built_in = afp_toolboxes::ALL.iter().any(|each| each.name == toolbox.name);
-    built_in.then(|| afp_toolboxes::icon(name)).flatten().map(str::to_owned)
 }

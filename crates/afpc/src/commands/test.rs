@@ -12,7 +12,6 @@ use afp::load::Registry;
 use afp_dsl::scenario::Scenario;
 use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, RunError};
 use afp_sim::Simulation;
-use afp_syntax::source::Sources;
 use afp_test::{Coverage, Hits, Setting, Verdict};
 use clap::Args;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
@@ -66,8 +65,8 @@ Exit codes: 0 all passed, 1 a file is wrong, 2 nothing to run, 3 a scenario fail
 
 /// A scenario to run.
 struct Case<'a> {
-    /// The texts that the graph's places point into.
-    sources: &'a Sources,
+    /// The file with the scenario and the plan that it is for.
+    plan_file: &'a PlanFile,
     /// The file as it was named.
     file: &'a Path,
     /// The line of its name.
@@ -128,7 +127,7 @@ fn cases(file: &PlanFile) -> impl Iterator<Item = Case<'_>> {
     };
     let scenarios = file.compiled.scenarios.iter();
     scenarios.map(move |scenario| Case {
-        sources: &file.compiled.sources,
+        plan_file: file,
         file: &file.path,
         line: line(scenario),
         scenario,

@@ -40,6 +40,6 @@ fn draw_coverage(log: &LogData, path: &Path) -> Result<(), NoPlan> {
         let message = format!("the log does not fit '{}' as it is now", file.path.display());
         return Err(RunError::usage(message, "run the plan again").into());
     };
-    let svg = graph::with_usage(&graph, &file.compiled.sources, &used.usage, path)?;
+    let svg = graph::with_usage(&file, &graph, &used.usage, path)?;
     Ok(picture::write(path, &svg)?)
 }

@@ -41,7 +41,7 @@ fn file_of(plans: &[(&Case<'_>, Coverage)], index: usize, folder: &Path) -> Path
 }
 
 fn draw(case: &Case<'_>, coverage: &Coverage, path: &Path) -> Result<(), NoPlan> {
-    let svg = graph::with_usage(&case.scenario.graph, case.sources, &coverage.usage, path)?;
+    let svg = graph::with_usage(case.plan_file, &case.scenario.graph, &coverage.usage, path)?;
     picture::write(path, &svg)?;
     anstream::eprintln!("coverage drawn: {}", path.display());
     Ok(())

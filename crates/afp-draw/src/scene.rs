@@ -1,0 +1,321 @@
+//! The scene: each part of a drawing with its identity, its place and a fragment of SVG.
+//!
+//! Pictures are put together from it, and editors take it piece by piece. Coordinates are those of
+//! the plan: a box that has a position stands exactly there. A new scene can be made from the one
+//! before: boxes stay where they were, and edges whose ends and surroundings are the same keep
+//! their routes to the last digit.
+
+use super::Options;
+use super::card::{self, Card, Leaving};
+use super::layout::{self, Link, Node, Placement};
+use super::legend::legend;
+use super::sketch::{Arrow, Rect, Sketch};
+use super::svg::paint::Painter;
+use super::usage::Class;
+use super::view::View;
+use afp_dsl::outline::{Outline, Part};
+use afp_syntax::diagnostics::Severity;
+use afp_syntax::item::Item;
+
+/// A place in pixels, y downwards.
+pub type Point = (f64, f64);
+
+/// Space around everything, in pixels.
+const MARGIN: f64 = 24.0;
+
+/// Distance between the drawings of two plans.
+const BETWEEN: f64 = 64.0;
+
+/// Distance between the drawings and the legend.
+const LEGEND: f64 = 32.0;
+
+/// A drawing of plans.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// The plans: the main one, then those it uses.
+    pub plans: Vec<PlanScene>,
+    /// The icons that fragments use, each by its id.
+    pub symbols: Vec<Symbol>,
+    /// Width and height of the picture with all plans.
+    pub size: Point,
+    /// What colours mean in a drawing by use, as a fragment.
+    pub legend: Option<String>,
+}
+
+/// An icon.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Symbol {
+    /// What a fragment calls it.
+    pub id: String,
+    /// A `symbol` element.
+    pub svg: String,
+}
+
+/// One plan of a drawing, in coordinates of its own.
+#[derive(Clone, Debug)]
+pub struct PlanScene {
+    /// Which plan it is.
+    pub plan: Item,
+    /// The file that it stands in.
+    pub file: u16,
+    /// Its name.
+    pub name: String,
+    /// Its help.
+    pub doc: String,
+    /// Where its origin is in the picture with all plans.
+    pub offset: Point,
+    /// What all of it takes.
+    pub bounds: Rect,
+    /// The start tag, then the elements as written.
+    pub elements: Vec<ElementScene>,
+    /// The edges that lead to elements.
+    pub edges: Vec<EdgeScene>,
+}
+
+/// A box with everything attached to it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ElementScene {
+    /// Under what it is placed: the element, or `start` of the plan.
+    pub item: Item,
+    /// The box itself; its corner is its position.
+    pub rect: Rect,
+    /// The box with ports, exits and supervisors.
+    pub outer: Rect,
+    /// What belongs to it and has an identity: itself, its supervisors, ports, exits, entries.
+    pub pieces: Vec<PieceScene>,
+    /// A group, moved to its place.
+    pub svg: String,
+}
+
+/// A box, tab, port, exit or entry.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PieceScene {
+    /// The item.
+    pub item: Item,
+    /// What of it.
+    pub part: Part,
+    /// Where it is.
+    pub rect: Rect,
+    /// The worst that is wrong with it, where it is marked.
+    pub severity: Option<Severity>,
+}
+
+/// An edge from an exit to an element.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EdgeScene {
+    /// The element, supervisor or plan that it leaves.
+    pub item: Item,
+    /// Which of its exits.
+    pub part: Part,
+    /// The element that it leads to.
+    pub to: Item,
+    /// What kind of exit it leaves: `start`, `state`, `error`, `event` or `missed`.
+    pub kind: &'static str,
+    /// The corners of its route, start and tip included.
+    pub points: Vec<Point>,
+    /// The worst that is wrong with it, where it is marked.
+    pub severity: Option<Severity>,
+    /// A group with the line and its tip.
+    pub svg: String,
+}
+
+impl Scene {
+    /// The drawing of the main plan and, unless the options say otherwise, of the plans it uses.
+    ///
+    /// With the scene `before` a change, boxes stay where they were, unless they have positions or
+    /// are in the way of one that has.
+    pub fn new(outline: &Outline, options: &Options, before: Option<&Scene>) -> Scene {
+        let drawn = Drawn::new(outline, options, before);
+        let mut painter = Painter::new(options.icons);
+        let plans = drawn.plans.iter().map(|plan| plan.scene(&mut painter)).collect();
+        let legend = drawn.legend.as_ref().map(|(sketch, at)| painter.group("legend", sketch, *at));
+        Scene { plans, symbols: painter.symbols(), size: drawn.size, legend }
+    }
+
+    /// Leaves a box to the automatic layout when the next scene is made from this one.
+    pub fn forget(&mut self, item: &Item) {
+        for plan in &mut self.plans {
+            plan.elements.retain(|element| element.item != *item);
+        }
+    }
+
+    fn plan(&self, plan: &Item, file: u16) -> Option<&PlanScene> {
+        self.plans.iter().find(|known| known.plan == *plan && known.file == file)
+    }
+}
+
+/// A drawing before it is painted.
+pub(super) struct Drawn<'a> {
+    pub(super) plans: Vec<DrawnPlan<'a>>,
+    pub(super) legend: Option<(Sketch<'a>, Point)>,
+    pub(super) size: Point,
+}
+
+/// A plan before it is painted.
+pub(super) struct DrawnPlan<'a> {
+    pub(super) view: View<'a>,
+    pub(super) offset: Point,
+    pub(super) bounds: Rect,
+    /// Each card with the place of its upper left corner.
+    pub(super) cards: Vec<(Card<'a>, Point)>,
+    pub(super) edges: Vec<DrawnEdge>,
+}
+
+/// An edge before it is painted.
+pub(super) struct DrawnEdge {
+    pub(super) item: Item,
+    pub(super) part: Part,
+    pub(super) to: Option<Item>,
+    pub(super) class: Class,
+    pub(super) severity: Option<Severity>,
+    pub(super) points: Vec<Point>,
+}
+
+impl<'a> Drawn<'a> {
+    pub(super) fn new(
+        outline: &'a Outline,
+        options: &'a Options<'a>,
+        before: Option<&Scene>,
+    ) -> Drawn<'a> {
+        let mut size = (0.0_f64, 0.0);
+        let mut plans = Vec::new();
+        for view in View::all(outline, options) {
+            let known = before.and_then(|before| before.plan(&view.plan.item, view.plan.file()));
+            let mut plan = DrawnPlan::new(view, known);
+            let top = if size.1 > 0.0 { size.1 + BETWEEN } else { MARGIN };
+            plan.offset = (MARGIN - plan.bounds.x, top - plan.bounds.y);
+            size = (size.0.max(plan.bounds.width), top + plan.bounds.height);
+            plans.push(plan);
+        }
+        let legend = options.usage.map(|_| {
+            let (legend, width, height) = legend();
+            let top = size.1 + LEGEND;
+            size = (size.0.max(width), top + height);
+            (legend, (MARGIN, top))
+        });
+        Drawn { plans, legend, size: (size.0 + 2.0 * MARGIN, size.1 + MARGIN) }
+    }
+}
+
+impl<'a> DrawnPlan<'a> {
+    fn new(view: View<'a>, before: Option<&PlanScene>) -> DrawnPlan<'a> {
+        let elements = view.plan.elements.iter().map(|element| card::element(&view, element));
+        let cards: Vec<Card> = std::iter::once(card::start(&view)).chain(elements).collect();
+        let node = |card: &Card| Node { width: card.width, height: card.height, entry: card.entry };
+        let nodes: Vec<_> = cards.iter().map(node).collect();
+        let exits: Vec<(usize, &Leaving)> = cards
+            .iter()
+            .enumerate()
+            .flat_map(|(from, card)| card.exits.iter().map(move |exit| (from, exit)))
+            .collect();
+        // The start tag is node 0, so elements count from 1.
+        let link =
+            |(from, exit): &(usize, &Leaving)| Link { from: *from, to: exit.to + 1, exit: exit.at };
+        let links: Vec<_> = exits.iter().map(link).collect();
+        let placement = placement(&view, &cards, &exits, before);
+        let placed = layout::layout_around(&nodes, &links, placement);
+        let edges = exits.iter().zip(placed.routes).map(|((_, exit), points)| DrawnEdge {
+            item: exit.item.clone(),
+            part: exit.part.clone(),
+            to: view.plan.elements.get(exit.to).map(|element| element.item.clone()),
+            class: exit.class,
+            severity: exit.severity,
+            points,
+        });
+        let edges = edges.collect();
+        let cards = cards.into_iter().zip(placed.corners).collect();
+        DrawnPlan { view, offset: (0.0, 0.0), bounds: placed.bounds, cards, edges }
+    }
+
+    /// Where the box of an element is.
+    pub(super) fn rect(&self, item: &Item) -> Option<Rect> {
+        let (card, at) = self.cards.iter().find(|(card, _)| card.item == *item)?;
+        Some(card.rect.moved(*at))
+    }
+
+    /// Everything at its place in the picture.
+    #[cfg(test)]
+    pub(super) fn sketch(self) -> Sketch<'a> {
+        let mut all = Sketch::default();
+        let mut arrows = Sketch::default();
+        arrows.arrows.extend(self.edges.into_iter().map(|edge| Arrow {
+            points: edge.points,
+            class: edge.class,
+            thick: true,
+        }));
+        all.add(arrows, self.offset);
+        for (card, at) in self.cards {
+            all.add(card.sketch, (at.0 + self.offset.0, at.1 + self.offset.1));
+        }
+        all
+    }
+
+    fn scene(&self, painter: &mut Painter) -> PlanScene {
+        let edges = self.edges.iter().filter_map(|edge| {
+            let arrow = Arrow { points: edge.points.clone(), class: edge.class, thick: true };
+            Some(EdgeScene {
+                item: edge.item.clone(),
+                part: edge.part.clone(),
+                to: edge.to.clone()?,
+                kind: edge.class.name,
+                severity: edge.severity,
+                svg: painter.edge(&edge.item, &edge.part, &arrow),
+                points: edge.points.clone(),
+            })
+        });
+        let edges = edges.collect();
+        let elements = self.cards.iter().map(|(card, at)| ElementScene {
+            item: card.item.clone(),
+            rect: card.rect.moved(*at),
+            outer: Rect { x: at.0, y: at.1, width: card.width, height: card.height },
+            pieces: card
+                .sketch
+                .pieces
+                .iter()
+                .map(|piece| PieceScene {
+                    item: piece.item.clone(),
+                    part: piece.part.clone(),
+                    rect: piece.rect.moved(*at),
+                    severity: piece.severity,
+                })
+                .collect(),
+            svg: painter.element(&card.item, &card.sketch, *at),
+        });
+        PlanScene {
+            plan: self.view.plan.item.clone(),
+            file: self.view.plan.file(),
+            name: self.view.name().to_owned(),
+            doc: self.view.plan.doc.clone(),
+            offset: self.offset,
+            bounds: self.bounds,
+            elements: elements.collect(),
+            edges,
+        }
+    }
+}
+
+/// Where cards have to be, where they were, and which routes there were.
+fn placement(
+    view: &View,
+    cards: &[Card],
+    exits: &[(usize, &Leaving)],
+    before: Option<&PlanScene>,
+) -> Placement {
+    let corner = |card: &Card, (x, y): Point| (x - card.rect.x, y - card.rect.y);
+    let fixed = cards.iter().map(|card| {
+        let position = view.position(&card.item)?;
+        Some(corner(card, (position.x.into(), position.y.into())))
+    });
+    let stood = cards.iter().map(|card| {
+        let known = before?.elements.iter().find(|element| element.item == card.item)?;
+        Some(corner(card, (known.rect.x, known.rect.y)))
+    });
+    let routes = exits.iter().map(|(_, exit)| {
+        let known = |edge: &&EdgeScene| edge.item == exit.item && edge.part == exit.part;
+        before?.edges.iter().find(known).map(|edge| edge.points.clone())
+    });
+    Placement { fixed: fixed.collect(), before: stood.collect(), routes: routes.collect() }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,210 @@
+use std::path::Path;
+
+use super::{EdgeScene, Scene};
+use crate::layout_file::{Layout, Position};
+use crate::sample::{WALL_FOLLOWING, afp_files, compiled, generated, is_toolbox};
+use crate::{Options, dot, json, picture, svg};
+use afp_dsl::files::Texts;
+use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::{Compiled, compile};
+use afp_syntax::diagnostics::Severity;
+use afp_syntax::item::Item;
+use afp_syntax::source::Source;
+
+fn whatever(text: &str) -> Compiled {
+    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+    compile(&Source::new("sample.afp", text), &toolboxes, &Texts::default())
+}
+
+fn scene(text: &str, before: Option<&Scene>) -> Scene {
+    Scene::new(&whatever(text).outline, &Options::default(), before)
+}
+
+/// The texts of the plans that are shipped.
+fn shipped() -> Vec<String> {
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+    let files = ["plans", "examples"].map(|folder| afp_files(&format!("{root}/{folder}")));
+    let text = |file: &Path| std::fs::read_to_string(file).unwrap();
+    let texts = files.concat().into_iter().map(|file| text(&file));
+    let plans = texts.filter(|text| text.contains("plan ") && !is_toolbox(text));
+    let plans: Vec<_> = plans.filter(|text| !text.contains("\nscenario ")).collect();
+    assert!(plans.len() >= 3, "plans have moved");
+    plans
+}
+
+#[test]
+fn every_part_has_its_identity() {
+    let scene = scene(WALL_FOLLOWING, None);
+    let [plan] = scene.plans.as_slice() else { panic!("{}", scene.plans.len()) };
+    let paths: Vec<_> = plan.elements.iter().map(|element| element.item.to_string()).collect();
+    assert_eq!(paths[..2], ["WallFollowing.start", "WallFollowing.searchFirstWall"]);
+    let touch = Item::local("WallFollowing", "searchFirstWall", "touch");
+    let pieces: Vec<_> = plan.elements[1].pieces.iter().collect();
+    assert!(pieces.iter().any(|piece| piece.item == touch), "the tab of a supervisor");
+    let edge = plan.edges.iter().find(|edge| edge.item == touch).unwrap();
+    assert_eq!(
+        (edge.to.to_string().as_str(), edge.kind),
+        ("WallFollowing.backupCollision", "event")
+    );
+    for element in &plan.elements {
+        for piece in &element.pieces {
+            assert!(piece.rect.x >= element.outer.x - 0.1, "{piece:?}");
+            assert!(piece.rect.right() <= element.outer.right() + 0.1, "{piece:?}");
+        }
+        assert!(element.svg.starts_with("<g class=\"element\"") && element.svg.ends_with("</g>\n"));
+        assert!(!element.svg.contains("style="), "{}", element.svg);
+    }
+}
+
+#[test]
+fn whatever_stands_in_a_file_is_drawn() {
+    for text in shipped() {
+        let ends: Vec<_> = text.char_indices().map(|(end, _)| end).collect();
+        // Every prefix would take minutes without optimisation; steps differ from plan to plan.
+        for end in ends.iter().skip(text.len() % 7).step_by(7) {
+            let compiled = whatever(&text[..*end]);
+            let options = Options { warnings: true, ..Options::default() };
+            let scene = Scene::new(&compiled.outline, &options, None);
+            let drawn: usize = scene.plans.iter().map(|plan| plan.elements.len() - 1).sum();
+            let main = compiled.outline.main.map(|id| compiled.outline.plan(id).elements.len());
+            assert!(drawn >= main.unwrap_or(0), "an element is missing in\n{}", &text[..*end]);
+            assert!(picture(&scene, options.theme).ends_with("</svg>\n"));
+        }
+        let outline = whatever(&text[..text.len() / 2]).outline;
+        assert!(!dot(&outline, &Options::default()).is_empty());
+        assert!(!json(&outline, &Options::default()).is_empty());
+    }
+}
+
+#[test]
+fn what_is_wrong_is_marked_where_it_is() {
+    let text = "use carbot\nplan P {\n    start go\n    actor go: Forwrd(distance = 3 cm) {\n\
+                Done -> nowhere\n    }\n    actor turn: Turn(angle = ) {\n    }\n}\n";
+    let scene = scene(text, None);
+    let wrong: Vec<_> = scene.plans[0]
+        .elements
+        .iter()
+        .flat_map(|element| &element.pieces)
+        .filter(|piece| piece.severity == Some(Severity::Error))
+        .map(|piece| format!("{} {:?}", piece.item, piece.part))
+        .collect();
+    for expected in ["P.go Whole", "P.go Exit", "P.turn Whole"] {
+        assert!(wrong.iter().any(|found| found.starts_with(expected)), "{expected}: {wrong:?}");
+    }
+    let picture = picture(&scene, crate::Theme::Light);
+    for expected in ["icon wrong", ">nowhere</text>", ">Forwrd</text>", "box hole", "box open"] {
+        assert!(picture.contains(expected), "no {expected} in {picture}");
+    }
+}
+
+#[test]
+fn a_file_without_a_plan_is_an_empty_drawing() {
+    for text in ["", "use carbot\n", "}"] {
+        let compiled = whatever(text);
+        assert!(svg(&compiled.outline, &Options::default()).ends_with("</svg>\n"));
+        assert!(Scene::new(&compiled.outline, &Options::default(), None).plans.is_empty());
+    }
+}
+
+/// The text with one more actor behind an element, which leads to it and on to where that led.
+fn with_one_more(text: &str, scene: &Scene, place: usize) -> Option<String> {
+    let edge = scene.plans[0].edges.iter().filter(|edge| edge.kind == "state").nth(place)?;
+    let (from, to) = (edge.item.name(), edge.to.name());
+    let start = text.find(&format!(" {from}:"))?;
+    let arrow = start + text[start..].find(&format!("-> {to}"))?;
+    let end = start + text[start..].find("\n    }").map(|at| at + 6)?;
+    let fresh = format!(
+        "\n    actor fresh: Turn(angle = 5 deg) {{\n        TurnSuccessful -> {to}\n    }}\n"
+    );
+    let mut changed = text.to_owned();
+    changed.insert_str(end, &fresh);
+    changed.replace_range(arrow..arrow + 3 + to.len(), "-> fresh");
+    Some(changed)
+}
+
+#[test]
+fn adding_an_actor_leaves_the_others_where_they_are() {
+    let mut tried = 0;
+    for text in shipped() {
+        let before = scene(&text, None);
+        for place in 0..before.plans[0].edges.len() {
+            let Some(changed) = with_one_more(&text, &before, place) else { continue };
+            let after = scene(&changed, Some(&before));
+            let moved = moved(&before, &after);
+            let all = before.plans[0].elements.len();
+            assert!(moved * 5 <= all, "{moved} of {all} moved in\n{changed}");
+            assert_eq!(after.plans[0].elements.len(), all + 1);
+            tried += 1;
+        }
+    }
+    assert!(tried >= 8, "{tried}");
+}
+
+/// How many boxes are more than 10 px away from where they were.
+fn moved(before: &Scene, after: &Scene) -> usize {
+    let far = |known: &&super::ElementScene| {
+        let now = after.plans[0].elements.iter().find(|element| element.item == known.item);
+        now.is_none_or(|now| (now.rect.x - known.rect.x).hypot(now.rect.y - known.rect.y) > 10.0)
+    };
+    before.plans[0].elements.iter().filter(far).count()
+}
+
+#[test]
+fn a_moved_box_takes_its_own_edges_along_and_leaves_the_others() {
+    let text = generated(30, 5);
+    let compiled = compiled(&text);
+    let before = Scene::new(&compiled.outline, &Options::default(), None);
+    let item = Item::inner("Generated", "element7");
+    let place = before.plans[0].elements.iter().find(|element| element.item == item).unwrap().rect;
+    let mut positions = Layout::default();
+    let (x, y) = (place.x as i32 + 36, place.y as i32 + 12);
+    positions.set(item.clone(), Position { x, y });
+    let positions = vec![positions; compiled.sources.len()];
+    let options = Options { positions: &positions, ..Options::default() };
+    let after = Scene::new(&compiled.outline, &options, Some(&before));
+    let rect = after.plans[0].elements.iter().find(|element| element.item == item).unwrap().rect;
+    assert_eq!((rect.x, rect.y), (f64::from(x), f64::from(y)));
+    let same = |edge: &&EdgeScene| {
+        let known = before.plans[0].edges.iter();
+        known.into_iter().any(|old| old.points == edge.points && old.item == edge.item)
+    };
+    let edges = &after.plans[0].edges;
+    let kept = edges.iter().filter(same).count();
+    assert!(kept * 10 >= edges.len() * 8, "{kept} of {} routes stayed", edges.len());
+    assert!(moved(&before, &after) <= 3);
+}
+
+#[test]
+fn placed_elements_hold_their_places_through_edits() {
+    let text = WALL_FOLLOWING;
+    let mut positions = Layout::default();
+    let item = Item::inner("WallFollowing", "followWall");
+    positions.set(item.clone(), Position { x: 700, y: 900 });
+    let (mut state, mut changed) = (7_u64, text.to_owned());
+    let mut before: Option<Scene> = None;
+    for round in 0..1000 {
+        let mut next = |below: usize| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 33) as usize % below
+        };
+        // One character less or more, and now and then the whole text again.
+        if round % 12 == 0 {
+            changed = text.to_owned();
+        }
+        let at = next(changed.len() - 1);
+        if next(2) == 0 {
+            changed.remove(at);
+        } else {
+            changed.insert(at, ['x', '{', '}', ' ', '"', '/', '>'][next(7)]);
+        }
+        let compiled = whatever(&changed);
+        let positions = vec![positions.clone(); compiled.sources.len()];
+        let options = Options { positions: &positions, ..Options::default() };
+        let scene = Scene::new(&compiled.outline, &options, before.as_ref());
+        let mut elements = scene.plans.iter().flat_map(|plan| &plan.elements);
+        if let Some(found) = elements.find(|element| element.item == item) {
+            assert_eq!((found.rect.x, found.rect.y), (700.0, 900.0), "{changed}");
+        }
+        before = Some(scene);
+    }
+}

@@ -1,0 +1,173 @@
+//! The graph as a chart sees it: inputs with their texts, exits with their names.
+
+use super::super::{Options, formula};
+use afp_dsl::graph::{
+    Component, Element, ElementId, Entry, EntryKind, Formula, Graph, Output, Plan, PlanId,
+    Supervisor, Target, TemplateId,
+};
+use afp_dsl::toolbox::{InPort, Template};
+use afp_syntax::source::Span;
+
+/// A plan in its graph, with the options of the drawing.
+#[derive(Clone, Copy)]
+pub(super) struct View<'a> {
+    pub(super) graph: &'a Graph,
+    pub(super) plan: &'a Plan,
+    pub(super) options: &'a Options<'a>,
+}
+
+/// An input port and what feeds it.
+pub(super) struct Input<'a> {
+    pub(super) port: &'a str,
+    pub(super) text: String,
+    /// Whether the plan binds it; otherwise the text is the port's default.
+    pub(super) bound: bool,
+}
+
+/// A way out of an element or a supervisor.
+#[derive(Clone, Copy)]
+pub(super) struct Exit<'a> {
+    pub(super) name: &'a str,
+    pub(super) target: Target,
+    pub(super) kind: ExitKind,
+}
+
+/// What makes control leave.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ExitKind {
+    State,
+    Error,
+    Event,
+    Missed,
+}
+
+impl<'a> View<'a> {
+    pub(super) fn element(&self, id: ElementId) -> &'a Element {
+        &self.plan.elements[id.index()]
+    }
+
+    /// The name of the template or of the sub-plan.
+    pub(super) fn template_name(&self, element: &Element) -> &'a str {
+        match element.component {
+            Component::Actor(id) | Component::Computation(id) => &self.graph.template(id).name,
+            Component::SubPlan(id) => &self.graph.plan(id).name,
+        }
+    }
+
+    pub(super) fn inputs(&self, element: &Element) -> Vec<Input<'a>> {
+        match element.component {
+            Component::Actor(id) | Component::Computation(id) => {
+                self.template_inputs(id, &element.inputs)
+            }
+            Component::SubPlan(id) => self.plan_inputs(id, &element.inputs),
+        }
+    }
+
+    pub(super) fn supervisor_inputs(&self, supervisor: &Supervisor) -> Vec<Input<'a>> {
+        self.template_inputs(supervisor.template, &supervisor.inputs)
+    }
+
+    fn template_inputs(&self, id: TemplateId, formulas: &[Formula]) -> Vec<Input<'a>> {
+        let ports = self.graph.template(id).inputs.iter();
+        let with =
+            |(port, formula): (&'a InPort, &Formula)| self.input(&port.name, port.span, formula);
+        ports.zip(self.shown(formulas)).map(with).collect()
+    }
+
+    fn plan_inputs(&self, id: PlanId, formulas: &[Formula]) -> Vec<Input<'a>> {
+        let entries = self.graph.plan(id).entries.iter();
+        let ports = entries.filter(|entry| entry.kind == EntryKind::In);
+        let with =
+            |(entry, formula): (&'a Entry, &Formula)| self.input(&entry.name, entry.span, formula);
+        ports.zip(self.shown(formulas)).map(with).collect()
+    }
+
+    /// All or nothing, as the options say.
+    fn shown<'d, T>(&self, data: &'d [T]) -> &'d [T] {
+        if self.options.data { data } else { &[] }
+    }
+
+    /// A formula that stands where the port is declared is the port's default.
+    fn input(&self, port: &'a str, declared: Span, formula: &Formula) -> Input<'a> {
+        let bound = formula.span != declared;
+        let sources = self.options.sources.filter(|_| bound);
+        Input { port, text: formula::text(formula, self.plan, sources), bound }
+    }
+
+    /// The connected output ports, each with the entry it writes.
+    pub(super) fn outputs(&self, element: &Element) -> Vec<(&'a str, &'a str)> {
+        match element.component {
+            Component::Actor(id) | Component::Computation(id) => {
+                self.template_outputs(id, &element.outputs)
+            }
+            Component::SubPlan(id) => {
+                let entries = self.graph.plan(id).entries.iter();
+                let ports = entries.filter(|entry| entry.kind == EntryKind::Out);
+                let names: Vec<_> = ports.map(|entry| entry.name.as_str()).collect();
+                self.named_outputs(&names, &element.outputs)
+            }
+        }
+    }
+
+    pub(super) fn supervisor_outputs(&self, supervisor: &Supervisor) -> Vec<(&'a str, &'a str)> {
+        self.template_outputs(supervisor.template, &supervisor.outputs)
+    }
+
+    fn template_outputs(&self, id: TemplateId, outputs: &[Output]) -> Vec<(&'a str, &'a str)> {
+        let ports = self.graph.template(id).outputs.iter();
+        let names: Vec<_> = ports.map(|port| port.name.as_str()).collect();
+        self.named_outputs(&names, outputs)
+    }
+
+    fn named_outputs(&self, names: &[&'a str], outputs: &[Output]) -> Vec<(&'a str, &'a str)> {
+        let mut outputs: Vec<_> = self.shown(outputs).iter().collect();
+        outputs.sort_by_key(|output| output.port);
+        let named = outputs.into_iter().filter_map(|output| {
+            let port = names.get(usize::from(output.port))?;
+            Some((*port, self.plan.entries[output.entry.index()].name.as_str()))
+        });
+        named.collect()
+    }
+
+    /// The connected states, `Error` last.
+    pub(super) fn states(&self, element: &Element) -> Vec<Exit<'a>> {
+        let names: Vec<&'a str> = match element.component {
+            Component::Actor(id) | Component::Computation(id) => {
+                outcome_names(self.graph.template(id))
+            }
+            Component::SubPlan(_) => vec!["OK", "Interrupted"],
+        };
+        let states = names.into_iter().zip(&element.states).filter_map(|(name, target)| {
+            target.map(|target| Exit { name, target, kind: ExitKind::State })
+        });
+        let error =
+            element.on_error.map(|target| Exit { name: "Error", target, kind: ExitKind::Error });
+        states.chain(error).collect()
+    }
+
+    /// The events, `DeadlineMissed` last where it is connected.
+    pub(super) fn events(&self, supervisor: &Supervisor) -> Vec<Exit<'a>> {
+        let names = outcome_names(self.graph.template(supervisor.template)).into_iter();
+        let event =
+            |(name, target): (_, &Target)| Exit { name, target: *target, kind: ExitKind::Event };
+        let missed = supervisor.on_miss.map(|target| Exit {
+            name: "DeadlineMissed",
+            target,
+            kind: ExitKind::Missed,
+        });
+        names.zip(&supervisor.events).map(event).chain(missed).collect()
+    }
+
+    /// The supervisors of an element, or the global ones.
+    pub(super) fn supervisors(&self, owner: Option<&Element>) -> Vec<&'a Supervisor> {
+        let all = &self.plan.supervisors;
+        match owner {
+            None => all.iter().take(usize::from(self.plan.globals)).collect(),
+            Some(element) => element.supervisors.iter().map(|id| &all[id.index()]).collect(),
+        }
+    }
+}
+
+fn outcome_names(template: &Template) -> Vec<&str> {
+    template.outcomes.iter().map(|outcome| outcome.name.as_str()).collect()
+}

@@ -1,0 +1,34 @@
+//! `afpc graph`: plans with errors, icons of a project.
+
+mod common;
+
+use common::Place;
+
+#[test]
+fn a_plan_with_errors_is_drawn_and_the_errors_are_said() {
+    let place = Place::new();
+    place.write("p.afp", "use carbot\nplan P {\n    start go\n    actor go: Forwrd {\n    }\n}\n");
+    let said = place.afpc("graph p.afp -o p.svg");
+    assert_eq!(said.code, 1, "{said:?}");
+    assert!(said.err.contains("E0201"), "{said:?}");
+    let picture = place.read("p.svg");
+    assert!(picture.contains(">Forwrd</text>") && picture.contains("icon wrong"), "{picture}");
+    let said = place.afpc("graph p.afp --format scxml");
+    assert!(said.code == 1 && said.out.is_empty(), "{said:?}");
+}
+
+#[test]
+fn icons_stand_beside_the_toolbox_of_a_project() {
+    let place = Place::new();
+    place.write("afp.toml", "[toolboxes]\nmine = { path = \"tools/mine.afp\" }\n");
+    let toolbox = "toolbox mine\n\nactor Dance {\n    icon \"dance\"\n    state Danced\n}\n";
+    place.write("tools/mine.afp", toolbox);
+    let plan = "use mine\nplan P { start go actor go: Dance { Danced -> terminate } }\n";
+    place.write("p.afp", plan);
+    let icon = |content: &str| format!("<svg viewBox=\"0 0 8 8\">{content}</svg>");
+    place.write("tools/icons/dance.svg", &icon("<path d=\"M1 2h3\"/>"));
+    let drawn = || place.afpc("graph p.afp").out;
+    assert!(drawn().contains("M1 2h3"), "{}", drawn());
+    place.write("tools/icons/dance.svg", &icon("<animate/onbegin=alert(1)><path d=\"M1 2h3\"/>"));
+    assert!(!drawn().contains("animate") && !drawn().contains("M1 2h3"), "{}", drawn());
+}
