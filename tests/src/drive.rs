@@ -147,6 +147,9 @@ impl<P: NamedPlan + Plan<Platform>, S: Sink> Run<'_, P, S> {
     }
 
     fn step(&mut self, now: Instant) -> Wake {
+        if self.script.copied {
+            self.scheduler = self.scheduler.try_clone().expect("all components can be copied");
+        }
         let (scheduler, platform) = (&mut self.scheduler, &mut self.platform);
         let (sink, clock) = (&mut self.sink, &self.clock);
         let step = || scheduler.step(platform, sink, clock, now);

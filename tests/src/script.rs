@@ -48,6 +48,8 @@ pub struct Script {
     pub show_names: bool,
     /// What the platform is asked is not noted.
     pub show_nothing: bool,
+    /// Before each step the plan is exchanged for a copy of itself; no line of a script says so.
+    pub copied: bool,
     /// Of all lines, only the last ones and the number of the others are kept.
     pub show_last: Option<usize>,
 }

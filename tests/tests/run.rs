@@ -35,6 +35,9 @@ fn check(name: &str, generated: fn(&Script) -> Vec<String>) {
         assert_same(&case.trace, &interpreted, "interpreted");
     }
     assert_same(&interpreted, &generated(&case.script), "generated");
+    let copied = Script { copied: true, ..case.script };
+    assert_same(&interpreted, &interpret(&graph, &copied), "interpreted, copied at each step");
+    assert_same(&interpreted, &generated(&copied), "generated, copied at each step");
 }
 
 #[track_caller]

@@ -6,26 +6,32 @@ use super::{Board, speed, templates};
 use templates::{check_battery, check_button, check_range, check_touch, drive, hop};
 
 /// Drives until a distance is done.
+#[derive(Clone)]
 pub struct Drive {
     goal: f64,
     gain: f64,
 }
 
 /// Acts for one poll.
+#[derive(Clone)]
 pub struct Hop {
     next: i64,
 }
 
 /// Watches a button.
+#[derive(Clone)]
 pub struct CheckButton;
 
 /// Watches the bumper.
+#[derive(Clone)]
 pub struct CheckTouch;
 
 /// Watches the distance ahead.
+#[derive(Clone)]
 pub struct CheckRange;
 
 /// Watches the battery.
+#[derive(Clone)]
 pub struct CheckBattery {
     low: f64,
 }

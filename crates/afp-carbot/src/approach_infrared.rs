@@ -21,7 +21,7 @@ const NEWS: f64 = 0.4;
 /// Steers by the light's direction and brightness, smoothed, and stops where the light is as bright as wanted.
 ///
 /// What a reading says holds for where the robot was when it was measured; from there the odometry goes on.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct ApproachInfrared {
     strength: f64,
     speed: f64,

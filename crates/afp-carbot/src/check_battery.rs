@@ -9,7 +9,7 @@ use afp_core::{Events, Fault, Instant, Supervisor};
 /// Reports while less is left than there should be.
 ///
 /// The gauge counts the charge, so a dip of the voltage under load is no reason for a report.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct CheckBattery {
     guard: Guard,
     wanted: bool,

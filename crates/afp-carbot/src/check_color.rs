@@ -7,7 +7,7 @@ use crate::templates::check_color::{Event, Inputs, Live};
 use afp_core::{Events, Fault, Instant, Supervisor};
 
 /// Reports while the floor has the colour.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct CheckColor {
     guard: Guard,
     wanted: bool,

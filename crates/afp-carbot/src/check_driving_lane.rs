@@ -15,7 +15,7 @@ const ARRIVED: f64 = 3.0 / 180.0 * core::f64::consts::PI;
 /// An echo is taken to come from the beam's axis; `margin` covers the rest of the beam. A wall
 /// square ahead is so reported up to 4 cm early, when the sensor looks aside. The
 /// sensor looks left, ahead, right, ahead and so on, one ping at least at each.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct CheckDrivingLane {
     wanted: bool,
     clearance: f64,

@@ -7,7 +7,7 @@ use crate::templates::check_escape_button::{Event, Inputs, Live};
 use afp_core::{Events, Fault, Instant, Supervisor};
 
 /// Reports while the escape button is pressed.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct CheckEscapeButton {
     guard: Guard,
     wanted: bool,

@@ -12,7 +12,7 @@ use afp_core::{Events, Fault, Instant, Supervisor};
 /// Reports while there is light, or when there has been none for half a second.
 ///
 /// The bearing is against the heading at the time of the report, however late the reading comes.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct CheckInfrared {
     guard: Guard,
     odometry: Guard,

@@ -23,7 +23,7 @@ const SAME: f64 = 0.2;
 ///
 /// What moves exactly along a line of sight is not seen, nor what comes straight towards a robot that
 /// drives towards it.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct CheckMotion {
     wanted: bool,
     /// Radians a second.

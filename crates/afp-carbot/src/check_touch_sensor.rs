@@ -7,7 +7,7 @@ use crate::templates::check_touch_sensor::{Event, Inputs, Live};
 use afp_core::{Events, Fault, Instant, Supervisor};
 
 /// Reports while the bumper is pressed.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct CheckTouchSensor {
     guard: Guard,
     wanted: bool,

@@ -12,7 +12,7 @@ use afp_core::{Actor, Fault, Instant, Poll};
 const ACCELERATION: f64 = 0.5;
 
 /// Drives an arc of a circle until the heading has turned by an angle, by odometry.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Curve {
     turning: Turning,
     radius: f64,

@@ -16,7 +16,7 @@ const CLOSE: f64 = 0.004;
 const HOLD: f64 = 2.5;
 
 /// Drives a distance on the heading it starts with, by odometry.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Forward {
     distance: f64,
     speed: f64,

@@ -20,7 +20,7 @@ const QUARTER: f64 = core::f64::consts::FRAC_PI_2;
 ///
 /// Moves on to the next bearing when a ping has been completed there, so a slow sensor makes it
 /// slower but not worse.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct SearchWall {
     sweep: f64,
     range: f64,

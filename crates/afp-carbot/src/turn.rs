@@ -12,7 +12,7 @@ use afp_core::{Actor, Fault, Instant, Poll};
 const ACCELERATION: f64 = 3.0;
 
 /// Turns by an angle against the heading it starts with, by odometry.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Turn {
     turning: Turning,
     speed: f64,

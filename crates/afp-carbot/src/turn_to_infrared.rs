@@ -22,7 +22,7 @@ const CLOSE: f64 = 0.005;
 ///
 /// Each reading gives the rest of the way anew, so the sensor's noise does not add up. A reading that comes late is
 /// about the heading that the robot had when it was measured.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct TurnToInfrared {
     tolerance: f64,
     speed: f64,

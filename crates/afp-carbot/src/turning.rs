@@ -9,7 +9,7 @@ use afp_core::{Fault, Instant};
 const CLOSE: f64 = 0.005;
 
 /// An angle to be turned against the heading at the beginning, by odometry.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Turning {
     angle: f64,
     odometry: Guard,

@@ -41,7 +41,7 @@ const SQUARE: f64 = 25.0 / 180.0 * core::f64::consts::PI;
 const CLOSE: f64 = 0.004;
 
 /// Follows a wall on the right at a distance from the body's side.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct WallForward {
     inputs: Inputs,
     ramp: Ramp,
@@ -55,7 +55,7 @@ pub struct WallForward {
 }
 
 /// What is known once the first odometry has come in.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Course {
     last: Motion,
     /// The way driven, metres.

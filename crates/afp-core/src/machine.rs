@@ -81,6 +81,17 @@ impl<P: PlanState> Machine<P> {
         Machine { tables, level: Level { plan, slots, active: None, due: Instant::MAX } }
     }
 
+    /// A copy that goes on from here by itself; `None` where a component cannot be copied.
+    pub fn try_clone(&self) -> Option<Self> {
+        let Level { plan, slots, active, due } = &self.level;
+        let plan = plan.try_clone()?;
+        let tables = plan.tables();
+        Some(Machine {
+            tables,
+            level: Level { plan, slots: slots.clone(), active: *active, due: *due },
+        })
+    }
+
     /// The plan.
     pub fn plan(&self) -> &P {
         &self.level.plan
@@ -142,6 +153,14 @@ impl<P: PlanState> Machine<P> {
         cx: &mut Cx<'_, E, S, C>,
     ) {
         self.level.commit(author, cx);
+    }
+}
+
+impl<P: PlanState + Clone> Clone for Machine<P> {
+    fn clone(&self) -> Self {
+        let Level { plan, slots, active, due } = &self.level;
+        let level = Level { plan: plan.clone(), slots: slots.clone(), active: *active, due: *due };
+        Machine { tables: self.level.plan.tables(), level }
     }
 }
 

@@ -102,6 +102,19 @@ impl<P: PlanState> Scheduler<P> {
         }
     }
 
+    /// A copy that goes on from here by itself, on a platform of its own: a keyframe to come back to.
+    /// `None` where a component cannot be copied.
+    pub fn try_clone(&self) -> Option<Self> {
+        Some(Scheduler {
+            machine: self.machine.try_clone()?,
+            state: self.state,
+            last: self.last,
+            stop_requested: self.stop_requested,
+            writes: self.writes.clone(),
+            step: self.step.clone(),
+        })
+    }
+
     /// The plan.
     pub fn plan(&self) -> &P {
         self.machine.plan()

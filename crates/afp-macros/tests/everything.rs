@@ -37,6 +37,7 @@ mod kit {
     #[derive(Clone, Debug, PartialEq)]
     pub struct Place(pub u8);
 
+    #[derive(Clone)]
     pub struct Seek;
 
     impl Actor<templates::Seek, Script> for Seek {
@@ -69,6 +70,7 @@ mod kit {
         }
     }
 
+    #[derive(Clone)]
     pub struct Watch<V>(PhantomData<V>);
 
     impl<V: afp_core::rt::Any> Supervisor<templates::Watch<V>, Script> for Watch<V> {

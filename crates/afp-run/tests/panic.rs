@@ -19,6 +19,7 @@ mod templates {
     afp_macros::toolbox!("tests/panicking.afp");
 }
 
+#[derive(Clone)]
 struct Panics {
     since: Instant,
 }

@@ -19,6 +19,7 @@ mod templates {
     afp_macros::toolbox!("../afp-run/tests/panicking.afp");
 }
 
+#[derive(Clone)]
 struct Panics(Instant);
 
 impl<E: Navigator + ?Sized> Actor<templates::Panics, E> for Panics {

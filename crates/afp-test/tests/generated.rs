@@ -107,7 +107,7 @@ fn every_event_in_the_sub_plans_of_the_example_does_too() {
 }
 
 /// Interrupts `Forward` as `A` has it; what breaks.
-fn interrupted<A: Actor<templates::Forward, Simulation> + Send + 'static>() -> Vec<String> {
+fn interrupted<A: Actor<templates::Forward, Simulation> + Clone + Send + 'static>() -> Vec<String> {
     let sound = Made::new(&root().join("plans/wall_following.afp"), &|_| {});
     let mutant = |registry: &mut Registry<Simulation>| {
         registry.actor::<templates::Forward, A>("carbot", "Forward");
@@ -129,6 +129,7 @@ fn an_actor_that_goes_on_when_it_is_interrupted_is_found() {
 }
 
 /// Announces nothing.
+#[derive(Clone)]
 struct Announce;
 
 impl Actor<shop::Announce, Simulation> for Announce {
@@ -151,6 +152,7 @@ impl Actor<shop::Announce, Simulation> for Announce {
 }
 
 /// `Forward` that goes on when it is interrupted: as it was told last, or slowly.
+#[derive(Clone)]
 struct Mutant<const SLOWLY: bool>(Forward);
 
 impl<const SLOWLY: bool> Actor<templates::Forward, Simulation> for Mutant<SLOWLY> {

@@ -64,6 +64,7 @@ impl Environment for Bench {
     }
 }
 
+#[derive(Clone)]
 struct Add(Ticket);
 
 impl Actor<templates::Add, Bench> for Add {
@@ -91,6 +92,7 @@ impl Actor<templates::Add, Bench> for Add {
     }
 }
 
+#[derive(Clone)]
 struct CheckButton {
     seen: bool,
 }

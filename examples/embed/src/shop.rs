@@ -34,7 +34,7 @@ impl Loudspeaker for Shop {
 }
 
 /// Calls the foreign program.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Announce;
 
 impl<E: Loudspeaker + ?Sized> Actor<templates::Announce, E> for Announce {

@@ -7,7 +7,7 @@ use crate::script::Phase;
 use crate::templates::{self, glance};
 
 /// Watches until the script says that something happens.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Glance {
     name: Text,
     wanted: Events,

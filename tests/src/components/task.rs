@@ -7,7 +7,7 @@ use crate::script::Phase;
 use crate::templates::{self, task};
 
 /// Acts until the script says that it is done.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Task {
     name: Text,
 }

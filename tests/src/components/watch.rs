@@ -7,7 +7,7 @@ use crate::script::Phase;
 use crate::templates::{self, watch};
 
 /// Watches until the script says that something happens.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Watch {
     name: Text,
     value: f64,

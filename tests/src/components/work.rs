@@ -7,7 +7,7 @@ use crate::script::Phase;
 use crate::templates::{self, Side, work};
 
 /// Acts until the script says that a state is reached.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Work {
     name: Text,
     label: Text,

@@ -10,6 +10,7 @@ pub trait Lamp {
     fn light(&mut self, on: bool);
 }
 
+#[derive(Clone)]
 pub struct Blink {
     period: afp::Duration,
     changes_left: i64,

@@ -19,7 +19,7 @@ const BRAKING: f64 = 1.5;
 const LAG: f64 = 0.08;
 
 /// When to look ahead, and what is known of the lane there.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Glance {
     looking: bool,
     side: f64,

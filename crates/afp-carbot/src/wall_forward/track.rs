@@ -24,7 +24,7 @@ struct Sounding {
 }
 
 /// The line.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Track {
     /// Direction of the wall, in the robot's way of driving.
     heading: f64,

@@ -76,7 +76,7 @@ fn active(context: &Context<'_>) -> TokenStream {
     let about = doc("", "The element that is active.");
     quote! {
         #about
-        #[derive(Default)]
+        #[derive(Clone, Default)]
         enum Active {
             #[default]
             None,

@@ -31,7 +31,7 @@ pub fn structure(context: &Context<'_>) -> TokenStream {
         ["The configuration.", "What the next commit writes."].map(|t| doc("", t));
     quote! {
         #about
-        #[derive(Default)]
+        #[derive(Clone, Default)]
         pub struct #ty {
             pub(super) config: Config,
             staged: Staged,
@@ -40,13 +40,13 @@ pub fn structure(context: &Context<'_>) -> TokenStream {
         }
 
         #config
-        #[derive(Debug, Default)]
+        #[derive(Clone, Debug, Default)]
         pub struct Config {
             #(#fields)*
         }
 
         #shadow
-        #[derive(Default)]
+        #[derive(Clone, Default)]
         struct Staged {
             #(#staged)*
         }
@@ -148,6 +148,10 @@ pub fn plan_state(context: &Context<'_>) -> TokenStream {
             }
 
             #at_element
+
+            fn try_clone(&self) -> Option<Self> {
+                Some(self.clone())
+            }
 
             fn slots(&self) -> [Slot; #slots] {
                 [Slot::default(); #slots]

@@ -33,7 +33,7 @@ pub fn supervisors(context: &Context<'_>) -> TokenStream {
     quote! {
         #(#numbers)*
         #about
-        #[derive(Default)]
+        #[derive(Clone, Default)]
         struct Supervisors {
             #(#fields)*
         }

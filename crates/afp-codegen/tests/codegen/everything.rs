@@ -399,7 +399,7 @@ const SEEK: u16 = 1;
 const AREA: u16 = 2;
 
 /// The element that is active.
-#[derive(Default)]
+#[derive(Clone, Default)]
 enum Active {
     #[default]
     None,
@@ -495,7 +495,7 @@ fn area_outputs(staged: &mut Staged, outcome: kit::area::State) -> Result<(), Fa
 const SEEK_WATCH: u16 = 0;
 
 /// The supervisors, each while it watches.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Supervisors {
     // local supervisor seek.watch: Watch
     seek_watch: Option<crate::kit::Watch<i64>>,
@@ -529,7 +529,7 @@ fn seek_watch_outputs(
 // **** Plan ****
 
 /// A round of looking, with a loop inside.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Round {
     pub(super) config: Config,
     staged: Staged,
@@ -538,7 +538,7 @@ pub struct Round {
 }
 
 /// The configuration.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Config {
     /// How often.
     ///
@@ -563,7 +563,7 @@ pub struct Config {
 }
 
 /// What the next commit writes.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Staged {
     rounds: Option<i64>,
     label: Option<Text>,
@@ -724,6 +724,10 @@ impl PlanState for Round {
             SEEK => run.at::<{ SEEK }>(),
             _ => run.unknown(),
         }
+    }
+
+    fn try_clone(&self) -> Option<Self> {
+        Some(self.clone())
     }
 
     fn slots(&self) -> [Slot; 1] {
@@ -1176,7 +1180,7 @@ const AGAIN: u16 = 5;
 const SHOW: u16 = 6;
 
 /// The element that is active.
-#[derive(Default)]
+#[derive(Clone, Default)]
 enum Active {
     #[default]
     None,
@@ -1344,7 +1348,7 @@ const NEAR: u16 = 1;
 const FIRST_WATCH: u16 = 2;
 
 /// The supervisors, each while it watches.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Supervisors {
     // global supervisor wild: Watch
     wild: Option<crate::kit::Watch<super::enums::Mood>>,
@@ -1428,7 +1432,7 @@ fn first_watch_outputs(
 // **** Plan ****
 
 /// Every kind of entry and formula.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Everything {
     pub(super) config: Config,
     staged: Staged,
@@ -1437,7 +1441,7 @@ pub struct Everything {
 }
 
 /// The configuration.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Config {
     /// `var mood: Mood`
     pub mood: Entry<super::enums::Mood>,
@@ -1472,7 +1476,7 @@ pub struct Config {
 }
 
 /// What the next commit writes.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Staged {
     mood: Option<super::enums::Mood>,
     speed: Option<Speed>,
@@ -1710,6 +1714,10 @@ impl PlanState for Everything {
             AGAIN => run.at::<{ AGAIN }>(),
             _ => run.unknown(),
         }
+    }
+
+    fn try_clone(&self) -> Option<Self> {
+        Some(self.clone())
     }
 
     fn slots(&self) -> [Slot; 3] {

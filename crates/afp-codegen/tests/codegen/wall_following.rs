@@ -73,7 +73,7 @@ const FOLLOW_WALL: u16 = 4;
 const TURN_AFTER_WALL_LOST: u16 = 5;
 
 /// The element that is active.
-#[derive(Default)]
+#[derive(Clone, Default)]
 enum Active {
     #[default]
     None,
@@ -162,7 +162,7 @@ const SEARCH_FIRST_WALL_CHECK_LANE: u16 = 2;
 const FOLLOW_WALL_WALL_TOUCH: u16 = 3;
 
 /// The supervisors, each while it watches.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Supervisors {
     // global supervisor escape: CheckEscapeButton
     escape: Option<afp_carbot::CheckEscapeButton>,
@@ -195,7 +195,7 @@ fn search_first_wall_check_lane_live(
 // **** Plan ****
 
 /// Find the next wall, then drive parallel to it until the escape button is pressed.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct WallFollowing {
     pub(super) config: Config,
     staged: Staged,
@@ -204,7 +204,7 @@ pub struct WallFollowing {
 }
 
 /// The configuration.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Config {
     /// Distance to keep to the wall.
     ///
@@ -215,7 +215,7 @@ pub struct Config {
 }
 
 /// What the next commit writes.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Staged {
     walldist: Option<Length>,
     wallangle: Option<Angle>,
@@ -288,6 +288,10 @@ impl PlanState for WallFollowing {
             TURN_AFTER_WALL_LOST => run.at::<{ TURN_AFTER_WALL_LOST }>(),
             _ => run.unknown(),
         }
+    }
+
+    fn try_clone(&self) -> Option<Self> {
+        Some(self.clone())
     }
 
     fn slots(&self) -> [Slot; 3] {

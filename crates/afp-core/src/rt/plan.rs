@@ -12,11 +12,11 @@ use crate::trace::{Author, ComponentId, Ending, Record, Sink, TraceEntryId};
 use crate::value::{Value, ValueRef};
 
 /// The part of a plan that knows no platform: rows, entries, staged outputs.
-pub trait PlanState {
+pub trait PlanState: Sized {
     /// Its rows.
-    type Tables: Tables;
+    type Tables: Tables + Send;
     /// Storage for the releases of its supervisors, [`crate::rt::PlanTable::slots`] of them.
-    type Slots: AsRef<[Slot]> + AsMut<[Slot]>;
+    type Slots: AsRef<[Slot]> + AsMut<[Slot]> + Clone + Send;
 
     /// Its rows.
     fn tables(&self) -> Self::Tables;
@@ -27,6 +27,9 @@ pub trait PlanState {
     fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
         run.any(element)
     }
+
+    /// A copy that goes on from here by itself; `None` where a component cannot be copied.
+    fn try_clone(&self) -> Option<Self>;
 
     /// Fresh storage for releases.
     fn slots(&self) -> Self::Slots;
@@ -209,7 +212,7 @@ pub struct Cx<'a, E: ?Sized, S, C> {
 }
 
 /// What all levels of one step count together.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct StepState {
     /// Edges that may still be taken.
     pub edges_left: u32,

@@ -82,7 +82,8 @@ pub trait Outcome {
 
 /// Collects the components that implement a toolbox on platform `E`.
 ///
-/// Components and objects can be sent to another thread, since a loaded plan may be driven from any.
+/// Components and objects can be sent to another thread, since a loaded plan may be driven from any, and
+/// copied, so that a run can be gone back in.
 ///
 /// `toolbox!` makes a function `register` that names all of them.
 pub trait Registry<E: ?Sized> {
@@ -90,7 +91,7 @@ pub trait Registry<E: ?Sized> {
     fn actor<T, A>(&mut self, toolbox: &'static str, template: &'static str)
     where
         T: ActorTemplate + 'static,
-        A: Actor<T, E> + Send + 'static,
+        A: Actor<T, E> + Clone + Send + 'static,
         for<'a> T::Inputs<'a>: FromArgs<'a>,
         for<'a> T::Live<'a>: FromArgs<'a>,
         T::State: Outcome;
@@ -99,7 +100,7 @@ pub trait Registry<E: ?Sized> {
     fn supervisor<T, A>(&mut self, toolbox: &'static str, template: &'static str)
     where
         T: SupervisorTemplate + 'static,
-        A: Supervisor<T, E> + Send + 'static,
+        A: Supervisor<T, E> + Clone + Send + 'static,
         for<'a> T::Inputs<'a>: FromArgs<'a>,
         for<'a> T::Live<'a>: FromArgs<'a>,
         T::Event: Outcome;

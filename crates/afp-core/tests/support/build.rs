@@ -1,6 +1,6 @@
 //! Puts plans together: elements, supervisors and edges by name, turned into the scheduler's rows.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use afp_core::rt::{
     Child, ElementKind, ElementRow, Events, PlanTable, Range, SupervisorRow, Target,
@@ -45,7 +45,7 @@ pub struct ElementSpec {
     pub reads: Vec<&'static str>,
     pub live: Option<&'static str>,
     pub writes: Vec<Write>,
-    pub plan: Option<Rc<Spec>>,
+    pub plan: Option<Arc<Spec>>,
     pub ins: Vec<(&'static str, &'static str)>,
     pub outs: Vec<(&'static str, &'static str)>,
 }
@@ -228,7 +228,7 @@ impl Builder {
         self
     }
 
-    pub fn build(self) -> Rc<Spec> {
+    pub fn build(self) -> Arc<Spec> {
         let mut spec = Spec {
             name: self.name.to_owned(),
             start: 0,
@@ -253,7 +253,7 @@ impl Builder {
                 child.entries += plan.entries_below();
             }
         }
-        Rc::new(spec)
+        Arc::new(spec)
     }
 }
 

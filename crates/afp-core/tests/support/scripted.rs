@@ -1,6 +1,6 @@
 //! A plan over rows made at run time, its components answered for by the [`World`].
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use afp_core::rt::{
     Committer, Cx, ElementKind, Events, Fired, Machine, Plan, PlanState, PlanTable, Polled, Slot,
@@ -14,7 +14,7 @@ use super::world::{Phase, World};
 
 /// Rows behind a counted pointer.
 #[derive(Clone)]
-pub struct SharedTables(Rc<Spec>);
+pub struct SharedTables(Arc<Spec>);
 
 impl Tables for SharedTables {
     fn table(&self) -> PlanTable<'_> {
@@ -23,7 +23,7 @@ impl Tables for SharedTables {
 }
 
 pub struct Scripted {
-    spec: Rc<Spec>,
+    spec: Arc<Spec>,
     entries: Vec<Value>,
     staged: Vec<Option<Value>>,
     children: Vec<Option<Machine<Scripted>>>,
@@ -33,7 +33,7 @@ pub struct Scripted {
 }
 
 impl Scripted {
-    pub fn new(spec: Rc<Spec>) -> Self {
+    pub fn new(spec: Arc<Spec>) -> Self {
         let child = |element: &ElementSpec| {
             element.plan.as_ref().map(|plan| Machine::new(Scripted::new(plan.clone())))
         };
@@ -56,7 +56,7 @@ impl Scripted {
         self.entries[usize::from(self.spec.entry(entry))].clone()
     }
 
-    pub fn spec(&self) -> &Rc<Spec> {
+    pub fn spec(&self) -> &Arc<Spec> {
         &self.spec
     }
 
@@ -105,6 +105,21 @@ impl PlanState for Scripted {
 
     fn tables(&self) -> SharedTables {
         SharedTables(self.spec.clone())
+    }
+
+    fn try_clone(&self) -> Option<Self> {
+        let copy = |child: &Option<Machine<Scripted>>| match child {
+            Some(machine) => machine.try_clone().map(Some),
+            None => Some(None),
+        };
+        Some(Scripted {
+            spec: self.spec.clone(),
+            entries: self.entries.clone(),
+            staged: self.staged.clone(),
+            children: self.children.iter().map(copy).collect::<Option<_>>()?,
+            running: self.running,
+            watching: self.watching.clone(),
+        })
     }
 
     fn slots(&self) -> Vec<Slot> {

@@ -184,6 +184,7 @@ impl Rolls for Toy {
     }
 }
 
+#[derive(Clone)]
 pub struct Roll {
     since: Instant,
     fragile: bool,
@@ -211,6 +212,7 @@ impl<E: Rolls + ?Sized> Actor<templates::Roll, E> for Roll {
     }
 }
 
+#[derive(Clone)]
 pub struct CheckBumper;
 
 impl<E: Rolls + ?Sized> Supervisor<templates::CheckBumper, E> for CheckBumper {

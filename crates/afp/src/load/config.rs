@@ -24,6 +24,14 @@ pub trait ObjectCell: Send {
     fn clear(&mut self);
     /// The cell's `Option`, for the methods above.
     fn inner(&mut self) -> &mut dyn Any;
+    /// A cell of its own with a copy of the object.
+    fn copied(&self) -> Box<dyn ObjectCell>;
+}
+
+impl Clone for Box<dyn ObjectCell> {
+    fn clone(&self) -> Self {
+        (**self).copied()
+    }
 }
 
 impl<T: Clone + Send + 'static> ObjectCell for Option<T> {
@@ -52,6 +60,10 @@ impl<T: Clone + Send + 'static> ObjectCell for Option<T> {
     fn inner(&mut self) -> &mut dyn Any {
         self
     }
+
+    fn copied(&self) -> Box<dyn ObjectCell> {
+        Box::new(self.clone())
+    }
 }
 
 /// Makes the cell of an object type.
@@ -59,6 +71,7 @@ pub type NewCell = fn() -> Box<dyn ObjectCell>;
 
 /// All entries of one plan. The halves are apart, so that a component can read the one while its
 /// outputs go to the other.
+#[derive(Clone)]
 pub struct Config {
     /// What everybody reads.
     pub values: Values,
@@ -67,15 +80,18 @@ pub struct Config {
 }
 
 /// The committed values.
+#[derive(Clone)]
 pub struct Values(Vec<Slot>);
 
 /// The shadow copy: values to be committed.
+#[derive(Clone)]
 pub struct Staged {
     values: Vec<Option<Value>>,
     objects: Vec<Option<Box<dyn ObjectCell>>>,
     dirty: bool,
 }
 
+#[derive(Clone)]
 struct Slot {
     ty: Type,
     /// The type's zero while unset.

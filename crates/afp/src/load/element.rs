@@ -1,5 +1,7 @@
 //! One element of a loaded plan: its formulas, its bindings, and what runs in it.
 
+use std::sync::Arc;
+
 use afp_core::rt::{Child, Cx, Flow, Machine, Plan, PlanState, Polled, Started};
 use afp_core::trace::Sink;
 use afp_core::{Clock, Environment, Fault};
@@ -14,7 +16,7 @@ use super::slots::{ActorSlot, ComputationSlot};
 /// An element of a loaded plan.
 pub struct ElementSlot<E: ?Sized + 'static> {
     inputs: Inputs,
-    outputs: Vec<Binding>,
+    outputs: Arc<[Binding]>,
     running: Running<E>,
     /// What it reports at its next poll in place of its own.
     pub(super) injected: Injected,
@@ -43,6 +45,26 @@ pub enum Running<E: ?Sized + 'static> {
         /// Its scheduler.
         machine: Box<Machine<LoadedPlan<E>>>,
     },
+}
+
+impl<E: ?Sized + 'static> ElementSlot<E> {
+    /// A copy that goes on from here by itself; `None` where what runs cannot be copied.
+    pub fn try_clone(&self) -> Option<Self> {
+        Some(ElementSlot {
+            inputs: self.inputs.clone(),
+            outputs: self.outputs.clone(),
+            running: match &self.running {
+                Running::Actor(actor) => Running::Actor(actor.try_clone()?),
+                Running::Computation(computation) => Running::Computation(computation.try_clone()?),
+                Running::SubPlan { child, machine } => {
+                    let machine = Box::new(machine.try_clone()?);
+                    Running::SubPlan { child: *child, machine }
+                }
+            },
+            injected: self.injected.clone(),
+            idle: self.idle,
+        })
+    }
 }
 
 impl<E: Environment + ?Sized + 'static> ElementSlot<E> {

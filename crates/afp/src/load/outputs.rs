@@ -1,6 +1,7 @@
 //! Between ports and the configuration: formulas pulled in, outputs staged.
 
 use std::any::Any;
+use std::sync::Arc;
 
 use afp_core::rt::{Args, Outputs};
 use afp_core::{Fault, Text, Value};
@@ -11,8 +12,9 @@ use super::formula::{Converter, Formula, check_finite};
 use super::plan::numbered;
 
 /// The bound formulas of a component, and room for the texts that they make.
+#[derive(Clone)]
 pub struct Inputs {
-    formulas: Vec<Formula>,
+    formulas: Arc<[Formula]>,
     texts: Vec<(u16, Result<Text, Fault>)>,
 }
 
@@ -39,7 +41,7 @@ pub struct Stage<'a> {
 
 impl Binding {
     /// The bindings of a component.
-    pub fn all(outputs: &[graph::Output]) -> Vec<Binding> {
+    pub fn all(outputs: &[graph::Output]) -> Arc<[Binding]> {
         let bindings = outputs.iter().map(|output| Binding {
             port: output.port,
             entry: output.entry.0,
@@ -51,8 +53,8 @@ impl Binding {
 
 impl Inputs {
     pub fn new(formulas: &[graph::Formula]) -> Self {
-        let formulas: Vec<_> = formulas.iter().map(Formula::new).collect();
-        let makers = numbered(&formulas).filter(|(_, formula)| formula.makes_text());
+        let formulas: Arc<[_]> = formulas.iter().map(Formula::new).collect();
+        let makers = numbered(&*formulas).filter(|(_, formula)| formula.makes_text());
         let texts = makers.map(|(port, _)| (port, Ok(Text::new()))).collect();
         Inputs { formulas, texts }
     }

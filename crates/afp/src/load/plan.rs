@@ -2,6 +2,8 @@
 
 mod loader;
 
+use std::sync::Arc;
+
 use afp_core::rt::{
     Committer, Cx, Events, Fired, NamedPlan, Plan, Polled, Scale, Slot, Started, Tables, Unit,
     int_to_float,
@@ -27,9 +29,9 @@ use loader::Loader;
 pub struct LoadedPlan<E: ?Sized + 'static> {
     tables: LoadedTables,
     config: Config,
-    entries: Vec<EntryInfo>,
+    entries: Arc<[EntryInfo]>,
     /// Entries with an initial value, in the order in which they get it.
-    initial: Vec<(u16, Formula)>,
+    initial: Arc<[(u16, Formula)]>,
     elements: Vec<ElementSlot<E>>,
     supervisors: Vec<WatchSlot<E>>,
     /// The names of the outermost plan.
@@ -55,7 +57,7 @@ impl EntryInfo {
 
 struct WatchSlot<E: ?Sized + 'static> {
     inputs: Inputs,
-    outputs: Vec<Binding>,
+    outputs: Arc<[Binding]>,
     wanted: Events,
     slot: Box<dyn SupervisorSlot<E>>,
     injected: Injected,
@@ -65,6 +67,16 @@ impl<E: ?Sized + 'static> WatchSlot<E> {
     fn clear(&mut self) {
         self.slot.clear();
         self.injected = None;
+    }
+
+    fn try_clone(&self) -> Option<Self> {
+        Some(WatchSlot {
+            inputs: self.inputs.clone(),
+            outputs: self.outputs.clone(),
+            wanted: self.wanted,
+            slot: self.slot.try_clone()?,
+            injected: self.injected.clone(),
+        })
     }
 }
 
@@ -80,7 +92,7 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
 
     /// The number of an entry.
     pub fn entry_number(&self, name: &str) -> Option<u16> {
-        numbered(&self.entries).find(|(_, entry)| entry.name == name).map(|(number, _)| number)
+        numbered(&*self.entries).find(|(_, entry)| entry.name == name).map(|(number, _)| number)
     }
 
     /// The names of the entries, in their order.
@@ -176,7 +188,7 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
 
     /// Gives the `port`-th `in` entry its value for the next activation.
     pub(super) fn pass(&mut self, port: usize, value: Value, object: Option<&dyn ObjectCell>) {
-        let mut inputs = numbered(&self.entries).filter(|(_, entry)| entry.kind == EntryKind::In);
+        let mut inputs = numbered(&*self.entries).filter(|(_, entry)| entry.kind == EntryKind::In);
         if let Some((entry, _)) = inputs.nth(port) {
             self.config.values.set(entry, value, object);
         }
@@ -184,7 +196,7 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
 
     /// The `out` entries that are set, each with its position among the `out` entries.
     pub(super) fn results(&self) -> impl Iterator<Item = (u16, u16)> {
-        let outs = numbered(&self.entries).filter(|(_, entry)| entry.kind == EntryKind::Out);
+        let outs = numbered(&*self.entries).filter(|(_, entry)| entry.kind == EntryKind::Out);
         let outs = numbered(outs).map(|(port, (entry, _))| (port, entry));
         outs.filter(|(_, entry)| self.config.values.is_set(*entry))
     }
@@ -216,6 +228,22 @@ impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {
         self.tables.clone()
     }
 
+    fn try_clone(&self) -> Option<Self> {
+        Some(LoadedPlan {
+            tables: self.tables.clone(),
+            config: self.config.clone(),
+            entries: self.entries.clone(),
+            initial: self.initial.clone(),
+            elements: self.elements.iter().map(ElementSlot::try_clone).collect::<Option<_>>()?,
+            supervisors: self
+                .supervisors
+                .iter()
+                .map(WatchSlot::try_clone)
+                .collect::<Option<_>>()?,
+            names: self.names.clone(),
+        })
+    }
+
     fn slots(&self) -> Box<[Slot]> {
         vec![Slot::default(); self.tables.table().slots()].into_boxed_slice()
     }
@@ -226,16 +254,16 @@ impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {
                 && !self.config.values.is_set(*number)
                 && !self.initial.iter().any(|(with, _)| with == number)
         };
-        numbered(&self.entries).find(missing).map(|(number, _)| number)
+        numbered(&*self.entries).find(missing).map(|(number, _)| number)
     }
 
     fn initialise(&mut self) -> Result<(), Fault> {
-        for (number, entry) in numbered(&self.entries) {
+        for (number, entry) in numbered(&*self.entries) {
             if entry.kind != EntryKind::In {
                 self.config.values.clear(number);
             }
         }
-        for (entry, formula) in &self.initial {
+        for (entry, formula) in &*self.initial {
             let given = self.entries[usize::from(*entry)].kind == EntryKind::In
                 && self.config.values.is_set(*entry);
             if !given {

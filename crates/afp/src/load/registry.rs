@@ -125,7 +125,7 @@ impl<E: ?Sized + 'static> rt::Registry<E> for Registry<E> {
     fn actor<T, A>(&mut self, toolbox: &'static str, template: &'static str)
     where
         T: ActorTemplate + 'static,
-        A: Actor<T, E> + Send + 'static,
+        A: Actor<T, E> + Clone + Send + 'static,
         for<'a> T::Inputs<'a>: FromArgs<'a>,
         for<'a> T::Live<'a>: FromArgs<'a>,
         T::State: Outcome,
@@ -136,7 +136,7 @@ impl<E: ?Sized + 'static> rt::Registry<E> for Registry<E> {
     fn supervisor<T, A>(&mut self, toolbox: &'static str, template: &'static str)
     where
         T: SupervisorTemplate + 'static,
-        A: Supervisor<T, E> + Send + 'static,
+        A: Supervisor<T, E> + Clone + Send + 'static,
         for<'a> T::Inputs<'a>: FromArgs<'a>,
         for<'a> T::Live<'a>: FromArgs<'a>,
         T::Event: Outcome,

@@ -45,6 +45,10 @@ pub trait ActorSlot<E: ?Sized>: Send {
     fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault>;
     /// Drops what runs.
     fn clear(&mut self);
+    /// A copy with a copy of what runs; `None` where it cannot be copied.
+    fn try_clone(&self) -> Option<Box<dyn ActorSlot<E>>> {
+        None
+    }
 }
 
 /// The home of a supervisor, as [`ActorSlot`] is of an actor.
@@ -74,6 +78,10 @@ pub trait SupervisorSlot<E: ?Sized>: Send {
     ) -> Result<Option<u16>, Fault>;
     /// Drops what watches.
     fn clear(&mut self);
+    /// As [`ActorSlot::try_clone`].
+    fn try_clone(&self) -> Option<Box<dyn SupervisorSlot<E>>> {
+        None
+    }
 }
 
 /// A computation, which needs no home.
@@ -83,6 +91,10 @@ pub trait ComputationSlot: Send {
     /// # Errors
     /// As [`Computation::compute`].
     fn compute(&self, args: &dyn Args, see: See<'_>, to: &mut dyn Outputs) -> Result<u16, Fault>;
+    /// As [`ActorSlot::try_clone`].
+    fn try_clone(&self) -> Option<Box<dyn ComputationSlot>> {
+        None
+    }
 }
 
 /// The home of a component of type `A` and template `T`.
@@ -115,8 +127,8 @@ fn give(outcome: impl Outcome, to: &mut dyn Outputs) -> u16 {
 
 impl<T, A, E: ?Sized> ActorSlot<E> for Home<T, A>
 where
-    T: ActorTemplate,
-    A: Actor<T, E> + Send,
+    T: ActorTemplate + 'static,
+    A: Actor<T, E> + Clone + Send + 'static,
     for<'a> T::Inputs<'a>: FromArgs<'a>,
     for<'a> T::Live<'a>: FromArgs<'a>,
     T::State: Outcome,
@@ -153,12 +165,16 @@ where
     fn clear(&mut self) {
         self.running = None;
     }
+
+    fn try_clone(&self) -> Option<Box<dyn ActorSlot<E>>> {
+        Some(Box::new(Home::<T, A> { running: self.running.clone(), template: PhantomData }))
+    }
 }
 
 impl<T, A, E: ?Sized> SupervisorSlot<E> for Home<T, A>
 where
-    T: SupervisorTemplate,
-    A: Supervisor<T, E> + Send,
+    T: SupervisorTemplate + 'static,
+    A: Supervisor<T, E> + Clone + Send + 'static,
     for<'a> T::Inputs<'a>: FromArgs<'a>,
     for<'a> T::Live<'a>: FromArgs<'a>,
     T::Event: Outcome,
@@ -191,16 +207,24 @@ where
     fn clear(&mut self) {
         self.running = None;
     }
+
+    fn try_clone(&self) -> Option<Box<dyn SupervisorSlot<E>>> {
+        Some(Box::new(Home::<T, A> { running: self.running.clone(), template: PhantomData }))
+    }
 }
 
 impl<T, A> ComputationSlot for Home<T, A>
 where
-    T: ComputationTemplate,
-    A: Computation<T> + Send,
+    T: ComputationTemplate + 'static,
+    A: Computation<T> + Send + 'static,
     for<'a> T::Inputs<'a>: FromArgs<'a>,
     T::State: Outcome,
 {
     fn compute(&self, args: &dyn Args, see: See<'_>, to: &mut dyn Outputs) -> Result<u16, Fault> {
         A::compute(inputs(args, see)?).map(|state| give(state, to))
+    }
+
+    fn try_clone(&self) -> Option<Box<dyn ComputationSlot>> {
+        Some(Box::new(Home::<T, A>::new()))
     }
 }

@@ -1,5 +1,7 @@
 //! Makes the instance of a plan from its graph: every component that it may ever need.
 
+use std::sync::Arc;
+
 use afp_core::Environment;
 use afp_core::rt::{Child, Events, Machine, Tables};
 use afp_dsl::graph::{self, Component, EntryKind, Graph, PlanId};
@@ -105,7 +107,7 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
 }
 
 /// Initial values in the order in which they may refer to one another: `const`, `in`, the rest.
-fn initial(plan: &graph::Plan) -> Vec<(u16, Formula)> {
+fn initial(plan: &graph::Plan) -> Arc<[(u16, Formula)]> {
     let rank = |kind| match kind {
         EntryKind::Const => 0,
         EntryKind::In => 1,

@@ -11,6 +11,7 @@ pub mod templates {
 }
 
 /// Turns on the spot.
+#[derive(Clone)]
 pub struct Spin {
     begun: Instant,
     time: Duration,
@@ -39,6 +40,7 @@ impl<E: Navigator + ?Sized> Actor<templates::Spin, E> for Spin {
 }
 
 /// Watches the heading.
+#[derive(Clone)]
 pub struct CheckTurned {
     from: Option<Angle>,
     angle: Angle,
