@@ -154,9 +154,8 @@ pub(crate) fn check(
     let main = files.first().and_then(|file| select(&program, file, main, diags));
     note_files(files, &record);
     let (meanings, declared) = names(files, toolboxes, &record, diags);
-    let material =
-        Material { program: &program, files, members: &members, meanings: &meanings, main };
-    let outline = outline::build(&material);
+    let material = Material { program: &program, files, members, meanings: &meanings, main };
+    let outline = outline::build(material);
     let index = index::build(&outline, &meanings, &declared);
     let Some(main) = main.filter(|_| !diags.has_errors()) else {
         return Checked { outline, index, ..Checked::default() };

@@ -247,6 +247,43 @@ impl Index {
         uses.map(|(_, name)| self.names[*name as usize].span)
     }
 
+    /// What can be named at a place of a plan file, in the order of the definitions: plans and enums
+    /// of the file and of those that it uses, what its toolboxes declare, and in a plan or its
+    /// scenario the entries, elements and global supervisors.
+    pub fn visible(&self, file: u16, offset: u32) -> Vec<DefinitionId> {
+        let mut visible = Vec::new();
+        let mut files = vec![file];
+        for name in self.names_in(file) {
+            match name.meaning {
+                Meaning::File(used) => files.push(used),
+                Meaning::Refers(id) if self.definition(id).kind == DefinitionKind::Toolbox => {
+                    visible.extend(self.members(id).map(|(member, _)| member));
+                }
+                _ => {}
+            }
+        }
+        let is_outer = |kind| matches!(kind, DefinitionKind::Plan | DefinitionKind::Enum);
+        for (id, known) in files.iter().flat_map(|seen| self.definitions_in(*seen)) {
+            if known.owner.is_none() && is_outer(known.kind) {
+                visible.push(id);
+            }
+        }
+        let place = Span { file, start: offset, end: offset };
+        let around = self.definitions_in(file).filter(|(_, known)| known.span.contains(place));
+        for (id, known) in around {
+            let plan = match known.kind {
+                DefinitionKind::Plan => Some(id),
+                DefinitionKind::Scenario => known.made_from,
+                _ => None,
+            };
+            let members = plan.into_iter().flat_map(|plan| self.members(plan));
+            visible.extend(members.map(|(member, _)| member));
+        }
+        visible.sort_unstable();
+        visible.dedup();
+        visible
+    }
+
     /// What an ambiguous name may mean.
     pub fn candidates(&self, candidates: Candidates) -> &[DefinitionId] {
         self.several.get(candidates.0 as usize).map_or(&[], Vec::as_slice)

@@ -15,11 +15,9 @@ mod component;
 mod findings;
 mod identity;
 mod look_up;
-
-use std::sync::Arc;
+mod read;
 
 use crate::graph::EntryKind;
-use crate::toolbox::{Constant, Toolbox};
 use crate::types::Type;
 use afp_syntax::ast::Name;
 use afp_syntax::diagnostics::Severity;
@@ -27,6 +25,10 @@ use afp_syntax::item::Item;
 use afp_syntax::source::Span;
 
 pub(crate) use build::{Material, build};
+pub use component::{
+    Binding, Component, ComponentKind, Destination, Edge, Exit, ExitKind, Input, MadeFrom, Output,
+    Target, TemplateUse, Times, Value,
+};
 pub use identity::{Identity, Part};
 
 macro_rules! index {
@@ -196,228 +198,6 @@ pub struct Entry {
     pub init: Option<Value>,
     /// What there is to say about it.
     pub findings: Findings,
-}
-
-/// An element or a supervisor.
-#[derive(Clone, Debug)]
-pub struct Component {
-    /// Which item it is.
-    pub item: Item,
-    /// What its keyword says.
-    pub kind: ComponentKind,
-    /// Its name.
-    pub name: Option<Name>,
-    /// Its `///` lines.
-    pub doc: String,
-    /// The comment above it.
-    pub note: String,
-    /// The whole of it, without comments around it.
-    pub span: Span,
-    /// What it is made from.
-    pub template: Option<TemplateUse>,
-    /// The type that stands for `any` or `number` in its template, where that is decided.
-    pub generic: Option<Type>,
-    /// The inputs of its template in their order, then what is bound and is none of them.
-    pub inputs: Vec<Input>,
-    /// The outputs of its template in their order, then what is bound and is none of them.
-    pub outputs: Vec<Output>,
-    /// The states or events of its template in their order, then `Error` or `DeadlineMissed` where
-    /// it is connected, then edges of states and events that are none of them.
-    pub exits: Vec<Exit>,
-    /// Its local supervisors as written.
-    pub supervisors: Vec<Component>,
-    /// When it is polled; supervisors only.
-    pub times: Option<Times>,
-    /// The place of the brackets with its bindings.
-    pub args_span: Option<Span>,
-    /// The place of its closing brace.
-    pub end_span: Option<Span>,
-    /// What there is to say about nothing smaller.
-    pub findings: Findings,
-}
-
-/// What an element or supervisor is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ComponentKind {
-    /// Acts over time.
-    Actor,
-    /// Computes at once.
-    Computation,
-    /// A plan used like an actor.
-    SubPlan,
-    /// Watches.
-    Supervisor,
-}
-
-/// What a component is made from.
-#[derive(Clone, Debug)]
-pub struct TemplateUse {
-    /// The name as written, with what qualifies it.
-    pub text: String,
-    /// Its place.
-    pub span: Span,
-    /// The place of the name alone.
-    pub name_span: Span,
-    /// What it means; `None` where that is unknown, ambiguous or does not fit the keyword.
-    pub made_from: Option<MadeFrom>,
-}
-
-/// A template or a plan.
-#[derive(Clone, Debug)]
-pub enum MadeFrom {
-    /// A template of a toolbox.
-    Template {
-        /// The toolbox.
-        toolbox: Arc<Toolbox>,
-        /// Which of [`Toolbox::templates`].
-        index: usize,
-    },
-    /// A plan.
-    Plan(PlanId),
-}
-
-/// When a supervisor is polled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Times {
-    /// Poll period in nanoseconds.
-    pub every: u64,
-    /// Deadline after each release in nanoseconds.
-    pub deadline: u64,
-    /// Where `every` is written, if it is.
-    pub every_span: Option<Span>,
-    /// Where `deadline` is written, if it is.
-    pub deadline_span: Option<Span>,
-}
-
-/// An input port.
-#[derive(Clone, Debug)]
-pub struct Input {
-    /// The port's name.
-    pub name: String,
-    /// Which binding of that port it is: 1, unless it is bound several times.
-    pub nth: u16,
-    /// Its declaration; `None` where the template has no such input, or is unknown.
-    pub declared: Option<Span>,
-    /// Its type in this component.
-    pub ty: Option<Type>,
-    /// Whether something is missing while it is not bound.
-    pub required: bool,
-    /// Its value when it is not bound, where that is known.
-    pub default: Option<Constant>,
-    /// Least and greatest value.
-    pub range: Option<(f64, f64)>,
-    /// What it is bound to.
-    pub binding: Option<Binding>,
-    /// What there is to say about it.
-    pub findings: Findings,
-}
-
-/// An output port.
-#[derive(Clone, Debug)]
-pub struct Output {
-    /// The port's name.
-    pub name: String,
-    /// Which binding of that port it is: 1, unless it is bound several times.
-    pub nth: u16,
-    /// Its declaration; `None` where the template has no such output, or is unknown.
-    pub declared: Option<Span>,
-    /// Its type in this component.
-    pub ty: Option<Type>,
-    /// What it is bound to.
-    pub binding: Option<Binding>,
-    /// What there is to say about it.
-    pub findings: Findings,
-}
-
-/// `port = formula` or `port => entry`
-#[derive(Clone, Debug)]
-pub struct Binding {
-    /// The whole of it.
-    pub span: Span,
-    /// The port's name.
-    pub port_span: Span,
-    /// The formula, or the entry that takes the value.
-    pub value: Option<Value>,
-}
-
-/// A formula.
-#[derive(Clone, Debug)]
-pub struct Value {
-    /// Its text as written, in one line and without comments.
-    pub text: String,
-    /// Its place.
-    pub span: Span,
-    /// The entry, where it is one and nothing more.
-    pub entry: Option<EntryId>,
-}
-
-/// A way out of an element or supervisor.
-#[derive(Clone, Debug)]
-pub struct Exit {
-    /// The state or event.
-    pub name: String,
-    /// Which edge of that name it is: 1, unless it is connected several times.
-    pub nth: u16,
-    /// What it is.
-    pub kind: ExitKind,
-    /// Whether the component has it; unknown templates have none.
-    pub known: bool,
-    /// Its declaration; `None` for those that need none.
-    pub declared: Option<Span>,
-    /// Whether something is missing while it is not connected.
-    pub required: bool,
-    /// The edge.
-    pub edge: Option<Edge>,
-    /// What there is to say about it.
-    pub findings: Findings,
-}
-
-/// What makes control leave.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ExitKind {
-    /// A state of an element.
-    State,
-    /// `Error` of an element.
-    Error,
-    /// An event of a supervisor.
-    Event,
-    /// `DeadlineMissed` of a supervisor.
-    Missed,
-}
-
-/// `State -> target`
-#[derive(Clone, Debug)]
-pub struct Edge {
-    /// The whole of it.
-    pub span: Span,
-    /// The state or event.
-    pub name_span: Span,
-    /// Where it leads; `None` while nothing stands there.
-    pub target: Option<Target>,
-}
-
-/// Where an edge or `start` leads.
-#[derive(Clone, Debug)]
-pub struct Target {
-    /// Its name as written.
-    pub text: String,
-    /// Its place.
-    pub span: Span,
-    /// What it means.
-    pub to: Destination,
-}
-
-/// What a target means.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Destination {
-    /// An element of the plan.
-    Element(ElementId),
-    /// The plan ends.
-    Terminate,
-    /// The event is not taken.
-    Ignore,
-    /// Nothing of the plan has that name.
-    Unknown,
 }
 
 /// What the compiler has to say about an item or a part of it.

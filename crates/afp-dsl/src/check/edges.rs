@@ -79,10 +79,32 @@ impl<'a> Elements<'a> {
     }
 }
 
+/// An edge as written.
+pub(crate) struct WrittenEdge {
+    /// The state or event.
+    pub name: Name,
+    /// Where it leads.
+    pub target: Option<Name>,
+    /// The name, and everything behind it that is there.
+    pub span: Span,
+}
+
+impl WrittenEdge {
+    /// Reads edges; each has a name, or it would not have been taken for one.
+    pub fn read(edges: Vec<Edge>) -> Vec<WrittenEdge> {
+        let read = edges.into_iter().filter_map(|edge| {
+            let (name, target) = (edge.name()?, edge.target());
+            let last = target.as_ref().map(|target| target.span).or_else(|| edge.arrow());
+            Some(WrittenEdge { span: name.span.to(last.unwrap_or(name.span)), name, target })
+        });
+        read.collect()
+    }
+}
+
 /// Checks the edges of one component; `elements` are those of the plan.
 pub(crate) fn check(
     origin: &Origin<'_>,
-    edges: &[Edge],
+    edges: &[WrittenEdge],
     elements: &Elements<'_>,
     diags: &mut Diagnostics,
 ) -> Connected {
@@ -90,15 +112,12 @@ pub(crate) fn check(
     let count = signature.outcomes.len();
     let spans = EdgeSpans { outcomes: vec![None; count], extra: None };
     let mut connected = Connected { outcomes: vec![None; count], extra: None, spans };
-    let mut seen: Vec<Name> = Vec::new();
+    let mut seen: Vec<&Name> = Vec::new();
     let extra = if origin.supervisor { DEADLINE_MISSED } else { ERROR };
     for edge in edges {
-        let Some(name) = edge.name() else {
-            leads_to(edge, origin.supervisor, elements);
-            continue;
-        };
+        let name = &edge.name;
         let place = signature.outcomes.iter().position(|outcome| *outcome == name.text);
-        outcome(signature, place, &name, origin.supervisor, elements.record);
+        outcome(signature, place, name, origin.supervisor, elements.record);
         if let Some(first) = seen.iter().find(|known| known.text == name.text) {
             diags.push(
                 Diagnostic::new(
@@ -112,9 +131,9 @@ pub(crate) fn check(
             leads_to(edge, origin.supervisor, elements);
             continue;
         }
-        let to = edge.target();
-        let span = to.as_ref().map_or_else(|| edge.span(), |to| name.span.to(to.span));
-        let target = to.and_then(|to| target(&to, origin.supervisor, elements, diags));
+        let span = edge.span;
+        let to = edge.target.as_ref();
+        let target = to.and_then(|to| target(to, origin.supervisor, elements, diags));
         match place {
             Some(place) => {
                 connected.outcomes[place] = target;
@@ -125,7 +144,7 @@ pub(crate) fn check(
                 connected.spans.extra = Some(span);
             }
             None => {
-                diags.push(unknown_outcome(origin, &name, extra));
+                diags.push(unknown_outcome(origin, name, extra));
                 continue;
             }
         }
@@ -140,21 +159,20 @@ pub(crate) fn check(
 /// Finds out what the names of edges mean whose component is made from nothing that is known;
 /// `words` are the states or events that it has in any case.
 pub(crate) fn names_only(
-    edges: &[Edge],
+    edges: &[WrittenEdge],
     words: &[&str],
     elements: &Elements<'_>,
     diags: &mut Diagnostics,
 ) {
     for edge in edges {
-        if let Some(name) = edge.name() {
-            match word(&name.text).filter(|_| words.contains(&name.text.as_str())) {
-                Some(word) => elements.record.word(name.span, word),
-                None => elements.record.unknown(name.span),
-            }
+        let name = &edge.name;
+        match word(&name.text).filter(|_| words.contains(&name.text.as_str())) {
+            Some(word) => elements.record.word(name.span, word),
+            None => elements.record.unknown(name.span),
         }
-        match edge.target() {
-            Some(to) if !elements.is_word(&to) => {
-                find(&to, elements, diags);
+        match &edge.target {
+            Some(to) if !elements.is_word(to) => {
+                find(to, elements, diags);
             }
             _ => {}
         }
@@ -162,9 +180,9 @@ pub(crate) fn names_only(
 }
 
 /// Finds out where an edge leads that does not count.
-fn leads_to(edge: &Edge, supervisor: bool, elements: &Elements<'_>) {
-    if let Some(to) = edge.target() {
-        target(&to, supervisor, elements, &mut Diagnostics::default());
+fn leads_to(edge: &WrittenEdge, supervisor: bool, elements: &Elements<'_>) {
+    if let Some(to) = &edge.target {
+        target(to, supervisor, elements, &mut Diagnostics::default());
     }
 }
 
@@ -245,7 +263,7 @@ pub(crate) fn find(
     u16::try_from(place).ok().map(ElementId)
 }
 
-fn report_missing(origin: &Origin<'_>, seen: &[Name], diags: &mut Diagnostics) {
+fn report_missing(origin: &Origin<'_>, seen: &[&Name], diags: &mut Diagnostics) {
     let signature = origin.signature;
     let is_plan = matches!(signature.kind, SignatureKind::Plan(_));
     let missing = signature.outcomes.iter().map(String::as_str).filter(|outcome| {

@@ -9,7 +9,7 @@ use afp_syntax::source::Span;
 pub(crate) fn interrupting(plan: &Plan) -> Option<Span> {
     let ending = |guards: Vec<Guard>| {
         let mut edges = guards.into_iter().flat_map(|guard| guard.edges());
-        edges.find(|edge| leads_to(edge) == "terminate").map(|edge| edge.span())
+        edges.find(|edge| edge.leads_to("terminate")).map(|edge| edge.span())
     };
     if let Some(edge) = ending(plan.guards()) {
         return Some(edge);

@@ -15,9 +15,9 @@ use afp_syntax::ast;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 
-use component::Components;
+use component::{Checked, Components};
 
-pub(crate) use component::Made;
+pub(crate) use component::{Made, WrittenParts};
 
 /// A plan, as far as it could be checked.
 pub(crate) struct CheckedPlan {
@@ -49,13 +49,16 @@ pub(crate) struct Member {
     pub kind: ComponentKind,
     /// What it is made from.
     pub made: Made,
+    /// Its parts as written.
+    pub written: WrittenParts,
     /// Its own supervisors.
     pub locals: Vec<Member>,
 }
 
 impl Member {
-    fn supervisor(node: &ast::Guard, made: Made) -> Member {
-        Member { name: node.name(), kind: ComponentKind::Supervisor, made, locals: Vec::new() }
+    fn supervisor(node: &ast::Guard, made: Made, written: WrittenParts) -> Member {
+        let (name, kind) = (node.name(), ComponentKind::Supervisor);
+        Member { name, kind, made, written, locals: Vec::new() }
     }
 }
 
@@ -82,24 +85,24 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
         let checked = components.supervisor(&guard, None, diags);
         supervisors.push(checked.built);
         users.globals.extend(checked.user);
-        members.globals.push(Member::supervisor(&guard, checked.made));
+        members.globals.push(Member::supervisor(&guard, checked.made, checked.written));
     }
     let globals = supervisors.len();
     let mut drawn = Vec::new();
     for (at, node) in elements.iter().enumerate() {
-        let element = components.element(node, diags);
+        let Checked { built, user, made, written } = components.element(node, diags);
         let first = supervisors.len();
         let (mut guards, mut locals) = (Vec::new(), Vec::new());
         for guard in node.guards() {
             let checked = components.supervisor(&guard, id(at).map(ElementId), diags);
             supervisors.push(checked.built);
             guards.extend(checked.user);
-            locals.push(Member::supervisor(&guard, checked.made));
+            locals.push(Member::supervisor(&guard, checked.made, checked.written));
         }
         let (name, kind) = (names.name(at).cloned(), ComponentKind::of(node.kind()));
-        members.elements.push(Member { name, kind, made: element.made, locals });
-        users.elements.extend(element.user.map(|user| (user, guards)));
-        drawn.push(element.built.and_then(|element| own(element, first, supervisors.len())));
+        members.elements.push(Member { name, kind, made, written, locals });
+        users.elements.extend(user.map(|user| (user, guards)));
+        drawn.push(built.and_then(|element| own(element, first, supervisors.len())));
     }
     let start = start(&head.node, &names, diags);
     let written = [

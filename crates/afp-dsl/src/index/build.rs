@@ -1,7 +1,7 @@
 //! Puts together what was declared and what was recorded.
 
 use super::declare::{self, Declared};
-use super::record::{Found, Meanings};
+use super::record::{Found, Meanings, key};
 use super::{Candidates, Definition, DefinitionId, Index, Meaning, Name};
 use crate::outline::Outline;
 use afp_syntax::source::Span;
@@ -10,10 +10,11 @@ use afp_syntax::source::Span;
 pub(crate) fn build(outline: &Outline, meanings: &Meanings, declared: &[Declared]) -> Index {
     let mut all: Vec<Declared> = declared.to_vec();
     declare::of_outline(outline, meanings, &mut all);
-    all.sort_by_key(|each| each.name);
+    all.sort_by_key(|each| key(each.name));
     all.dedup_by_key(|each| each.name);
     let own: Vec<Span> = all.iter().map(|each| each.name).collect();
-    let known = |name: Span| own.binary_search(&name).ok().map(DefinitionId::new);
+    let keys: Vec<u64> = own.iter().map(|name| key(*name)).collect();
+    let known = |name: Span| keys.binary_search(&key(name)).ok().map(DefinitionId::new);
     let names = names(&own, meanings, &known);
     let mut uses: Vec<_> = (0..)
         .zip(&names)

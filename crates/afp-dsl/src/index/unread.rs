@@ -1,6 +1,6 @@
 //! Names in text that could not be read: skipped by the parser, so that nothing resolves them.
 
-use super::record::{Found, Meanings};
+use super::record::{Found, Meanings, key};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 use afp_syntax::source::Span;
@@ -18,5 +18,5 @@ pub(crate) fn unread(root: &Node, file: u16, meanings: &mut Meanings) {
         }
     }
     meanings.names.extend(missing);
-    meanings.names.sort_unstable();
+    meanings.names.sort_by_key(|(name, _)| key(*name));
 }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::component::Reader;
+use super::read::Reader;
 use super::{
     Component, Destination, ElementId, Entry, EntryId, Enum, File, Findings, Outline, Plan, PlanId,
     Scenario, Start, Target, Use, Value,
@@ -22,7 +22,7 @@ pub(crate) struct Material<'a> {
     /// The files.
     pub files: &'a [PlanFile],
     /// The components of each plan.
-    pub members: &'a [Members],
+    pub members: Vec<Members>,
     /// What names mean.
     pub meanings: &'a Meanings,
     /// The plan that was asked for.
@@ -30,19 +30,20 @@ pub(crate) struct Material<'a> {
 }
 
 /// Reads the outline of all files.
-pub(crate) fn build(material: &Material<'_>) -> Outline {
+pub(crate) fn build(mut material: Material<'_>) -> Outline {
+    let mut members = std::mem::take(&mut material.members).into_iter();
+    let material = &material;
     let heads = material.program.plans.iter();
     let names = heads.enumerate().filter_map(|(at, head)| Some((head.name.as_ref()?.span, at)));
     let names: HashMap<Span, usize> = names.collect();
     let mut outline = Outline { main: material.main.map(PlanId::new), ..Outline::default() };
     for (at, file) in material.files.iter().enumerate() {
         outline.files.push(self::file(material, at, file, &names));
-        let heads = material.program.plans.iter().zip(material.members);
-        let heads: Vec<_> = heads.filter(|(head, _)| head.file == at).collect();
-        let plans = heads.iter().map(|(head, _)| head.name.as_ref());
-        let items: Vec<_> = numbered(plans).collect();
-        for ((head, members), name) in heads.into_iter().zip(items) {
-            outline.plans.push(plan(material, head, members, name));
+        let heads = || material.program.plans.iter().filter(|head| head.file == at);
+        let items = numbered(heads().map(|head| head.name.as_ref()));
+        // Plans stand file by file.
+        for ((head, item), members) in heads().zip(items).zip(members.by_ref()) {
+            outline.plans.push(plan(material, head, members, item));
         }
     }
     outline
@@ -97,42 +98,38 @@ fn used(material: &Material<'_>, line: &ast::Use) -> Use {
     Use { span: line.span(), toolbox: line.toolbox(), alias: line.alias(), path, file }
 }
 
-fn plan(material: &Material<'_>, head: &PlanHead, members: &Members, item: String) -> Plan {
+fn plan(material: &Material<'_>, head: &PlanHead, members: Members, item: String) -> Plan {
     let node = &head.node;
     let (entries, guards, elements) = (node.entries(), node.guards(), node.elements());
-    let names: [Vec<_>; 3] = [
-        entries.iter().map(|each| (each.name(), each.span().start)).collect(),
-        guards.iter().map(|each| (each.name(), each.span().start)).collect(),
-        elements.iter().map(|each| (each.name(), each.span().start)).collect(),
+    let mut entry_names: Vec<_> = entries.iter().map(ast::Entry::name).collect();
+    let names = [
+        Vec::from_iter(entries.iter().zip(&entry_names).map(|(e, n)| (n.as_ref(), e.span().start))),
+        named(&guards, &members.globals, |guard| guard.span().start),
+        named(&elements, &members.elements, |element| element.span().start),
     ];
     let [entry_items, guard_items, element_items] = inner_items(&names);
-    let [entry_names, guard_names, element_names] =
-        names.map(|names| names.into_iter().map(|(name, _)| name).collect::<Vec<_>>());
     let places = Places {
+        text: &material.files[head.file].source.text,
         meanings: material.meanings,
-        elements: spans(&element_names),
-        entries: spans(&entry_names),
+        elements: spans(members.elements.iter().map(|member| member.name.as_ref())),
+        entries: spans(entry_names.iter().map(Option::as_ref)),
     };
     let reader = Reader { places: &places, plan: &item };
-    let entries = entries.iter().zip(entry_names).zip(entry_items);
-    let guards = guards.iter().zip(&members.globals).zip(guard_names.into_iter().zip(guard_items));
-    let elements =
-        elements.iter().zip(&members.elements).zip(element_names.into_iter().zip(element_items));
+    let entries = entries.iter().zip(entry_names.drain(..)).zip(entry_items);
+    let guards = guards.iter().zip(members.globals).zip(guard_items);
+    let elements = elements.iter().zip(members.elements).zip(element_items);
     Plan {
         entries: entries
             .map(|((node, name), own)| entry(head, &places, node, name, Item::inner(&item, own)))
             .collect(),
         starts: node.starts().iter().map(|start| places.start(start)).collect(),
         supervisors: guards
-            .map(|((node, member), (name, own))| {
-                reader.guard(node, &member.made, name, Item::inner(&item, own))
-            })
+            .map(|((node, member), own)| reader.guard(node, member, Item::inner(&item, own)))
             .collect(),
         elements: elements
-            .map(|((node, member), (name, own))| {
-                let supervisors = locals(&reader, node, &member.locals, &own);
-                let read = reader.element(node, &member.made, name, Item::inner(&item, own));
-                Component { supervisors, ..read }
+            .map(|((node, mut member), own)| {
+                let supervisors = locals(&reader, node, std::mem::take(&mut member.locals), &own);
+                Component { supervisors, ..reader.element(node, member, Item::inner(&item, own)) }
             })
             .collect(),
         name: head.name.clone(),
@@ -149,18 +146,29 @@ fn plan(material: &Material<'_>, head: &PlanHead, members: &Members, item: Strin
 fn locals(
     reader: &Reader<'_>,
     node: &ast::Element,
-    members: &[Member],
+    members: Vec<Member>,
     owner: &str,
 ) -> Vec<Component> {
+    if members.is_empty() {
+        return Vec::new();
+    }
+    let items: Vec<_> = numbered(members.iter().map(|member| member.name.as_ref())).collect();
     let guards = node.guards();
-    let names: Vec<_> = guards.iter().map(ast::Guard::name).collect();
-    let items: Vec<_> = numbered(names.iter().map(Option::as_ref)).collect();
-    let guards = guards.iter().zip(members).zip(names.into_iter().zip(items));
-    guards
-        .map(|((node, member), (name, own))| {
-            reader.guard(node, &member.made, name, Item::local(reader.plan, owner, own))
-        })
-        .collect()
+    let guards = guards.iter().zip(members).zip(items);
+    let read = guards.map(|((node, member), own)| {
+        reader.guard(node, member, Item::local(reader.plan, owner, own))
+    });
+    read.collect()
+}
+
+/// The names of members, each with where it begins.
+fn named<'m, N>(
+    nodes: &[N],
+    members: &'m [Member],
+    start: impl Fn(&N) -> u32,
+) -> Vec<(Option<&'m Name>, u32)> {
+    let members = nodes.iter().zip(members);
+    members.map(|(node, member)| (member.name.as_ref(), start(node))).collect()
 }
 
 fn entry(
@@ -174,7 +182,10 @@ fn entry(
         let place = head.entries.binary_search_by_key(&name.span, |draft| draft.name.span).ok()?;
         head.entries.get(place)
     });
-    let written_type = node.ty().map(|ty| Name { text: ty.in_one_line(), span: ty.span() });
+    let written_type = node.ty().map(|ty| {
+        let span = ty.span();
+        Name { text: places.in_one_line(span).unwrap_or_else(|| ty.in_one_line()), span }
+    });
     Entry {
         item,
         kind: match node.keyword().as_str() {
@@ -196,6 +207,8 @@ fn entry(
 
 /// What names mean inside of one plan.
 pub(super) struct Places<'a> {
+    /// The text of the file.
+    text: &'a str,
     pub meanings: &'a Meanings,
     /// The names of elements, in order, with their places.
     elements: Vec<(Span, usize)>,
@@ -227,7 +240,16 @@ impl Places<'_> {
     /// A formula.
     pub fn value(&self, formula: &ast::Formula) -> Value {
         let span = formula.span();
-        Value { text: formula.in_one_line(), span, entry: self.entry(span) }
+        let text = self.in_one_line(span).unwrap_or_else(|| formula.in_one_line());
+        Value { text, span, entry: self.entry(span) }
+    }
+
+    /// The text at a place, where it stands in one line without comments and spare blanks.
+    pub fn in_one_line(&self, span: Span) -> Option<String> {
+        let text = self.text.get(span.start as usize..span.end as usize)?;
+        let broken = text.bytes().any(|byte| matches!(byte, b'\n' | b'\r' | b'\t'));
+        let apart = |mark: &str| text.contains(mark);
+        (!broken && !apart("  ") && !apart("//") && !apart("/*")).then(|| text.to_owned())
     }
 
     fn start(&self, start: &ast::Start) -> Start {
@@ -236,9 +258,8 @@ impl Places<'_> {
     }
 }
 
-fn spans(names: &[Option<Name>]) -> Vec<(Span, usize)> {
-    let names = names.iter().enumerate();
-    names.filter_map(|(place, name)| Some((name.as_ref()?.span, place))).collect()
+fn spans<'n>(names: impl Iterator<Item = Option<&'n Name>>) -> Vec<(Span, usize)> {
+    names.enumerate().filter_map(|(place, name)| Some((name?.span, place))).collect()
 }
 
 fn find(known: &[(Span, usize)], span: Span) -> Option<usize> {
@@ -264,7 +285,7 @@ fn path_name<'n>(name: Option<&'n Name>, seen: &mut HashMap<&'n str, u32>) -> St
 
 /// The names of entries, global supervisors and elements, which share one scope, in their paths.
 /// Each comes with where it begins.
-fn inner_items(names: &[Vec<(Option<Name>, u32)>; 3]) -> [Vec<String>; 3] {
+fn inner_items(names: &[Vec<(Option<&Name>, u32)>; 3]) -> [Vec<String>; 3] {
     let mut order: Vec<(u32, usize, usize)> = Vec::new();
     for (list, names) in names.iter().enumerate() {
         order.extend(names.iter().enumerate().map(|(at, (_, start))| (*start, list, at)));
@@ -273,7 +294,7 @@ fn inner_items(names: &[Vec<(Option<Name>, u32)>; 3]) -> [Vec<String>; 3] {
     let mut seen = HashMap::new();
     let mut items = [Vec::new(), Vec::new(), Vec::new()];
     for (_, list, at) in order {
-        items[list].push(path_name(names[list][at].0.as_ref(), &mut seen));
+        items[list].push(path_name(names[list][at].0, &mut seen));
     }
     items
 }

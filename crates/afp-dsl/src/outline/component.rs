@@ -1,289 +1,232 @@
-//! Elements and supervisors: their ports and their exits.
+//! Elements and supervisors of an outline, with their ports and exits.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
-use super::build::Places;
-use super::{
-    Binding, Component, ComponentKind, Edge, Exit, ExitKind, Findings, Input, MadeFrom, Output,
-    PlanId, TemplateUse, Value,
-};
-use crate::check::signature::{Signature, SignatureKind};
-use crate::check::{Made, edges};
-use crate::index::Found;
+use super::{ElementId, EntryId, Findings, PlanId};
+use crate::toolbox::{Constant, Toolbox};
 use crate::types::Type;
-use afp_syntax::ast::{self, Bind, Name};
+use afp_syntax::ast::Name;
 use afp_syntax::item::Item;
 use afp_syntax::source::Span;
 
-/// Reads the components of one plan.
-pub(super) struct Reader<'a> {
-    pub places: &'a Places<'a>,
-    /// The plan's name in paths.
-    pub plan: &'a str,
+/// An element or a supervisor.
+#[derive(Clone, Debug)]
+pub struct Component {
+    /// Which item it is.
+    pub item: Item,
+    /// What its keyword says.
+    pub kind: ComponentKind,
+    /// Its name.
+    pub name: Option<Name>,
+    /// Its `///` lines.
+    pub doc: String,
+    /// The comment above it.
+    pub note: String,
+    /// The whole of it, without comments around it.
+    pub span: Span,
+    /// What it is made from.
+    pub template: Option<TemplateUse>,
+    /// The type that stands for `any` or `number` in its template, where that is decided.
+    pub generic: Option<Type>,
+    /// The inputs of its template in their order, then what is bound and is none of them.
+    pub inputs: Vec<Input>,
+    /// The outputs of its template in their order, then what is bound and is none of them.
+    pub outputs: Vec<Output>,
+    /// The states or events of its template in their order, then `Error` or `DeadlineMissed` where
+    /// it is connected, then edges of states and events that are none of them.
+    pub exits: Vec<Exit>,
+    /// Its local supervisors as written.
+    pub supervisors: Vec<Component>,
+    /// When it is polled; supervisors only.
+    pub times: Option<Times>,
+    /// The place of the brackets with its bindings.
+    pub args_span: Option<Span>,
+    /// The place of its closing brace.
+    pub end_span: Option<Span>,
+    /// What there is to say about nothing smaller.
+    pub findings: Findings,
 }
 
-/// The parts of a component as written.
-struct Written {
-    kind: ComponentKind,
-    name: Option<Name>,
-    template: Option<ast::Ref>,
-    binds: Vec<Bind>,
-    edges: Vec<ast::Edge>,
+/// What an element or supervisor is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ComponentKind {
+    /// Acts over time.
+    Actor,
+    /// Computes at once.
+    Computation,
+    /// A plan used like an actor.
+    SubPlan,
+    /// Watches.
+    Supervisor,
 }
 
-impl Reader<'_> {
-    /// An element without its supervisors.
-    pub fn element(
-        &self,
-        node: &ast::Element,
-        made: &Made,
-        name: Option<Name>,
-        item: Item,
-    ) -> Component {
-        let written = Written {
-            kind: ComponentKind::of(node.kind()),
-            name,
-            template: node.template(),
-            binds: node.binds(),
-            edges: node.edges(),
-        };
-        Component {
-            doc: node.doc(),
-            note: node.note(),
-            args_span: node.args_span(),
-            end_span: node.end_span(),
-            ..self.component(written, made, item, node.span())
-        }
-    }
-
-    /// A supervisor.
-    pub fn guard(
-        &self,
-        node: &ast::Guard,
-        made: &Made,
-        name: Option<Name>,
-        item: Item,
-    ) -> Component {
-        let written = Written {
-            kind: ComponentKind::Supervisor,
-            name,
-            template: node.template(),
-            binds: node.binds(),
-            edges: node.edges(),
-        };
-        Component {
-            doc: node.doc(),
-            note: node.note(),
-            args_span: node.args_span(),
-            end_span: node.end_span(),
-            ..self.component(written, made, item, node.span())
-        }
-    }
-
-    fn component(&self, written: Written, made: &Made, item: Item, span: Span) -> Component {
-        let signature = made.signature.as_ref();
-        let (inputs, outputs) = self.ports(&written.binds, made);
-        let exits = self.exits(&written, signature);
-        Component {
-            item,
-            kind: written.kind,
-            name: written.name,
-            doc: String::new(),
-            note: String::new(),
-            span,
-            template: written.template.as_ref().map(|reference| TemplateUse {
-                text: reference.in_one_line(),
-                span: reference.span(),
-                name_span: reference.name().map_or(reference.span(), |name| name.span),
-                made_from: signature.and_then(made_from),
-            }),
-            generic: made.generic.clone(),
-            inputs,
-            outputs,
-            exits,
-            supervisors: Vec::new(),
-            times: made.times,
-            args_span: None,
-            end_span: None,
-            findings: Findings::default(),
-        }
-    }
-
-    /// Inputs and outputs: those that are declared, then those that are only written.
-    fn ports(&self, binds: &[Bind], made: &Made) -> (Vec<Input>, Vec<Output>) {
-        let signature = made.signature.as_ref();
-        let (mut inputs, mut outputs) = match signature {
-            Some(signature) => declared(signature, made.generic.as_ref()),
-            None => (Vec::new(), Vec::new()),
-        };
-        for bind in binds {
-            let binding = Some(self.binding(bind));
-            match bind {
-                Bind::In { port, .. } => {
-                    let mut same = inputs.iter_mut().filter(|known| known.name == port.text);
-                    match same.find(|known| known.binding.is_none()) {
-                        Some(input) => input.binding = binding,
-                        None => {
-                            let known = inputs.iter().filter(|known| known.name == port.text);
-                            let nth = following(known.count());
-                            inputs.push(Input { nth, binding, ..input(&port.text) });
-                        }
-                    }
-                }
-                Bind::Out { port, .. } => {
-                    let mut same = outputs.iter_mut().filter(|known| known.name == port.text);
-                    match same.find(|known| known.binding.is_none()) {
-                        Some(output) => output.binding = binding,
-                        None => {
-                            let known = outputs.iter().filter(|known| known.name == port.text);
-                            let nth = following(known.count());
-                            outputs.push(Output { nth, binding, ..output(&port.text) });
-                        }
-                    }
-                }
-            }
-        }
-        (inputs, outputs)
-    }
-
-    fn binding(&self, bind: &Bind) -> Binding {
-        let places = self.places;
-        let (port, sign, value) = match bind {
-            Bind::In { port, sign, formula } => {
-                (port, sign, formula.as_ref().map(|formula| places.value(formula)))
-            }
-            Bind::Out { port, sign, entry, formula } => {
-                let entry = entry.as_ref().map(|entry| Value {
-                    text: entry.text.clone(),
-                    span: entry.span,
-                    entry: places.entry(entry.span),
-                });
-                (port, sign, entry.or_else(|| Some(places.value(formula.as_ref()?))))
-            }
-        };
-        let last = value.as_ref().map_or(*sign, |value| value.span);
-        Binding { span: port.span.to(last), port_span: port.span, value }
-    }
-
-    /// States or events: those that are declared, then the one that needs no declaration, then
-    /// those that are only written.
-    fn exits(&self, written: &Written, signature: Option<&Rc<Signature>>) -> Vec<Exit> {
-        let supervisor = written.kind == ComponentKind::Supervisor;
-        let (usual, special_kind) = match supervisor {
-            true => (ExitKind::Event, ExitKind::Missed),
-            false => (ExitKind::State, ExitKind::Error),
-        };
-        let special = if supervisor { edges::DEADLINE_MISSED } else { edges::ERROR };
-        let mut exits = Vec::new();
-        if let Some(signature) = signature {
-            for (at, name) in signature.outcomes.iter().enumerate() {
-                let declared = signature.outcome_span(at);
-                // Whether a plan can be interrupted decides whether its user must say what then.
-                let required =
-                    declared.is_some() || name != "Interrupted" || signature.interrupting.is_some();
-                exits.push(Exit { declared, required, known: true, ..exit(name, usual) });
-            }
-        }
-        let mut others = Vec::new();
-        for edge in &written.edges {
-            let Some(name) = edge.name() else { continue };
-            let kind = if name.text == special { special_kind } else { usual };
-            let meaning = self.places.meanings.get(name.span);
-            let known = !matches!(meaning, None | Some(Found::Unknown));
-            let new = self.edge(edge, name.span);
-            let first = exits.iter_mut().find(|known| known.name == name.text);
-            match first {
-                Some(first) if first.edge.is_none() => first.edge = Some(new),
-                _ => {
-                    let all = exits.iter().chain(&others);
-                    let nth = following(all.filter(|known| known.name == name.text).count());
-                    others.push(Exit { nth, known, edge: Some(new), ..exit(&name.text, kind) });
-                }
-            }
-        }
-        others.sort_by_key(|exit| exit.kind != special_kind);
-        exits.extend(others);
-        exits
-    }
-
-    fn edge(&self, edge: &ast::Edge, name_span: Span) -> Edge {
-        let target = edge.target().map(|target| self.places.target(target));
-        let last = target.as_ref().map(|target| target.span).or_else(|| edge.arrow());
-        Edge { span: name_span.to(last.unwrap_or(name_span)), name_span, target }
-    }
+/// What a component is made from.
+#[derive(Clone, Debug)]
+pub struct TemplateUse {
+    /// The name as written, with what qualifies it.
+    pub text: String,
+    /// Its place.
+    pub span: Span,
+    /// The place of the name alone.
+    pub name_span: Span,
+    /// What it means; `None` where that is unknown, ambiguous or does not fit the keyword.
+    pub made_from: Option<MadeFrom>,
 }
 
-/// The number of one more of a name of which some are there.
-fn following(known: usize) -> u16 {
-    u16::try_from(known + 1).unwrap_or(u16::MAX)
+/// A template or a plan.
+#[derive(Clone, Debug)]
+pub enum MadeFrom {
+    /// A template of a toolbox.
+    Template {
+        /// The toolbox.
+        toolbox: Arc<Toolbox>,
+        /// Which of [`Toolbox::templates`].
+        index: usize,
+    },
+    /// A plan.
+    Plan(PlanId),
 }
 
-fn made_from(signature: &Rc<Signature>) -> Option<MadeFrom> {
-    Some(match signature.kind {
-        SignatureKind::Plan(place) => MadeFrom::Plan(PlanId::new(place)),
-        SignatureKind::Template(_) => {
-            let (id, toolbox) = signature.template.as_ref()?;
-            MadeFrom::Template { toolbox: toolbox.clone(), index: usize::from(id.index) }
-        }
-    })
+/// When a supervisor is polled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Times {
+    /// Poll period in nanoseconds.
+    pub every: u64,
+    /// Deadline after each release in nanoseconds.
+    pub deadline: u64,
+    /// Where `every` is written, if it is.
+    pub every_span: Option<Span>,
+    /// Where `deadline` is written, if it is.
+    pub deadline_span: Option<Span>,
 }
 
-/// The ports of a template or plan, none of them bound.
-fn declared(signature: &Signature, generic: Option<&Type>) -> (Vec<Input>, Vec<Output>) {
-    let actual = |ty: &Option<Type>| match (ty, generic) {
-        (Some(Type::Any | Type::Number), Some(generic)) => Some(generic.clone()),
-        (ty, _) => ty.clone(),
-    };
-    let inputs = signature.inputs.iter().map(|port| Input {
-        declared: Some(port.span),
-        ty: actual(&port.ty),
-        required: !port.optional,
-        default: port.default.clone(),
-        range: port.range,
-        ..input(&port.name)
-    });
-    let outputs = signature.outputs.iter().map(|port| Output {
-        declared: Some(port.span),
-        ty: actual(&port.ty),
-        ..output(&port.name)
-    });
-    (inputs.collect(), outputs.collect())
+/// An input port.
+#[derive(Clone, Debug)]
+pub struct Input {
+    /// The port's name.
+    pub name: String,
+    /// Which binding of that port it is: 1, unless it is bound several times.
+    pub nth: u16,
+    /// Its declaration; `None` where the template has no such input, or is unknown.
+    pub declared: Option<Span>,
+    /// Its type in this component.
+    pub ty: Option<Type>,
+    /// Whether something is missing while it is not bound.
+    pub required: bool,
+    /// Its value when it is not bound, where that is known.
+    pub default: Option<Constant>,
+    /// Least and greatest value.
+    pub range: Option<(f64, f64)>,
+    /// What it is bound to.
+    pub binding: Option<Binding>,
+    /// What there is to say about it.
+    pub findings: Findings,
 }
 
-fn input(name: &str) -> Input {
-    Input {
-        name: name.to_owned(),
-        nth: 1,
-        declared: None,
-        ty: None,
-        required: false,
-        default: None,
-        range: None,
-        binding: None,
-        findings: Findings::default(),
-    }
+/// An output port.
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// The port's name.
+    pub name: String,
+    /// Which binding of that port it is: 1, unless it is bound several times.
+    pub nth: u16,
+    /// Its declaration; `None` where the template has no such output, or is unknown.
+    pub declared: Option<Span>,
+    /// Its type in this component.
+    pub ty: Option<Type>,
+    /// What it is bound to.
+    pub binding: Option<Binding>,
+    /// What there is to say about it.
+    pub findings: Findings,
 }
 
-fn output(name: &str) -> Output {
-    Output {
-        name: name.to_owned(),
-        nth: 1,
-        declared: None,
-        ty: None,
-        binding: None,
-        findings: Findings::default(),
-    }
+/// `port = formula` or `port => entry`
+#[derive(Clone, Debug)]
+pub struct Binding {
+    /// The whole of it.
+    pub span: Span,
+    /// The port's name.
+    pub port_span: Span,
+    /// The formula, or the entry that takes the value.
+    pub value: Option<Value>,
 }
 
-fn exit(name: &str, kind: ExitKind) -> Exit {
-    Exit {
-        name: name.to_owned(),
-        nth: 1,
-        kind,
-        known: false,
-        declared: None,
-        required: false,
-        edge: None,
-        findings: Findings::default(),
-    }
+/// A formula.
+#[derive(Clone, Debug)]
+pub struct Value {
+    /// Its text as written, in one line and without comments.
+    pub text: String,
+    /// Its place.
+    pub span: Span,
+    /// The entry, where it is one and nothing more.
+    pub entry: Option<EntryId>,
+}
+
+/// A way out of an element or supervisor.
+#[derive(Clone, Debug)]
+pub struct Exit {
+    /// The state or event.
+    pub name: String,
+    /// Which edge of that name it is: 1, unless it is connected several times.
+    pub nth: u16,
+    /// What it is.
+    pub kind: ExitKind,
+    /// Whether the component has it; unknown templates have none.
+    pub known: bool,
+    /// Its declaration; `None` for those that need none.
+    pub declared: Option<Span>,
+    /// Whether something is missing while it is not connected.
+    pub required: bool,
+    /// The edge.
+    pub edge: Option<Edge>,
+    /// What there is to say about it.
+    pub findings: Findings,
+}
+
+/// What makes control leave.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ExitKind {
+    /// A state of an element.
+    State,
+    /// `Error` of an element.
+    Error,
+    /// An event of a supervisor.
+    Event,
+    /// `DeadlineMissed` of a supervisor.
+    Missed,
+}
+
+/// `State -> target`
+#[derive(Clone, Debug)]
+pub struct Edge {
+    /// The whole of it.
+    pub span: Span,
+    /// The state or event.
+    pub name_span: Span,
+    /// Where it leads; `None` while nothing stands there.
+    pub target: Option<Target>,
+}
+
+/// Where an edge or `start` leads.
+#[derive(Clone, Debug)]
+pub struct Target {
+    /// Its name as written.
+    pub text: String,
+    /// Its place.
+    pub span: Span,
+    /// What it means.
+    pub to: Destination,
+}
+
+/// What a target means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Destination {
+    /// An element of the plan.
+    Element(ElementId),
+    /// The plan ends.
+    Terminate,
+    /// The event is not taken.
+    Ignore,
+    /// Nothing of the plan has that name.
+    Unknown,
 }

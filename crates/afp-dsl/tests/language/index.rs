@@ -225,6 +225,20 @@ fn an_editor_asks_the_index() {
     let members: Vec<_> =
         index.members(plan).map(|(_, each)| compiled.sources.text(each.name)).collect();
     assert_eq!(members, ["side", "gap", "go", "turn"]);
+    // Completion: inside of the plan also what it is made of.
+    let names = |offset: u32| {
+        let all = index.visible(compiled.plan_files.start as u16, offset).into_iter();
+        let all = all.map(|id| compiled.sources.text(index.definition(id).name));
+        all.collect::<Vec<_>>()
+    };
+    let (_, inside) = find(&compiled, "ForwardSuccessful", 1);
+    assert!(
+        ["Side", "Patrol", "side", "gap", "go", "turn", "Turn"]
+            .iter()
+            .all(|n| names(inside).contains(n))
+    );
+    assert!(!names(0).contains(&"gap") && names(0).contains(&"Patrol"));
+    assert!(!names(inside).contains(&"Count"), "the toolbox 'std' is not used");
     // Nothing stands between the names.
     let (file, offset) = find(&compiled, "{ left", 1);
     assert_eq!(index.at(file, offset), None);

@@ -29,6 +29,32 @@ fn every_case_has_the_outline_it_should() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// Everything that is shipped, cut off behind each of its tokens.
+#[test]
+fn every_prefix_of_every_shipped_plan_keeps_what_parses() {
+    let toolboxes = support::toolboxes();
+    let mut cuts = 0;
+    for folder in ["../../plans", "../../plans/tests", "../../examples/embed/plans"] {
+        for path in support::files(folder) {
+            let text = support::read(&path);
+            let folder = path.parent().unwrap().to_path_buf();
+            let used = |name: &str| {
+                std::fs::read_to_string(folder.join(name)).map_err(|error| error.to_string())
+            };
+            let root = afp_syntax::parse(&text, 0, &mut Default::default()).root();
+            let tokens = root.descendants_with_tokens().filter_map(|each| each.into_token());
+            for token in tokens.filter(|token| !token.kind().is_trivia()) {
+                let prefix = &text[..usize::from(token.text_range().end())];
+                let source = afp_syntax::source::Source::new(support::CASE, prefix);
+                let compiled = afp_dsl::compile(&source, &toolboxes, &used);
+                examine(prefix, &compiled);
+                cuts += 1;
+            }
+        }
+    }
+    assert!(cuts > 1000, "only {cuts} prefixes");
+}
+
 /// An outline as text: what is wrong stands behind `!`.
 fn dump(compiled: &Compiled) -> String {
     let outline = &compiled.outline;

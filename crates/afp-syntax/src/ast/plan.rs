@@ -1,9 +1,10 @@
 //! Plans in the typed view.
 
 use super::{Formula, Name, Ref, Timing, Type, child, children, doc, keyword, note, token, views};
-use crate::kind::Kind;
+use crate::kind::{Afp, Kind};
 use crate::source::Span;
 use crate::{Node, node_span};
+use rowan::Language;
 
 views! {
     /// A plan.
@@ -249,6 +250,15 @@ impl Edge {
     /// The place of its arrow.
     pub fn arrow(&self) -> Option<Span> {
         token(&self.node, Kind::Arrow, self.file).map(|token| token.span)
+    }
+
+    /// Whether it leads to a word such as `terminate`.
+    pub fn leads_to(&self, word: &str) -> bool {
+        let green = self.node.green();
+        let targets = green.children().filter_map(|each| each.into_node());
+        let targets = targets.filter(|node| Afp::kind_from_raw(node.kind()) == Kind::Target);
+        let mut tokens = targets.flat_map(|node| node.children()).filter_map(|t| t.into_token());
+        tokens.any(|token| token.text() == word)
     }
 
     /// Where it leads.

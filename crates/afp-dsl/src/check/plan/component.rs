@@ -5,7 +5,7 @@ use std::rc::Rc;
 use crate::check::Context;
 use crate::check::bindings::{self, Site};
 use crate::check::callee::Wanted;
-use crate::check::edges::{self, Connected, Elements, Origin};
+use crate::check::edges::{self, Connected, Elements, Origin, WrittenEdge};
 use crate::check::formula::Scope;
 use crate::check::resources::User;
 use crate::check::signature::{Signature, SignatureKind};
@@ -26,6 +26,19 @@ pub(super) struct Checked<T> {
     pub user: Option<User>,
     /// What it is made from.
     pub made: Made,
+    /// Its parts as written.
+    pub written: WrittenParts,
+}
+
+/// The parts of a component as written.
+#[derive(Default)]
+pub(crate) struct WrittenParts {
+    /// What it is made from.
+    pub template: Option<ast::Ref>,
+    /// Its bindings.
+    pub binds: Vec<ast::Bind>,
+    /// Its edges.
+    pub edges: Vec<WrittenEdge>,
 }
 
 /// What a component is made from, as far as that is known.
@@ -61,33 +74,39 @@ impl Components<'_> {
             ElementKind::SubPlan => "subplan",
         };
         let wanted = Wanted { keyword, span: Some(node.keyword_span()) };
-        let reference = node.template();
+        let written = WrittenParts {
+            template: node.template(),
+            binds: node.binds(),
+            edges: WrittenEdge::read(node.edges()),
+        };
+        let reference = written.template.as_ref();
         let signature =
-            reference.as_ref().and_then(|reference| self.context.callee(reference, &wanted, diags));
+            reference.and_then(|reference| self.context.callee(reference, &wanted, diags));
         let (Some(signature), Some(reference)) = (signature, reference) else {
             let words: &[&str] = match node.kind() {
                 ElementKind::SubPlan => &["OK", "Interrupted", edges::ERROR],
                 ElementKind::Actor | ElementKind::Computation => &[edges::ERROR],
             };
-            edges::names_only(&node.edges(), words, self.elements, diags);
-            bindings::names_only(self.scope, &node.binds(), diags);
-            return Checked { built: None, user: None, made: Made::default() };
+            edges::names_only(&written.edges, words, self.elements, diags);
+            bindings::names_only(self.scope, &written.binds, diags);
+            return Checked { built: None, user: None, made: Made::default(), written };
         };
         let name = node.name();
         let broken = diags.syntax_errors_within(node.span()).next().is_some();
         let site = Site { reference: reference.span(), broken };
-        let bound = bindings::check(self.scope, &signature, &node.binds(), &site, diags);
+        let bound = bindings::check(self.scope, &signature, &written.binds, &site, diags);
         let span = name.as_ref().map_or_else(|| node.span(), |name| name.span);
         let origin =
             Origin { signature: &signature, name: name.as_ref(), span, broken, supervisor: false };
-        let connected = edges::check(&origin, &node.edges(), self.elements, diags);
+        let connected = edges::check(&origin, &written.edges, self.elements, diags);
         let user = name.as_ref().map(|name| user(&name.text, span, &signature));
         let made = Made {
             signature: Some(signature.clone()),
             generic: bound.generic.clone(),
             times: None,
         };
-        Checked { built: self.build_element(node, &signature, name, bound, connected), user, made }
+        let built = self.build_element(node, &signature, name, bound, connected);
+        Checked { built, user, made, written }
     }
 
     fn build_element(
@@ -121,35 +140,41 @@ impl Components<'_> {
         owner: Option<ElementId>,
         diags: &mut Diagnostics,
     ) -> Checked<Supervisor> {
-        let written = times(node, diags);
+        let times = times(node, diags);
         let wanted = Wanted { keyword: "supervise", span: None };
-        let reference = node.template();
+        let written = WrittenParts {
+            template: node.template(),
+            binds: node.binds(),
+            edges: WrittenEdge::read(node.edges()),
+        };
+        let reference = written.template.as_ref();
         let signature =
-            reference.as_ref().and_then(|reference| self.context.callee(reference, &wanted, diags));
+            reference.and_then(|reference| self.context.callee(reference, &wanted, diags));
         let (Some(signature), Some(reference)) = (signature, reference) else {
             let words = &[edges::DEADLINE_MISSED];
-            edges::names_only(&node.edges(), words, self.elements, diags);
-            bindings::names_only(self.scope, &node.binds(), diags);
-            let times = Some(effective(None, &written, diags));
-            return Checked { built: None, user: None, made: Made { times, ..Made::default() } };
+            edges::names_only(&written.edges, words, self.elements, diags);
+            bindings::names_only(self.scope, &written.binds, diags);
+            let times = Some(effective(None, &times, diags));
+            let made = Made { times, ..Made::default() };
+            return Checked { built: None, user: None, made, written };
         };
         let name = node.name();
         let broken = diags.syntax_errors_within(node.span()).next().is_some();
         let site = Site { reference: reference.span(), broken };
-        let bound = bindings::check(self.scope, &signature, &node.binds(), &site, diags);
+        let bound = bindings::check(self.scope, &signature, &written.binds, &site, diags);
         let span = name.as_ref().map_or_else(|| node.span(), |name| name.span);
         let origin =
             Origin { signature: &signature, name: name.as_ref(), span, broken, supervisor: true };
-        let connected = edges::check(&origin, &node.edges(), self.elements, diags);
+        let connected = edges::check(&origin, &written.edges, self.elements, diags);
         let user = name.as_ref().map(|name| user(&name.text, span, &signature));
-        let times = effective(signature.template(), &written, diags);
+        let times = effective(signature.template(), &times, diags);
         let made = Made {
             signature: Some(signature.clone()),
             generic: bound.generic.clone(),
             times: Some(times),
         };
         let built = self.build_supervisor(node, owner, &signature, bound, connected, times);
-        Checked { built, user, made }
+        Checked { built, user, made, written }
     }
 
     fn build_supervisor(

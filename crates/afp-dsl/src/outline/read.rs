@@ -1,0 +1,259 @@
+//! Elements and supervisors: their ports and their exits.
+
+use std::rc::Rc;
+
+use super::build::Places;
+use super::{
+    Binding, Component, ComponentKind, Edge, Exit, ExitKind, Findings, Input, MadeFrom, Output,
+    PlanId, TemplateUse, Value,
+};
+use crate::check::edges::{self, WrittenEdge};
+use crate::check::signature::{Signature, SignatureKind};
+use crate::check::{Made, Member};
+use crate::index::Found;
+use crate::types::Type;
+use afp_syntax::ast::{self, Bind};
+use afp_syntax::item::Item;
+use afp_syntax::source::Span;
+
+/// Reads the components of one plan.
+pub(super) struct Reader<'a> {
+    pub places: &'a Places<'a>,
+    /// The plan's name in paths.
+    pub plan: &'a str,
+}
+
+impl Reader<'_> {
+    /// An element without its supervisors.
+    pub fn element(&self, node: &ast::Element, member: Member, item: Item) -> Component {
+        Component {
+            doc: node.doc(),
+            note: node.note(),
+            args_span: node.args_span(),
+            end_span: node.end_span(),
+            ..self.component(member, item, node.span())
+        }
+    }
+
+    /// A supervisor.
+    pub fn guard(&self, node: &ast::Guard, member: Member, item: Item) -> Component {
+        Component {
+            doc: node.doc(),
+            note: node.note(),
+            args_span: node.args_span(),
+            end_span: node.end_span(),
+            ..self.component(member, item, node.span())
+        }
+    }
+
+    fn component(&self, member: Member, item: Item, span: Span) -> Component {
+        let Member { name, kind, made, written, .. } = member;
+        let signature = made.signature.as_ref();
+        let (inputs, outputs) = self.ports(&written.binds, &made);
+        let exits = self.exits(kind, written.edges, signature);
+        Component {
+            item,
+            kind,
+            name,
+            doc: String::new(),
+            note: String::new(),
+            span,
+            template: written.template.as_ref().map(|reference| {
+                let (span, made_from) = (reference.span(), signature.and_then(made_from));
+                let text = self.places.in_one_line(span);
+                TemplateUse {
+                    text: text.unwrap_or_else(|| reference.in_one_line()),
+                    span,
+                    name_span: reference.name().map_or(span, |name| name.span),
+                    made_from,
+                }
+            }),
+            generic: made.generic,
+            inputs,
+            outputs,
+            exits,
+            supervisors: Vec::new(),
+            times: made.times,
+            args_span: None,
+            end_span: None,
+            findings: Findings::default(),
+        }
+    }
+
+    /// Inputs and outputs: those that are declared, then those that are only written.
+    fn ports(&self, binds: &[Bind], made: &Made) -> (Vec<Input>, Vec<Output>) {
+        let signature = made.signature.as_ref();
+        let (mut inputs, mut outputs) = match signature {
+            Some(signature) => declared(signature, made.generic.as_ref()),
+            None => (Vec::new(), Vec::new()),
+        };
+        for bind in binds {
+            let binding = Some(self.binding(bind));
+            match bind {
+                Bind::In { port, .. } => {
+                    let mut same = inputs.iter_mut().filter(|known| known.name == port.text);
+                    match same.find(|known| known.binding.is_none()) {
+                        Some(input) => input.binding = binding,
+                        None => {
+                            let known = inputs.iter().filter(|known| known.name == port.text);
+                            let nth = following(known.count());
+                            inputs.push(Input { nth, binding, ..input(&port.text) });
+                        }
+                    }
+                }
+                Bind::Out { port, .. } => {
+                    let mut same = outputs.iter_mut().filter(|known| known.name == port.text);
+                    match same.find(|known| known.binding.is_none()) {
+                        Some(output) => output.binding = binding,
+                        None => {
+                            let known = outputs.iter().filter(|known| known.name == port.text);
+                            let nth = following(known.count());
+                            outputs.push(Output { nth, binding, ..output(&port.text) });
+                        }
+                    }
+                }
+            }
+        }
+        (inputs, outputs)
+    }
+
+    fn binding(&self, bind: &Bind) -> Binding {
+        let places = self.places;
+        let (port, sign, value) = match bind {
+            Bind::In { port, sign, formula } => {
+                (port, sign, formula.as_ref().map(|formula| places.value(formula)))
+            }
+            Bind::Out { port, sign, entry, formula } => {
+                let entry = entry.as_ref().map(|entry| Value {
+                    text: entry.text.clone(),
+                    span: entry.span,
+                    entry: places.entry(entry.span),
+                });
+                (port, sign, entry.or_else(|| Some(places.value(formula.as_ref()?))))
+            }
+        };
+        let last = value.as_ref().map_or(*sign, |value| value.span);
+        Binding { span: port.span.to(last), port_span: port.span, value }
+    }
+
+    /// States or events: those that are declared, then the one that needs no declaration, then
+    /// those that are only written.
+    fn exits(
+        &self,
+        kind: ComponentKind,
+        edges: Vec<WrittenEdge>,
+        signature: Option<&Rc<Signature>>,
+    ) -> Vec<Exit> {
+        let supervisor = kind == ComponentKind::Supervisor;
+        let (usual, special_kind) = match supervisor {
+            true => (ExitKind::Event, ExitKind::Missed),
+            false => (ExitKind::State, ExitKind::Error),
+        };
+        let special = if supervisor { edges::DEADLINE_MISSED } else { edges::ERROR };
+        let mut exits = Vec::new();
+        if let Some(signature) = signature {
+            for (at, name) in signature.outcomes.iter().enumerate() {
+                let declared = signature.outcome_span(at);
+                // Whether a plan can be interrupted decides whether its user must say what then.
+                let required =
+                    declared.is_some() || name != "Interrupted" || signature.interrupting.is_some();
+                exits.push(Exit { declared, required, known: true, ..exit(name, usual) });
+            }
+        }
+        let mut others = Vec::new();
+        for WrittenEdge { name, target, span } in edges {
+            let kind = if name.text == special { special_kind } else { usual };
+            let meaning = self.places.meanings.get(name.span);
+            let known = !matches!(meaning, None | Some(Found::Unknown));
+            let target = target.map(|target| self.places.target(target));
+            let new = Edge { span, name_span: name.span, target };
+            let first = exits.iter_mut().find(|known| known.name == name.text);
+            match first {
+                Some(first) if first.edge.is_none() => first.edge = Some(new),
+                _ => {
+                    let all = exits.iter().chain(&others);
+                    let nth = following(all.filter(|known| known.name == name.text).count());
+                    others.push(Exit { nth, known, edge: Some(new), ..exit(&name.text, kind) });
+                }
+            }
+        }
+        others.sort_by_key(|exit| exit.kind != special_kind);
+        exits.extend(others);
+        exits
+    }
+}
+
+/// The number of one more of a name of which some are there.
+fn following(known: usize) -> u16 {
+    u16::try_from(known + 1).unwrap_or(u16::MAX)
+}
+
+fn made_from(signature: &Rc<Signature>) -> Option<MadeFrom> {
+    Some(match signature.kind {
+        SignatureKind::Plan(place) => MadeFrom::Plan(PlanId::new(place)),
+        SignatureKind::Template(_) => {
+            let (id, toolbox) = signature.template.as_ref()?;
+            MadeFrom::Template { toolbox: toolbox.clone(), index: usize::from(id.index) }
+        }
+    })
+}
+
+/// The ports of a template or plan, none of them bound.
+fn declared(signature: &Signature, generic: Option<&Type>) -> (Vec<Input>, Vec<Output>) {
+    let actual = |ty: &Option<Type>| match (ty, generic) {
+        (Some(Type::Any | Type::Number), Some(generic)) => Some(generic.clone()),
+        (ty, _) => ty.clone(),
+    };
+    let inputs = signature.inputs.iter().map(|port| Input {
+        declared: Some(port.span),
+        ty: actual(&port.ty),
+        required: !port.optional,
+        default: port.default.clone(),
+        range: port.range,
+        ..input(&port.name)
+    });
+    let outputs = signature.outputs.iter().map(|port| Output {
+        declared: Some(port.span),
+        ty: actual(&port.ty),
+        ..output(&port.name)
+    });
+    (inputs.collect(), outputs.collect())
+}
+
+fn input(name: &str) -> Input {
+    Input {
+        name: name.to_owned(),
+        nth: 1,
+        declared: None,
+        ty: None,
+        required: false,
+        default: None,
+        range: None,
+        binding: None,
+        findings: Findings::default(),
+    }
+}
+
+fn output(name: &str) -> Output {
+    Output {
+        name: name.to_owned(),
+        nth: 1,
+        declared: None,
+        ty: None,
+        binding: None,
+        findings: Findings::default(),
+    }
+}
+
+fn exit(name: &str, kind: ExitKind) -> Exit {
+    Exit {
+        name: name.to_owned(),
+        nth: 1,
+        kind,
+        known: false,
+        declared: None,
+        required: false,
+        edge: None,
+        findings: Findings::default(),
+    }
+}
