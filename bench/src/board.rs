@@ -2,7 +2,9 @@
 
 mod components;
 
-use afp_core::{Environment, Instant};
+use afp_core::devices::{ControlId, DeviceRow, Devices, FaultId};
+use afp_core::{Environment, Instant, Platform, StillClock};
+use afp_session::{Robot, Samples};
 
 pub use components::{CheckBattery, CheckButton, CheckRange, CheckTouch, Drive, Hop};
 
@@ -26,12 +28,22 @@ pub struct Board {
     pub odometer: f64,
     /// Speed commanded in metres a second.
     pub command: f64,
+    /// Up to when time has passed, where a session drives it.
+    pub now: Instant,
 }
 
 impl Board {
     /// A board on which nothing happens.
     pub fn quiet() -> Self {
-        Board { buttons: 0, touched: false, range: 2.0, battery: 12.0, odometer: 1.0, command: 0.0 }
+        Board {
+            buttons: 0,
+            touched: false,
+            range: 2.0,
+            battery: 12.0,
+            odometer: 1.0,
+            command: 0.0,
+            now: Instant::ZERO,
+        }
     }
 }
 
@@ -43,6 +55,47 @@ impl Environment for Board {
     fn emergency_stop(&mut self) {
         self.command = 0.0;
     }
+}
+
+impl Platform for Board {
+    type Clock = StillClock;
+
+    fn clock(&self) -> StillClock {
+        StillClock
+    }
+
+    #[inline]
+    fn now(&self) -> Instant {
+        self.now
+    }
+
+    #[inline]
+    fn advance(&mut self, to: Instant) {
+        self.now = to;
+    }
+}
+
+/// A board without anything that could be pressed or broken.
+pub struct NoDevices;
+
+impl Devices for NoDevices {
+    const TABLE: &'static [DeviceRow] = &[];
+    type Control = ();
+    type Fault = ();
+
+    fn control(_: ControlId) -> Option<()> {
+        None
+    }
+
+    fn fault(_: FaultId, _: Option<f64>) -> Option<()> {
+        None
+    }
+}
+
+impl Robot for Board {
+    type Devices = NoDevices;
+
+    fn sample(&self, _: &mut Samples<'_, '_>) {}
 }
 
 /// The speed for the way that is left, in metres a second.

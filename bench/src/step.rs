@@ -5,17 +5,21 @@ mod hand;
 
 use afp_core::StillClock;
 use afp_core::trace::NoTrace;
+use afp_session::Kept;
 
 use crate::clocks::{Monotonic, Ring};
 use crate::measure::Race;
 use crate::plans::{loaded_step, step::Step};
 use crate::report::{Report, Row};
-use crate::steps::steps;
+use crate::steps::{any_session_steps, session_steps, steps};
 
 /// Most that a generated plan may take of a hand-written loop, and of a behaviour tree.
 const GENERATED: (f64, f64) = (6.0, 0.5);
 /// Most that an interpreted plan may take of a behaviour tree.
 const INTERPRETED: f64 = 3.0;
+
+/// Most that a session may take beyond the bare scheduler, nanoseconds a step: without a trace, with records kept.
+const SESSION: [(&str, f64); 2] = [("session", 3.0), ("session, records kept", 6.0)];
 
 /// Races all of them.
 pub fn run(rounds: u32, report: &mut Report) {
@@ -29,6 +33,9 @@ pub fn run(rounds: u32, report: &mut Report) {
     race.add("interpreted", steps(loaded_step(), NoTrace, StillClock));
     race.add("interpreted, ring trace", steps(loaded_step(), Ring::new(), StillClock));
     race.add("interpreted, monotonic clock", steps(loaded_step(), NoTrace, Monotonic::new()));
+    race.add("session", session_steps(Step::new(), NoTrace));
+    race.add("session, records kept", session_steps(Step::new(), Kept::default()));
+    race.add("session, any", any_session_steps(Step::new()));
     let times = race.run(rounds);
     let [hand, bonsai, ..] = &times[..] else { return };
     report.add(Row::new("step/hand-written", hand.best, "ns"));
@@ -40,6 +47,13 @@ pub fn run(rounds: u32, report: &mut Report) {
         }
         if case.name == "interpreted" {
             report.race("step", case, bonsai, Some(INTERPRETED));
+        }
+    }
+    let best = |name: &str| times.iter().find(|case| case.name == name).map(|case| case.best);
+    for (name, most) in SESSION {
+        if let (Some(session), Some(bare)) = (best(name), best("generated")) {
+            let row = Row::new(format!("step/{name}, beyond generated"), session - bare, "ns");
+            report.add(row.limit(format!("<= {most} ns"), session - bare <= most));
         }
     }
 }

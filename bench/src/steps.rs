@@ -2,9 +2,10 @@
 
 use std::hint::black_box;
 
-use afp_core::rt::Plan;
+use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::Sink;
 use afp_core::{Clock, Instant, Scheduler};
+use afp_session::{AnySession, Keep, Open, Session};
 
 use crate::board::Board;
 
@@ -33,5 +34,41 @@ where
         }
         last = at;
         assert!(plan.ending().is_none(), "nothing happens that could end it");
+    }
+}
+
+/// The same driven by a session that nobody observes.
+pub fn session_steps<P, S>(plan: P, sink: S) -> impl FnMut(u64)
+where
+    P: NamedPlan + Plan<Board>,
+    S: Keep,
+{
+    let mut session = Session::with_sink(plan, Board::quiet(), sink);
+    let mut last = 0;
+    run(&mut session, last);
+    move |count| {
+        last += count * PERIOD;
+        run(black_box(&mut session), black_box(last));
+    }
+}
+
+fn run<P: NamedPlan + Plan<Board>, S: Keep>(session: &mut Session<P, Board, S>, until: u64) {
+    let went = session.run(Instant::from_nanos(until), &mut Open, &mut []);
+    assert!(went.is_ok() && session.ending().is_none(), "nothing happens that could end it");
+}
+
+/// The same where nobody knows whose session it is.
+pub fn any_session_steps<P>(plan: P) -> impl FnMut(u64)
+where
+    P: NamedPlan + Plan<Board>,
+    Session<P, Board>: AnySession + 'static,
+{
+    let mut session: Box<dyn AnySession> = Box::new(Session::new(plan, Board::quiet()));
+    let mut last = 0;
+    move |count| {
+        last += count * PERIOD;
+        let until = Instant::from_nanos(black_box(last));
+        let went = black_box(&mut session).run(until, &mut Open, &mut []);
+        assert!(went.is_ok() && session.ending().is_none(), "nothing happens that could end it");
     }
 }

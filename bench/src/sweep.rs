@@ -59,7 +59,8 @@ pub fn run(rounds: u32, report: &mut Report) {
         until: Duration::from_secs(SECONDS),
     };
     let file = Path::new("plans/wall_following.afp");
-    let setting = Setting::new(&mut sweep, graph, file, &|_| {});
+    let robot = afp_sim::carbot(|_| {});
+    let setting = Setting::new(&mut sweep, graph, file, &robot);
     let setting = setting.unwrap_or_else(|why| panic!("{why}"));
     let stop = AtomicBool::new(false);
     let maker = |row: &Row<'_>| setting.make(row);

@@ -87,6 +87,7 @@ fn dependencies(graph: &Graph, options: &CrateOptions) -> Vec<Dependency> {
     let mut all = vec![Dependency::ours("afp", origin).without_defaults()];
     if !options.lib {
         all.push(Dependency::ours("afp-run", origin).without_defaults());
+        all.push(Dependency::ours("afp-sim", origin).without_defaults());
     }
     for toolbox in &graph.toolboxes {
         let name = toolbox.rust_path.split("::").next().unwrap_or("");
@@ -129,11 +130,12 @@ fn program(graph: &Graph, generated: &Generated, options: &CrateOptions) -> Stri
         use std::process::ExitCode;
 
         use afp_run::Program;
+        use afp_sim::Simulation;
         use #krate::#ty;
 
         fn main() -> ExitCode {
             let program = Program { name: #name, file: #path, texts: #krate::TEXTS };
-            afp_run::main(program, #ty::new)
+            afp_run::main::<Simulation, _>(program, #ty::new)
         }
     })
 }

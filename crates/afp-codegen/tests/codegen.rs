@@ -95,7 +95,11 @@ fn a_crate_names_what_it_needs_and_carries_its_text() {
     );
     assert!(!manifest.contains("afp-dsl"));
     assert_eq!(get("wall_following.afp"), Some(&text));
-    assert!(get("src/main.rs").unwrap().contains("afp_run::main(program, WallFollowing::new)"));
+    assert!(
+        get("src/main.rs")
+            .unwrap()
+            .contains("afp_run::main::<Simulation, _>(program, WallFollowing::new)")
+    );
     options.texts.push(("lib/avoid.afp".to_owned(), "plan Avoid {}".to_owned()));
     let files = afp_codegen::crate_files(&graph, &options);
     let get = |path: &str| files.iter().find(|file| file.path == path).map(|file| &*file.text);

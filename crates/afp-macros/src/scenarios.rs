@@ -89,10 +89,11 @@ fn of_file(path: &str, register: &[RustPath]) -> Result<Option<TokenStream>, Tok
         quote! {
             #[test]
             fn #name() {
-                ::afp_test::check(::std::path::Path::new(#full), #title, &|registry| {
+                let robot = ::afp_sim::carbot(|registry| {
                     let _ = &registry;
                     #(#register(registry);)*
                 });
+                ::afp_test::check(::std::path::Path::new(#full), #title, &robot);
             }
         }
     });

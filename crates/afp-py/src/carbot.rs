@@ -30,7 +30,7 @@ impl Carbot {
     #[new]
     #[pyo3(signature = (world, seed=0))]
     fn new(world: &World, seed: u64) -> PyResult<Self> {
-        let room = &world.loaded.world;
+        let room = &world.room;
         let sim = Simulation::new(room, seed).map_err(|why| error(why.message))?;
         let obstacles = room.obstacles.iter().map(|obstacle| obstacle.name.clone()).collect();
         Ok(Carbot { sim: Mutex::new(sim), obstacles })

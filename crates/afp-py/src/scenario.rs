@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use afp::load::Registry;
 use afp_dsl::Compiled;
 use afp_dsl::scenario::Scenario as Checked;
-use afp_sim::Simulation;
+use afp_sim::{Simulation, carbot};
 use afp_syntax::source::Span;
 use afp_test::{Setting, Verdict as Came};
 use pyo3::exceptions::PyIndexError;
@@ -20,6 +20,7 @@ use crate::plan::Plan;
 use crate::robot::Robot;
 use crate::toolbox::Toolbox;
 use crate::value::no_pickle;
+use crate::world::ROBOT;
 
 /// A scenario of a file: a world, what happens, what is expected.
 #[pyclass(module = "afp", frozen)]
@@ -110,9 +111,9 @@ impl Scenario {
     fn run(&self, py: Python<'_>, log: Option<PathBuf>) -> PyResult<Verdict> {
         may_run()?;
         let checked = self.checked()?;
-        let setting = Setting::find(checked, &self.file).map_err(|why| run_error(&why))?;
+        let setting = Setting::find(checked, &self.file, &ROBOT).map_err(|why| run_error(&why))?;
         let components = Components::new(py, &self.toolboxes)?;
-        let templates = |registry: &mut _| components.register(registry);
+        let robot = carbot(|registry| components.register(registry));
         let (mut pause, mut raised) = (Pause::of_signals(), None);
         let mut go_on = || {
             if let Some(Halt::Raised(why)) = pause.look() {
@@ -121,8 +122,7 @@ impl Scenario {
             raised.is_none() && !components.is_over()
         };
         let log = log.as_deref();
-        let came =
-            py.detach(|| afp_test::run_while(checked, &setting, &templates, log, &mut go_on));
+        let came = py.detach(|| afp_test::run_while(checked, &setting, &robot, log, &mut go_on));
         components.raised(py)?;
         if let Some(why) = raised {
             return Err(why);

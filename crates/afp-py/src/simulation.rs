@@ -77,8 +77,14 @@ impl Runner {
                 .map_err(|why| error(format!("'{name}': {why}")))?;
         }
         let file = plan.file();
-        let setting =
-            Setting { graph, world: &world.loaded, seed, file: &file, log: log.as_deref() };
+        let setting = Setting {
+            graph,
+            world: &world.loaded,
+            room: &world.room,
+            seed,
+            file: &file,
+            log: log.as_deref(),
+        };
         let stop = Arc::new(AtomicBool::new(false));
         let pause = Pause::new(host.clone(), Arc::clone(&stop));
         let session = Mutex::new(Run::new(loaded, &setting, pause)?);

@@ -11,14 +11,14 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 use std::thread;
 
-use afp::load::LoadedPlan;
+use afp::load::PlanNames;
 use afp_core::Duration;
-use afp_core::rt::NamedPlan;
 use afp_core::trace::{Names, TraceEntryId};
 use afp_dsl::Compiled;
 use afp_dsl::graph::Graph;
 use afp_run::hash;
-use afp_sim::Simulation;
+use afp_session::Loader;
+use afp_sim::carbot;
 use afp_sweep::{
     Axis, Cells, Findings, Header, Journal, Outcome, Place, Point, Seeds, Setting, Sweep, columns,
 };
@@ -84,16 +84,16 @@ impl Sweeper {
             seeds: Seeds::new(seeds.0..seeds.1),
             until: Duration::from_secs_f64(until),
         };
-        let header = with_setting(py, &toolboxes, |templates, _| {
+        let header = with_setting(py, &toolboxes, |robot, _| {
             let graph = graph(&compiled)?;
-            let loaded = afp_test::load(graph, templates).map_err(|why| run_error(&why))?;
-            let axes = vary.into_iter().map(|(name, values)| axis(&loaded, name, values));
+            let names = PlanNames::new(graph);
+            let axes = vary.into_iter().map(|(name, values)| axis(&names, name, values));
             sweep.axes = axes.collect::<PyResult<_>>()?;
             if sweep.is_empty() {
                 let text = "there is nothing to run: no worlds, seeds or values";
                 return Err(PyValueError::new_err(text));
             }
-            let setting = Setting::new(&mut sweep, graph, &file, templates);
+            let setting = Setting::new(&mut sweep, graph, &file, robot);
             let setting = setting.map_err(|why| run_error(&why))?;
             Ok(Header::new(program(mark), (&compiled, graph), &setting, &sweep))
         })?;
@@ -256,17 +256,12 @@ impl Done {
 }
 
 /// What is varied: a single text has the ways of a range (`20cm..60cm:5cm`); a bare number is in SI units.
-fn axis(
-    plan: &LoadedPlan<Simulation>,
-    name: String,
-    values: Vec<(String, bool)>,
-) -> PyResult<Axis> {
+fn axis(names: &PlanNames, name: String, values: Vec<(String, bool)>) -> PyResult<Axis> {
     if let [(range, false)] = values.as_slice() {
         return afp_sweep::axis(&format!("{name}={range}")).map_err(PyValueError::new_err);
     }
-    let entry = plan.entry_number(&name).map(|entry| TraceEntryId(entry.into()));
-    let names = plan.names();
-    let unit = entry.map_or("", |entry| names.entry(entry).unit);
+    let mut ids = (0..names.entries()).map(TraceEntryId);
+    let unit = ids.find(|id| names.entry(*id).path == name).map_or("", |id| names.entry(id).unit);
     let point = |(text, bare)| Point { text: if bare { text + unit } else { text }, si: None };
     Ok(Axis { name, points: values.into_iter().map(point).collect() })
 }
@@ -275,10 +270,10 @@ fn axis(
 fn with_setting<T>(
     py: Python<'_>,
     toolboxes: &[Py<Toolbox>],
-    use_it: impl FnOnce(afp_test::Templates<'_>, &Components<'_>) -> PyResult<T>,
+    use_it: impl FnOnce(&dyn Loader, &Components<'_>) -> PyResult<T>,
 ) -> PyResult<T> {
     let components = Components::new(py, toolboxes)?;
-    let used = use_it(&|registry| components.register(registry), &components);
+    let used = use_it(&carbot(|registry| components.register(registry)), &components);
     components.raised(py)?;
     used
 }

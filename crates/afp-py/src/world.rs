@@ -1,9 +1,11 @@
 //! `World`: a room with its robot's start.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use afp_run::world::{LoadedWorld, find};
-use afp_sim::World as Room;
+use afp_session::{Kind, kind};
+use afp_sim::{Simulation, World as Room};
 use numpy::{PyArray2, ToPyArray};
 use pyo3::prelude::*;
 
@@ -14,6 +16,17 @@ use crate::value::no_pickle;
 #[pyclass(module = "afp", frozen)]
 pub struct World {
     pub loaded: LoadedWorld,
+    pub room: Room,
+}
+
+/// The robot whose worlds these are.
+pub const ROBOT: Kind<Simulation> = kind();
+
+impl World {
+    fn new(loaded: LoadedWorld) -> PyResult<World> {
+        let room = Room::parse(&loaded.text).map_err(|why| error(why.message))?;
+        Ok(World { loaded, room })
+    }
 }
 
 #[pymethods]
@@ -21,41 +34,42 @@ impl World {
     /// Reads a world file, or a map of map_server (`.yaml`).
     #[staticmethod]
     fn load(path: PathBuf) -> PyResult<World> {
-        let loaded = find(Some(&path), &path).map_err(|why| run_error(&why))?;
-        Ok(World { loaded })
+        let loaded = find(Some(&path), &path, &ROBOT).map_err(|why| run_error(&why))?;
+        World::new(loaded)
     }
 
     /// A room made up from a seed, as `--world random:7` is.
     #[staticmethod]
     fn random(seed: u64) -> PyResult<World> {
         let name = PathBuf::from(format!("random:{seed}"));
-        let loaded = find(Some(&name), &name).map_err(|why| run_error(&why))?;
-        Ok(World { loaded })
+        let loaded = find(Some(&name), &name, &ROBOT).map_err(|why| run_error(&why))?;
+        World::new(loaded)
     }
 
     /// Reads a world from the text of its file.
     #[staticmethod]
     fn parse(text: String) -> PyResult<World> {
-        let world = Room::parse(&text).map_err(|why| match why.span {
+        let room = Room::parse(&text).map_err(|why| match why.span {
             Some(span) => {
                 let (line, column) = afp_excerpt::line_column(&text, span.start);
                 error(format!("{line}:{column}: {}", why.message))
             }
             None => error(why.message),
         })?;
-        Ok(World { loaded: LoadedWorld { world, text, path: None } })
+        let world = Arc::new(room.clone());
+        Ok(World { loaded: LoadedWorld { world, text, path: None }, room })
     }
 
     /// The world that `afpc run` would take for the plan of this file.
     #[staticmethod]
     fn of_plan(path: PathBuf) -> PyResult<World> {
-        Ok(World { loaded: find(None, &path).map_err(|why| run_error(&why))? })
+        World::new(find(None, &path, &ROBOT).map_err(|why| run_error(&why))?)
     }
 
     /// What it is called.
     #[getter]
     fn name(&self) -> &str {
-        &self.loaded.world.name
+        &self.room.name
     }
 
     /// The text of its file.
@@ -73,24 +87,24 @@ impl World {
     /// Where the robot starts: x and y in metres, heading in radians.
     #[getter]
     fn start(&self) -> (f64, f64, f64) {
-        let start = self.loaded.world.start;
+        let start = self.room.start;
         (start.x, start.y, start.heading)
     }
 
     /// The names of what stands in it.
     #[getter]
     fn obstacles(&self) -> Vec<&str> {
-        self.loaded.world.obstacles.iter().map(|obstacle| obstacle.name.as_str()).collect()
+        self.room.obstacles.iter().map(|obstacle| obstacle.name.as_str()).collect()
     }
 
     /// The corners of everything that stands in it, metres, each an array of n x 2.
     fn outlines<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
-        let corners = self.loaded.world.obstacles.iter().map(|each| each.outline.corners());
+        let corners = self.room.obstacles.iter().map(|each| each.outline.corners());
         corners.map(|corners| table(py, &corners)).collect()
     }
 
     fn __repr__(&self) -> String {
-        format!("<World '{}', {} obstacles>", self.name(), self.loaded.world.obstacles.len())
+        format!("<World '{}', {} obstacles>", self.name(), self.room.obstacles.len())
     }
 
     fn __reduce__(&self) -> PyResult<()> {

@@ -9,6 +9,7 @@ use std::process::ExitCode;
 use afp_excerpt::{Mark, Report, Severity};
 use afp_log::LogError;
 use afp_project::{ProjectError, shown};
+use afp_session::SessionError;
 
 /// The process did what was asked.
 pub const EXIT_OK: u8 = 0;
@@ -137,5 +138,19 @@ impl From<ProjectError> for RunError {
 impl From<LogError> for RunError {
     fn from(error: LogError) -> Self {
         RunError::Log(error)
+    }
+}
+
+impl From<SessionError> for RunError {
+    fn from(error: SessionError) -> Self {
+        let help = match &error {
+            SessionError::World(_) | SessionError::OtherWorld => {
+                "look at the world's file".to_owned()
+            }
+            SessionError::Measure(_, known) => format!("it has {}", known.join(", ")),
+            // What is left is a plan that cannot be loaded.
+            _ => "the toolbox file and the Rust crate behind it do not belong together".to_owned(),
+        };
+        RunError::usage(error.to_string(), help)
     }
 }

@@ -1,28 +1,36 @@
 //! `--set` and `--vary`: values for the plan's `in` entries and for its world.
 
-use afp_core::rt::NamedPlan;
 use afp_core::trace::{EntryKind, EntryName, Names, TraceEntryId};
-use afp_core::{Fault, StartError, Value, WriteError};
+use afp_core::{Fault, StartError, Value};
+use afp_session::{AnyRobot, AnySession, SetError};
 
 use crate::error::RunError;
 use crate::world::{LoadedWorld, change};
 
-/// Sets `in` entries of a plan and values of its world as the command line says.
+/// Changes values of a world as the command line says.
+///
+/// # Errors
+/// A value that is not there or does not fit.
+pub fn change_world(
+    world: &mut LoadedWorld,
+    set: &[(String, String)],
+    robot: &dyn AnyRobot,
+) -> Result<(), RunError> {
+    for (name, text) in set {
+        if let Some(key) = change::key(name) {
+            *world = world.with(key, text, robot)?;
+        }
+    }
+    Ok(())
+}
+
+/// Sets `in` entries of a plan as the command line says.
 ///
 /// # Errors
 /// An entry that is not there or cannot be set, a value that does not fit.
-pub fn set_all(
-    plan: &mut impl NamedPlan,
-    world: &mut LoadedWorld,
-    set: &[(String, String)],
-) -> Result<(), RunError> {
-    for (name, text) in set {
-        match change::key(name) {
-            Some(key) => *world = world.with(key, text)?,
-            None => {
-                self::set(plan, name, text)?;
-            }
-        }
+pub fn set_all(session: &mut dyn AnySession, set: &[(String, String)]) -> Result<(), RunError> {
+    for (name, text) in set.iter().filter(|(name, _)| change::key(name).is_none()) {
+        self::set(session, name, text)?;
     }
     Ok(())
 }
@@ -31,21 +39,23 @@ pub fn set_all(
 ///
 /// # Errors
 /// An entry that is not there or cannot be set, a value that does not fit.
-pub fn set(plan: &mut impl NamedPlan, name: &str, text: &str) -> Result<Value, RunError> {
-    let names = plan.names();
-    let entry = plan.entry_named(name).ok_or_else(|| unknown(name, &names))?;
-    let about = names.entry(TraceEntryId(entry.into()));
-    if about.kind != EntryKind::In {
-        return Err(RunError::usage(
+pub fn set(session: &mut dyn AnySession, name: &str, text: &str) -> Result<Value, RunError> {
+    session.set(name, text).map_err(|why| refused(session.names(), name, text, why))
+}
+
+/// Why an entry cannot be set, as an error of the command line.
+fn refused(names: &dyn Names, name: &str, text: &str, why: SetError) -> RunError {
+    match why {
+        SetError::Unknown => unknown(name, names),
+        SetError::NotIn => RunError::usage(
             format!("the entry '{name}' cannot be set from outside: it is no 'in' entry"),
-            settable(&names),
-        ));
+            settable(names),
+        ),
+        SetError::Unreadable { why, units } => unreadable(names, name, text, why, &units),
+        SetError::Refused(why) => {
+            RunError::usage(format!("'{name}={text}': {why}"), settable(names))
+        }
     }
-    let value = plan.read(entry, text).map_err(|why| unreadable(text, &about, why, plan, entry))?;
-    plan.set_input(entry, &value).map_err(|why: WriteError| {
-        RunError::usage(format!("'{name}={text}': {why}"), settable(&names))
-    })?;
-    Ok(value)
 }
 
 /// Why a plan does not start, as an error of the command line.
@@ -62,11 +72,11 @@ pub fn missing(error: StartError, names: &dyn Names) -> RunError {
     }
 }
 
-fn unknown(name: &str, names: &impl Names) -> RunError {
+fn unknown(name: &str, names: &dyn Names) -> RunError {
     RunError::usage(format!("the plan has no entry '{name}'"), settable(names))
 }
 
-fn settable(names: &impl Names) -> String {
+fn settable(names: &dyn Names) -> String {
     let entries = (0..names.entries()).map(|id| names.entry(TraceEntryId(id)));
     let settable = entries.filter(|entry| entry.kind == EntryKind::In && !entry.path.contains('.'));
     let list: Vec<_> = settable.map(|entry| format!("'{}' ({})", entry.path, entry.ty)).collect();
@@ -76,31 +86,25 @@ fn settable(names: &impl Names) -> String {
     }
 }
 
-fn unreadable(
-    text: &str,
-    entry: &EntryName<'_>,
-    why: Fault,
-    plan: &impl NamedPlan,
-    number: u16,
-) -> RunError {
-    let EntryName { path, ty, unit, .. } = *entry;
-    let names = plan.names();
-    let id = TraceEntryId(number.into());
+fn unreadable(names: &dyn Names, name: &str, text: &str, why: Fault, units: &[String]) -> RunError {
+    let mut ids = (0..names.entries()).map(TraceEntryId);
+    let id = ids.find(|id| names.entry(*id).path == name).unwrap_or(TraceEntryId(u32::MAX));
+    let EntryName { ty, unit, .. } = names.entry(id);
     let choices = (0..u16::MAX).map(|value| names.choice(id, value));
     let choices: Vec<_> = choices.take_while(|choice| !choice.is_empty()).collect();
     let help = if text.parse::<f64>().is_ok() && !unit.is_empty() {
-        let unit = plan.units(number).find(|unit| unit.name == "cm" || unit.name == "deg");
-        let unit = unit.map_or(entry.unit, |unit| unit.name).to_owned();
-        format!("write the unit: '{path}={text}{unit}'")
+        let handy = units.iter().find(|unit| *unit == "cm" || *unit == "deg");
+        let unit = handy.map_or(unit, String::as_str);
+        format!("write the unit: '{name}={text}{unit}'")
     } else if !unit.is_empty() {
-        let units: Vec<_> = plan.units(number).map(|unit| unit.name.to_owned()).take(8).collect();
+        let units: Vec<_> = units.iter().take(8).map(String::as_str).collect();
         format!("a number and a unit: {}", units.join(", "))
     } else if !choices.is_empty() {
         format!("one of: {}", choices.join(", "))
     } else if why == Fault::TOO_LONG {
         why.to_string()
     } else {
-        format!("'{path}' is a {ty}")
+        format!("'{name}' is a {ty}")
     };
-    RunError::usage(format!("'{path}={text}': not a {ty}"), help)
+    RunError::usage(format!("'{name}={text}': not a {ty}"), help)
 }

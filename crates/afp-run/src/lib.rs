@@ -1,7 +1,7 @@
 //! What `afpc run` and every generated binary share: options, timeline, summary, pictures.
 //!
-//! [`main()`] is the whole of a generated binary; [`run`] drives any plan on the simulated robot.
-//! Neither knows the language: a plan is what implements the scheduler's contract.
+//! [`main()`] is the whole of a generated binary; [`run`] drives the session of any plan on any simulated robot.
+//! Neither knows the language or a robot.
 
 mod error;
 mod hash;
@@ -21,8 +21,7 @@ pub mod world;
 use std::process::ExitCode;
 
 use afp_core::rt::{NamedPlan, Plan};
-use afp_session::{AnySession, Session};
-use afp_sim::Simulation;
+use afp_session::{AnySession, AnyWorld, Session, Simulated, kind};
 use clap::{Args, Command, FromArgMatches};
 
 use crate::options::RunOptions;
@@ -32,7 +31,7 @@ pub use hash::hash;
 pub use output::write_whole;
 pub use picture::{PictureFormat, Rasterizer};
 pub use report::{line, timeline};
-pub use run::{run, run_with};
+pub use run::{MakeSession, run};
 pub use stop::StopFlag;
 pub use svg::{draw_film, draw_log, draw_sonar};
 
@@ -48,18 +47,23 @@ pub struct Program<'a> {
 }
 
 /// The whole of a generated binary: reads the command line, runs the plan, tells what happened.
-pub fn main<P>(program: Program<'static>, new: impl FnOnce() -> P) -> ExitCode
+pub fn main<R, P>(program: Program<'static>, new: impl FnOnce() -> P) -> ExitCode
 where
-    P: NamedPlan + Plan<Simulation>,
-    Session<P, Simulation>: AnySession,
+    R: Simulated,
+    P: NamedPlan + Plan<R> + 'static,
+    Session<P, R>: AnySession,
 {
+    let make = |world: &dyn AnyWorld, seed: u64, measures: &[&str]| {
+        let session = Session::<P, R>::in_world(new(), world, seed, measures)?;
+        Ok(Box::new(session) as Box<dyn AnySession>)
+    };
     let about = format!("Runs the plan {}.", program.name);
     // The help of the options' own struct must not take the place of the program's.
     let command = RunOptions::augment_args(Command::new(program.name)).about(about);
     let command = command.long_about(None).after_help(EXAMPLES);
     let matches = command.get_matches();
     match RunOptions::from_arg_matches(&matches) {
-        Ok(options) => finish(run(&program, new(), &options)),
+        Ok(options) => finish(run(&program, &kind::<R>(), Box::new(make), &options, None)),
         Err(error) => error.exit(),
     }
 }

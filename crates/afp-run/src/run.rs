@@ -6,12 +6,10 @@ mod paths;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
-use afp_core::rt::{NamedPlan, Plan};
 use afp_core::{Ending, Instant, StartError};
 use afp_log::{About, NameTable, SessionLog, Written};
 use afp_project::ProjectFile;
-use afp_session::{AnySession, Counts, Go, Observer, Session, Simulated, Track};
-use afp_sim::{STEP, Simulation};
+use afp_session::{AnyRobot, AnySession, AnyWorld, Counts, Go, Observer, SessionError, Track};
 
 use crate::error::{EXIT_OK, EXIT_PLAN_ERROR, RunError};
 use crate::hash::hash;
@@ -28,47 +26,40 @@ use crate::{Program, inputs, requests};
 use gate::RunGate;
 use paths::Paths;
 
-/// Runs a plan on the simulated robot; gives the exit code. Pictures are SVG.
+/// Makes the session of a run: in a world, with a seed, judged by some measures.
+pub type MakeSession<'a> =
+    dyn FnOnce(&dyn AnyWorld, u64, &[&str]) -> Result<Box<dyn AnySession>, SessionError> + 'a;
+
+/// Runs a plan on a simulated robot; gives the exit code. A `rasterizer` makes PNG pictures; without one they are SVG
+/// alone.
 ///
 /// # Errors
 /// Wrong options, a world or an output that does not work. What a plan does wrong is no error but
 /// an exit code.
-pub fn run<P>(program: &Program<'_>, plan: P, options: &RunOptions) -> Result<u8, RunError>
-where
-    P: NamedPlan + Plan<Simulation>,
-    Session<P, Simulation>: AnySession,
-{
-    run_with(program, plan, options, None)
-}
-
-/// As [`run`], with PNG pictures too.
-///
-/// # Errors
-/// As of [`run`].
-pub fn run_with<P>(
+pub fn run(
     program: &Program<'_>,
-    mut plan: P,
+    robot: &dyn AnyRobot,
+    make: Box<MakeSession<'_>>,
     options: &RunOptions,
     rasterizer: Option<Rasterizer<'_>>,
-) -> Result<u8, RunError>
-where
-    P: NamedPlan + Plan<Simulation>,
-    Session<P, Simulation>: AnySession,
-{
+) -> Result<u8, RunError> {
     options.check()?;
-    let mut world = world::find(options.world.as_deref(), Path::new(program.file))?;
-    inputs::set_all(&mut plan, &mut world, &options.set)?;
-    let sim = Simulation::new(&world.world, options.seed).map_err(|error| RunError::Content {
-        path: world.path.clone().unwrap_or_default(),
-        span: error.span,
-        text: world.text.clone(),
-        message: error.message,
+    let mut world = world::find(options.world.as_deref(), Path::new(program.file), robot)?;
+    inputs::change_world(&mut world, &options.set, robot)?;
+    let measures = measures(program, options)?;
+    let measures: Vec<_> = measures.iter().map(String::as_str).collect();
+    let mut session = make(&*world.world, options.seed, &measures).map_err(|why| match why {
+        SessionError::World(message) => RunError::Content {
+            path: world.path.clone().unwrap_or_default(),
+            span: None,
+            text: world.text.clone(),
+            message,
+        },
+        other => other.into(),
     })?;
-    let mut session = Session::new(plan, sim);
-    for name in measures(program, options)? {
-        session.add_measure(Simulation::measure(&name).ok_or_else(|| no_measure(&name))?);
-    }
-    drive(&mut session, &Setting { program, options, world: &world, rasterizer })
+    inputs::set_all(&mut *session, &options.set)?;
+    let facts = robot.facts();
+    drive(&mut *session, &Setting { program, options, world: &world, facts, rasterizer })
 }
 
 /// The measures that the project asks for, and the options.
@@ -80,24 +71,19 @@ fn measures(program: &Program<'_>, options: &RunOptions) -> Result<Vec<String>, 
     Ok(all)
 }
 
-fn no_measure(name: &str) -> RunError {
-    RunError::usage(
-        format!("the robot has no measure '{name}'"),
-        format!("it has {}", Simulation::MEASURES.join(", ")),
-    )
-}
-
 /// What was asked for.
 struct Setting<'a> {
     program: &'a Program<'a>,
     options: &'a RunOptions,
     world: &'a LoadedWorld,
+    /// What the log says of the robot.
+    facts: &'static [(&'static str, &'static str)],
     rasterizer: Option<Rasterizer<'a>>,
 }
 
 /// Drives a session to its end and says what it came to.
 fn drive(session: &mut dyn AnySession, setting: &Setting<'_>) -> Result<u8, RunError> {
-    let Setting { program, options, world, rasterizer } = *setting;
+    let Setting { program, options, world, rasterizer, .. } = *setting;
     requests::make(session, &options.press, &options.fail)?;
     let paths = Paths::new(program, options)?;
     let raster = paths.raster(rasterizer)?;
@@ -175,7 +161,7 @@ impl Came<'_> {
         let measured = session.end();
         let ran = Ran {
             plan: setting.program.name,
-            world: &setting.world.world.name,
+            world: setting.world.world.name(),
             seed: setting.options.seed,
             stopped_by,
             end: session.now(),
@@ -186,7 +172,7 @@ impl Came<'_> {
         let figures = ran.figures(&counts, measured, session.names());
         if let Some(path) = &paths.svg {
             let picture = Picture {
-                world: &setting.world.world,
+                world: &setting.world.world.drawing(),
                 title: figures.plan.clone(),
                 subtitle: format!("{}, seed {}", figures.world, figures.seed),
                 path: &track.path,
@@ -220,7 +206,7 @@ fn head(setting: &Setting<'_>) -> [(&'static str, String); 3] {
     };
     [
         ("plan", format!("{} ({})", program.name, program.file)),
-        ("world", format!("{} ({file})", world.world.name)),
+        ("world", format!("{} ({file})", world.world.name())),
         ("seed", options.seed.to_string()),
     ]
 }
@@ -244,18 +230,19 @@ fn about(setting: &Setting<'_>) -> About {
         ("set", set.collect::<Vec<_>>().join("\n")),
         ("press", lines(&mut options.press.iter().map(ToString::to_string))),
         ("fail", lines(&mut options.fail.iter().map(ToString::to_string))),
-        ("world", world.world.name.clone()),
+        ("world", world.world.name().to_owned()),
         ("world_hash", hash(&world.text)),
-        ("physics_step_ns", STEP.as_nanos().to_string()),
         ("until_ns", until),
         ("clock", clock.to_owned()),
         ("afp_version", env!("CARGO_PKG_VERSION").to_owned()),
     ];
+    let of_robot = setting.facts.iter().map(|(key, value)| (*key, (*value).to_owned()));
+    let facts = facts.into_iter().chain(of_robot);
     let texts = program.texts.iter();
     let mut attachments: Vec<_> =
         texts.map(|(path, text)| ((*path).to_owned(), "text/plain", (*text).to_owned())).collect();
     attachments.push(("world.toml".to_owned(), "application/toml", world.text.clone()));
-    About { facts: facts.map(|(key, value)| (key.to_owned(), value)).to_vec(), attachments }
+    About { facts: facts.map(|(key, value)| (key.to_owned(), value)).collect(), attachments }
 }
 
 /// The hash of the plan's text; of several files, that of their paths and texts.

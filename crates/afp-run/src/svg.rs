@@ -8,9 +8,7 @@ mod marks;
 mod sonar;
 
 use afp_core::trace::{ComponentId, Names};
-use afp_session::{Mark, Waypoint};
-use afp_sim::world::{Mobility, Obstacle, Outline};
-use afp_sim::{Pose, World};
+use afp_session::{Drawing, Mark, Pose2, Waypoint};
 
 use canvas::{Canvas, View};
 pub use film::draw_film;
@@ -18,8 +16,6 @@ pub use from_log::draw_log;
 use legend::Legend;
 pub use sonar::draw_sonar;
 
-/// What the range sensor looks over is drawn hatched, metres.
-const LOW: f64 = 0.15;
 /// Points of the path closer together than this are one, metres.
 const NEAR: f64 = 0.004;
 
@@ -35,7 +31,7 @@ const NOBODY: &str = "#9a9a9a";
 /// What a picture shows.
 pub(crate) struct Picture<'a> {
     /// The room.
-    pub world: &'a World,
+    pub world: &'a Drawing,
     /// Two lines above the legend.
     pub title: String,
     pub subtitle: String,
@@ -57,17 +53,16 @@ pub(crate) fn draw(picture: &Picture<'_>, names: &dyn Names) -> String {
     };
     let view = View::around(bounds(world, path));
     let mut canvas = room(world, view);
-    for (obstacle, way) in ways(world) {
-        let (middle, _) = middle(&obstacle.outline);
-        canvas.way(&way.map(|by| [middle[0] + by[0], middle[1] + by[1]]).collect::<Vec<_>>());
+    for thing in world.things.iter().filter(|thing| !thing.path.is_empty()) {
+        canvas.way(&thing.path);
     }
     for light in &world.lights {
-        canvas.light(light.position);
+        canvas.light(*light);
     }
     let stretches = stretches(path);
-    canvas.robot(world.start, false);
+    canvas.robot(&world.body, world.start, false);
     let whole: Vec<_> = stretches.iter().flat_map(|(_, points)| points.iter().copied()).collect();
-    canvas.footprint(&whole);
+    canvas.footprint(&world.body, &whole);
     for (actor, points) in &stretches {
         canvas.path(points, color(*actor));
     }
@@ -79,13 +74,12 @@ pub(crate) fn draw(picture: &Picture<'_>, names: &dyn Names) -> String {
             canvas.dot(*at, beside, color(Some(*actor)));
         }
     }
-    for obstacle in &world.obstacles {
-        if let Some((middle, size)) = labelled(&obstacle.outline) {
-            canvas.label(middle, size, &obstacle.name);
-        }
+    for thing in world.things.iter().filter(|thing| thing.labelled) {
+        let (middle, size) = middle(&thing.outline);
+        canvas.label(middle, size, &thing.name);
     }
     if let Some(last) = path.last() {
-        canvas.robot(last.pose, true);
+        canvas.robot(&world.body, last.pose, true);
     }
     let kinds = marks::kinds(marks);
     marks::draw(&mut canvas, marks, &kinds);
@@ -99,14 +93,14 @@ pub(crate) fn draw(picture: &Picture<'_>, names: &dyn Names) -> String {
 }
 
 /// The floor with everything that stands on it.
-fn room(world: &World, view: View) -> Canvas {
+fn room(world: &Drawing, view: View) -> Canvas {
     let mut canvas = Canvas::new(view);
     canvas.floor();
     for patch in &world.patches {
         canvas.patch(&patch.corners, patch.color);
     }
-    for obstacle in &world.obstacles {
-        canvas.obstacle(&obstacle.outline.corners(), obstacle.height < LOW);
+    for thing in &world.things {
+        canvas.obstacle(&thing.outline, thing.low);
     }
     canvas
 }
@@ -153,11 +147,10 @@ fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 /// The corners of everything: lower left, upper right.
-fn bounds(world: &World, path: &[Waypoint]) -> [[f64; 2]; 2] {
-    let corners = world.obstacles.iter().flat_map(|obstacle| obstacle.outline.corners());
-    let robot = |pose: Pose| World::robot_outline(pose);
-    let path = path.iter().flat_map(|step| robot(step.pose));
-    let all = corners.chain(path).chain(robot(world.start));
+fn bounds(world: &Drawing, path: &[Waypoint]) -> [[f64; 2]; 2] {
+    let corners = world.things.iter().flat_map(|thing| thing.outline.iter().copied());
+    let path = path.iter().flat_map(|step| placed(&world.body, step.pose));
+    let all = corners.chain(path).chain(placed(&world.body, world.start));
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for [x, y] in all {
         low = [low[0].min(x), low[1].min(y)];
@@ -166,26 +159,16 @@ fn bounds(world: &World, path: &[Waypoint]) -> [[f64; 2]; 2] {
     [low, high]
 }
 
-/// What goes its own way, with the places against its start.
-fn ways(world: &World) -> impl Iterator<Item = (&Obstacle, impl Iterator<Item = [f64; 2]>)> {
-    world.obstacles.iter().filter_map(|obstacle| match &obstacle.mobility {
-        Mobility::Scripted(path) => Some((obstacle, path.places())),
-        Mobility::Fixed | Mobility::Movable { .. } => None,
+/// The outline of a body that stands at a pose.
+fn placed(body: &[[f64; 2]], pose: Pose2) -> impl Iterator<Item = [f64; 2]> {
+    body.iter().map(move |[x, y]| {
+        let corner = pose.beyond(Pose2 { x: *x, y: *y, heading: 0.0 });
+        [corner.x, corner.y]
     })
 }
 
-/// The middle and the width of an obstacle that has room for its name; walls have none.
-fn labelled(outline: &Outline) -> Option<([f64; 2], f64)> {
-    let least = match outline {
-        Outline::Box { half, .. } => 2.0 * half[0].min(half[1]),
-        Outline::Polygon(_) => f64::INFINITY,
-    };
-    (least > 0.2).then(|| middle(outline))
-}
-
 /// The middle and the width of an outline.
-fn middle(outline: &Outline) -> ([f64; 2], f64) {
-    let corners = outline.corners();
+fn middle(corners: &[[f64; 2]]) -> ([f64; 2], f64) {
     let count = corners.len() as f64;
     let sum = corners.iter().fold([0.0, 0.0], |sum, at| [sum[0] + at[0], sum[1] + at[1]]);
     let xs = || corners.iter().map(|at| at[0]);

@@ -4,20 +4,18 @@ pub mod change;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use afp_project::{ProjectFile, shown};
-use afp_sim::{World, WorldError};
+use afp_session::{AnyRobot, AnyWorld, WorldError};
 
 use crate::error::RunError;
-
-/// The room for plans that come without a world.
-const ROOM: &str = include_str!("../../../worlds/wall_following.toml");
 
 /// A world and its text.
 #[derive(Clone, Debug)]
 pub struct LoadedWorld {
     /// The world.
-    pub world: World,
+    pub world: Arc<dyn AnyWorld>,
     /// The text of its file.
     pub text: String,
     /// Its file; `None` for the built-in room.
@@ -32,13 +30,17 @@ const RANDOM: &str = "random:";
 ///
 /// # Errors
 /// A file that is named but not there; a world that says something wrong.
-pub fn find(asked: Option<&Path>, plan: &Path) -> Result<LoadedWorld, RunError> {
+pub fn find(
+    asked: Option<&Path>,
+    plan: &Path,
+    robot: &dyn AnyRobot,
+) -> Result<LoadedWorld, RunError> {
     if let Some(path) = asked {
-        return load(path);
+        return load(path, robot);
     }
     let file = ProjectFile::of_plan(plan)?;
     if let Some(path) = &file.project.world {
-        return load(&shown(&file.folder.join(path)));
+        return load(&shown(&file.folder.join(path)), robot);
     }
     let folder = match plan.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -47,8 +49,8 @@ pub fn find(asked: Option<&Path>, plan: &Path) -> Result<LoadedWorld, RunError> 
     let file = Path::new("worlds").join(plan.file_name().unwrap_or_default());
     let beside = folder.join("..").join(file).with_extension("toml");
     match beside.is_file() {
-        true => load(&tidy(&beside)),
-        false => parse(ROOM.to_owned(), None),
+        true => load(&tidy(&beside), robot),
+        false => parse(robot.default_world().to_owned(), None, robot),
     }
 }
 
@@ -67,35 +69,41 @@ fn tidy(path: &Path) -> PathBuf {
     tidy
 }
 
-fn load(path: &Path) -> Result<LoadedWorld, RunError> {
+fn load(path: &Path, robot: &dyn AnyRobot) -> Result<LoadedWorld, RunError> {
     let seed = path.to_str().and_then(|name| name.strip_prefix(RANDOM));
-    if let Some(seed) = seed.and_then(|seed| seed.parse().ok()) {
-        return parse(World::random_text(seed), Some(path.to_owned()));
+    let made_up =
+        seed.and_then(|seed| seed.parse().ok()).and_then(|seed| robot.made_up_world(seed));
+    if let Some(text) = made_up {
+        return parse(text, Some(path.to_owned()), robot);
     }
     let text = fs::read_to_string(path).map_err(RunError::file("cannot read the world", path))?;
     if path.extension().is_some_and(|extension| extension == "yaml" || extension == "yml") {
-        return parse(map(path, text)?, Some(path.to_owned()));
+        return parse(map(path, text, robot)?, Some(path.to_owned()), robot);
     }
-    parse(text, Some(path.to_owned()))
+    parse(text, Some(path.to_owned()), robot)
 }
 
 /// The text of the world of a map, with the picture that lies beside it.
-fn map(path: &Path, yaml: String) -> Result<String, RunError> {
+fn map(path: &Path, yaml: String, robot: &dyn AnyRobot) -> Result<String, RunError> {
     let wrong = |error: WorldError| RunError::Content {
         path: path.to_owned(),
         span: error.span,
         text: yaml.clone(),
         message: error.message,
     };
-    let picture = path.with_file_name(World::map_picture(&yaml).map_err(wrong)?);
+    let picture = path.with_file_name(robot.picture_of_map(&yaml).map_err(wrong)?);
     let bytes =
         fs::read(&picture).map_err(RunError::file("cannot read the map's picture", &picture))?;
     let name = path.file_stem().map(|name| name.to_string_lossy()).unwrap_or_default();
-    World::map_text(&name, &yaml, &bytes).map_err(wrong)
+    robot.text_of_map(&name, &yaml, &bytes).map_err(wrong)
 }
 
-fn parse(text: String, path: Option<PathBuf>) -> Result<LoadedWorld, RunError> {
-    match World::parse(&text) {
+fn parse(
+    text: String,
+    path: Option<PathBuf>,
+    robot: &dyn AnyRobot,
+) -> Result<LoadedWorld, RunError> {
+    match robot.world(&text) {
         Ok(world) => Ok(LoadedWorld { world, text, path }),
         Err(error) => Err(RunError::Content {
             path: path.unwrap_or_else(|| "built-in room".into()),
@@ -108,22 +116,32 @@ fn parse(text: String, path: Option<PathBuf>) -> Result<LoadedWorld, RunError> {
 
 #[cfg(test)]
 mod tests {
+    use afp_session::kind;
+    use afp_sim::{Simulation, World};
+
     use super::*;
+
+    fn typed(loaded: &LoadedWorld) -> World {
+        loaded.world.as_any().downcast_ref::<World>().unwrap().clone()
+    }
 
     #[test]
     fn a_world_may_be_made_up_or_a_map_with_a_picture_beside_it() {
-        let room = find(Some(Path::new("random:7")), Path::new("plan.afp")).unwrap();
-        assert_eq!(room.world, World::random(7));
+        let room = find(Some(Path::new("random:7")), Path::new("plan.afp"), &kind::<Simulation>())
+            .unwrap();
+        assert_eq!(typed(&room), World::random(7));
         let folder = tempfile::tempdir().unwrap();
         let yaml = folder.path().join("hall.yaml");
         let text =
             "image: hall.pgm\nresolution: 1\norigin: [-1.5, -1.5, 0]\noccupied_thresh: 0.6\n";
         fs::write(&yaml, text).unwrap();
-        let missing = find(Some(&yaml), Path::new("plan.afp")).unwrap_err().to_string();
+        let missing = find(Some(&yaml), Path::new("plan.afp"), &kind::<Simulation>())
+            .unwrap_err()
+            .to_string();
         assert!(missing.contains("hall.pgm"), "{missing}");
         fs::write(folder.path().join("hall.pgm"), "P2 4 4 1\n0 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1")
             .unwrap();
-        let map = find(Some(&yaml), Path::new("plan.afp")).unwrap();
-        assert_eq!((map.world.name.as_str(), map.world.obstacles.len()), ("hall", 1));
+        let map = find(Some(&yaml), Path::new("plan.afp"), &kind::<Simulation>()).unwrap();
+        assert_eq!((map.world.name(), typed(&map).obstacles.len()), ("hall", 1));
     }
 }

@@ -1,6 +1,5 @@
 //! A component that panics ends the run in `Error`; the robot stands, the log is whole.
 
-use afp::load::{LoadedPlan, Registry};
 use afp_carbot::devices::Navigator;
 use afp_core::quantity::{AngularSpeed, Speed};
 use afp_core::{Actor, Fault, Instant, Poll};
@@ -10,6 +9,7 @@ use afp_dsl::toolbox::Toolboxes;
 use afp_log::proto::afp::plan_event::{Ending, Kind};
 use afp_run::options::RunOptions;
 use afp_run::{EXIT_PLAN_ERROR, Program, run};
+use afp_session::{AnyWorld, Loader, simulated};
 use afp_sim::Simulation;
 use afp_syntax::source::Source;
 use clap::{Args, Command, FromArgMatches};
@@ -62,15 +62,16 @@ fn a_panic_stops_the_robot_and_ends_the_run() {
     toolboxes.add(Source::new("panicking.afp", templates::SOURCE), "panicking");
     let compiled = compile(&Source::new("breaks.afp", PLAN), &toolboxes, &Texts::default());
     let graph = compiled.graph.as_ref().unwrap_or_else(|| panic!("{}", compiled.render(false)));
-    let mut registry = Registry::<Simulation>::new();
-    templates::register(&mut registry);
-    let plan = LoadedPlan::new(graph, &registry).unwrap();
+    let robot = simulated::<Simulation, _>(|registry| templates::register(registry));
+    let make = |world: &dyn AnyWorld, seed: u64, measures: &[&str]| {
+        robot.session(graph, world, seed, measures)
+    };
     let folder = tempfile::tempdir().unwrap();
     let log = folder.path().join("a.mcap");
     let program = Program { name: "Breaks", file: "breaks.afp", texts: &[("breaks.afp", PLAN)] };
     let log_name = log.to_str().unwrap();
     let options = options(&["--json", "--svg", "none", "--log", log_name]);
-    assert_eq!(run(&program, plan, &options).unwrap(), EXIT_PLAN_ERROR);
+    assert_eq!(run(&program, &robot, Box::new(make), &options, None).unwrap(), EXIT_PLAN_ERROR);
     let log = afp_log::read(&log).unwrap();
     assert_eq!(log.cut_short, None);
     let last = log.events.last().unwrap();

@@ -47,6 +47,12 @@ pub trait AnySession: Send {
     /// An entry that is not there or cannot be written, a value that does not fit.
     fn set(&mut self, entry: &str, text: &str) -> Result<Value, SetError>;
 
+    /// Writes an entry: before the start an `in` entry at once, later with the next step.
+    ///
+    /// # Errors
+    /// The value does not fit, the plan has ended, or too many writes wait.
+    fn write(&mut self, entry: u16, value: Value) -> Result<(), WriteError>;
+
     /// Asks for something at an instant. It is checked now and done then; what cannot be done then is told to
     /// observers.
     ///

@@ -29,9 +29,11 @@ mod observer;
 mod record;
 mod request;
 mod robot;
+mod robots;
 mod sample;
 mod session;
 mod track;
+mod world;
 
 pub use any::{AnySession, SetError};
 pub use counts::{Counts, Usage};
@@ -41,6 +43,10 @@ pub use observer::{Gate, Go, NamedRecord, Observer, Open, Sampling, View};
 pub use record::{Keep, Kept, OwnedRecord};
 pub use request::{HOLD, Request, RequestError, RequestId};
 pub use robot::{ControlOf, FaultOf, Measure, Refused, Robot, Simulated};
+pub use robots::{AnyRobot, Kind, SessionError, kind};
+#[cfg(feature = "load")]
+pub use robots::{Loader, Simulator, simulated};
 pub use sample::{Image, Pose2, Ranging, SampleRef, Samples, Shape, Transform};
 pub use session::{SAMPLE, Session};
 pub use track::{Mark, Track, Waypoint};
+pub use world::{AnyWorld, Drawing, Patch, Thing, World, WorldError};

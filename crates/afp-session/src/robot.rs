@@ -9,6 +9,7 @@ use crate::faults::Active;
 use crate::figures::Figure;
 use crate::observer::NamedRecord;
 use crate::sample::Samples;
+use crate::world::World;
 
 /// What can be held down on a robot.
 pub type ControlOf<R> = <<R as Robot>::Devices as Devices>::Control;
@@ -57,13 +58,16 @@ pub trait Robot: Platform {
 /// A robot in a world, in virtual time.
 pub trait Simulated: Robot + Sized + Send + 'static {
     /// The world.
-    type World;
+    type World: World;
 
     /// The robot at its start, at time zero; `seed` decides on every noise.
     ///
     /// # Errors
     /// Why the world cannot be built.
     fn new(world: &Self::World, seed: u64) -> Result<Self, String>;
+
+    /// What logs say of it beyond that it is simulated: name and value.
+    const FACTS: &'static [(&'static str, &'static str)] = &[];
 
     /// The names of its measures.
     const MEASURES: &'static [&'static str] = &[];

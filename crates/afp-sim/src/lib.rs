@@ -14,6 +14,8 @@
 mod clock;
 mod devices;
 mod film;
+#[cfg(feature = "load")]
+mod load;
 mod noise;
 mod scene;
 mod simulation;
@@ -25,6 +27,8 @@ pub mod world;
 pub use afp_carbot::fault::{Defect, Fault, Sensor, Side};
 pub use clock::VirtualClock;
 pub use film::Film;
+#[cfg(feature = "load")]
+pub use load::carbot;
 pub use simulation::{Bare, STEP, Simulation, Snapshot, Sonar};
 pub use truth::{Collision, Pose, Truth};
 pub use vehicle::{HALF_LENGTH, HALF_WIDTH};

@@ -10,13 +10,16 @@ mod map;
 mod outline;
 mod path;
 mod random;
+mod session;
 
-pub use error::WorldError;
+pub use afp_session::WorldError;
 pub use look::{Look, Rgb, Texture};
 pub use outline::Outline;
 pub use path::Path;
 
+use error::at_key;
 pub(crate) use outline::isometry;
+pub(crate) use session::shape;
 
 use crate::truth::Pose;
 use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
@@ -114,7 +117,7 @@ impl World {
     pub fn parse(text: &str) -> Result<World, WorldError> {
         let world = file::read(text)?;
         match world.obstacle_at(world.start) {
-            Some(obstacle) => Err(WorldError::at_key(
+            Some(obstacle) => Err(at_key(
                 text,
                 &["robot", "pose_m_deg"],
                 format!("the robot starts inside of '{}'", obstacle.name),

@@ -6,11 +6,9 @@ use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread;
 use std::time::Instant as Wall;
 
-use afp::load::LoadedPlan;
 use afp_core::{Fault, Instant};
 use afp_run::RunError;
-use afp_session::{Session, Simulated};
-use afp_sim::Simulation;
+use afp_session::AnySession;
 
 use crate::grid::{Row, Sweep};
 use crate::outcome::{Ending, Outcome};
@@ -19,16 +17,8 @@ use crate::{attend, panics};
 /// Outcomes that may wait until somebody takes them.
 const WAITING: usize = 64;
 
-/// A plan that has not started, its inputs set, and a robot that has not moved.
-pub struct Made {
-    /// The plan.
-    pub plan: LoadedPlan<Simulation>,
-    /// The robot in its world.
-    pub sim: Simulation,
-}
-
-/// Makes what a run needs; the same for the same row. An error ends the run, not the sweep.
-pub type Maker<'a> = &'a (dyn Fn(&Row<'_>) -> Result<Made, RunError> + Sync);
+/// Makes the session of a run, its inputs set; the same for the same row. An error ends the run, not the sweep.
+pub type Maker<'a> = &'a (dyn Fn(&Row<'_>) -> Result<Box<dyn AnySession>, RunError> + Sync);
 
 /// Does runs of a sweep.
 #[derive(Clone, Copy)]
@@ -99,17 +89,13 @@ impl Engine<'_> {
     }
 
     fn drive(&self, row: &Row<'_>) -> Option<Outcome> {
-        let Made { plan, sim } = match (self.maker)(row) {
-            Ok(made) => made,
+        let mut session = match (self.maker)(row) {
+            Ok(session) => session,
             Err(error) => {
                 return Some(Outcome::failed(row.run, Ending::NotStarted, first_line(&error)));
             }
         };
-        let mut session = Session::loaded(plan, sim);
-        for name in Simulation::MEASURES {
-            Simulation::measure(name).into_iter().for_each(|measure| session.add_measure(measure));
-        }
-        attend::drive(row.run, &mut session, Instant::ZERO + self.sweep.until, self.stop)
+        attend::drive(row.run, &mut *session, Instant::ZERO + self.sweep.until, self.stop)
     }
 }
 

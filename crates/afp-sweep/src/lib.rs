@@ -23,7 +23,7 @@ mod setting;
 mod table;
 
 pub use columns::{Cells, Column, columns};
-pub use engine::{Engine, Made, Maker};
+pub use engine::{Engine, Maker};
 pub use findings::{Findings, Group, Measure, Spread};
 pub use grid::{Axis, Point, Row, Sweep};
 pub use journal::{Header, Journal};

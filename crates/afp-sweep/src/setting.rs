@@ -6,10 +6,8 @@ use afp_core::Value;
 use afp_dsl::graph::Graph;
 use afp_run::world::{self, LoadedWorld, change};
 use afp_run::{RunError, hash, inputs};
-use afp_sim::Simulation;
-use afp_test::Templates;
+use afp_session::{AnySession, Loader};
 
-use crate::engine::Made;
 use crate::grid::{Point, Row, Sweep};
 
 /// More runs than this are a mistake, and no list could hold them.
@@ -18,7 +16,7 @@ const MOST: u64 = 10_000_000;
 /// A plan and the worlds that it runs in.
 pub struct Setting<'a> {
     graph: &'a Graph,
-    templates: Templates<'a>,
+    robot: &'a dyn Loader,
     worlds: Vec<LoadedWorld>,
 }
 
@@ -33,7 +31,7 @@ impl<'a> Setting<'a> {
         sweep: &mut Sweep,
         graph: &'a Graph,
         file: &Path,
-        templates: Templates<'a>,
+        robot: &'a dyn Loader,
     ) -> Result<Self, RunError> {
         if sweep.len() > MOST {
             let message = format!("these are {} runs, and a sweep has at most {MOST}", sweep.len());
@@ -43,15 +41,16 @@ impl<'a> Setting<'a> {
             ));
         }
         let worlds = sweep.worlds.iter();
-        let worlds = worlds.map(|asked| world::find(asked.as_deref().map(Path::new), file));
+        let worlds = worlds.map(|asked| world::find(asked.as_deref().map(Path::new), file, robot));
         let worlds = worlds.collect::<Result<Vec<_>, _>>()?;
-        let setting = Setting { graph, templates, worlds };
+        let setting = Setting { graph, robot, worlds };
         setting.check(sweep)?;
         Ok(setting)
     }
 
     fn check(&self, sweep: &mut Sweep) -> Result<(), RunError> {
-        let mut plan = afp_test::load(self.graph, self.templates)?;
+        let Some(world) = self.worlds.first() else { return Ok(()) };
+        let mut session = self.robot.session(self.graph, &*world.world, 0, &[])?;
         for number in 0..sweep.axes.len() {
             let (before, rest) = sweep.axes.split_at_mut(number);
             let Some(axis) = rest.first_mut() else { continue };
@@ -63,7 +62,7 @@ impl<'a> Setting<'a> {
                 Some(key) => self.check_worlds(key, &mut axis.points)?,
                 None => {
                     for point in &mut axis.points {
-                        point.si = match inputs::set(&mut plan, &axis.name, &point.text)? {
+                        point.si = match inputs::set(&mut *session, &axis.name, &point.text)? {
                             Value::Float(value) => Some(value),
                             Value::Int(value) => Some(value as f64),
                             _ => None,
@@ -81,7 +80,7 @@ impl<'a> Setting<'a> {
             for point in &mut *points {
                 point.si = world.si(key, &point.text)?;
             }
-            let tried = points.iter().map(|point| world.with(key, &point.text));
+            let tried = points.iter().map(|point| world.with(key, &point.text, self.robot));
             // The first one that works is enough.
             if let Some(Err(error)) = tried.reduce(|tried, next| tried.or(next)) {
                 return Err(error);
@@ -90,29 +89,27 @@ impl<'a> Setting<'a> {
         Ok(())
     }
 
-    /// What a run needs.
+    /// The session of a run, judged by all measures of the robot.
     ///
     /// # Errors
     /// The world makes no sense with the values of the row.
-    pub fn make(&self, row: &Row<'_>) -> Result<Made, RunError> {
-        let mut plan = afp_test::load(self.graph, self.templates)?;
+    pub fn make(&self, row: &Row<'_>) -> Result<Box<dyn AnySession>, RunError> {
         let world = self.worlds.get(row.world_number);
         let world = world.ok_or_else(|| RunError::usage("there is no such world", "name one"))?;
         let mut changed: Option<LoadedWorld> = None;
         for (name, point) in &row.values {
-            match change::key(name) {
-                Some(key) => {
-                    changed = Some(changed.as_ref().unwrap_or(world).with(key, &point.text)?);
-                }
-                None => {
-                    inputs::set(&mut plan, name, &point.text)?;
-                }
+            if let Some(key) = change::key(name) {
+                let world = changed.as_ref().unwrap_or(world);
+                changed = Some(world.with(key, &point.text, self.robot)?);
             }
         }
         let world = &changed.as_ref().unwrap_or(world).world;
-        let sim = Simulation::new(world, row.seed)
-            .map_err(|error| RunError::usage(error.message, "look at the world's file"))?;
-        Ok(Made { plan, sim })
+        let measures = self.robot.measures();
+        let mut session = self.robot.session(self.graph, &**world, row.seed, measures)?;
+        for (name, point) in row.values.iter().filter(|(name, _)| change::key(name).is_none()) {
+            inputs::set(&mut *session, name, &point.text)?;
+        }
+        Ok(session)
     }
 
     /// The hash of the texts of all worlds.

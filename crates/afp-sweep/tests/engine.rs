@@ -10,8 +10,9 @@ use afp_dsl::Compiled;
 use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
 use afp_run::RunError;
+use afp_session::AnySession;
 use afp_sim::Simulation;
-use afp_sweep::{Ending, Engine, Made, Outcome, Row, Setting, Sweep, axis, seeds};
+use afp_sweep::{Ending, Engine, Outcome, Row, Setting, Sweep, axis, seeds};
 use afp_syntax::source::Source;
 
 mod templates {
@@ -83,8 +84,9 @@ fn run(
 ) -> Vec<Outcome> {
     let (compiled, mut sweep) = (compiled(), sweep());
     let graph = compiled.graph.as_ref().unwrap();
-    let setting = Setting::new(&mut sweep, graph, Path::new("either.afp"), &register).unwrap();
-    let maker = |row: &Row<'_>| -> Result<Made, RunError> {
+    let robot = afp_sim::carbot(register);
+    let setting = Setting::new(&mut sweep, graph, Path::new("either.afp"), &robot).unwrap();
+    let maker = |row: &Row<'_>| -> Result<Box<dyn AnySession>, RunError> {
         before(row);
         setting.make(row)
     };

@@ -3,18 +3,15 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use afp::load::LoadedPlan;
 use afp_core::devices::{SignalId, find_signal};
-use afp_core::rt::NamedPlan;
 use afp_core::{Duration, Instant, StartError};
 use afp_dsl::scenario::Scenario;
 use afp_log::{About, NameTable, SessionLog};
 use afp_run::RunError;
 use afp_session::{
-    AnySession, Go, NamedRecord, Observer, RequestError, RequestId, SampleRef, Sampling, Session,
+    AnySession, Go, Loader, NamedRecord, Observer, RequestError, RequestId, SampleRef, Sampling,
     View,
 };
-use afp_sim::Simulation;
 
 use crate::setting::Setting;
 use crate::stimuli::{self, owned};
@@ -44,16 +41,16 @@ struct Judge<'a> {
 pub(crate) fn run(
     scenario: &Scenario,
     setting: &Setting,
-    plan: LoadedPlan<Simulation>,
+    robot: &dyn Loader,
     log: Option<&Path>,
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Option<Verdict>, RunError> {
-    let mut session = session(scenario, setting, plan)?;
-    let lines = stimuli::request(&mut session, scenario).map_err(|(line, why)| {
+    let mut session = session(scenario, setting, robot)?;
+    let lines = stimuli::request(&mut *session, scenario).map_err(|(line, why)| {
         let line = scenario.stimuli.get(line).map_or("", |stimulus| &stimulus.text);
         refused(scenario, &format!("the simulator cannot do '{line}': {why}"))
     })?;
-    let mut log = log.map(|path| self::log(path, scenario, setting, &session)).transpose()?;
+    let mut log = log.map(|path| self::log(path, scenario, setting, &*session)).transpose()?;
     let signal = |name| find_signal(session.devices(), "robot", name);
     let mut judge = Judge {
         scenario,
@@ -96,15 +93,13 @@ pub(crate) fn run(
 fn session(
     scenario: &Scenario,
     setting: &Setting,
-    mut plan: LoadedPlan<Simulation>,
-) -> Result<impl AnySession, RunError> {
-    let sim = Simulation::new(&setting.world.world, scenario.seed)
-        .map_err(|error| RunError::usage(error.message, "look at the world's file"))?;
+    robot: &dyn Loader,
+) -> Result<Box<dyn AnySession>, RunError> {
+    let mut session = robot.session(&scenario.graph, &*setting.world.world, scenario.seed, &[])?;
     for (entry, value) in &scenario.set {
-        let set = NamedPlan::set_input(&mut plan, *entry, &owned(value));
+        let set = session.write(*entry, owned(value));
         set.map_err(|why| refused(scenario, &why.to_string()))?;
     }
-    let mut session = Session::loaded(plan, sim);
     session.set_rest(REST);
     Ok(session)
 }
@@ -202,7 +197,7 @@ fn about(scenario: &Scenario, setting: &Setting) -> About {
         ("scenario", scenario.name.clone()),
         ("robot", "sim".to_owned()),
         ("seed", scenario.seed.to_string()),
-        ("world", world.world.name.clone()),
+        ("world", world.world.name().to_owned()),
         ("until_ns", scenario.until.to_string()),
         ("clock", "virtual".to_owned()),
         ("afp_version", env!("CARGO_PKG_VERSION").to_owned()),

@@ -4,20 +4,18 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-use afp::load::Registry;
 use afp_dsl::toolbox::Toolboxes;
 use afp_project::ProjectFile;
-use afp_sim::Simulation;
+use afp_session::Loader;
 use afp_syntax::source::Source;
 
 use crate::{Setting, run};
 
-/// Runs the scenario of that name in `file`; panics with what broke, and the timeline around it.
-/// `templates` registers templates that are not built in.
+/// Runs the scenario of that name in `file` on a robot; panics with what broke, and the timeline around it.
 ///
 /// # Panics
 /// The scenario failed, or could not be run.
-pub fn check(file: &Path, name: &str, templates: &(dyn Fn(&mut Registry<Simulation>) + Sync)) {
+pub fn check(file: &Path, name: &str, robot: &dyn Loader) {
     let failed = |text: String| -> ! {
         panic!("scenario \"{name}\" of {}\n{}", file.display(), anstream::adapter::strip_str(&text))
     };
@@ -33,8 +31,9 @@ pub fn check(file: &Path, name: &str, templates: &(dyn Fn(&mut Registry<Simulati
     let Some(scenario) = compiled.scenarios.iter().find(|each| each.name == name) else {
         failed(compiled.render(false))
     };
-    let setting = Setting::find(scenario, file).unwrap_or_else(|error| failed(error.to_string()));
-    match run(scenario, &setting, templates, None) {
+    let setting =
+        Setting::find(scenario, file, robot).unwrap_or_else(|error| failed(error.to_string()));
+    match run(scenario, &setting, robot, None) {
         Ok(verdict) if verdict.passed() => {}
         Ok(verdict) => failed(verdict.report()),
         Err(error) => failed(error.to_string()),

@@ -6,7 +6,7 @@ use afp_dsl::scenario::Scenario;
 use afp_project::ProjectFile;
 use afp_run::RunError;
 use afp_run::world::{self, LoadedWorld};
-use afp_sim::Pose;
+use afp_session::{AnyRobot, Pose2};
 
 /// The world of a scenario, with the robot at its start.
 #[derive(Clone, Debug)]
@@ -21,19 +21,21 @@ impl Setting {
     ///
     /// # Errors
     /// There is no such world, it says something wrong, or the robot would stand in something.
-    pub fn find(scenario: &Scenario, file: &Path) -> Result<Setting, RunError> {
+    pub fn find(
+        scenario: &Scenario,
+        file: &Path,
+        robot: &dyn AnyRobot,
+    ) -> Result<Setting, RunError> {
         let mut found = match &scenario.world {
-            Some(written) => world::find(Some(&place(written, file)?), file)?,
-            None => world::find(None, Path::new(&scenario.plan_file))?,
+            Some(written) => world::find(Some(&place(written, file)?), file, robot)?,
+            None => world::find(None, Path::new(&scenario.plan_file), robot)?,
         };
         if let Some(start) = scenario.robot {
-            let pose = Pose { x: start.x, y: start.y, heading: start.heading };
-            if let Some(obstacle) = found.world.obstacle_at(pose) {
-                let what = format!("the robot starts inside of '{}'", obstacle.name);
+            let pose = Pose2 { x: start.x, y: start.y, heading: start.heading };
+            found.world = found.world.started_at(pose).map_err(|what| {
                 let message = format!("'{}': {what}", scenario.name);
-                return Err(RunError::usage(message, "change the line 'robot at ...'"));
-            }
-            found.world.start = pose;
+                RunError::usage(message, "change the line 'robot at ...'")
+            })?;
         }
         Ok(Setting { world: found })
     }

@@ -38,6 +38,10 @@ plan Nested {
 }
 "#;
 
+fn robot() -> impl afp_session::Loader {
+    afp_sim::carbot(|_| {})
+}
+
 fn compiled(plan: &str, lines: &str) -> Compiled {
     let text = format!("{plan}\nscenario \"it\" for Ahead {{\n{lines}\n}}\n");
     let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
@@ -50,8 +54,8 @@ fn compiled(plan: &str, lines: &str) -> Compiled {
 fn run(lines: &str) -> Verdict {
     let compiled = compiled(PLAN, lines);
     let [scenario] = compiled.scenarios.as_slice() else { panic!("{}", compiled.render(false)) };
-    let setting = Setting::find(scenario, Path::new("case.afp")).unwrap();
-    afp_test::run(scenario, &setting, &|_| {}, None).unwrap()
+    let setting = Setting::find(scenario, Path::new("case.afp"), &robot()).unwrap();
+    afp_test::run(scenario, &setting, &robot(), None).unwrap()
 }
 
 #[track_caller]
@@ -204,9 +208,9 @@ fn the_report_shows_the_timeline_around_what_broke() {
 fn scenarios_are_made_for_every_event_at_five_points_and_pass() {
     let base = compiled(PLAN, "expect go active\n until 20 s");
     let scenario = &base.scenarios[0];
-    let setting = Setting::find(scenario, Path::new("case.afp")).unwrap();
+    let setting = Setting::find(scenario, Path::new("case.afp"), &robot()).unwrap();
     let quiet = Scenario::quiet("", scenario.graph.clone(), "case.afp", 30_000_000_000);
-    let mut go = |scenario: &Scenario| afp_test::run(scenario, &setting, &|_| {}, None);
+    let mut go = |scenario: &Scenario| afp_test::run(scenario, &setting, &robot(), None);
     let made = afp_test::generate("case.afp", &quiet, &mut go).unwrap();
     assert_eq!(made.left_out, [""; 0]);
     assert!(made.scenarios >= 15, "{}", made.text);
@@ -218,7 +222,7 @@ fn scenarios_are_made_for_every_event_at_five_points_and_pass() {
     );
     assert_eq!(all.scenarios.len(), made.scenarios + 2);
     for scenario in &all.scenarios {
-        let verdict = afp_test::run(scenario, &setting, &|_| {}, None).unwrap();
+        let verdict = afp_test::run(scenario, &setting, &robot(), None).unwrap();
         assert!(verdict.passed(), "{}\n{}", scenario.name, verdict.report());
     }
 }
@@ -248,11 +252,11 @@ plan Ahead {
 "#;
     let base = compiled(HIDDEN, "expect end");
     let quiet = Scenario::quiet("", base.scenarios[0].graph.clone(), "case.afp", 30_000_000_000);
-    let setting = Setting::find(&quiet, Path::new("case.afp")).unwrap();
+    let setting = Setting::find(&quiet, Path::new("case.afp"), &robot()).unwrap();
     let mut runs = 0;
     let made = afp_test::generate("case.afp", &quiet, &mut |scenario: &Scenario| {
         runs += 1;
-        afp_test::run(scenario, &setting, &|_| {}, None)
+        afp_test::run(scenario, &setting, &robot(), None)
     });
     let made = made.unwrap();
     assert_eq!(made.left_out, ["no run reached 'never'"]);
@@ -264,7 +268,7 @@ plan Ahead {
     let (_, text) = made.text.split_once('\n').unwrap();
     let plan = format!("{}\n{text}", HIDDEN);
     for scenario in compiled(&plan, "expect end").scenarios {
-        let verdict = afp_test::run(&scenario, &setting, &|_| {}, None).unwrap();
+        let verdict = afp_test::run(&scenario, &setting, &robot(), None).unwrap();
         assert!(verdict.passed(), "{}\n{}", scenario.name, verdict.report());
     }
 }

@@ -15,9 +15,10 @@ use afp_dsl::Compiled;
 use afp_dsl::files::Texts;
 use afp_dsl::scenario::{DEFAULT_UNTIL, Scenario};
 use afp_dsl::toolbox::Toolboxes;
+use afp_session::Loader;
 use afp_sim::Simulation;
 use afp_syntax::source::Source;
-use afp_test::{Generated, Setting, Templates, Verdict};
+use afp_test::{Generated, Setting, Verdict};
 use templates::forward::{Inputs, Live, State};
 
 /// The templates of `examples/embed`, for a robot without a loudspeaker.
@@ -29,6 +30,10 @@ const SHOP: &str = include_str!("../../../examples/embed/shop.afp");
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn robot() -> impl afp_session::Loader {
+    afp_sim::carbot(|_| {})
 }
 
 fn compiled(name: &str, text: &str) -> Compiled {
@@ -47,12 +52,12 @@ struct Made {
 }
 
 impl Made {
-    fn new(file: &Path, templates: Templates<'_>) -> Made {
+    fn new(file: &Path, robot: &dyn Loader) -> Made {
         let (name, text) = (file.display().to_string(), fs::read_to_string(file).unwrap());
         let graph = Arc::new(compiled(&name, &text).graph.unwrap());
         let quiet = Scenario::quiet("as it goes", graph, &*name, DEFAULT_UNTIL);
-        let setting = Setting::find(&quiet, file).unwrap();
-        let mut go = |scenario: &Scenario| afp_test::run(scenario, &setting, templates, None);
+        let setting = Setting::find(&quiet, file, robot).unwrap();
+        let mut go = |scenario: &Scenario| afp_test::run(scenario, &setting, robot, None);
         let generated = afp_test::generate("same file", &quiet, &mut go).unwrap();
         // The scenarios stand below the plan itself, so nothing is used.
         let (_, scenarios) = generated.text.split_once('\n').unwrap();
@@ -61,17 +66,17 @@ impl Made {
         Made { setting, generated, scenarios: all.scenarios }
     }
 
-    fn run(&self, scenario: &Scenario, templates: Templates<'_>) -> Verdict {
-        afp_test::run(scenario, &self.setting, templates, None).unwrap()
+    fn run(&self, scenario: &Scenario, robot: &dyn Loader) -> Verdict {
+        afp_test::run(scenario, &self.setting, robot, None).unwrap()
     }
 
-    fn all_pass(&self, templates: Templates<'_>) {
+    fn all_pass(&self, robot: &dyn Loader) {
         let cores = std::thread::available_parallelism().map_or(1, |cores| cores.get());
         std::thread::scope(|threads| {
             for share in self.scenarios.chunks(self.scenarios.len().div_ceil(cores)) {
                 threads.spawn(move || {
                     for scenario in share {
-                        let verdict = self.run(scenario, templates);
+                        let verdict = self.run(scenario, robot);
                         assert!(verdict.passed(), "{}\n{}", scenario.name, verdict.report());
                     }
                 });
@@ -86,32 +91,32 @@ fn every_event_of_the_shipped_plans_interrupts_as_it_should() {
     let files: Vec<_> = files.filter(|path| path.extension().is_some_and(|e| e == "afp")).collect();
     assert!(!files.is_empty());
     for file in files {
-        let made = Made::new(&file, &|_| {});
+        let made = Made::new(&file, &robot());
         let name = file.display();
         let out = made.generated.left_out.iter().filter(|why| why.starts_with("no run reached"));
         assert_eq!(out.collect::<Vec<_>>(), [""; 0], "{name} has actors that nobody can test");
         assert!(made.generated.scenarios >= 5, "{name}");
-        made.all_pass(&|_| {});
+        made.all_pass(&robot());
     }
 }
 
 #[test]
 fn every_event_in_the_sub_plans_of_the_example_does_too() {
-    let templates = |registry: &mut Registry<Simulation>| {
+    let robot = afp_sim::carbot(|registry: &mut Registry<Simulation>| {
         shop::register(registry);
-    };
-    let made = Made::new(&root().join("examples/embed/plans/errands.afp"), &templates);
+    });
+    let made = Made::new(&root().join("examples/embed/plans/errands.afp"), &robot);
     assert!(made.generated.text.contains("expect fetch.there -> terminate by touch"));
     assert_eq!(made.generated.left_out, [""; 0]);
-    made.all_pass(&templates);
+    made.all_pass(&robot);
 }
 
 /// Interrupts `Forward` as `A` has it; what breaks.
 fn interrupted<A: Actor<templates::Forward, Simulation> + Clone + Send + 'static>() -> Vec<String> {
-    let sound = Made::new(&root().join("plans/wall_following.afp"), &|_| {});
-    let mutant = |registry: &mut Registry<Simulation>| {
+    let sound = Made::new(&root().join("plans/wall_following.afp"), &robot());
+    let mutant = afp_sim::carbot(|registry: &mut Registry<Simulation>| {
         registry.actor::<templates::Forward, A>("carbot", "Forward");
-    };
+    });
     let driving = |scenario: &&Scenario| scenario.name.starts_with("searchFirstWall: touch");
     let driving: Vec<_> = sound.scenarios.iter().filter(driving).collect();
     assert_eq!(driving.len(), 5);

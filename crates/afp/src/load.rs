@@ -15,6 +15,7 @@ mod registry;
 mod slots;
 mod tables;
 
+pub use afp_dsl::graph::Graph;
 pub use error::{InputError, LoadError};
 pub use inject::{Injection, NotActive};
 pub use names::PlanNames;

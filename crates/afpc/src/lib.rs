@@ -16,6 +16,7 @@ mod toolboxes;
 use std::process::ExitCode;
 
 use afp::load::Registry;
+use afp_session::Loader;
 use afp_sim::Simulation;
 
 /// Trees are many small pieces; checking a large plan takes a third less time than with the
@@ -32,9 +33,9 @@ pub struct Linked {
     pub register: fn(&mut Registry<Simulation>),
 }
 
-/// Registers the templates of linked toolboxes.
-fn register(linked: &[Linked], registry: &mut Registry<Simulation>) {
-    linked.iter().for_each(|toolbox| (toolbox.register)(registry));
+/// The robot that plans run on: the Carbot, with the templates of linked toolboxes.
+fn robot(linked: &[Linked]) -> impl Loader {
+    afp_sim::carbot(|registry| linked.iter().for_each(|toolbox| (toolbox.register)(registry)))
 }
 
 /// The whole program.

@@ -12,7 +12,7 @@ use afp_log::{About, NameTable, SessionLog};
 use afp_run::inputs::missing;
 use afp_run::world::LoadedWorld;
 use afp_session::{AnySession, Figures, Go, Observer, Request, Robot, Session, Track};
-use afp_sim::Simulation;
+use afp_sim::{Simulation, World as Room};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
@@ -24,6 +24,7 @@ use crate::pause::{Halt, Pause};
 pub struct Setting<'a> {
     pub graph: &'a Graph,
     pub world: &'a LoadedWorld,
+    pub room: &'a Room,
     pub seed: u64,
     pub file: &'a Path,
     pub log: Option<&'a Path>,
@@ -44,9 +45,9 @@ pub struct Run {
 impl Run {
     /// A run about to start.
     pub fn new(plan: LoadedPlan<Simulation>, setting: &Setting<'_>, pause: Pause) -> PyResult<Run> {
-        let world = &setting.world.world;
-        let sim = Simulation::new(world, setting.seed).map_err(|why| error(why.message))?;
+        let sim = Simulation::new(setting.room, setting.seed).map_err(|why| error(why.message))?;
         let session = Session::loaded(plan, sim);
+        let world = &setting.world.world;
         let log = setting.log.map(|path| {
             let (about, names) = (about(setting), NameTable::new(session.plan_names()));
             SessionLog::create(path, &about, names, session.devices(), world.scene(), false)
@@ -266,7 +267,7 @@ fn about(setting: &Setting<'_>) -> About {
         ("plan_file", setting.file.display().to_string()),
         ("robot", "sim".to_owned()),
         ("seed", setting.seed.to_string()),
-        ("world", setting.world.world.name.clone()),
+        ("world", setting.world.world.name().to_owned()),
         ("clock", "virtual".to_owned()),
         ("afp_version", env!("CARGO_PKG_VERSION").to_owned()),
     ];

@@ -32,9 +32,9 @@ impl Sweeper {
             return Err(PyValueError::new_err(text));
         }
         may_sweep()?;
-        with_setting(py, &self.toolboxes, |templates, components| {
+        with_setting(py, &self.toolboxes, |robot, components| {
             let mut sweep = self.sweep.clone();
-            let setting = Setting::new(&mut sweep, graph(&self.compiled)?, &self.file, templates);
+            let setting = Setting::new(&mut sweep, graph(&self.compiled)?, &self.file, robot);
             let setting = setting.map_err(|why| run_error(&why))?;
             let stop = AtomicBool::new(false);
             let engine =

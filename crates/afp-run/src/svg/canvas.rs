@@ -3,10 +3,10 @@
 use std::fmt::Write;
 
 use afp_core::Instant;
-use afp_sim::{HALF_WIDTH, Pose, World};
+use afp_session::Pose2;
 
 use super::legend::Legend;
-use super::marks;
+use super::{marks, placed};
 
 /// Around the room, pixels.
 pub(super) const MARGIN: f64 = 28.0;
@@ -120,8 +120,8 @@ impl Canvas {
     }
 
     /// The robot's outline with an arrow ahead; faint at the start.
-    pub(super) fn robot(&mut self, pose: Pose, end: bool) {
-        let outline = self.points(&World::robot_outline(pose));
+    pub(super) fn robot(&mut self, body: &[[f64; 2]], pose: Pose2, end: bool) {
+        let outline = self.points(&placed(body, pose).collect::<Vec<_>>());
         let (sin, cos) = libm::sincos(pose.heading);
         let beside = |ahead: f64, left: f64| {
             [pose.x + ahead * cos - left * sin, pose.y + ahead * sin + left * cos]
@@ -138,8 +138,9 @@ impl Canvas {
     }
 
     /// The floor that the body passed over.
-    pub(super) fn footprint(&mut self, points: &[[f64; 2]]) {
-        let (points, width) = (self.points(points), 2.0 * HALF_WIDTH * self.view.scale);
+    pub(super) fn footprint(&mut self, body: &[[f64; 2]], points: &[[f64; 2]]) {
+        let side = body.iter().map(|[_, y]| y.abs()).fold(0.0, f64::max);
+        let (points, width) = (self.points(points), 2.0 * side * self.view.scale);
         self.put(format_args!(
             r#"<polyline class="footprint" stroke-width="{width:.1}" points="{points}"/>"#
         ));
@@ -155,7 +156,7 @@ impl Canvas {
     }
 
     /// A symbol where an event was taken; its title tells when.
-    pub(super) fn mark(&mut self, pose: Pose, kind: usize, at: Instant) {
+    pub(super) fn mark(&mut self, pose: Pose2, kind: usize, at: Instant) {
         let (x, y) = self.view.point([pose.x, pose.y]);
         let symbol = marks::symbol(kind, x, y);
         let secs = at.as_secs_f64();

@@ -4,8 +4,9 @@ use afp_core::Instant;
 use afp_core::trace::{ComponentId, Kind, Names};
 use afp_log::proto::afp::{PlanEvent, plan_event};
 use afp_log::{LogData, NameTable, instant};
-use afp_session::{Mark, Waypoint};
-use afp_sim::{Pose, World};
+use std::sync::Arc;
+
+use afp_session::{AnyRobot, AnyWorld, Mark, Pose2, Waypoint};
 
 use super::{Picture, draw};
 use crate::error::RunError;
@@ -17,8 +18,8 @@ const WORLD: &str = "world.toml";
 ///
 /// # Errors
 /// The log has no world, or one that this release does not understand.
-pub fn draw_log(log: &LogData) -> Result<String, RunError> {
-    let world = world_of(log)?;
+pub fn draw_log(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError> {
+    let world = world_of(log, robot)?;
     let names = NameTable::from_table(&log.table);
     let (path, marks) = follow(log, &names);
     let way = path.windows(2).map(|pair| {
@@ -28,9 +29,9 @@ pub fn draw_log(log: &LogData) -> Result<String, RunError> {
     let time = log.span.map_or(0.0, |(_, last)| last.as_secs_f64());
     let fact = |key: &str| log.facts.get(key).cloned().unwrap_or_default();
     let picture = Picture {
-        world: &world,
+        world: &world.drawing(),
         title: fact("plan"),
-        subtitle: subtitle(&world, log),
+        subtitle: subtitle(&*world, log),
         figures: vec![
             ("time".to_owned(), format!("{time:.1} s")),
             ("distance".to_owned(), format!("{:.2} m", way.sum::<f64>())),
@@ -45,7 +46,7 @@ pub fn draw_log(log: &LogData) -> Result<String, RunError> {
 ///
 /// # Errors
 /// The log has none, or one that this release does not understand.
-pub(super) fn world_of(log: &LogData) -> Result<World, RunError> {
+pub(super) fn world_of(log: &LogData, robot: &dyn AnyRobot) -> Result<Arc<dyn AnyWorld>, RunError> {
     let content = |message: String, span, text: &str| RunError::Content {
         path: WORLD.into(),
         span,
@@ -55,18 +56,18 @@ pub(super) fn world_of(log: &LogData) -> Result<World, RunError> {
     let Some(text) = log.attachments.get(WORLD) else {
         return Err(content(format!("the log has no attachment '{WORLD}'"), None, ""));
     };
-    World::parse(text).map_err(|error| content(error.message, error.span, text))
+    robot.world(text).map_err(|error| content(error.message, error.span, text))
 }
 
 /// The line below the title.
-pub(super) fn subtitle(world: &World, log: &LogData) -> String {
-    format!("{}, seed {}", world.name, log.facts.get("seed").map_or("", String::as_str))
+pub(super) fn subtitle(world: &dyn AnyWorld, log: &LogData) -> String {
+    format!("{}, seed {}", world.name(), log.facts.get("seed").map_or("", String::as_str))
 }
 
 /// The path with the actor at each point, and the events on it.
 pub(super) fn follow(log: &LogData, names: &NameTable) -> (Vec<Waypoint>, Vec<Mark>) {
     let (mut path, mut marks) = (Vec::new(), Vec::new());
-    let (mut actor, mut last) = (None, Pose::default());
+    let (mut actor, mut last) = (None, Pose2::default());
     let mut events = log.events.iter().peekable();
     let after = std::iter::once((Instant::MAX, None));
     for (at, pose) in log.poses.iter().map(|(at, pose)| (*at, Some(pose))).chain(after) {
@@ -102,7 +103,7 @@ fn active(event: &PlanEvent) -> Option<Option<ComponentId>> {
     }
 }
 
-fn mark(event: &PlanEvent, pose: Pose) -> Mark {
+fn mark(event: &PlanEvent, pose: Pose2) -> Mark {
     Mark {
         pose,
         at: instant(&event.time),

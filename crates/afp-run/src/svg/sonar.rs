@@ -7,6 +7,8 @@ use afp_core::Instant;
 use afp_log::robot::Pose2;
 use afp_log::{Heard, LogData, NameTable};
 
+use afp_session::AnyRobot;
+
 use super::canvas::View;
 use super::from_log::{follow, subtitle, world_of};
 use super::legend::Legend;
@@ -24,8 +26,9 @@ struct Echo {
 ///
 /// # Errors
 /// The log has no world or one that this release does not understand, or no echoes.
-pub fn draw_sonar(log: &LogData) -> Result<String, RunError> {
-    let world = world_of(log)?;
+pub fn draw_sonar(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError> {
+    let world = world_of(log, robot)?;
+    let drawing = world.drawing();
     let heard = log.rangings.iter().filter(|heard| heard.range.is_some()).count();
     if heard == 0 || log.poses.is_empty() {
         let help = "log a longer run, with something in reach of the range sensor";
@@ -33,9 +36,9 @@ pub fn draw_sonar(log: &LogData) -> Result<String, RunError> {
     }
     let names = NameTable::from_table(&log.table);
     let (path, marks) = follow(log, &names);
-    let view = View::around(bounds(&world, &path));
-    let mut canvas = room(&world, view);
-    canvas.robot(world.start, false);
+    let view = View::around(bounds(&drawing, &path));
+    let mut canvas = room(&drawing, view);
+    canvas.robot(&drawing.body, drawing.start, false);
     canvas.clipped(|canvas| {
         canvas.line("believed", &places(&log.believed));
         canvas.line("true", &places(&log.poses));
@@ -48,13 +51,13 @@ pub fn draw_sonar(log: &LogData) -> Result<String, RunError> {
         }
     });
     if let Some(last) = path.last() {
-        canvas.robot(last.pose, true);
+        canvas.robot(&drawing.body, last.pose, true);
     }
     let kinds = marks::kinds(&marks);
     marks::draw(&mut canvas, &marks, &kinds);
     canvas.scale_bar();
     let mut legend = Legend::new(view);
-    legend.head(log.facts.get("plan").map_or("", String::as_str), &subtitle(&world, log));
+    legend.head(log.facts.get("plan").map_or("", String::as_str), &subtitle(&*world, log));
     legend.sonar();
     legend.events(marks::counted(&marks, &kinds, &names));
     legend.figures(&figures(log, heard));

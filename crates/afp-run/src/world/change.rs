@@ -5,6 +5,8 @@
 use afp_core::rt::{Scale, Unit, parse_quantity};
 use toml_edit::{DocumentMut, Item, Table, Value, value};
 
+use afp_session::AnyRobot;
+
 use super::LoadedWorld;
 use crate::error::RunError;
 
@@ -56,8 +58,13 @@ impl LoadedWorld {
     ///
     /// # Errors
     /// There is no such thing, the unit does not fit, or the world makes no sense with that value.
-    pub fn with(&self, key: &str, text: &str) -> Result<LoadedWorld, RunError> {
-        super::parse(self.changed(key, text)?.0, self.path.clone())
+    pub fn with(
+        &self,
+        key: &str,
+        text: &str,
+        robot: &dyn AnyRobot,
+    ) -> Result<LoadedWorld, RunError> {
+        super::parse(self.changed(key, text)?.0, self.path.clone(), robot)
     }
 
     /// What a value for a key is in SI units; `None` for what is no number.
@@ -153,21 +160,32 @@ fn read(text: &str, units: &[Unit<'static>]) -> Result<Value, String> {
 mod tests {
     use std::path::Path;
 
+    use afp_session::{Kind, kind};
+    use afp_sim::{Simulation, World};
+
     use super::*;
 
+    const ROBOT: Kind<Simulation> = kind();
+
     fn room() -> LoadedWorld {
-        super::super::find(None, Path::new("nowhere/else.afp")).unwrap()
+        super::super::find(None, Path::new("nowhere/else.afp"), &ROBOT).unwrap()
+    }
+
+    fn with(world: &LoadedWorld, key: &str, text: &str) -> (LoadedWorld, World) {
+        let changed = world.with(key, text, &ROBOT).unwrap();
+        let typed = changed.world.as_any().downcast_ref::<World>().unwrap().clone();
+        (changed, typed)
     }
 
     #[test]
     fn values_are_found_by_name_and_carry_units() {
-        let world = room().with("box.closet.height_m", "150cm").unwrap();
-        let closet = world.world.obstacles.iter().find(|it| it.name == "closet").unwrap();
+        let (world, typed) = with(&room(), "box.closet.height_m", "150cm");
+        let closet = typed.obstacles.iter().find(|it| it.name == "closet").unwrap();
         assert_eq!(closet.height, 1.5);
-        let world = world.with("robot.pose_m_deg.2", "90deg").unwrap();
-        assert!((world.world.start.heading - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
-        assert_eq!(world.with("robot.charge", "0.5").unwrap().world.charge, 0.5);
-        assert_eq!(room().with("box.0.height_m", "1m").unwrap().world.obstacles.len(), 10);
+        let (world, typed) = with(&world, "robot.pose_m_deg.2", "90deg");
+        assert!((typed.start.heading - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+        assert_eq!(with(&world, "robot.charge", "0.5").1.charge, 0.5);
+        assert_eq!(with(&room(), "box.0.height_m", "1m").1.obstacles.len(), 10);
     }
 
     #[test]
@@ -181,7 +199,8 @@ mod tests {
             ("robot.charge", "2", "charge"),
             ("box.height_m", "1m", "name one of them first"),
         ] {
-            let error = room().with(key, text).unwrap_err().to_string();
+            let refused = room().with(key, text, &ROBOT).err().map(|error| error.to_string());
+            let error = refused.unwrap_or_default();
             assert!(error.contains(why), "{key}: {error}");
         }
     }

@@ -3,7 +3,7 @@
 use afp_core::devices::{DeviceRow, SignalId};
 use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::{ComponentId, Ending, Names, TraceHash};
-use afp_core::{Duration, Fault, Instant, StartError, Value, ValueRef};
+use afp_core::{Duration, Fault, Instant, StartError, Value, ValueRef, WriteError};
 
 use super::{Session, told};
 use crate::any::{AnySession, SetError};
@@ -59,6 +59,10 @@ where
 
     fn set(&mut self, entry: &str, text: &str) -> Result<Value, SetError> {
         self.set(entry, text)
+    }
+
+    fn write(&mut self, entry: u16, value: Value) -> Result<(), WriteError> {
+        self.write(entry, value)
     }
 
     fn at(&mut self, at: Instant, request: Request) -> Result<RequestId, RequestError> {

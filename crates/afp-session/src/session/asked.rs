@@ -4,9 +4,7 @@
 use afp::load::{Injection, LoadedPlan, NotActive};
 use afp_core::devices::{ControlId, Devices, FaultId, controls, faults};
 use afp_core::rt::{NamedPlan, Plan};
-use afp_core::trace::ComponentId;
-#[cfg(feature = "load")]
-use afp_core::trace::Names;
+use afp_core::trace::{ComponentId, EntryKind, Names, TraceEntryId};
 use afp_core::{Duration, Instant, Value, Wake};
 
 use super::Session;
@@ -177,6 +175,10 @@ where
     pub fn set(&mut self, entry: &str, text: &str) -> Result<Value, SetError> {
         let plan = self.scheduler.plan();
         let id = plan.entry_named(entry).ok_or(SetError::Unknown)?;
+        let kind = self.names.entry(TraceEntryId(id.into())).kind;
+        if self.wake.is_none() && kind != EntryKind::In {
+            return Err(SetError::NotIn);
+        }
         let value = plan.read(id, text).map_err(|why| SetError::Unreadable {
             why,
             units: plan.units(id).map(|unit| unit.name.to_owned()).collect(),

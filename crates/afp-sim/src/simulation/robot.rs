@@ -11,9 +11,8 @@ use afp_session::{
 
 use super::{Simulation, Snapshot};
 use crate::clock::VirtualClock;
-use crate::truth::Pose;
 use crate::wall::WallDistance;
-use crate::world::{Mobility, Obstacle, World};
+use crate::world::{World, shape};
 
 const WORLD: &str = "world";
 const BASE: &str = "base_link";
@@ -22,8 +21,7 @@ const BELIEVED: &str = "base_link_by_odometry";
 const SONAR: &str = "sonar";
 const CAMERA: &str = "camera";
 
-/// How high the parts of the robot are, metres.
-const BODY_HEIGHT: f64 = 0.22;
+/// How high the range sensor is, metres.
 const SONAR_HEIGHT: f64 = 0.15;
 
 impl Platform for Simulation {
@@ -142,6 +140,7 @@ impl Simulation {
 
 impl Simulated for Simulation {
     type World = World;
+    const FACTS: &'static [(&'static str, &'static str)] = &[("physics_step_ns", "5000000")];
     const MEASURES: &'static [&'static str] = &[WallDistance::NAME];
 
     fn new(world: &World, seed: u64) -> Result<Self, String> {
@@ -153,38 +152,6 @@ impl Simulated for Simulation {
             WallDistance::NAME => Some(Box::new(WallDistance::default())),
             _ => None,
         }
-    }
-}
-
-impl World {
-    /// Everything that stands in the room, and the robot's body, as a scene shows them at the start.
-    pub fn scene(&self) -> Vec<Shape> {
-        let obstacles = self.obstacles.iter().enumerate();
-        let body = Shape {
-            id: "robot".to_owned(),
-            frame: BASE,
-            outline: World::robot_outline(Pose::default()).to_vec(),
-            height: BODY_HEIGHT,
-            color: [0.15, 0.45, 0.75, 0.9],
-        };
-        obstacles.map(|(index, obstacle)| shape(index, obstacle)).chain([body]).collect()
-    }
-
-    /// Whether anything in it moves.
-    pub fn moves(&self) -> bool {
-        self.obstacles.iter().any(|obstacle| obstacle.mobility != Mobility::Fixed)
-    }
-}
-
-/// An obstacle as it stands at the start.
-fn shape(index: usize, obstacle: &Obstacle) -> Shape {
-    let [red, green, blue] = obstacle.look.color.map(|part| f64::from(part) / 255.0);
-    Shape {
-        id: format!("{index} {}", obstacle.name),
-        frame: WORLD,
-        outline: obstacle.outline.corners(),
-        height: obstacle.height,
-        color: [red, green, blue, 0.9],
     }
 }
 

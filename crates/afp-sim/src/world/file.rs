@@ -3,6 +3,7 @@
 mod check;
 mod tables;
 
+use super::error::at_key;
 use super::look::parse_color;
 use super::{
     Light, Look, Mobility, Obstacle, Outline, Patch, Path, Rgb, Texture, World, WorldError,
@@ -34,7 +35,7 @@ pub(super) fn read(text: &str) -> Result<World, WorldError> {
     let root = Key::root();
     if file.version != 1 {
         let message = format!("version {} is unknown; this is version 1", file.version);
-        return Err(WorldError::at_key(text, &["version"], message));
+        return Err(at_key(text, &["version"], message));
     }
     let robot = root.at("robot");
     let start = check.pose(&robot.at("pose_m_deg"), file.robot.pose_m_deg)?;

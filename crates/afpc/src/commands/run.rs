@@ -2,12 +2,13 @@
 
 use afp_run::Program;
 use afp_run::options::RunOptions;
+use afp_session::{AnyWorld, Loader};
 use clap::Args;
 
 use crate::cli::PlanArgument;
 use crate::picture;
 use crate::plan_file::{NoPlan, PlanFile};
-use crate::{Linked, register, runner};
+use crate::{Linked, robot, runner};
 
 /// Arguments of `afpc run`.
 #[derive(Args, Debug)]
@@ -27,11 +28,14 @@ pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
     let file = PlanFile::read(&arguments.plan.plan)?;
     runner::become_one_for(file.compiled.graph.iter().map(|graph| (&file.own, graph)), linked)?;
     let (file, graph) = file.checked()?;
-    let plan = afp_test::load(&graph, &|registry| register(linked, registry))?;
+    let robot = robot(linked);
+    let make = |world: &dyn AnyWorld, seed: u64, measures: &[&str]| {
+        robot.session(&graph, world, seed, measures)
+    };
     let path = file.path.display().to_string();
     let texts = file.compiled.plan_texts();
     let texts: Vec<_> = texts.iter().map(|(path, text)| (path.as_str(), text.as_str())).collect();
     let program = Program { name: &graph.main().name, file: &path, texts: &texts };
     let pixels = |svg: &str| picture::pixels(svg, picture::DEFAULT_SCALE);
-    Ok(afp_run::run_with(&program, plan, &arguments.options, Some(&pixels))?)
+    Ok(afp_run::run(&program, &robot, Box::new(make), &arguments.options, Some(&pixels))?)
 }

@@ -13,7 +13,7 @@ use clap::Args;
 
 use crate::cli::PlanArgument;
 use crate::plan_file::{NoPlan, PlanFile};
-use crate::{Linked, register, runner};
+use crate::{Linked, robot, runner};
 
 use tell::Teller;
 
@@ -91,8 +91,8 @@ pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
     runner::become_one_for(file.compiled.graph.iter().map(|graph| (&file.own, graph)), linked)?;
     let (file, graph) = file.checked()?;
     let mut sweep = arguments.sweep()?;
-    let templates = |registry: &mut _| register(linked, registry);
-    let setting = Setting::new(&mut sweep, &graph, &file.path, &templates)?;
+    let robot = robot(linked);
+    let setting = Setting::new(&mut sweep, &graph, &file.path, &robot)?;
     let header = Header::new(program(linked)?, (&file.compiled, &graph), &setting, &sweep);
     let place = Place::new(arguments.output.as_deref(), &file.path, &header)?;
     let (mut journal, mut outcomes) = Journal::open(&place.journal, &header, arguments.restart)?;

@@ -8,16 +8,15 @@ mod tell;
 use std::path::{Path, PathBuf};
 use std::time::Instant as Wall;
 
-use afp::load::Registry;
 use afp_dsl::scenario::Scenario;
 use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, RunError};
-use afp_sim::Simulation;
+use afp_session::Loader;
 use afp_test::{Coverage, Hits, Setting, Verdict};
 use clap::Args;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use crate::plan_file::{NoPlan, PlanFile};
-use crate::{Linked, register, runner};
+use crate::{Linked, robot, runner};
 
 use tell::Teller;
 
@@ -89,7 +88,7 @@ pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
     if arguments.generate {
         let files: Vec<_> = arguments.what.iter().map(PathBuf::from).collect();
         let output = arguments.output.as_deref();
-        return generate::run(&files, output, &|registry| register(linked, registry), linked);
+        return generate::run(&files, output, &robot(linked), linked);
     }
     let find::Wanted { files, filters } = find::wanted(&arguments.what)?;
     let mut code = EXIT_OK;
@@ -141,14 +140,14 @@ fn matches(case: &Case<'_>, filters: &[String]) -> bool {
 
 /// Runs the cases on all cores; whether one of them failed.
 fn run_all(cases: &[Case<'_>], arguments: &Arguments, linked: &[Linked]) -> Result<bool, NoPlan> {
-    let templates = |registry: &mut Registry<Simulation>| register(linked, registry);
+    let robot = robot(linked);
     let begun = Wall::now();
     let teller = Teller::new(cases.len(), arguments.json);
     let done: Vec<Done> = cases
         .par_iter()
         .with_max_len(1)
         .map(|case| {
-            let done = run_one(case, &templates);
+            let done = run_one(case, &robot);
             teller.done(case, &done);
             done
         })
@@ -205,12 +204,12 @@ impl Done {
     }
 }
 
-fn run_one(case: &Case<'_>, templates: afp_test::Templates<'_>) -> Done {
-    let setting = match Setting::find(case.scenario, case.file) {
+fn run_one(case: &Case<'_>, robot: &dyn Loader) -> Done {
+    let setting = match Setting::find(case.scenario, case.file, robot) {
         Ok(setting) => setting,
         Err(error) => return Done { verdict: Err(error), log: None },
     };
-    let verdict = afp_test::run(case.scenario, &setting, templates, None);
+    let verdict = afp_test::run(case.scenario, &setting, robot, None);
     let failed = verdict.as_ref().is_ok_and(|verdict| !verdict.passed());
     if !failed {
         return Done { verdict, log: None };
@@ -218,7 +217,7 @@ fn run_one(case: &Case<'_>, templates: afp_test::Templates<'_>) -> Done {
     // The same run once more, since passing ones need no log.
     let path = find::log_of(case.file, &case.scenario.name);
     let log = path.and_then(|path| {
-        afp_test::run(case.scenario, &setting, templates, Some(&path)).ok().map(|_| path)
+        afp_test::run(case.scenario, &setting, robot, Some(&path)).ok().map(|_| path)
     });
     Done { verdict, log }
 }

@@ -1,6 +1,7 @@
 //! Checks of single values, reported at their keys.
 
 use crate::truth::Pose;
+use crate::world::error::at_key;
 use crate::world::{FARTHEST, WorldError};
 
 /// The way to a key of the file.
@@ -96,7 +97,7 @@ impl<'a> Check<'a> {
     pub(super) fn error(&self, key: &Key, message: &str) -> WorldError {
         let keys: Vec<&str> = key.0.iter().map(String::as_str).collect();
         let name = keys.last().copied().unwrap_or_default();
-        WorldError::at_key(self.text, &keys, format!("{name}: {message}"))
+        at_key(self.text, &keys, format!("{name}: {message}"))
     }
 }
 

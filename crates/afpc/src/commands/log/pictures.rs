@@ -4,6 +4,8 @@ use std::path::Path;
 
 use afp_log::{LogData, read};
 use afp_run::RunError;
+use afp_session::kind;
+use afp_sim::Simulation;
 use afp_test::Coverage;
 
 use super::Arguments;
@@ -21,12 +23,15 @@ pub(super) fn draw(arguments: &Arguments) -> Result<(), NoPlan> {
         return Ok(());
     }
     let log = read(&arguments.file).map_err(RunError::from)?;
-    let pictures: [(_, fn(&LogData) -> _); 3] =
-        [(svg, afp_run::draw_log), (sonar, afp_run::draw_sonar), (film, afp_run::draw_film)];
-    for (path, draw) in pictures {
-        if let Some(path) = path {
-            picture::write(path, &draw(&log)?)?;
-        }
+    let robot = kind::<Simulation>();
+    if let Some(path) = svg {
+        picture::write(path, &afp_run::draw_log(&log, &robot)?)?;
+    }
+    if let Some(path) = sonar {
+        picture::write(path, &afp_run::draw_sonar(&log, &robot)?)?;
+    }
+    if let Some(path) = film {
+        picture::write(path, &afp_run::draw_film(&log)?)?;
     }
     if let Some(path) = coverage {
         draw_coverage(&log, path)?;

@@ -7,7 +7,8 @@ use std::sync::Arc;
 use afp_dsl::graph::{EntryKind, Graph};
 use afp_dsl::scenario::Scenario;
 use afp_run::{EXIT_OK, RunError, write_whole};
-use afp_test::{Generated, Setting, Templates};
+use afp_session::Loader;
+use afp_test::{Generated, Setting};
 
 use crate::commands::print;
 use crate::plan_file::{NoPlan, PlanFile};
@@ -23,7 +24,7 @@ const RUN: u64 = 60_000_000_000;
 pub(super) fn run(
     files: &[PathBuf],
     output: Option<&Path>,
-    templates: Templates<'_>,
+    robot: &dyn Loader,
     linked: &[Linked],
 ) -> Result<u8, NoPlan> {
     if files.is_empty() {
@@ -37,7 +38,7 @@ pub(super) fn run(
     for file in read {
         let (file, graph) = file.checked()?;
         let path = place(&file.path, output, files.len() > 1)?;
-        let made = generate(&file.path, &path, graph, templates)?;
+        let made = generate(&file.path, &path, graph, robot)?;
         let text = afp_format::format(&made.text).unwrap_or(made.text);
         write_whole("cannot write the scenarios", &path, text)?;
         print(&format!("{}: {} scenarios\n", path.display(), made.scenarios))?;
@@ -53,7 +54,7 @@ fn generate(
     file: &Path,
     to: &Path,
     graph: Graph,
-    templates: Templates<'_>,
+    robot: &dyn Loader,
 ) -> Result<Generated, RunError> {
     let missing =
         |entry: &&afp_dsl::graph::Entry| entry.kind == EntryKind::In && entry.init.is_none();
@@ -63,9 +64,9 @@ fn generate(
     }
     let plan_file = file.display().to_string();
     let quiet = Scenario::quiet("as it goes", Arc::new(graph), plan_file, RUN);
-    let setting = Setting::find(&quiet, file)?;
+    let setting = Setting::find(&quiet, file, robot)?;
     afp_test::generate(&way(file, to)?, &quiet, &mut |scenario| {
-        afp_test::run(scenario, &setting, templates, None)
+        afp_test::run(scenario, &setting, robot, None)
     })
 }
 

@@ -1,0 +1,243 @@
+//! Kinds of simulated robots, whatever they are: what a program links in.
+
+use std::fmt;
+use std::marker::PhantomData;
+use std::sync::Arc;
+
+#[cfg(feature = "load")]
+use afp::load::{Graph, LoadError, LoadedPlan, Registry};
+use afp_core::devices::{DeviceRow, Devices};
+use afp_core::rt::{NamedPlan, Plan};
+
+#[cfg(feature = "load")]
+use crate::any::AnySession;
+use crate::record::Kept;
+use crate::robot::Simulated;
+use crate::session::Session;
+use crate::world::{AnyWorld, World, WorldError};
+
+/// A kind of simulated robot.
+pub trait AnyRobot: Sync {
+    /// Its devices.
+    fn devices(&self) -> &'static [DeviceRow];
+
+    /// What logs say of it: name and value.
+    fn facts(&self) -> &'static [(&'static str, &'static str)];
+
+    /// The names of its measures.
+    fn measures(&self) -> &'static [&'static str];
+
+    /// The text of the world for plans that come without one.
+    fn default_world(&self) -> &'static str;
+
+    /// The text of a world made up from a seed; none where there is no such thing.
+    fn made_up_world(&self, seed: u64) -> Option<String>;
+
+    /// The name of the picture that a map is drawn in.
+    ///
+    /// # Errors
+    /// What is wrong with the map.
+    fn picture_of_map(&self, map: &str) -> Result<String, WorldError>;
+
+    /// The text of the world that a map and its picture show.
+    ///
+    /// # Errors
+    /// What is wrong with the map.
+    fn text_of_map(&self, name: &str, map: &str, picture: &[u8]) -> Result<String, WorldError>;
+
+    /// Reads a world.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its place.
+    fn world(&self, text: &str) -> Result<Arc<dyn AnyWorld>, WorldError>;
+}
+
+/// Why there is no session.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SessionError {
+    /// The plan cannot be loaded.
+    #[cfg(feature = "load")]
+    Load(LoadError),
+    /// The world cannot be built.
+    World(String),
+    /// The world is that of another robot.
+    OtherWorld,
+    /// The robot has no such measure; it has these.
+    Measure(String, &'static [&'static str]),
+}
+
+/// A kind of simulated robot by its type.
+pub struct Kind<R>(PhantomData<fn() -> R>);
+
+/// The kind of a simulated robot.
+pub const fn kind<R: Simulated>() -> Kind<R> {
+    Kind(PhantomData)
+}
+
+impl<R: Simulated> AnyRobot for Kind<R> {
+    fn devices(&self) -> &'static [DeviceRow] {
+        <R::Devices as Devices>::TABLE
+    }
+
+    fn facts(&self) -> &'static [(&'static str, &'static str)] {
+        R::FACTS
+    }
+
+    fn measures(&self) -> &'static [&'static str] {
+        R::MEASURES
+    }
+
+    fn default_world(&self) -> &'static str {
+        R::World::DEFAULT
+    }
+
+    fn made_up_world(&self, seed: u64) -> Option<String> {
+        R::World::made_up(seed)
+    }
+
+    fn picture_of_map(&self, map: &str) -> Result<String, WorldError> {
+        R::World::picture_of_map(map)
+    }
+
+    fn text_of_map(&self, name: &str, map: &str, picture: &[u8]) -> Result<String, WorldError> {
+        R::World::text_of_map(name, map, picture)
+    }
+
+    fn world(&self, text: &str) -> Result<Arc<dyn AnyWorld>, WorldError> {
+        Ok(Arc::new(R::World::read(text)?))
+    }
+}
+
+impl<P, R> Session<P, R, Kept>
+where
+    P: NamedPlan + Plan<R>,
+    R: Simulated,
+{
+    /// A plan on a robot at its start in a world, judged by some measures.
+    ///
+    /// # Errors
+    /// The world is another robot's or cannot be built, the robot has no such measure.
+    pub fn in_world(
+        plan: P,
+        world: &dyn AnyWorld,
+        seed: u64,
+        measures: &[&str],
+    ) -> Result<Self, SessionError> {
+        Session::new(plan, robot_in(world, seed)?).measured(measures)
+    }
+
+    fn measured(mut self, measures: &[&str]) -> Result<Self, SessionError> {
+        for name in measures {
+            let unknown = || SessionError::Measure((*name).to_owned(), R::MEASURES);
+            self.add_measure(R::measure(name).ok_or_else(unknown)?);
+        }
+        Ok(self)
+    }
+}
+
+/// A robot at its start in a world.
+fn robot_in<R: Simulated>(world: &dyn AnyWorld, seed: u64) -> Result<R, SessionError> {
+    let world = world.as_any().downcast_ref::<R::World>().ok_or(SessionError::OtherWorld)?;
+    R::new(world, seed).map_err(SessionError::World)
+}
+
+/// A kind of simulated robot on which plans can be loaded.
+#[cfg(feature = "load")]
+pub trait Loader: AnyRobot {
+    /// A session of the main plan of a graph on a robot at its start in a world, judged by some measures.
+    ///
+    /// # Errors
+    /// A template that this program does not know, a world of another robot or one that cannot be built, a measure
+    /// that the robot has not.
+    fn session(
+        &self,
+        plan: &Graph,
+        world: &dyn AnyWorld,
+        seed: u64,
+        measures: &[&str],
+    ) -> Result<Box<dyn AnySession>, SessionError>;
+}
+
+/// A kind of simulated robot with the templates that plans for it may use.
+#[cfg(feature = "load")]
+pub struct Simulator<R, F> {
+    kind: Kind<R>,
+    register: F,
+}
+
+/// A kind of simulated robot, with a function that registers the templates that plans for it may use.
+#[cfg(feature = "load")]
+pub const fn simulated<R: Simulated, F: Fn(&mut Registry<R>) + Sync>(
+    register: F,
+) -> Simulator<R, F> {
+    Simulator { kind: kind(), register }
+}
+
+#[cfg(feature = "load")]
+impl<R: Simulated, F: Fn(&mut Registry<R>) + Sync> AnyRobot for Simulator<R, F> {
+    fn devices(&self) -> &'static [DeviceRow] {
+        self.kind.devices()
+    }
+
+    fn facts(&self) -> &'static [(&'static str, &'static str)] {
+        self.kind.facts()
+    }
+
+    fn measures(&self) -> &'static [&'static str] {
+        self.kind.measures()
+    }
+
+    fn default_world(&self) -> &'static str {
+        self.kind.default_world()
+    }
+
+    fn made_up_world(&self, seed: u64) -> Option<String> {
+        self.kind.made_up_world(seed)
+    }
+
+    fn picture_of_map(&self, map: &str) -> Result<String, WorldError> {
+        self.kind.picture_of_map(map)
+    }
+
+    fn text_of_map(&self, name: &str, map: &str, picture: &[u8]) -> Result<String, WorldError> {
+        self.kind.text_of_map(name, map, picture)
+    }
+
+    fn world(&self, text: &str) -> Result<Arc<dyn AnyWorld>, WorldError> {
+        self.kind.world(text)
+    }
+}
+
+#[cfg(feature = "load")]
+impl<R: Simulated, F: Fn(&mut Registry<R>) + Sync> Loader for Simulator<R, F>
+where
+    Session<LoadedPlan<R>, R, Kept>: AnySession,
+{
+    fn session(
+        &self,
+        plan: &Graph,
+        world: &dyn AnyWorld,
+        seed: u64,
+        measures: &[&str],
+    ) -> Result<Box<dyn AnySession>, SessionError> {
+        let mut registry = Registry::new();
+        (self.register)(&mut registry);
+        let plan = LoadedPlan::new(plan, &registry).map_err(SessionError::Load)?;
+        let robot = robot_in::<R>(world, seed)?;
+        Ok(Box::new(Session::loaded(plan, robot).measured(measures)?))
+    }
+}
+
+impl fmt::Display for SessionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            #[cfg(feature = "load")]
+            SessionError::Load(error) => error.fmt(f),
+            SessionError::World(why) => f.write_str(why),
+            SessionError::OtherWorld => f.write_str("the world is that of another robot"),
+            SessionError::Measure(name, _) => write!(f, "the robot has no measure '{name}'"),
+        }
+    }
+}
+
+impl std::error::Error for SessionError {}

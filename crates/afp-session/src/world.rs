@@ -1,0 +1,158 @@
+//! Worlds of simulated robots, whatever they are.
+
+use std::any::Any;
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::sample::{Pose2, Shape};
+
+/// What a simulated robot is put into, as read from a text.
+pub trait World: Clone + fmt::Debug + Send + Sync + 'static {
+    /// The text of the world for plans that come without one.
+    const DEFAULT: &'static str;
+
+    /// Reads a world.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its place.
+    fn read(text: &str) -> Result<Self, WorldError>;
+
+    /// The text of a world made up from a seed; none where there is no such thing.
+    fn made_up(seed: u64) -> Option<String> {
+        let _ = seed;
+        None
+    }
+
+    /// The name of the picture that a map (a file of `map_server`) is drawn in.
+    ///
+    /// # Errors
+    /// What is wrong with the map; worlds of this kind are no maps.
+    fn picture_of_map(map: &str) -> Result<String, WorldError> {
+        let _ = map;
+        Err(WorldError { span: None, message: "this robot's worlds are no maps".to_owned() })
+    }
+
+    /// The text of the world that a map and its picture show.
+    ///
+    /// # Errors
+    /// As [`World::picture_of_map`].
+    fn text_of_map(name: &str, map: &str, picture: &[u8]) -> Result<String, WorldError> {
+        let _ = (name, picture);
+        Self::picture_of_map(map)
+    }
+
+    /// What it is called.
+    fn name(&self) -> &str;
+
+    /// The same world with the robot at another start.
+    ///
+    /// # Errors
+    /// Why it cannot start there.
+    fn started_at(&self, start: Pose2) -> Result<Self, String>;
+
+    /// Everything that stands in it, and the robot's body, as a scene shows them at the start.
+    fn scene(&self) -> Vec<Shape>;
+
+    /// What a picture shows of it.
+    fn drawing(&self) -> Drawing;
+}
+
+/// A world, whatever robot it is for.
+pub trait AnyWorld: fmt::Debug + Send + Sync {
+    /// What it is called.
+    fn name(&self) -> &str;
+
+    /// The same world with the robot at another start.
+    ///
+    /// # Errors
+    /// Why it cannot start there.
+    fn started_at(&self, start: Pose2) -> Result<Arc<dyn AnyWorld>, String>;
+
+    /// Everything that stands in it, and the robot's body, as a scene shows them at the start.
+    fn scene(&self) -> Vec<Shape>;
+
+    /// What a picture shows of it.
+    fn drawing(&self) -> Drawing;
+
+    /// Itself, for who knows what it is.
+    fn as_any(&self) -> &dyn Any;
+}
+
+/// What a picture shows of a world, seen from above: metres.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Drawing {
+    /// Where the robot starts.
+    pub start: Pose2,
+    /// The outline of the robot at the origin, counter-clockwise.
+    pub body: Vec<[f64; 2]>,
+    /// What stands or moves.
+    pub things: Vec<Thing>,
+    /// Patches of colour on the floor.
+    pub patches: Vec<Patch>,
+    /// Sources of light.
+    pub lights: Vec<[f64; 2]>,
+}
+
+/// Something that stands or moves on the floor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Thing {
+    /// Its name.
+    pub name: String,
+    /// Its outline at the start, counter-clockwise.
+    pub outline: Vec<[f64; 2]>,
+    /// Whether sensors look over it.
+    pub low: bool,
+    /// Whether there is room for its name.
+    pub labelled: bool,
+    /// Where its middle goes; empty for what does not go its own way.
+    pub path: Vec<[f64; 2]>,
+}
+
+/// A patch of colour on the floor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Patch {
+    /// Its corners.
+    pub corners: Vec<[f64; 2]>,
+    /// Red, green and blue.
+    pub color: [u8; 3],
+}
+
+/// What is wrong with the text of a world, or with that of a map.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WorldError {
+    /// The bytes of the text, where the place is known.
+    pub span: Option<Range<usize>>,
+    /// What is wrong, without the place.
+    pub message: String,
+}
+
+impl<W: World> AnyWorld for W {
+    fn name(&self) -> &str {
+        self.name()
+    }
+
+    fn started_at(&self, start: Pose2) -> Result<Arc<dyn AnyWorld>, String> {
+        Ok(Arc::new(self.started_at(start)?))
+    }
+
+    fn scene(&self) -> Vec<Shape> {
+        self.scene()
+    }
+
+    fn drawing(&self) -> Drawing {
+        self.drawing()
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+}
+
+impl fmt::Display for WorldError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for WorldError {}

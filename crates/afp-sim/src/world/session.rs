@@ -1,0 +1,106 @@
+//! The Carbot's worlds as those of a simulated robot: what sessions, pictures and logs know of them.
+
+use super::{Mobility, Obstacle, Outline, World, WorldError};
+use crate::truth::Pose;
+use afp_session::{Drawing, Patch, Shape, Thing};
+
+const WORLD: &str = "world";
+const BASE: &str = "base_link";
+
+/// How high the robot's body is, metres.
+const BODY_HEIGHT: f64 = 0.22;
+/// What the range sensor looks over is lower than this, metres.
+const LOW: f64 = 0.15;
+/// A box has room for its name from this width on, metres.
+const ROOM_FOR_NAME: f64 = 0.2;
+
+impl afp_session::World for World {
+    const DEFAULT: &'static str = include_str!("../../../../worlds/wall_following.toml");
+
+    fn read(text: &str) -> Result<Self, WorldError> {
+        World::parse(text)
+    }
+
+    fn made_up(seed: u64) -> Option<String> {
+        Some(World::random_text(seed))
+    }
+
+    fn picture_of_map(map: &str) -> Result<String, WorldError> {
+        World::map_picture(map)
+    }
+
+    fn text_of_map(name: &str, map: &str, picture: &[u8]) -> Result<String, WorldError> {
+        World::map_text(name, map, picture)
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn started_at(&self, start: Pose) -> Result<Self, String> {
+        match self.obstacle_at(start) {
+            Some(obstacle) => Err(format!("the robot starts inside of '{}'", obstacle.name)),
+            None => Ok(World { start, ..self.clone() }),
+        }
+    }
+
+    fn scene(&self) -> Vec<Shape> {
+        let obstacles = self.obstacles.iter().enumerate();
+        let body = Shape {
+            id: "robot".to_owned(),
+            frame: BASE,
+            outline: World::robot_outline(Pose::default()).to_vec(),
+            height: BODY_HEIGHT,
+            color: [0.15, 0.45, 0.75, 0.9],
+        };
+        obstacles.map(|(index, obstacle)| shape(index, obstacle)).chain([body]).collect()
+    }
+
+    fn drawing(&self) -> Drawing {
+        let patch =
+            |patch: &super::Patch| Patch { corners: patch.corners.clone(), color: patch.color };
+        Drawing {
+            start: self.start,
+            body: World::robot_outline(Pose::default()).to_vec(),
+            things: self.obstacles.iter().map(thing).collect(),
+            patches: self.patches.iter().map(patch).collect(),
+            lights: self.lights.iter().map(|light| light.position).collect(),
+        }
+    }
+}
+
+/// An obstacle as it stands at the start.
+pub(crate) fn shape(index: usize, obstacle: &Obstacle) -> Shape {
+    let [red, green, blue] = obstacle.look.color.map(|part| f64::from(part) / 255.0);
+    Shape {
+        id: format!("{index} {}", obstacle.name),
+        frame: WORLD,
+        outline: obstacle.outline.corners(),
+        height: obstacle.height,
+        color: [red, green, blue, 0.9],
+    }
+}
+
+fn thing(obstacle: &Obstacle) -> Thing {
+    let outline = obstacle.outline.corners();
+    let count = outline.len() as f64;
+    let sum = outline.iter().fold([0.0, 0.0], |sum, at| [sum[0] + at[0], sum[1] + at[1]]);
+    let middle = [sum[0] / count, sum[1] / count];
+    let path = match &obstacle.mobility {
+        Mobility::Scripted(path) => {
+            path.places().map(|by| [middle[0] + by[0], middle[1] + by[1]]).collect()
+        }
+        Mobility::Fixed | Mobility::Movable { .. } => Vec::new(),
+    };
+    let least = match &obstacle.outline {
+        Outline::Box { half, .. } => 2.0 * half[0].min(half[1]),
+        Outline::Polygon(_) => f64::INFINITY,
+    };
+    Thing {
+        name: obstacle.name.clone(),
+        outline,
+        low: obstacle.height < LOW,
+        labelled: least > ROOM_FOR_NAME,
+        path,
+    }
+}
