@@ -9,6 +9,7 @@ mod board;
 mod check;
 mod clocks;
 mod copper;
+mod drawing;
 mod measure;
 mod plans;
 mod report;
@@ -74,5 +75,6 @@ const GROUPS: &[(&str, Group)] = &[
     ("simulation", simulation::run),
     ("sweep", sweep::run),
     ("check", check::run),
+    ("drawing", drawing::run),
     ("allocations", allocations::run),
 ];

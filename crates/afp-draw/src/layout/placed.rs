@@ -9,8 +9,9 @@ use super::{Layout, Link, Node, Placement, bounds, layout, wires};
 /// Least distance between a box that gives way and the next one.
 const GAP: f64 = 48.0;
 
-/// Least distance of boxes that stay where they were, and of a route that does from a box.
-const NEAR: f64 = 8.0;
+/// Least distance of boxes that stay where they were, and of a route that does from a box: less than
+/// the router keeps.
+const NEAR: f64 = 6.0;
 
 /// Lays out the nodes around those that have places. Those that were somewhere before stay there
 /// unless another one is in the way, and routes stay whose ends do and that no box has come near.

@@ -8,7 +8,7 @@
 use super::{Axis, PITCH, Point};
 
 /// Parts farther from each other than this keep their order.
-const REACH: f64 = 160.0;
+pub(super) const REACH: f64 = 160.0;
 
 /// What it costs, in crossings, to swap two parts that are a pixel away from each other.
 const SWAP: f64 = 0.004;

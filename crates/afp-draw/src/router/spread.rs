@@ -5,7 +5,7 @@
 //! the boxes beside it, in its place of the [`sequence`](super::sequence), [`PITCH`] away from its
 //! neighbours or, where a gap is too narrow for that, as far as it can be.
 
-use super::sequence::{Part, sequence};
+use super::sequence::{Part, REACH, sequence};
 use super::tree::Maxima;
 use super::{Axis, Bounds, Crowded, PITCH, Point, Wire, without_straight_corners};
 
@@ -39,7 +39,7 @@ impl Spread<'_> {
         for _ in 0..ROUNDS {
             crowded.clear();
             for axis in [Axis::Upright, Axis::Level] {
-                let parts = self.parts(axis, corners);
+                let parts = that_matter(self.parts(axis, corners));
                 let order = sequence(axis, &parts, corners);
                 let (places, narrow) = places(&parts, &order);
                 crowded.extend(narrow.iter().map(|(part, distance)| {
@@ -119,6 +119,19 @@ impl Spread<'_> {
         }
         parts
     }
+}
+
+/// The parts that can be moved, and those that stay beside them.
+fn that_matter(parts: Vec<Part>) -> Vec<Part> {
+    if parts.iter().filter(|part| part.is_fixed()).count() * 4 < parts.len() * 3 {
+        return parts;
+    }
+    let movable: Vec<_> = parts.iter().filter(|part| !part.is_fixed()).cloned().collect();
+    let matters = |part: &Part| {
+        let near = |other: &Part| (other.at - part.at).abs() < REACH && part.is_beside(other);
+        !part.is_fixed() || movable.iter().any(near)
+    };
+    parts.into_iter().filter(matters).collect()
 }
 
 /// The room between the boxes beside a part.

@@ -1,0 +1,111 @@
+//! What drawing a plan costs: layout, routes and picture, beside GraphViz's `dot` with the same plan.
+
+use std::hint::black_box;
+use std::io::Write;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use afp_draw::layout_file::{Layout, Position};
+use afp_draw::{Options, Scene, dot, svg};
+use afp_dsl::files::Texts;
+use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::{Compiled, compile};
+use afp_syntax::source::Source;
+
+use crate::big_plan;
+use crate::report::{Report, Row};
+
+/// Plans by their number of actors, and in how many milliseconds they must be drawn.
+const SIZES: [(usize, Option<f64>); 3] = [(60, Some(80.0)), (200, None), (1_000, None)];
+
+/// How long a box of the smallest plan may take to be moved, in milliseconds.
+const MOVED: f64 = 5.0;
+
+/// `dot` is given up after this; a plan of 200 actors takes it more than a minute.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// A case is drawn so many times; the best one counts.
+const TURNS: u32 = 5;
+
+/// Draws plans of several sizes, and moves a box.
+pub fn run(_: u32, report: &mut Report) {
+    for (actors, most) in SIZES {
+        let compiled = plan(actors);
+        let options = Options::default();
+        let own = best(|| {
+            black_box(svg(black_box(&compiled.outline), &options));
+        });
+        let name = format!("drawing/{actors} actors");
+        let row = Row::new(&name, own, "ms");
+        report.add(match most {
+            Some(most) => row.limit(format!("<= {most} ms"), own <= most),
+            None => row,
+        });
+        if let Some(peer) = dot_time(&dot(&compiled.outline, &options)) {
+            let ratio = own / peer;
+            let row = Row::new(format!("drawing/{actors} actors, dot"), peer, "ms");
+            report.add(row.against(name, ratio).limit("<= 1", ratio <= 1.0));
+        }
+    }
+    let moved = moved(&plan(SIZES[0].0));
+    let row = Row::new("drawing/60 actors, one box moved", moved, "ms");
+    report.add(row.limit(format!("<= {MOVED} ms"), moved <= MOVED));
+}
+
+fn plan(actors: usize) -> Compiled {
+    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+    let source = Source::new("big.afp", big_plan::text(actors));
+    compile(&source, &toolboxes, &Texts::default())
+}
+
+/// The scene after a drag of one box.
+fn moved(compiled: &Compiled) -> f64 {
+    let before = Scene::new(&compiled.outline, &Options::default(), None);
+    let Some(element) = before.plans.first().and_then(|plan| plan.elements.get(30)) else {
+        return f64::INFINITY;
+    };
+    let mut layout = Layout::default();
+    let position = Position { x: element.rect.x as i32 + 36, y: element.rect.y as i32 + 12 };
+    layout.set(element.item.clone(), position);
+    let positions = vec![layout; compiled.sources.len()];
+    let options = Options { positions: &positions, ..Options::default() };
+    best(|| {
+        black_box(Scene::new(&compiled.outline, &options, Some(&before)));
+    })
+}
+
+/// Milliseconds of the best of several turns.
+fn best(mut run: impl FnMut()) -> f64 {
+    let turn = |_| {
+        let start = Instant::now();
+        run();
+        start.elapsed().as_secs_f64() * 1e3
+    };
+    (0..TURNS).map(turn).fold(f64::INFINITY, f64::min)
+}
+
+/// Milliseconds that `dot` takes for a graph, at most its patience; `None` where it is not installed.
+fn dot_time(graph: &str) -> Option<f64> {
+    let start = Instant::now();
+    let quiet =
+        Command::new("dot").arg("-Tsvg").stdin(Stdio::piped()).stdout(Stdio::null()).spawn();
+    let Ok(mut peer) = quiet else {
+        eprintln!("drawing: skipped beside 'dot', which is not installed");
+        return None;
+    };
+    peer.stdin.take()?.write_all(graph.as_bytes()).ok()?;
+    loop {
+        if peer.try_wait().ok()?.is_some() {
+            break;
+        }
+        if start.elapsed() > PATIENCE {
+            eprintln!("drawing: 'dot' was given up after {} s", PATIENCE.as_secs());
+            // It may have ended by now.
+            let _ = peer.kill();
+            let _ = peer.wait();
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    Some(start.elapsed().as_secs_f64() * 1e3)
+}
