@@ -1,4 +1,5 @@
-//! What checking a plan costs: by the size of the plan, beside cutting its text into tokens.
+//! What checking a plan costs, its index and outline included: by the size of the plan, beside cutting
+//! its text into tokens.
 
 use std::hint::black_box;
 
@@ -30,8 +31,11 @@ pub fn run(rounds: u32, report: &mut Report) {
         }
     });
     race.add("1,000 actors, a character changed", checks(&toolboxes, vec![changed, small]));
+    let plan = big_plan::text(60);
+    let edited = plan.replacen("30 cm", "31 cm", 1);
+    race.add("60 actors, a character changed", checks(&toolboxes, vec![edited, plan]));
     let times = race.run(rounds.div_ceil(ROUNDS));
-    let [small, large, tokens, again] = times.as_slice() else { return };
+    let [small, large, tokens, again, edited] = times.as_slice() else { return };
     report.add(Row::new("check/text of 10,000 actors", megabytes, "MB"));
     report.add(milliseconds(small));
     report.add(against(large, small, 12.0));
@@ -43,6 +47,8 @@ pub fn run(rounds: u32, report: &mut Report) {
             .against("check/1,000 actors", again.ratio(small))
             .limit("<= 0.33 or < 15 ms", within),
     );
+    // Diagnostics, index and outline: what an editor waits for after each key.
+    report.add(milliseconds(edited).limit("< 3 ms", edited.best < 3e6));
 }
 
 /// Checks the texts in turn; each must be a plan without errors.

@@ -107,54 +107,64 @@ fn plan(text: &mut String, outline: &Outline, plan: &Plan, said: &dyn Fn(&Findin
         line(2, format!("start {target}{}", said(&start.findings)));
     }
     for component in plan.components() {
-        let depth = 2 + usize::from(matches!(component.item, afp_syntax::item::Item::Local { .. }));
-        let Component { item, kind, findings, .. } = component;
-        let made = made_from(outline, component);
-        line(depth, format!("{} {item}: {made}{}", kind.keyword(), said(findings)));
-        for doc in [&component.doc, &component.note].into_iter().filter(|text| !text.is_empty()) {
-            line(depth + 1, format!("says {doc:?}"));
-        }
-        if let Some(times) = component.times {
-            line(depth + 1, format!("every {} deadline {} ns", times.every, times.deadline));
-        }
-        for input in &component.inputs {
-            let ty = input.ty.as_ref().map_or("?".to_owned(), ToString::to_string);
-            let value = match (&input.binding, &input.default) {
-                (Some(binding), _) => bound(plan, binding),
-                (None, Some(default)) => format!("({default:?})"),
-                (None, None) if input.required => "HOLE".to_owned(),
-                (None, None) => "(given)".to_owned(),
-            };
-            let known = if input.declared.is_some() { "" } else { "unknown " };
-            let said = said(&input.findings);
-            line(
-                depth + 1,
-                format!("{known}in {}: {ty} = {value}{said}", key(&input.name, input.nth)),
-            );
-        }
-        for output in &component.outputs {
-            let ty = output.ty.as_ref().map_or("?".to_owned(), ToString::to_string);
-            let value = output.binding.as_ref().map_or("-".to_owned(), |b| bound(plan, b));
-            let known = if output.declared.is_some() { "" } else { "unknown " };
-            let said = said(&output.findings);
-            line(
-                depth + 1,
-                format!("{known}out {}: {ty} => {value}{said}", key(&output.name, output.nth)),
-            );
-        }
-        for exit in &component.exits {
-            let to = exit.edge.as_ref().map(|edge| edge.target.as_ref());
-            let to = match to {
-                Some(Some(to)) => target(plan, to),
-                Some(None) => "?".to_owned(),
-                None if exit.required => "HOLE".to_owned(),
-                None => "-".to_owned(),
-            };
-            let known = if exit.known { "" } else { "unknown " };
-            let said = said(&exit.findings);
-            let name = key(&exit.name, exit.nth);
-            line(depth + 1, format!("{known}{:?} {name} -> {to}{said}", exit.kind));
-        }
+        self::component(text, outline, plan, component, said);
+    }
+}
+
+fn component(
+    text: &mut String,
+    outline: &Outline,
+    plan: &Plan,
+    component: &Component,
+    said: &dyn Fn(&Findings) -> String,
+) {
+    let mut line = |depth: usize, content: String| {
+        let _ = writeln!(text, "{:width$}{content}", "", width = 2 * depth);
+    };
+    let depth = 2 + usize::from(matches!(component.item, afp_syntax::item::Item::Local { .. }));
+    let Component { item, kind, findings, .. } = component;
+    let made = made_from(outline, component);
+    line(depth, format!("{} {item}: {made}{}", kind.keyword(), said(findings)));
+    for doc in [&component.doc, &component.note].into_iter().filter(|text| !text.is_empty()) {
+        line(depth + 1, format!("says {doc:?}"));
+    }
+    if let Some(times) = component.times {
+        line(depth + 1, format!("every {} deadline {} ns", times.every, times.deadline));
+    }
+    for input in &component.inputs {
+        let ty = input.ty.as_ref().map_or("?".to_owned(), ToString::to_string);
+        let value = match (&input.binding, &input.default) {
+            (Some(binding), _) => bound(plan, binding),
+            (None, Some(default)) => format!("({default:?})"),
+            (None, None) if input.required => "HOLE".to_owned(),
+            (None, None) => "(given)".to_owned(),
+        };
+        let known = if input.declared.is_some() { "" } else { "unknown " };
+        let said = said(&input.findings);
+        line(depth + 1, format!("{known}in {}: {ty} = {value}{said}", key(&input.name, input.nth)));
+    }
+    for output in &component.outputs {
+        let ty = output.ty.as_ref().map_or("?".to_owned(), ToString::to_string);
+        let value = output.binding.as_ref().map_or("-".to_owned(), |b| bound(plan, b));
+        let known = if output.declared.is_some() { "" } else { "unknown " };
+        let said = said(&output.findings);
+        line(
+            depth + 1,
+            format!("{known}out {}: {ty} => {value}{said}", key(&output.name, output.nth)),
+        );
+    }
+    for exit in &component.exits {
+        let to = exit.edge.as_ref().map(|edge| edge.target.as_ref());
+        let to = match to {
+            Some(Some(to)) => target(plan, to),
+            Some(None) => "?".to_owned(),
+            None if exit.required => "HOLE".to_owned(),
+            None => "-".to_owned(),
+        };
+        let known = if exit.known { "" } else { "unknown " };
+        let said = said(&exit.findings);
+        let name = key(&exit.name, exit.nth);
+        line(depth + 1, format!("{known}{:?} {name} -> {to}{said}", exit.kind));
     }
 }
 
