@@ -42,12 +42,13 @@ const MOST_ALIKE: usize = 200;
 /// How many letters have to be changed, added, removed or swapped with their neighbour; case
 /// counts for nothing.
 fn distance(left: &str, right: &str) -> usize {
-    let left: Vec<char> = left.to_lowercase().chars().collect();
-    let right: Vec<char> = right.to_lowercase().chars().collect();
-    let mut before: Vec<usize> = Vec::new();
+    let letters = |word: &str| word.chars().flat_map(char::to_lowercase).collect::<Vec<char>>();
+    let (left, right) = (letters(left), letters(right));
+    let mut before = vec![0; right.len() + 1];
     let mut row: Vec<usize> = (0..=right.len()).collect();
+    let mut next = before.clone();
     for (i, a) in left.iter().enumerate() {
-        let mut next = vec![i + 1];
+        next[0] = i + 1;
         for (j, b) in right.iter().enumerate() {
             let changed = row[j] + usize::from(a != b);
             let mut best = changed.min(row[j + 1] + 1).min(next[j] + 1);
@@ -55,9 +56,11 @@ fn distance(left: &str, right: &str) -> usize {
             if swapped {
                 best = best.min(before[j - 1] + 1);
             }
-            next.push(best);
+            next[j + 1] = best;
         }
-        before = std::mem::replace(&mut row, next);
+        // The oldest row is written over next.
+        std::mem::swap(&mut before, &mut row);
+        std::mem::swap(&mut row, &mut next);
     }
     row[right.len()]
 }
