@@ -18,6 +18,7 @@ mod step;
 mod steps;
 mod sweep;
 mod transition;
+mod web;
 
 use std::process::ExitCode;
 
@@ -77,4 +78,5 @@ const GROUPS: &[(&str, Group)] = &[
     ("check", check::run),
     ("drawing", drawing::run),
     ("allocations", allocations::run),
+    ("web", web::run),
 ];

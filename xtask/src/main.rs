@@ -14,6 +14,7 @@ mod python;
 mod scxml;
 mod shell;
 mod suites;
+mod wasm;
 
 use std::process::ExitCode;
 
@@ -50,7 +51,8 @@ enum Chore {
         #[arg(long, default_value_t = 60)]
         seconds: u32,
     },
-    /// Builds a plan for a microcontroller and refuses any panic in the image.
+    /// Builds a plan for a microcontroller and refuses any panic in the image; builds all that an editor
+    /// needs for the web, and runs it.
     Gate,
     /// Runs the long suites: hundreds of random plans, long runs, fuzzing, benchmarks with limits.
     Nightly {
@@ -68,7 +70,7 @@ fn main() -> ExitCode {
         Chore::Test { suites } => suites::run(suites::TEST, &suites),
         Chore::Bench { options } => bench(&options),
         Chore::Fuzz { targets, seconds } => fuzz::run(&targets, seconds),
-        Chore::Gate => gate::run(),
+        Chore::Gate => suites::run(suites::GATE, &[]),
         Chore::Nightly { suites } => suites::run(suites::NIGHTLY, &suites),
         Chore::Lint => suites::run(suites::LINT, &[]),
         Chore::Book => book::run(),

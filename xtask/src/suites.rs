@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::install::Profile;
 use crate::shell::{Failure, cargo, run as run_command};
-use crate::{arm, bench, engine, fuzz, gate, install, opencv, python, scxml};
+use crate::{arm, bench, engine, fuzz, gate, install, opencv, python, scxml, wasm};
 
 /// A suite by its name.
 type Suite = (&'static str, fn() -> Result<(), Failure>);
@@ -16,6 +16,7 @@ pub const TEST: &[Suite] = &[
     ("python", python::run),
     ("scxml", || scxml::run(50)),
     ("gate", gate::run),
+    ("web", wasm::run),
     ("install", || install::run(Profile::Debug)),
 ];
 
@@ -30,12 +31,16 @@ pub const NIGHTLY: &[Suite] = &[
     ("python long", python::long),
     ("scxml", || scxml::run(2000)),
     ("gate", gate::run),
+    ("web", wasm::run),
     ("install", || install::run(Profile::Release)),
     ("long run", long_run),
     ("opencv", opencv::run),
     ("fuzz", || fuzz::run(&[], FUZZED)),
     ("benchmarks", || bench(&["--check".to_owned()])),
 ];
+
+/// What `cargo xtask gate` runs.
+pub const GATE: &[Suite] = &[("gate", gate::run), ("web", wasm::run)];
 
 /// What `cargo xtask lint` runs.
 pub const LINT: &[Suite] =
@@ -126,9 +131,9 @@ fn again(name: &str) -> String {
 fn workspace() -> Result<(), Failure> {
     let all = ["test", "--workspace", "--features", "afpc/full", "--no-fail-fast"];
     // They have suites of their own.
-    let but = ["--exclude", "afp-bench", "--exclude", "afp-py", "--exclude", "xtask"];
+    let but = ["afp-bench", "afp-py", "afp-wasm", "xtask"].map(|name| ["--exclude", name]);
     // Property tests search anew at each run by hand; here the same commit gives the same answer.
-    run_command(cargo().args(all).args(but).env("PROPTEST_RNG_SEED", "20"))
+    run_command(cargo().args(all).args(but.as_flattened()).env("PROPTEST_RNG_SEED", "20"))
 }
 
 /// The interpreter against generated code on many random plans.
