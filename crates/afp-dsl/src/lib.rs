@@ -17,4 +17,5 @@ pub mod toolbox;
 pub mod types;
 pub mod unfold;
 
+pub use check::scenario::outputs;
 pub use compile::{Compiled, compile, compile_plan, compile_unchecked, index_files};

@@ -11,7 +11,6 @@ use std::sync::Arc;
 
 use crate::graph::Graph;
 use crate::toolbox::Constant;
-use crate::types::Type;
 use afp_syntax::source::Span;
 
 /// How long a scenario lasts unless it says otherwise, nanoseconds.
@@ -120,13 +119,6 @@ pub struct Injection {
     pub outcome: u16,
     /// The outputs that come with it, by position among the template's, each of its port's type.
     pub outputs: Vec<(u16, Constant)>,
-}
-
-/// The connected outputs that come with a declared outcome of a component, named by its path: each by its
-/// position among the template's, with its name and the type of its value. None where there is no such
-/// component.
-pub fn outputs(graph: &Graph, component: &str, outcome: u16) -> Vec<(u16, String, Type)> {
-    crate::check::scenario::outputs(graph, component, outcome)
 }
 
 /// What is expected.

@@ -15,8 +15,8 @@ use afp_core::devices::faults as faults_of;
 use afp_core::rt::NamedPlan;
 use afp_core::trace::{Names, TraceEntryId};
 use afp_core::{Duration, Instant, Value};
+use afp_dsl::Compiled;
 use afp_dsl::types::Type;
-use afp_dsl::{Compiled, scenario};
 use afp_session::{AnySession, Request, Waypoint};
 use afp_sim::Simulation;
 use numpy::PyArray2;
@@ -368,7 +368,7 @@ impl Runner {
         given: &Bound<'_, PyDict>,
     ) -> PyResult<Vec<(u16, Value)>> {
         let Some(graph) = &self.compiled.graph else { return Ok(Vec::new()) };
-        let wanted = scenario::outputs(graph, component, number);
+        let wanted = afp_dsl::outputs(graph, component, number);
         for name in given.keys() {
             let name: String = name.extract()?;
             if !wanted.iter().any(|(_, known, _)| *known == name) {

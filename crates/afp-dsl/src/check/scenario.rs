@@ -63,13 +63,10 @@ pub(super) fn check(
     checked
 }
 
-/// The connected outputs that a declared outcome of a component carries; see
-/// [`crate::scenario::outputs`].
-pub(crate) fn outputs(
-    graph: &graph::Graph,
-    component: &str,
-    outcome: u16,
-) -> Vec<(u16, String, Type)> {
+/// The connected outputs that come with a declared outcome of a component, named by its path: each by its
+/// position among the template's, with its name and the type of its value. None where there is no such
+/// component.
+pub fn outputs(graph: &graph::Graph, component: &str, outcome: u16) -> Vec<(u16, String, Type)> {
     let Some((plan, part)) = paths::by_path(graph, component) else { return Vec::new() };
     let outputs = paths::outputs(graph, plan, part, outcome).into_iter();
     outputs.map(|(place, port, ty)| (place, port.name.clone(), ty)).collect()
