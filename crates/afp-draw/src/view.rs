@@ -103,14 +103,14 @@ impl<'a> View<'a> {
     pub(super) fn all(outline: &'a Outline, options: &'a Options<'a>) -> Vec<View<'a>> {
         let Some(main) = options.plan.or(outline.main) else { return Vec::new() };
         let mut order = vec![main];
-        let mut place = 0;
-        while let Some(plan) = order.get(place).filter(|_| options.sub_plans) {
+        let mut index = 0;
+        while let Some(plan) = order.get(index).filter(|_| options.sub_plans) {
             for element in &outline.plan(*plan).elements {
                 if let Some(used) = element.sub_plan().filter(|used| !order.contains(used)) {
                     order.push(used);
                 }
             }
-            place += 1;
+            index += 1;
         }
         order.into_iter().map(|plan| View::new(outline, plan, options)).collect()
     }
@@ -199,13 +199,13 @@ impl<'a> View<'a> {
     /// The ways out that are connected or must be.
     pub(super) fn exits(&self, component: &'a Component) -> Vec<Exit<'a>> {
         let counts = self.count(component);
-        let exits = component.exits.iter().enumerate().filter_map(|(place, exit)| {
+        let exits = component.exits.iter().enumerate().filter_map(|(index, exit)| {
             if exit.edge.is_none() && !exit.required {
                 return None;
             }
             let to = To::of(exit.edge.as_ref().and_then(|edge| edge.target.as_ref()));
             let count = counts.and_then(|counts| match exit.kind {
-                ExitKind::State | ExitKind::Event => counts.outcomes.get(place).copied(),
+                ExitKind::State | ExitKind::Event => counts.outcomes.get(index).copied(),
                 ExitKind::Error | ExitKind::Missed => Some(counts.special),
             });
             // What is ignored is never taken, so that counting it would say nothing.
@@ -221,8 +221,8 @@ impl<'a> View<'a> {
         let usage = self.usage?;
         let is_it = |each: &Component| each.item == component.item;
         if component.kind == ComponentKind::Supervisor {
-            let place = self.plan.all_supervisors().position(is_it)?;
-            return usage.supervisors.get(place);
+            let index = self.plan.all_supervisors().position(is_it)?;
+            return usage.supervisors.get(index);
         }
         usage.elements.get(self.plan.elements.iter().position(is_it)?)
     }

@@ -30,7 +30,7 @@ impl Gaps {
             Gaps { axis, borders, starts: Vec::new(), free: Vec::new(), taken: Vec::new() };
         for band in 0..=gaps.borders.len() {
             gaps.starts.push(gaps.free.len());
-            let start = band.checked_sub(1).map_or(f64::NEG_INFINITY, |place| gaps.borders[place]);
+            let start = band.checked_sub(1).map_or(f64::NEG_INFINITY, |index| gaps.borders[index]);
             let end = gaps.borders.get(band).copied().unwrap_or(f64::INFINITY);
             let mut free_from = f64::NEG_INFINITY;
             for ((left, right), along) in &sorted {
@@ -53,8 +53,8 @@ impl Gaps {
         let band = self.borders.partition_point(|border| *border <= along);
         let (first, end) = (self.starts[band], self.starts[band + 1]);
         let free = &self.free[first..end];
-        let place = free.partition_point(|(_, right)| *right < across);
-        first + place.min(free.len() - 1)
+        let index = free.partition_point(|(_, right)| *right < across);
+        first + index.min(free.len() - 1)
     }
 
     /// How many more edges a gap has than fit into it, if it gets another one.
@@ -70,7 +70,7 @@ impl Gaps {
         let first = self.borders.partition_point(|border| *border <= from);
         let last = self.borders.partition_point(|border| *border < to);
         for band in first..=last.max(first) {
-            let start = band.checked_sub(1).map_or(f64::NEG_INFINITY, |place| self.borders[place]);
+            let start = band.checked_sub(1).map_or(f64::NEG_INFINITY, |index| self.borders[index]);
             let gap = self.at(start.max(from), at);
             self.taken[gap] += edges;
         }

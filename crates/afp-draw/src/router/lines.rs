@@ -22,7 +22,7 @@ struct Line {
 #[derive(Debug, Default)]
 pub(super) struct Lines {
     /// Where the nodes are, those of one upright line after another, each from top to bottom.
-    pub(super) places: Vec<Point>,
+    pub(super) positions: Vec<Point>,
     /// The nodes next to each node: above, below, left, right.
     pub(super) next: Vec<[u32; 4]>,
     /// The first node of each upright line; one more at the end.
@@ -56,7 +56,7 @@ impl Lines {
             (first..self.abscissas.len()).take_while(|line| self.abscissas[*line] < x + 0.01);
         let on_line = |line: usize| {
             let nodes = self.starts[line]..self.starts[line + 1];
-            nodes.into_iter().find(|node| (self.places[*node].1 - y).abs() < 0.01)
+            nodes.into_iter().find(|node| (self.positions[*node].1 - y).abs() < 0.01)
         };
         lines.filter_map(on_line).next().and_then(|node| u32::try_from(node).ok())
     }
@@ -113,28 +113,28 @@ fn crossings(upright: &[Line], level: &[Line]) -> Lines {
     let mut lines = Lines::default();
     let mut last_on: Vec<u32> = vec![NONE; level.len()];
     for line in upright {
-        lines.starts.push(lines.places.len());
+        lines.starts.push(lines.positions.len());
         lines.abscissas.push(line.at);
         let first = level.partition_point(|other| other.at < line.from);
         let mut above = NONE;
-        for (place, other) in level.iter().enumerate().skip(first) {
+        for (index, other) in level.iter().enumerate().skip(first) {
             if other.at > line.to {
                 break;
             }
             if line.at < other.from || other.to < line.at {
                 continue;
             }
-            let node = u32::try_from(lines.places.len()).unwrap_or(NONE);
-            let left = std::mem::replace(&mut last_on[place], node);
+            let node = u32::try_from(lines.positions.len()).unwrap_or(NONE);
+            let left = std::mem::replace(&mut last_on[index], node);
             // Two lines at one height that touch have one node each; the second one is not needed.
-            lines.places.push((line.at, other.at));
+            lines.positions.push((line.at, other.at));
             lines.next.push([above, NONE, left, NONE]);
             link(&mut lines.next, above, 1, node);
             link(&mut lines.next, left, 3, node);
             above = node;
         }
     }
-    lines.starts.push(lines.places.len());
+    lines.starts.push(lines.positions.len());
     lines
 }
 

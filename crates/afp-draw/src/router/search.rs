@@ -59,12 +59,12 @@ impl<'a> Search<'a> {
         let (upright, level) = (Gaps::new(boxes, Axis::Upright), Gaps::new(boxes, Axis::Level));
         let gap = |gaps: &Gaps, node: usize, side: usize| {
             let next = lines.next[node][side];
-            let Some(end) = lines.places.get(next as usize) else { return NONE };
-            let (axis, start) = (gaps.axis(), lines.places[node]);
+            let Some(end) = lines.positions.get(next as usize) else { return NONE };
+            let (axis, start) = (gaps.axis(), lines.positions[node]);
             let middle = (axis.along(start) + axis.along(*end)) / 2.0;
             u32::try_from(gaps.at(middle, axis.across(start))).unwrap_or(NONE)
         };
-        let nodes = lines.places.len();
+        let nodes = lines.positions.len();
         let gap_of =
             (0..nodes).map(|node| [gap(&upright, node, DOWN), gap(&level, node, RIGHT)]).collect();
         Search {
@@ -132,8 +132,8 @@ impl<'a> Search<'a> {
         let side = if upright { DOWN } else { RIGHT };
         let mut next = self.lines.node(start);
         while let Some(node) = next.map(|node| node as usize) {
-            let Some(place) = self.lines.places.get(node) else { break };
-            if place.0 > end.0 + 0.01 || place.1 > end.1 + 0.01 {
+            let Some(position) = self.lines.positions.get(node) else { break };
+            if position.0 > end.0 + 0.01 || position.1 > end.1 + 0.01 {
                 break;
             }
             let passing = &mut self.passing[node][usize::from(!upright)];
@@ -152,7 +152,7 @@ impl<'a> Search<'a> {
                 continue;
             }
             let (node, side) = ((at / 4) as usize, (at % 4) as usize);
-            if side == DOWN && goal.holds(self.lines.places[node]) {
+            if side == DOWN && goal.holds(self.lines.positions[node]) {
                 return Some(self.path(at));
             }
             for turned in turns(side) {
@@ -160,7 +160,7 @@ impl<'a> Search<'a> {
             }
             let next = self.lines.next[node][side];
             let joins =
-                || goal.full && side == DOWN && goal.holds(self.lines.places[next as usize]);
+                || goal.full && side == DOWN && goal.holds(self.lines.positions[next as usize]);
             if next != NONE && !joins() {
                 let cost = cost + self.step(node, next as usize, side);
                 self.reach(state(next, side), cost, at, goal);
@@ -177,14 +177,14 @@ impl<'a> Search<'a> {
             return;
         }
         *visit = Visit { stamp, cost, from };
-        let rest = goal.rest(self.lines.places[(at / 4) as usize], (at % 4) as usize);
+        let rest = goal.rest(self.lines.positions[(at / 4) as usize], (at % 4) as usize);
         // Among equals the one that has come farthest.
         self.heap.push(Reverse((cost + rest, u64::MAX - cost, at)));
     }
 
     /// The cost of going on to the next node.
     fn step(&self, node: usize, next: usize, side: usize) -> u64 {
-        let (from, to) = (self.lines.places[node], self.lines.places[next]);
+        let (from, to) = (self.lines.positions[node], self.lines.positions[next]);
         let upright = side <= DOWN;
         let crossed = self.passing[next][usize::from(upright)];
         let (gaps, first) = match upright {
@@ -201,7 +201,7 @@ impl<'a> Search<'a> {
     fn path(&self, end: u32) -> Vec<Point> {
         let before = |at: &u32| Some(self.visits[*at as usize].from).filter(|from| *from != NONE);
         let states = std::iter::successors(Some(end), before);
-        let mut points: Vec<_> = states.map(|at| self.lines.places[(at / 4) as usize]).collect();
+        let mut points: Vec<_> = states.map(|at| self.lines.positions[(at / 4) as usize]).collect();
         points.reverse();
         points
     }

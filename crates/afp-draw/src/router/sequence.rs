@@ -55,8 +55,8 @@ pub(super) fn sequence(axis: Axis, parts: &[Part], corners: &[Vec<Point>]) -> Ve
     };
     order.sort_by(by_place);
     let mut keys = vec![0.0; parts.len()];
-    for (place, part) in order.iter().enumerate() {
-        keys[*part] = place as f64;
+    for (index, part) in order.iter().enumerate() {
+        keys[*part] = index as f64;
     }
     let near = neighbours(parts, &order);
     let costs = costs(axis, parts, corners, &near);
@@ -76,9 +76,9 @@ pub(super) fn sequence(axis: Axis, parts: &[Part], corners: &[Vec<Point>]) -> Ve
 /// For each part those that run beside it within reach.
 fn neighbours(parts: &[Part], order: &[usize]) -> Vec<Vec<usize>> {
     let mut near = vec![Vec::new(); parts.len()];
-    for (place, one) in order.iter().enumerate() {
+    for (index, one) in order.iter().enumerate() {
         let reached =
-            order[place + 1..].iter().take_while(|two| parts[**two].at - parts[*one].at < REACH);
+            order[index + 1..].iter().take_while(|two| parts[**two].at - parts[*one].at < REACH);
         for two in reached {
             let both_fixed = parts[*one].is_fixed() && parts[*two].is_fixed();
             if !both_fixed && parts[*one].is_beside(&parts[*two]) {
@@ -214,19 +214,19 @@ fn place_anew(part: usize, near: &[usize], costs: &[f64], keys: &mut [f64]) -> b
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
     // Before all of them is free; behind each one costs what that one says.
     let (mut cost, mut best, mut now) = (0.0, (0.0, 0), (0.0, 0));
-    for (place, (key, more)) in sorted.iter().enumerate() {
+    for (index, (key, more)) in sorted.iter().enumerate() {
         cost += more;
         if cost < best.0 - 1e-6 {
-            best = (cost, place + 1);
+            best = (cost, index + 1);
         }
         if *key < keys[part] {
-            now = (cost, place + 1);
+            now = (cost, index + 1);
         }
     }
     if best.0 > now.0 - 1e-6 {
         return false;
     }
-    let before = best.1.checked_sub(1).map(|place| sorted[place].0);
+    let before = best.1.checked_sub(1).map(|index| sorted[index].0);
     let after = sorted.get(best.1).map(|next| next.0);
     keys[part] = match (before, after) {
         (Some(before), Some(after)) => before.midpoint(after),

@@ -41,14 +41,14 @@ impl Spread<'_> {
             for axis in [Axis::Upright, Axis::Level] {
                 let parts = that_matter(self.parts(axis, corners));
                 let order = sequence(axis, &parts, corners);
-                let (places, narrow) = places(&parts, &order);
+                let (positions, narrow) = positions(&parts, &order);
                 crowded.extend(narrow.iter().map(|(part, distance)| {
                     let Part { edge, first, span, .. } = parts[*part];
                     let arrives = first + 2 == corners[edge].len();
-                    Crowded { edge, axis, at: places[*part], span, distance: *distance, arrives }
+                    Crowded { edge, axis, at: positions[*part], span, distance: *distance, arrives }
                 }));
-                for (part, place) in parts.iter().zip(&places) {
-                    self.put(axis, corners, (part.edge, part.first), *place);
+                for (part, position) in parts.iter().zip(&positions) {
+                    self.put(axis, corners, (part.edge, part.first), *position);
                 }
                 if axis == Axis::Upright {
                     self.join(corners);
@@ -152,7 +152,7 @@ fn between(axis: Axis, boxes: &[Bounds], at: f64, span: (f64, f64)) -> (f64, f64
 
 /// The places of the parts in the given order, and those that found too little room, with how far
 /// they are apart.
-fn places(parts: &[Part], order: &[usize]) -> (Vec<f64>, Vec<(usize, f64)>) {
+fn positions(parts: &[Part], order: &[usize]) -> (Vec<f64>, Vec<(usize, f64)>) {
     let ranks = Ranks::new(parts);
     let wishes = wishes(parts, order);
     let mut distance = vec![PITCH; parts.len()];
@@ -179,9 +179,9 @@ fn places(parts: &[Part], order: &[usize]) -> (Vec<f64>, Vec<(usize, f64)>) {
         let Part { room, .. } = parts[part];
         pushed.max(wishes[part]).min(most[part]).max(room.0).min(room.1)
     };
-    let places = ranks.pushed(order, &distance, within);
+    let positions = ranks.pushed(order, &distance, within);
     let narrow = order.iter().filter(|part| narrow[**part]);
-    (places, narrow.map(|part| (*part, distance[*part])).collect())
+    (positions, narrow.map(|part| (*part, distance[*part])).collect())
 }
 
 /// How far each part can be to the right.
@@ -192,7 +192,7 @@ fn most(parts: &[Part], order: &[usize], ranks: &Ranks, distance: &[f64]) -> Vec
             true => -parts[part].at,
             false => pushed.max(-parts[part].room.1),
         });
-    mirrored.into_iter().map(|place| -place).collect()
+    mirrored.into_iter().map(|position| -position).collect()
 }
 
 /// Where the parts would like to be: where the search has put them, those of one line around it.
@@ -204,8 +204,8 @@ fn wishes(parts: &[Part], order: &[usize]) -> Vec<f64> {
         let line: Vec<_> = line.iter().map(|(_, part)| *part).collect();
         if let [_, _, ..] = line[..] {
             let (before, after) = (depths(parts, &line, false), depths(parts, &line, true));
-            for (place, part) in line.iter().enumerate() {
-                let shift = f64::from(before[place]) - f64::from(after[place]);
+            for (index, part) in line.iter().enumerate() {
+                let shift = f64::from(before[index]) - f64::from(after[index]);
                 wishes[*part] += shift / 2.0 * PITCH;
             }
         }
@@ -217,9 +217,9 @@ fn wishes(parts: &[Part], order: &[usize]) -> Vec<f64> {
 fn depths(parts: &[Part], line: &[usize], backwards: bool) -> Vec<u32> {
     let mut depths = vec![0; line.len()];
     for step in 0..line.len() {
-        let place = |step: usize| if backwards { line.len() - 1 - step } else { step };
-        let own = place(step);
-        let beside = (0..step).map(place);
+        let index = |step: usize| if backwards { line.len() - 1 - step } else { step };
+        let own = index(step);
+        let beside = (0..step).map(index);
         let beside = beside.filter(|other| overlap(&parts[line[own]], &parts[line[*other]]));
         depths[own] = beside.map(|other| depths[other] + 1).max().unwrap_or(0);
     }
@@ -254,16 +254,16 @@ impl Ranks {
         &self,
         order: &[usize],
         distance: &[f64],
-        place: impl Fn(usize, f64) -> f64,
+        position: impl Fn(usize, f64) -> f64,
     ) -> Vec<f64> {
         let mut skyline = Maxima::new(self.count);
-        let mut places = vec![0.0; order.len()];
+        let mut positions = vec![0.0; order.len()];
         for part in order {
             let ((first, last), half) = (self.ranges[*part], distance[*part] / 2.0);
-            let found = place(*part, skyline.greatest(first, last) + half);
-            places[*part] = found;
+            let found = position(*part, skyline.greatest(first, last) + half);
+            positions[*part] = found;
             skyline.raise(first, last, found + half);
         }
-        places
+        positions
     }
 }

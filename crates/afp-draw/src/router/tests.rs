@@ -42,8 +42,8 @@ fn sample(count: usize, seed: u64) -> (Vec<Bounds>, Vec<(usize, usize)>) {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
         ((state >> 33) % below) as usize
     };
-    let boxes = (0..count).map(|place| {
-        let (column, row) = (place % 5, place / 5);
+    let boxes = (0..count).map(|index| {
+        let (column, row) = (index % 5, index / 5);
         let (dx, dy) = (next(120) as f64, next(60) as f64);
         bounds(
             (column as f64 * 420.0 + dx, row as f64 * 320.0 + dy),
