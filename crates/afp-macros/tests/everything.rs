@@ -1,4 +1,5 @@
-//! The golden case with every kind of port, entry and formula, compiled and run.
+//! A plan with every kind of port, entry and formula, compiled and run; and the golden cases of the
+//! code generator, compiled.
 
 mod kit {
     //! The toolbox of the golden cases, its components driven by a script.
@@ -121,9 +122,40 @@ mod kit {
 
 mod plan {
     afp::plan!(
-        "../afp-codegen/tests/codegen/everything.afp",
+        "tests/everything.afp",
         toolboxes = { "../afp-codegen/tests/codegen/toolbox.afp" => crate::kit }
     );
+}
+
+mod golden {
+    //! The golden cases of the code generator, but that of the paper's plan: who runs it compiles it.
+
+    macro_rules! cases {
+        ($($name:ident $file:literal)*) => {
+            pub const ALL: &[&str] = &[$($file),*];
+            $(mod $name {
+                afp::plan!(
+                    $file,
+                    toolboxes = { "../afp-codegen/tests/codegen/toolbox.afp" => crate::kit }
+                );
+            })*
+        };
+    }
+
+    cases! {
+        actor "../afp-codegen/tests/codegen/actor.afp"
+        computation "../afp-codegen/tests/codegen/computation.afp"
+        conversions "../afp-codegen/tests/codegen/conversions.afp"
+        edges "../afp-codegen/tests/codegen/edges.afp"
+        entries "../afp-codegen/tests/codegen/entries.afp"
+        enums "../afp-codegen/tests/codegen/enums.afp"
+        formulas "../afp-codegen/tests/codegen/formulas.afp"
+        names "../afp-codegen/tests/codegen/names.afp"
+        objects "../afp-codegen/tests/codegen/objects.afp"
+        sub_plan "../afp-codegen/tests/codegen/sub_plan.afp"
+        supervisors "../afp-codegen/tests/codegen/supervisors.afp"
+        units "../afp-codegen/tests/codegen/units.afp"
+    }
 }
 
 use afp::load::{LoadedPlan, Registry};
@@ -173,7 +205,7 @@ fn story<P: Plan<Script> + NamedPlan>(
 fn loaded() -> LoadedPlan<Script> {
     let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     toolboxes.add(Source::new("toolbox.afp", kit::templates::SOURCE), "crate::kit");
-    let text = include_str!("../../afp-codegen/tests/codegen/everything.afp");
+    let text = include_str!("everything.afp");
     let compiled =
         afp_dsl::compile(&Source::new("everything.afp", text), &toolboxes, &Texts::default());
     let mut registry = Registry::new();
@@ -253,4 +285,17 @@ fn entries_are_set_and_read_by_name() {
     assert_eq!(plan.speed(), Some(Speed::from_si(10.0)));
     assert!(plan.set_input(speed, &Value::Float(f64::NAN)).is_err());
     assert!(plan.set_input(plan.entry_named("half").unwrap(), &Value::Float(1.0)).is_err());
+}
+
+#[test]
+fn every_golden_case_is_compiled_here() {
+    let folder = "../afp-codegen/tests/codegen";
+    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut cases: Vec<_> = files
+        .filter(|path| path.extension().is_some_and(|ending| ending == "afp"))
+        .filter(|path| !path.ends_with("toolbox.afp") && !path.ends_with("wall_following.afp"))
+        .map(|path| path.display().to_string())
+        .collect();
+    cases.sort();
+    assert_eq!(cases, golden::ALL);
 }

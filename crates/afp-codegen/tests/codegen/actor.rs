@@ -1,0 +1,54 @@
+// p.rs
+
+const HERE: u16 = 0;
+const SEEK: u16 = 1;
+
+/// The element that is active.
+#[derive(Clone, Default)]
+enum Active {
+    #[default]
+    None,
+    // actor seek: Seek
+    Seek(crate::kit::Seek),
+}
+
+/// Outputs of `here`.
+fn here_outputs(staged: &mut Staged, outcome: kit::here::State) -> Result<(), Fault> {
+    let kit::here::State::Done { place } = outcome;
+    staged.place = Some(Object::new(place));
+    Ok(())
+}
+
+/// Inputs of `seek`.
+fn seek<'a>(config: &'a Config) -> Result<kit::seek::Inputs<'a>, Fault> {
+    Ok(kit::seek::Inputs {
+        name: config.text(),
+        side: crate::kit::templates::Side::Right,
+        r#where: config.place()?,
+        tries: 5,
+    })
+}
+
+/// Live inputs of `seek`.
+fn seek_live(config: &Config) -> Result<kit::seek::Live, Fault> {
+    Ok(kit::seek::Live {
+        speed: config.pace(),
+        r#loop: true,
+    })
+}
+
+/// Outputs of `seek`.
+fn seek_outputs(staged: &mut Staged, outcome: kit::seek::State) -> Result<(), Fault> {
+    match outcome {
+        kit::seek::State::Found { place, said } => {
+            staged.found = Some(Object::new(place));
+            staged.text = Some(said);
+        }
+        kit::seek::State::Lost { said, turn } => {
+            staged.text = Some(said);
+            staged.turn = Some(finite(turn)?);
+        }
+        _ => {}
+    }
+    Ok(())
+}

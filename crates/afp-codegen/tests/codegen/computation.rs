@@ -1,0 +1,31 @@
+// p.rs
+
+const AREA: u16 = 0;
+
+/// The element that is active.
+#[derive(Clone, Default)]
+enum Active {
+    #[default]
+    None,
+}
+
+/// Inputs of `area`.
+fn area(config: &Config) -> Result<kit::area::Inputs, Fault> {
+    Ok(kit::area::Inputs {
+        width: config.width(),
+        height: Length::from_si(3.0),
+    })
+}
+
+/// Outputs of `area`.
+fn area_outputs(staged: &mut Staged, outcome: kit::area::State) -> Result<(), Fault> {
+    match outcome {
+        kit::area::State::Small { area } => {
+            staged.size = Some(finite(area)?);
+        }
+        kit::area::State::Large { area } => {
+            staged.size = Some(finite(area)?);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,140 @@
+// p.rs
+
+const A: u16 = 0;
+const B: u16 = 1;
+const C: u16 = 2;
+const D: u16 = 3;
+const E: u16 = 4;
+const K: u16 = 5;
+const N: u16 = 6;
+const O: u16 = 7;
+const P: u16 = 8;
+
+/// The element that is active.
+#[derive(Clone, Default)]
+enum Active {
+    #[default]
+    None,
+    // actor n: Wait
+    N(afp_std::Wait),
+}
+
+/// Inputs of `a`.
+fn a(config: &Config) -> Result<std_templates::assign::Inputs<f64>, Fault> {
+    Ok(std_templates::assign::Inputs {
+        value: config.f(),
+    })
+}
+
+/// Outputs of `a`.
+fn a_outputs(
+    staged: &mut Staged,
+    outcome: std_templates::assign::State<f64>,
+) -> Result<(), Fault> {
+    let std_templates::assign::State::Done { result } = outcome;
+    staged.number = Some(float_to_int(result)?);
+    Ok(())
+}
+
+/// Inputs of `b`.
+fn b(config: &Config) -> Result<std_templates::assign::Inputs<Length>, Fault> {
+    Ok(std_templates::assign::Inputs {
+        value: config.way(),
+    })
+}
+
+/// Outputs of `b`.
+fn b_outputs(
+    staged: &mut Staged,
+    outcome: std_templates::assign::State<Length>,
+) -> Result<(), Fault> {
+    let std_templates::assign::State::Done { result } = outcome;
+    staged.said = Some(print_quantity(result.si(), "m")?);
+    Ok(())
+}
+
+/// Inputs of `c`.
+fn c(config: &Config) -> Result<std_templates::assign::Inputs<bool>, Fault> {
+    Ok(std_templates::assign::Inputs {
+        value: config.flag(),
+    })
+}
+
+/// Outputs of `c`.
+fn c_outputs(
+    staged: &mut Staged,
+    outcome: std_templates::assign::State<bool>,
+) -> Result<(), Fault> {
+    let std_templates::assign::State::Done { result } = outcome;
+    staged.said = Some(Text::print(result)?);
+    Ok(())
+}
+
+/// Inputs of `d`.
+fn d() -> Result<std_templates::assign::Inputs<crate::kit::templates::Side>, Fault> {
+    Ok(std_templates::assign::Inputs {
+        value: crate::kit::templates::Side::Left,
+    })
+}
+
+/// Outputs of `d`.
+fn d_outputs(
+    staged: &mut Staged,
+    outcome: std_templates::assign::State<crate::kit::templates::Side>,
+) -> Result<(), Fault> {
+    let std_templates::assign::State::Done { result } = outcome;
+    staged.said = Some(print_choice(result)?);
+    Ok(())
+}
+
+/// Inputs of `e`.
+fn e(config: &Config) -> Result<kit::area::Inputs, Fault> {
+    Ok(kit::area::Inputs {
+        width: Length::from_si(
+            parse_quantity(config.text(), super::units::LENGTH.iter().copied())?,
+        ),
+        height: Length::from_si(1.0),
+    })
+}
+
+/// Inputs of `k`.
+fn k(config: &Config) -> Result<std_templates::count::Inputs, Fault> {
+    Ok(std_templates::count::Inputs {
+        value: bool_to_int(config.flag()),
+        limit: parse_int(config.text())?,
+    })
+}
+
+/// Inputs of `n`.
+fn n(config: &Config) -> Result<std_templates::wait::Inputs, Fault> {
+    Ok(std_templates::wait::Inputs {
+        duration: Time::from_si(
+            parse_quantity(config.text(), super::units::DURATION.iter().copied())?,
+        ),
+    })
+}
+
+/// Inputs of `o`.
+fn o(config: &Config) -> Result<std_templates::compare::Inputs<f64>, Fault> {
+    Ok(std_templates::compare::Inputs {
+        left: int_to_float(config.i()),
+        right: config.f(),
+    })
+}
+
+/// Inputs of `p`.
+fn p(config: &Config) -> Result<std_templates::assign::Inputs<Text>, Fault> {
+    Ok(std_templates::assign::Inputs {
+        value: config.text.get().clone(),
+    })
+}
+
+/// Outputs of `p`.
+fn p_outputs(
+    staged: &mut Staged,
+    outcome: std_templates::assign::State<Text>,
+) -> Result<(), Fault> {
+    let std_templates::assign::State::Done { result } = outcome;
+    staged.number = Some(parse_int(result.as_str())?);
+    Ok(())
+}

@@ -1,0 +1,167 @@
+// inner.rs
+
+/// Where the scheduler reads the rules of the plan.
+#[derive(Clone, Copy, Debug)]
+pub struct Rules;
+
+impl Tables for Rules {
+    #[inline]
+    fn table(&self) -> PlanTable<'_> {
+        PlanTable {
+            start: PAUSE,
+            globals: 0,
+            entries: 0,
+            elements: &ELEMENTS,
+            supervisors: &SUPERVISORS,
+            edges: &EDGES,
+            sweeps: &SWEEPS,
+        }
+    }
+}
+
+/// Where each state and event leads.
+static EDGES: [Target; 1] = [
+    // pause: Elapsed -> terminate
+    Target::Terminate,
+];
+
+/// The elements.
+static ELEMENTS: [ElementRow; 1] = [
+    // actor pause: Wait
+    ElementRow {
+        kind: ElementKind::Actor,
+        period: Duration::from_millis(10),
+        states: Range { first: 0, len: 1 },
+        on_error: Target::None,
+        locals: Range { first: 0, len: 0 },
+        sweep: Range { first: 0, len: 0 },
+        child: Child { components: 0, entries: 0 },
+    },
+];
+
+/// The supervisors: global ones, then local ones.
+static SUPERVISORS: [SupervisorRow; 0] = [];
+
+/// Who is polled while an element is active, in order.
+static SWEEPS: [u16; 0] = [];
+
+// p.rs
+
+/// Where the scheduler reads the rules of the plan.
+#[derive(Clone, Copy, Debug)]
+pub struct Rules;
+
+impl Tables for Rules {
+    #[inline]
+    fn table(&self) -> PlanTable<'_> {
+        PlanTable {
+            start: COUNT,
+            globals: 1,
+            entries: 1,
+            elements: &ELEMENTS,
+            supervisors: &SUPERVISORS,
+            edges: &EDGES,
+            sweeps: &SWEEPS,
+        }
+    }
+}
+
+/// Where each state and event leads.
+static EDGES: [Target; 9] = [
+    // count: Again -> wait
+    Target::Element(WAIT),
+    // count: Done -> inner
+    Target::Element(INNER),
+    // wait: Elapsed -> count
+    Target::Element(COUNT),
+    // inner: OK -> wait
+    Target::Element(WAIT),
+    // inner: Interrupted cannot happen
+    Target::None,
+    // late: TimedOut -> wait
+    Target::Element(WAIT),
+    // wait.first: Below -> ignore
+    Target::Ignore,
+    // wait.first: Above -> count
+    Target::Element(COUNT),
+    // wait.second: TimedOut -> count
+    Target::Element(COUNT),
+];
+
+/// The elements.
+static ELEMENTS: [ElementRow; 3] = [
+    // computation count: Count
+    ElementRow {
+        kind: ElementKind::Computation,
+        period: Duration::ZERO,
+        states: Range { first: 0, len: 2 },
+        on_error: Target::Terminate,
+        locals: Range { first: 0, len: 0 },
+        sweep: Range { first: 0, len: 0 },
+        child: Child { components: 0, entries: 0 },
+    },
+    // actor wait: Wait
+    ElementRow {
+        kind: ElementKind::Actor,
+        period: Duration::from_millis(10),
+        states: Range { first: 2, len: 1 },
+        on_error: Target::Element(INNER),
+        locals: Range { first: 1, len: 2 },
+        sweep: Range { first: 0, len: 3 },
+        child: Child { components: 0, entries: 0 },
+    },
+    // subplan inner: Inner
+    ElementRow {
+        kind: ElementKind::SubPlan,
+        period: Duration::ZERO,
+        states: Range { first: 3, len: 2 },
+        on_error: Target::Terminate,
+        locals: Range { first: 0, len: 0 },
+        sweep: Range { first: 3, len: 1 },
+        child: INNER_PLACE,
+    },
+];
+
+/// The supervisors: global ones, then local ones.
+static SUPERVISORS: [SupervisorRow; 3] = [
+    // late: CheckTimeout
+    SupervisorRow {
+        period: Duration::from_millis(10),
+        deadline: Duration::from_millis(2),
+        budget: Duration::from_micros(5),
+        slot: 0,
+        events: Range { first: 5, len: 1 },
+        on_miss: Target::Terminate,
+        wanted: Events::from_bits(0b1),
+    },
+    // wait.first: CheckValue
+    SupervisorRow {
+        period: Duration::from_millis(10),
+        deadline: Duration::from_millis(10),
+        budget: Duration::from_micros(5),
+        slot: 1,
+        events: Range { first: 6, len: 2 },
+        on_miss: Target::None,
+        wanted: Events::from_bits(0b10),
+    },
+    // wait.second: CheckTimeout
+    SupervisorRow {
+        period: Duration::from_millis(10),
+        deadline: Duration::from_millis(1),
+        budget: Duration::from_micros(5),
+        slot: 2,
+        events: Range { first: 8, len: 1 },
+        on_miss: Target::None,
+        wanted: Events::from_bits(0b1),
+    },
+];
+
+/// Who is polled while an element is active, in order.
+static SWEEPS: [u16; 4] = [
+    // while wait is active
+    WAIT_SECOND,
+    LATE,
+    WAIT_FIRST,
+    // while inner is active
+    LATE,
+];

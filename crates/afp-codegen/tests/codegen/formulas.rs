@@ -1,0 +1,74 @@
+// p.rs
+
+const A: u16 = 0;
+const B: u16 = 1;
+const C: u16 = 2;
+const D: u16 = 3;
+const E: u16 = 4;
+const K: u16 = 5;
+const N: u16 = 6;
+
+/// The element that is active.
+#[derive(Clone, Default)]
+enum Active {
+    #[default]
+    None,
+}
+
+/// Inputs of `a`.
+fn a(config: &Config) -> Result<std_templates::log::Inputs<i64>, Fault> {
+    Ok(std_templates::log::Inputs {
+        value: int_sub(int_mul(int_neg(config.i())?, 2)?, int_neg(3)?)?,
+    })
+}
+
+/// Inputs of `b`.
+fn b(config: &Config) -> Result<std_templates::log::Inputs<i64>, Fault> {
+    Ok(std_templates::log::Inputs {
+        value: int_rem(int_add(config.i(), 1)?, 4)?,
+    })
+}
+
+/// Inputs of `c`.
+fn c(config: &Config) -> Result<std_templates::log::Inputs<f64>, Fault> {
+    Ok(std_templates::log::Inputs {
+        value: int_to_float(config.i()) / 4.0 + config.f() * (config.f() - 1.5),
+    })
+}
+
+/// Inputs of `d`.
+fn d(config: &Config) -> Result<std_templates::log::Inputs<f64>, Fault> {
+    Ok(std_templates::log::Inputs {
+        value: rem(config.f(), (config.f() + 1.0))?,
+    })
+}
+
+/// Inputs of `e`.
+fn e(config: &Config) -> Result<std_templates::log::Inputs<Time>, Fault> {
+    Ok(std_templates::log::Inputs {
+        value: Time::from_si(
+            Length::from_si(2.0 * (config.way() - Length::from_si(0.1)).si()).si()
+                / config.pace().si(),
+        ),
+    })
+}
+
+/// Inputs of `k`.
+fn k(config: &Config) -> Result<std_templates::log::Inputs<f64>, Fault> {
+    Ok(std_templates::log::Inputs {
+        value: 1.0
+            - config.way()
+                / Length::from_si(config.pace().si() * Time::from_si(3.0).si()),
+    })
+}
+
+/// Inputs of `n`.
+fn n(config: &Config) -> Result<std_templates::log::Inputs<Text>, Fault> {
+    Ok(std_templates::log::Inputs {
+        value: join(
+            join(join("i ", Text::print(config.i())?.as_str())?.as_str(), " of ")?
+                .as_str(),
+            "4",
+        )?,
+    })
+}

@@ -1,0 +1,110 @@
+// config.rs
+
+const LOOP: u16 = 0;
+const ACTIVE: u16 = 1;
+const SELF: u16 = 2;
+
+/// The element that is active.
+#[derive(Clone, Default)]
+enum Active {
+    #[default]
+    None,
+    // actor self_: Wait
+    Self_(afp_std::Wait),
+}
+
+/// Inputs of `loop`.
+fn r#loop(config: &Config) -> Result<std_templates::assign::Inputs<i64>, Fault> {
+    Ok(std_templates::assign::Inputs {
+        value: config.r#type(),
+    })
+}
+
+/// Outputs of `loop`.
+fn loop_outputs(
+    staged: &mut Staged,
+    outcome: std_templates::assign::State<i64>,
+) -> Result<(), Fault> {
+    let std_templates::assign::State::Done { result } = outcome;
+    staged.staged = Some(result);
+    Ok(())
+}
+
+/// Inputs of `active`.
+fn active(config: &Config) -> Result<std_templates::assign::Inputs<i64>, Fault> {
+    Ok(std_templates::assign::Inputs {
+        value: config.staged(),
+    })
+}
+
+/// Outputs of `active`.
+fn active_outputs(
+    staged: &mut Staged,
+    outcome: std_templates::assign::State<i64>,
+) -> Result<(), Fault> {
+    let std_templates::assign::State::Done { result } = outcome;
+    staged.r#type = Some(result);
+    Ok(())
+}
+
+/// Inputs of `self_`.
+fn self_() -> Result<std_templates::wait::Inputs, Fault> {
+    Ok(std_templates::wait::Inputs {
+        duration: Time::from_si(1.0),
+    })
+}
+
+/// The names behind the ids of a trace.
+pub static NAMES: NameTable = NameTable {
+    components: &[
+        ComponentRow::new("Config", Kind::Plan, "Config", &[], "", &[]),
+        ComponentRow::new(
+            "loop",
+            Kind::Computation,
+            "Assign",
+            &[("Done", "active")],
+            "",
+            &["value"],
+        ),
+        ComponentRow::new(
+            "active",
+            Kind::Computation,
+            "Assign",
+            &[("Done", "self_")],
+            "",
+            &["value"],
+        ),
+        ComponentRow::new(
+            "self_",
+            Kind::Actor,
+            "Wait",
+            &[("Elapsed", "terminate")],
+            "",
+            &["duration"],
+        ),
+    ],
+    entries: &[
+        EntryRow::new("staged", EntryKind::Var, "int", "", &[]),
+        EntryRow::new("type", EntryKind::Var, "int", "", &[]),
+    ],
+};
+
+impl NamedPlan for Config_2 {
+    type Names = NameTable;
+
+    fn names(&self) -> NameTable {
+        NAMES
+    }
+
+    fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
+        self.accepts(entry, value)?;
+        match entry {
+            _ => Err(WriteError::ReadOnly),
+        }
+    }
+
+    fn units(&self, _: u16) -> impl Iterator<Item = Unit<'_>> {
+        let units: &[Unit<'static>] = &[];
+        units.iter().copied()
+    }
+}

@@ -1,0 +1,76 @@
+// inner.rs
+
+const HERE: u16 = 0;
+const SEEK: u16 = 1;
+
+/// The element that is active.
+#[derive(Clone, Default)]
+enum Active {
+    #[default]
+    None,
+    // actor seek: Seek
+    Seek(crate::kit::Seek),
+}
+
+/// Outputs of `here`.
+fn here_outputs(staged: &mut Staged, outcome: kit::here::State) -> Result<(), Fault> {
+    let kit::here::State::Done { place } = outcome;
+    staged.to = Some(Object::new(place));
+    Ok(())
+}
+
+/// Inputs of `seek`.
+fn seek<'a>(config: &'a Config) -> Result<kit::seek::Inputs<'a>, Fault> {
+    Ok(kit::seek::Inputs {
+        name: "",
+        side: crate::kit::templates::Side::Left,
+        r#where: config.from()?,
+        tries: 3,
+    })
+}
+
+/// Live inputs of `seek`.
+fn seek_live() -> Result<kit::seek::Live, Fault> {
+    Ok(kit::seek::Live {
+        speed: Speed::from_si(0.1),
+        r#loop: true,
+    })
+}
+
+// p.rs
+
+const HERE: u16 = 0;
+const INNER: u16 = 1;
+
+/// The element that is active.
+#[derive(Clone, Default)]
+enum Active {
+    #[default]
+    None,
+    // subplan inner: Inner
+    Inner(Machine<super::inner::Inner>),
+}
+
+/// Outputs of `here`.
+fn here_outputs(staged: &mut Staged, outcome: kit::here::State) -> Result<(), Fault> {
+    let kit::here::State::Done { place } = outcome;
+    staged.place = Some(Object::new(place));
+    Ok(())
+}
+
+/// Where the ids of `inner` begin.
+const INNER_PLACE: Child = Child { components: 2, entries: 1 };
+
+/// Inputs of `inner`.
+fn inner(config: &Config, to: &mut super::inner::Config) -> Result<(), Fault> {
+    to.from.set(config.place.get().clone());
+    Ok(())
+}
+
+/// Results of `inner`.
+fn inner_outputs(staged: &mut Staged, from: &super::inner::Config) -> Result<(), Fault> {
+    if let Some(value) = from.to.value() {
+        staged.place = Some(value.clone());
+    }
+    Ok(())
+}

@@ -1,0 +1,88 @@
+// round.rs
+
+const LOOP: u16 = 0;
+const WAIT: u16 = 1;
+
+/// The element that is active.
+#[derive(Clone, Default)]
+enum Active {
+    #[default]
+    None,
+    // actor wait: Wait
+    Wait(afp_std::Wait),
+}
+
+/// Inputs of `loop`.
+fn r#loop(config: &Config) -> Result<std_templates::count::Inputs, Fault> {
+    Ok(std_templates::count::Inputs {
+        value: config.i(),
+        limit: config.rounds(),
+    })
+}
+
+/// Outputs of `loop`.
+fn loop_outputs(
+    staged: &mut Staged,
+    outcome: std_templates::count::State,
+) -> Result<(), Fault> {
+    match outcome {
+        std_templates::count::State::Again { next } => {
+            staged.i = Some(next);
+        }
+        std_templates::count::State::Done { next } => {
+            staged.i = Some(next);
+        }
+    }
+    Ok(())
+}
+
+/// Inputs of `wait`.
+fn wait() -> Result<std_templates::wait::Inputs, Fault> {
+    Ok(std_templates::wait::Inputs {
+        duration: Time::from_si(1.0),
+    })
+}
+
+// outer.rs
+
+const ROUND: u16 = 0;
+const AGAIN: u16 = 1;
+
+/// The element that is active.
+#[derive(Clone, Default)]
+enum Active {
+    #[default]
+    None,
+    // subplan round: Round
+    Round(Machine<super::round::Round>),
+    // subplan again: Round
+    Again(Machine<super::round::Round>),
+}
+
+/// Where the ids of `round` begin.
+const ROUND_PLACE: Child = Child { components: 2, entries: 2 };
+
+/// Inputs of `round`.
+fn round(config: &Config, to: &mut super::round::Config) -> Result<(), Fault> {
+    to.rounds.set(float_to_int(config.often())?);
+    to.label.set(join("at ", Text::print(config.count())?.as_str())?);
+    Ok(())
+}
+
+/// Results of `round`.
+fn round_outputs(staged: &mut Staged, from: &super::round::Config) -> Result<(), Fault> {
+    if let Some(value) = from.done.value() {
+        staged.count = Some(*value);
+    }
+    Ok(())
+}
+
+/// Where the ids of `again` begin.
+const AGAIN_PLACE: Child = Child { components: 5, entries: 6 };
+
+/// Inputs of `again`.
+fn again(to: &mut super::round::Config) -> Result<(), Fault> {
+    to.rounds.set(2);
+    to.label.set(Text::try_from("round")?);
+    Ok(())
+}

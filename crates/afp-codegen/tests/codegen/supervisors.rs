@@ -1,0 +1,64 @@
+// p.rs
+
+const NEAR: u16 = 0;
+const ANY: u16 = 1;
+const WAIT_SLOW: u16 = 2;
+
+/// The supervisors, each while it watches.
+#[derive(Clone, Default)]
+struct Supervisors {
+    // global supervisor near: CheckValue
+    near: Option<afp_std::CheckValue<Length>>,
+    // global supervisor any: Watch
+    any: Option<crate::kit::Watch<Text>>,
+    // local supervisor wait.slow: CheckTimeout
+    wait_slow: Option<afp_std::CheckTimeout>,
+}
+
+/// Live inputs of `near`.
+fn near_live(
+    config: &Config,
+) -> Result<std_templates::check_value::Live<Length>, Fault> {
+    Ok(std_templates::check_value::Live {
+        value: config.dist(),
+        limit: Length::from_si(0.1),
+    })
+}
+
+/// Inputs of `any`.
+fn any<'a>() -> Result<kit::watch::Inputs<'a>, Fault> {
+    Ok(kit::watch::Inputs {
+        label: "mood",
+    })
+}
+
+/// Live inputs of `any`.
+fn any_live(config: &Config) -> Result<kit::watch::Live<Text>, Fault> {
+    Ok(kit::watch::Live {
+        value: config.mood.get().clone(),
+    })
+}
+
+/// Outputs of `any`.
+fn any_outputs(
+    staged: &mut Staged,
+    outcome: kit::watch::Event<Text>,
+) -> Result<(), Fault> {
+    match outcome {
+        kit::watch::Event::Changed { seen, side } => {
+            staged.mood = Some(seen);
+            staged.side = Some(side);
+        }
+        kit::watch::Event::Same { side } => {
+            staged.side = Some(side);
+        }
+    }
+    Ok(())
+}
+
+/// Inputs of `wait.slow`.
+fn wait_slow() -> Result<std_templates::check_timeout::Inputs, Fault> {
+    Ok(std_templates::check_timeout::Inputs {
+        duration: Time::from_si(0.1),
+    })
+}
