@@ -147,19 +147,6 @@ pub fn timing(graph: &Graph, target: Option<&Target>) -> Timing {
     Timing { plan, longest_step: longest.known(), demand, supervisors }
 }
 
-/// A time for people: microseconds, milliseconds or seconds, exact.
-fn readable(nanoseconds: u64) -> String {
-    let (size, unit) = match nanoseconds {
-        0..1_000 => return format!("{nanoseconds} ns"),
-        1_000..1_000_000 => (1_000, "us"),
-        1_000_000..1_000_000_000 => (1_000_000, "ms"),
-        _ => (1_000_000_000, "s"),
-    };
-    let digits = format!("{size}").len() - 1;
-    let text = format!("{}.{:0digits$}", nanoseconds / size, nanoseconds % size);
-    format!("{} {unit}", text.trim_end_matches('0').trim_end_matches('.'))
-}
-
 fn model(graph: &Graph) -> Model<'_> {
     Model {
         plans: graph.plans.iter().map(Some).collect(),

@@ -1,4 +1,5 @@
-//! The arithmetic of formulas, and how texts become numbers: one meaning for compiler and run time.
+//! The arithmetic of formulas, and how texts become numbers and numbers texts: one meaning for
+//! compiler and run time.
 //!
 //! A formula that is constant is computed by the compiler, any other by the interpreter or by
 //! generated Rust; `35 cm` may stand in a plan, in a text that an entry is read from, or on a command
@@ -11,6 +12,7 @@ mod arithmetic;
 mod decimal;
 mod exact;
 mod read;
+mod text;
 
 pub use arithmetic::{
     bool_to_float, bool_to_int, finite, float_to_int, int_add, int_mul, int_neg, int_rem, int_sub,
@@ -19,6 +21,7 @@ pub use arithmetic::{
 pub use decimal::{Decimal, number_length};
 pub use exact::{RADIANS_PER_DEGREE, Scale, exact};
 pub use read::{Quantity, Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};
+pub use text::{Nanoseconds, Rounded};
 
 use core::fmt;
 

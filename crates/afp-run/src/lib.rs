@@ -30,7 +30,7 @@ pub use error::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, EXIT_USAGE, RunError};
 pub use hash::hash;
 pub use output::write_whole;
 pub use picture::{PictureFormat, Rasterizer};
-pub use report::{line, timeline};
+pub use report::{line, quantity, timeline};
 pub use run::{MakeSession, run};
 pub use stop::StopFlag;
 pub use svg::{draw_film, draw_log, draw_sonar};

@@ -17,6 +17,7 @@ use afp_session::{NamedRecord, Observer};
 
 use progress::Progress;
 pub(crate) use summary::{Ran, StoppedBy, Summary};
+pub use timeline::quantity;
 
 /// The timeline of a log, line by line.
 pub fn timeline(log: &LogData) -> impl Iterator<Item = String> {

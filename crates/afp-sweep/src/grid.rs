@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use afp_core::Duration;
+use afp_dsl::types::text::duration;
 
 use crate::ranges::Seeds;
 
@@ -117,12 +118,7 @@ impl Sweep {
 
 /// A time as the command line takes it, exact.
 fn spelled(time: Duration) -> String {
-    let nanos = time.as_nanos();
-    match nanos {
-        nanos if nanos.is_multiple_of(1_000_000_000) => format!("{}s", nanos / 1_000_000_000),
-        nanos if nanos.is_multiple_of(1_000_000) => format!("{}ms", nanos / 1_000_000),
-        nanos => format!("{nanos}ns"),
-    }
+    duration(time.as_nanos()).replace(' ', "")
 }
 
 /// A word for a shell.
@@ -165,7 +161,8 @@ mod tests {
     #[test]
     fn a_run_is_a_command() {
         let sweep = sweep();
-        let wanted = "afpc run 'my plan.afp' --world random:7 --seed 8 --set a=3 --set b=30cm --until 1500ms";
+        let wanted =
+            "afpc run 'my plan.afp' --world random:7 --seed 8 --set a=3 --set b=30cm --until 1.5s";
         assert_eq!(sweep.command(&sweep.row(71)), wanted);
     }
 }

@@ -54,7 +54,7 @@ pub(crate) fn run(
     let signal = |name| find_signal(session.devices(), "robot", name);
     let mut judge = Judge {
         scenario,
-        watch: Watch::new(scenario, session.names().entries() as usize),
+        watch: Watch::new(scenario, session.names()),
         lines,
         halted: signal("halted"),
         standing: signal("standing"),

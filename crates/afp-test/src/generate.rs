@@ -65,16 +65,3 @@ pub fn generate(
     text.push_str(&all.text);
     Ok(Generated { text, ..all })
 }
-
-/// A time as people write it: whole, or as seconds to the microsecond.
-fn spell(time: u64) -> String {
-    let seconds = |digits: usize| format!("{:.digits$} s", time as f64 / 1e9);
-    match time {
-        time if time.is_multiple_of(1_000_000_000) => format!("{} s", time / 1_000_000_000),
-        time if time > 1_000_000_000 && time.is_multiple_of(1_000_000) => seconds(3),
-        time if time > 1_000_000_000 && time.is_multiple_of(1_000) => seconds(6),
-        time if time.is_multiple_of(1_000_000) => format!("{} ms", time / 1_000_000),
-        time if time.is_multiple_of(1_000) => format!("{} us", time / 1_000),
-        time => format!("{time} ns"),
-    }
-}

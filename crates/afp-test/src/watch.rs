@@ -5,7 +5,9 @@ mod look;
 #[cfg(test)]
 mod tests;
 
-use afp_core::trace::{Author, ComponentId, DEADLINE_MISSED, ERROR, Ending, Record, TraceEntryId};
+use afp_core::trace::{
+    Author, ComponentId, DEADLINE_MISSED, ERROR, Ending, Names, Record, TraceEntryId,
+};
 use afp_core::{Instant, Value, ValueRef};
 use afp_dsl::scenario::{Cause, Claim, Destination, EndCause, Expectation, Outcome, Scenario};
 use afp_dsl::unfold::{Goal, Place, places};
@@ -50,6 +52,8 @@ pub(crate) struct State {
     active: Vec<bool>,
     /// What each entry holds, by number.
     entries: Vec<Value>,
+    /// The SI unit of each entry.
+    units: Vec<String>,
     /// How the plan ended.
     pub(crate) ending: Option<Ending>,
     /// Whether the last command to the drive was to stand still.
@@ -73,12 +77,15 @@ pub(crate) enum Happening {
 }
 
 impl<'a> Watch<'a> {
-    pub(crate) fn new(scenario: &'a Scenario, entries: usize) -> Self {
+    pub(crate) fn new(scenario: &'a Scenario, names: &dyn Names) -> Self {
         let places = places(&scenario.graph);
+        let entries = (0..names.entries()).map(|id| names.entry(TraceEntryId(id)));
+        let units: Vec<_> = entries.map(|entry| entry.unit.to_owned()).collect();
         Watch {
             state: State {
                 active: vec![false; places.len()],
-                entries: vec![Value::Unset; entries],
+                entries: vec![Value::Unset; units.len()],
+                units,
                 ending: None,
                 halted: true,
                 standing: true,

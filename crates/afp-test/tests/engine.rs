@@ -119,8 +119,8 @@ fn each_kind_of_claim_breaks() {
     breaks("at 1 s: press touch\n never go -> back by touch", "it was so", 1.0);
     breaks("at 1 s: press touch\n expect go active always\n until 2 s", "otherwise", 1.0);
     breaks("at 1 s: press touch\n expect go -> back within 2 ms after 1.5 s", "at 1.000 s", 1.502);
-    breaks("expect way == 2 m\n until 1 s", "in the end it is 1 (SI)", 1.0);
-    breaks("at 1 s: set way = 2 m\n expect way == 1 m always\n until 2 s", "it is 2 (SI)", 1.0);
+    breaks("expect way == 2 m\n until 1 s", "in the end it is 1 m", 1.0);
+    breaks("at 1 s: set way = 2 m\n expect way == 1 m always\n until 2 s", "it is 2 m", 1.0);
     breaks("at 1 s: press escape\n expect end by OK", "as Interrupted", 2.0);
     breaks("expect end before 1 s\n until 1 s", "did not end", 0.999_999_999);
     breaks("expect collision before 1 s", "touched nothing", 0.999_999_999);

@@ -8,7 +8,7 @@ use crate::types::text::duration;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 use super::level::{Levels, Outside};
-use super::{Response, SupervisorTiming, Target, model, readable, timing};
+use super::{Response, SupervisorTiming, Target, model, timing};
 
 /// Warns of supervisors whose response may be longer than their deadline, on any target.
 pub(crate) fn check_responses(graph: &Graph, diags: &mut Diagnostics) {
@@ -17,8 +17,8 @@ pub(crate) fn check_responses(graph: &Graph, diags: &mut Diagnostics) {
             let message = format!(
                 "'{}' may take {} from its release to the end of its poll, longer than its deadline of {}",
                 row.path,
-                readable(response.total()),
-                readable(row.deadline)
+                duration(response.total()),
+                duration(row.deadline)
             );
             diags.push(parts(Diagnostic::new(Code::E0405, row.span, message), &response));
         }
@@ -38,7 +38,7 @@ fn parts(diagnostic: Diagnostic, response: &Response) -> Diagnostic {
         (response.own, "of its own"),
     ];
     let parts = parts.into_iter().filter(|(time, _)| *time > 0);
-    let sum: Vec<_> = parts.map(|(time, text)| format!("{} {text}", readable(time))).collect();
+    let sum: Vec<_> = parts.map(|(time, text)| format!("{} {text}", duration(time))).collect();
     diagnostic.help(format!(
         "give it a longer period and deadline, or use templates with smaller budgets: it is {}",
         sum.join(", ")
@@ -109,9 +109,9 @@ fn responses(graph: &Graph, target: &Target, diags: &mut Diagnostics) {
         let message = format!(
             "'{}' may take {} on '{}' from its release to the end of its poll, longer than its deadline of {}",
             row.path,
-            readable(response.total()),
+            duration(response.total()),
             target.name,
-            readable(row.deadline)
+            duration(row.deadline)
         );
         diags.push(parts(Diagnostic::new(Code::E0405, row.span, message), &response));
     }

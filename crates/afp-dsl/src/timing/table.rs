@@ -4,7 +4,8 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::{Interruption, SupervisorTiming, Timing, readable};
+use super::{Interruption, SupervisorTiming, Timing};
+use crate::types::text::duration;
 
 impl Timing {
     /// The table, one line for each supervisor, with what it is made of; ends with a line break.
@@ -28,7 +29,7 @@ impl Timing {
 
     fn sums(&self) -> String {
         let step = match &self.longest_step {
-            Ok(time) => readable(*time),
+            Ok(time) => duration(*time),
             Err(reason) => format!("unknown: {reason}"),
         };
         let demand = match &self.demand {
@@ -44,14 +45,14 @@ impl Timing {
             false => format!("{}: {}", row.plan, row.path),
         };
         let response = match &row.response {
-            Ok(response) => readable(response.total()),
+            Ok(response) => duration(response.total()),
             Err(_) => "unknown".to_owned(),
         };
         let (bound, terms) = match &row.interruption {
             None => ("-".to_owned(), "interrupts nothing".to_owned()),
             Some(interruption) => describe(interruption),
         };
-        [path, readable(row.every), readable(row.deadline), response, bound, terms]
+        [path, duration(row.every), duration(row.deadline), response, bound, terms]
     }
 
     /// The same as one JSON object: `plan`, `longest_step_ns`, `demand` (each with `null` and a reason where
@@ -72,9 +73,9 @@ impl Timing {
 
 fn describe(interruption: &Interruption) -> (String, String) {
     let trust = interruption.trust.as_str();
-    let total = interruption.total().map(readable);
+    let total = interruption.total().map(duration);
     let bound = total.map_or_else(|| trust.to_owned(), |total| format!("{total} {trust}"));
-    let terms = interruption.terms.iter().map(|(name, time)| format!("{name} {}", readable(*time)));
+    let terms = interruption.terms.iter().map(|(name, time)| format!("{name} {}", duration(*time)));
     let mut terms = terms.collect::<Vec<_>>().join(" + ");
     if !interruption.reason.is_empty() {
         let gap = if terms.is_empty() { "" } else { "; " };

@@ -4,7 +4,7 @@
 //! as the very same double.
 
 use crate::types::{Dimension, Type};
-use afp_number::RADIANS_PER_DEGREE;
+use afp_number::{Nanoseconds, RADIANS_PER_DEGREE, Rounded};
 use afp_syntax::literal::Literal;
 use afp_syntax::units::Unit;
 
@@ -29,14 +29,9 @@ pub fn quantity(value: f64, dimension: Dimension) -> String {
     shortest.unwrap_or_else(|| format!("{} {}", number(value), dimension.si_unit()))
 }
 
-/// Nanoseconds in the largest unit that needs no fraction.
+/// A time as people write it, exact: `20 s`, `1.5 ms`.
 pub fn duration(nanoseconds: u64) -> String {
-    let units = [(1_000_000_000, "s"), (1_000_000, "ms"), (1_000, "us")];
-    let fits = units.iter().find(|(size, _)| nanoseconds.is_multiple_of(*size));
-    match fits {
-        Some((size, unit)) => format!("{} {unit}", nanoseconds / size),
-        None => format!("{nanoseconds} ns"),
-    }
+    Nanoseconds(nanoseconds).to_string()
 }
 
 /// A plain number in the spelling of literals.
@@ -91,7 +86,7 @@ pub(crate) fn a_dimension(dimension: Dimension) -> String {
 /// A value in SI units as people write it, such as `31 cm/s` or `2 km`: as drawings do where that is
 /// short, otherwise rounded and in the usual unit.
 pub(crate) fn value(value: f64, ty: &Type) -> String {
-    let Type::Quantity(dimension) = ty else { return plain(value) };
+    let Type::Quantity(dimension) = ty else { return Rounded(value, DECIMALS).to_string() };
     let exact = quantity(value, *dimension);
     // Zero is as short in any unit.
     if exact.len() <= SHORT && value != 0.0 {
@@ -100,21 +95,17 @@ pub(crate) fn value(value: f64, ty: &Type) -> String {
     let symbol = dimension.usual_unit();
     let one = Literal::parse(&format!("1 {symbol}"));
     let factor = one.ok().and_then(|literal| literal.value()).unwrap_or(1.0);
-    format!("{} {symbol}", plain(value / factor)).trim_end().to_owned()
+    format!("{} {symbol}", Rounded(value / factor, DECIMALS)).trim_end().to_owned()
 }
 
 /// A longer exact value, in letters, has come from a calculation.
 const SHORT: usize = 14;
-
-/// At most nine decimals, without zeros at the end.
-fn plain(value: f64) -> String {
-    let text = format!("{value:.9}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
+/// Any other is told to so many decimals.
+const DECIMALS: usize = 9;
 
 #[cfg(test)]
 mod tests {
-    use super::{duration, quantity, value};
+    use super::{quantity, value};
     use crate::types::{Dimension, Type};
 
     #[test]
@@ -141,14 +132,6 @@ mod tests {
         let length = Dimension::named("length").unwrap();
         let shown = quantity(1.0 / 3.0, length);
         assert!(shown.contains("33333333333333"), "{shown}");
-    }
-
-    #[test]
-    fn durations_are_whole_numbers_of_a_unit() {
-        assert_eq!(duration(1_000_000), "1 ms");
-        assert_eq!(duration(2_000_000_000), "2 s");
-        assert_eq!(duration(1_500_000), "1500 us");
-        assert_eq!(duration(7), "7 ns");
     }
 
     #[test]

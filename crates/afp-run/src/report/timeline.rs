@@ -6,6 +6,7 @@ use afp_log::instant;
 use afp_log::proto::afp::plan_event::{Cause, Ending, Kind};
 use afp_log::proto::afp::value::Value as Told;
 use afp_log::proto::afp::{PlanEvent, Value};
+use afp_number::Rounded;
 use anstyle::{AnsiColor, Style};
 
 const QUIET: Style = Style::new().dimmed();
@@ -98,15 +99,15 @@ fn show(value: &Option<Value>, unit: &str) -> String {
 
 /// A number of an SI unit as people write it: angles in degrees; less than a metre in centimetres, less than a
 /// second in milliseconds.
-fn quantity(number: f64, unit: &str) -> String {
+pub fn quantity(number: f64, unit: &str) -> String {
     match unit {
-        "" => short(number),
-        "rad" => format!("{} deg", short(number.to_degrees())),
-        "rad/s" => format!("{} deg/s", short(number.to_degrees())),
+        "" => Rounded(number, 3).to_string(),
+        "rad" => format!("{} deg", Rounded(number.to_degrees(), 3)),
+        "rad/s" => format!("{} deg/s", Rounded(number.to_degrees(), 3)),
         "m" => whole_or_parts(number, "m", "cm", 2),
         "m/s" => whole_or_parts(number, "m/s", "cm/s", 2),
         "s" => whole_or_parts(number, "s", "ms", 3),
-        unit => format!("{} {unit}", short(number)),
+        unit => format!("{} {unit}", Rounded(number, 3)),
     }
 }
 
@@ -116,21 +117,10 @@ fn whole_or_parts(number: f64, unit: &str, part: &str, power: u8) -> String {
     let parts = 10_f64.powi(power.into());
     let told = (number * parts * 1e3).round() / (parts * 1e3);
     if told.abs() < 1.0 {
-        format!("{} {part}", short(told * parts))
+        format!("{} {part}", Rounded(told * parts, 3))
     } else {
-        format!("{} {unit}", rounded(told, usize::from(power) + 3))
+        format!("{} {unit}", Rounded(told, usize::from(power) + 3))
     }
-}
-
-/// Up to three decimals, without trailing zeros.
-fn short(number: f64) -> String {
-    rounded(number, 3)
-}
-
-/// Up to so many decimals, without trailing zeros.
-fn rounded(number: f64, decimals: usize) -> String {
-    let text = format!("{number:.decimals$}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 fn ended(event: &PlanEvent) -> String {

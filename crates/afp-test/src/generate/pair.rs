@@ -6,10 +6,11 @@ use afp_core::Instant;
 use afp_dsl::graph::Component;
 use afp_dsl::unfold::Goal;
 
+use super::Generated;
 use super::reach::Way;
-use super::{Generated, spell};
 use crate::parts::Parts;
 use crate::watch::Activation;
+use afp_dsl::types::text::duration;
 
 /// The points of an element's run, in percent.
 const POINTS: [u64; 5] = [10, 30, 50, 70, 90];
@@ -87,7 +88,7 @@ impl Pair<'_> {
         let name = format!("{}.{}", supervisor.name, parts.outcome(self.supervisor, event));
         // It would lead a global supervisor to where the plan is already.
         let there = goal == Goal::Element(self.element) && supervisor.owner.is_none();
-        let (time, within) = (spell(at), spell(supervisor.deadline));
+        let (time, within) = (duration(at), duration(supervisor.deadline));
         let soon = format!("within {within} after {time}");
         let stand = self.standstill(at);
         let mut lines = Vec::new();
@@ -114,10 +115,13 @@ impl Pair<'_> {
             lines.extend(self.commits(at, event, goal, &soon));
             lines.push(format!("expect halted always after {time}"));
             lines.extend(
-                stand.map(|stand| format!("expect standing always after {}", spell(stand))),
+                stand.map(|stand| format!("expect standing always after {}", duration(stand))),
             );
         }
-        lines.push(format!("until {}", spell(stand.unwrap_or(at + supervisor.deadline) + BEHIND)));
+        lines.push(format!(
+            "until {}",
+            duration(stand.unwrap_or(at + supervisor.deadline) + BEHIND)
+        ));
         let plan = parts.path(0);
         let title = format!("{element}: {name} at {percent} %");
         // Writing to a String cannot fail.

@@ -6,10 +6,10 @@ use afp_dsl::scenario::{Action, Scenario, Stimulus};
 use afp_dsl::unfold::Goal;
 use afp_run::RunError;
 
-use super::spell;
 use crate::parts::Parts;
 use crate::verdict::Verdict;
 use crate::watch::Activation;
+use afp_dsl::types::text::duration;
 
 /// Seeds that are tried where a run does not reach everything.
 const SEEDS: u64 = 4;
@@ -140,7 +140,7 @@ impl Reach {
         let stimulus = Stimulus {
             at,
             action: Action::Inject(injection),
-            text: format!("at {}: {text}", spell(at)),
+            text: format!("at {}: {text}", duration(at)),
             span: quiet.span,
         };
         // What would happen later belongs to the run of before.

@@ -4,6 +4,7 @@ use afp_core::trace::{Author, ComponentId};
 use afp_core::{Ending, Instant, Value};
 use afp_dsl::scenario::{Claim, Expectation, Wanted};
 use afp_dsl::toolbox::Constant;
+use afp_run::quantity;
 use afp_session::Span;
 
 use super::{Happening, State, ends, fits, leads};
@@ -190,7 +191,8 @@ impl<'a> Look<'a> {
         match state.entries.get(entry as usize) {
             Some(Value::Unset) | None => "it was never written".to_owned(),
             Some(Value::Float(number)) => {
-                format!("it was otherwise; in the end it is {number} (SI)")
+                let unit = state.units.get(entry as usize).map_or("", String::as_str);
+                format!("it was otherwise; in the end it is {}", quantity(*number, unit))
             }
             Some(value) => format!("it was otherwise; in the end it is {}", value.borrow()),
         }
