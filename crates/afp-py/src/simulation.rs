@@ -4,6 +4,7 @@ mod event;
 mod keeper;
 mod session;
 mod stimuli;
+mod time;
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -37,6 +38,7 @@ use event::line;
 pub use event::{Event, value};
 use session::{Run, Setting};
 use stimuli::{control, fault};
+use time::{duration, instant};
 
 /// A plan in a simulated world. `afp.Simulation` is made of it.
 #[pyclass(module = "afp", frozen)]
@@ -433,19 +435,6 @@ fn entry(plan: &LoadedPlan<Simulation>, name: &str) -> PyResult<u16> {
         let text = format!("the plan has no entry '{name}'; there are: {}", known.join(", "));
         PyKeyError::new_err(text)
     })
-}
-
-/// An instant from seconds.
-fn instant(seconds: f64) -> PyResult<Instant> {
-    Ok(Instant::ZERO + duration(seconds)?)
-}
-
-/// A time from seconds.
-fn duration(seconds: f64) -> PyResult<Duration> {
-    match seconds.is_finite() && seconds >= 0.0 {
-        true => Ok(Duration::from_secs_f64(seconds)),
-        false => Err(PyValueError::new_err(format!("{seconds} is no time from 0 on, in seconds"))),
-    }
 }
 
 /// Every fault that `fail` knows: device and kind.

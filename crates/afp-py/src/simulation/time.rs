@@ -1,0 +1,18 @@
+//! Times as Python gives them: in seconds.
+
+use afp_core::{Duration, Instant};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+/// An instant from seconds.
+pub(super) fn instant(seconds: f64) -> PyResult<Instant> {
+    Ok(Instant::ZERO + duration(seconds)?)
+}
+
+/// A time from seconds.
+pub(super) fn duration(seconds: f64) -> PyResult<Duration> {
+    match seconds.is_finite() && seconds >= 0.0 {
+        true => Ok(Duration::from_secs_f64(seconds)),
+        false => Err(PyValueError::new_err(format!("{seconds} is no time from 0 on, in seconds"))),
+    }
+}
