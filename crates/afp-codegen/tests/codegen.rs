@@ -8,6 +8,7 @@ use std::{env, fs};
 
 use afp_codegen::{CrateOptions, Dependency, Module, Options, Origin};
 use afp_dsl::files::Texts;
+use afp_dsl::graph::Graph;
 use afp_dsl::toolbox::{Toolbox, Toolboxes};
 use afp_syntax::source::Source;
 use similar::TextDiff;
@@ -83,8 +84,8 @@ fn plans_and_toolboxes_make_the_rust_beside_them() {
     );
 }
 
-#[test]
-fn a_crate_names_what_it_needs_and_carries_its_text() {
+/// The plan of the paper: its text, its graph, and how a crate is made of it.
+fn wall_following() -> (String, Graph, CrateOptions) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/codegen/wall_following.afp");
     let text = fs::read_to_string(path).unwrap();
     let compiled = afp_dsl::compile(
@@ -92,14 +93,19 @@ fn a_crate_names_what_it_needs_and_carries_its_text() {
         &toolboxes(),
         &Texts::default(),
     );
-    let graph = compiled.graph.unwrap();
-    let mut options = CrateOptions {
+    let options = CrateOptions {
         file: "plans/wall_following.afp".to_owned(),
         texts: vec![("wall_following.afp".to_owned(), text.clone())],
         origin: Origin::Path("/home/a \"b\"".to_owned()),
         dependencies: Vec::new(),
         lib: false,
     };
+    (text, compiled.graph.unwrap(), options)
+}
+
+#[test]
+fn a_crate_names_what_it_needs_and_carries_its_text() {
+    let (text, graph, mut options) = wall_following();
     let files = afp_codegen::crate_files(&graph, &options);
     let get = |path: &str| files.iter().find(|file| file.path == path).map(|file| &file.text);
     let names: Vec<_> = files.iter().map(|file| file.path.as_str()).collect();
@@ -132,6 +138,11 @@ fn a_crate_names_what_it_needs_and_carries_its_text() {
     assert_eq!(get("lib/avoid.afp"), Some("plan Avoid {}"));
     let library = get("src/lib.rs").unwrap();
     assert!(library.contains("include_str!(\"../lib/avoid.afp\")"), "{library:?}");
+}
+
+#[test]
+fn a_library_takes_its_dependencies_from_where_it_is_told() {
+    let (_, graph, mut options) = wall_following();
     options.lib = true;
     options.origin = Origin::Version("0.1.0".to_owned());
     options.dependencies = vec![Dependency {
