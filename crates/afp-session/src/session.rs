@@ -4,7 +4,7 @@ mod any;
 mod asked;
 mod told;
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 use afp_core::devices::Devices;
 use afp_core::rt::{NamedPlan, Plan};
@@ -33,10 +33,14 @@ pub struct Session<P: NamedPlan, R: Robot, S = Kept> {
     names: P::Names,
     clock: R::Clock,
     sink: S,
-    /// What the last step left to do; none before the start.
-    wake: Option<Wake>,
-    /// When the plan ended.
-    ended: Option<Instant>,
+    /// Whether the plan has started.
+    started: bool,
+    /// Whether a step is under way: a panic is the plan's then.
+    stepping: bool,
+    /// When the next step is made: now before the start, never after the end.
+    due: Instant,
+    /// When the run is over at the latest: once the robot rests after the end of its plan.
+    last: Instant,
     /// How long a run goes on when the plan has ended.
     rest: Duration,
     requests: Requests,
@@ -85,10 +89,11 @@ where
             scheduler: Scheduler::new(plan),
             clock: robot.clock(),
             samples: SampleGrid { every: Duration::ZERO, next: Instant::MAX },
-            robot,
             sink,
-            wake: None,
-            ended: None,
+            started: false,
+            stepping: false,
+            due: robot.now(),
+            last: Instant::MAX,
             rest: Duration::ZERO,
             requests: Requests::default(),
             asked: Vec::new(),
@@ -97,6 +102,7 @@ where
             trace: TraceHash::default(),
             line: String::new(),
             testing: None,
+            robot,
         }
     }
 
@@ -122,10 +128,7 @@ where
 
     /// The plan, to set its inputs; none once it has started.
     pub fn plan_mut(&mut self) -> Option<&mut P> {
-        match self.wake {
-            None => Some(self.scheduler.plan_mut()),
-            Some(_) => None,
-        }
+        (!self.started).then(|| self.scheduler.plan_mut())
     }
 
     /// The names of the plan.
@@ -146,11 +149,7 @@ where
     /// When the next step is made; [`Instant::MAX`] once the plan has ended.
     #[inline]
     pub fn due(&self) -> Instant {
-        match self.wake {
-            Some(Wake::At(due)) => due.max(self.robot.ready()),
-            Some(Wake::Ended(_)) => Instant::MAX,
-            None => self.robot.now(),
-        }
+        self.due.max(self.robot.ready())
     }
 
     /// Runs the plan until `until`, until it has ended and the robot has come to rest, or until the gate stops it;
@@ -164,25 +163,27 @@ where
         gate: &mut (impl Gate + ?Sized),
         to: &mut [&mut dyn Observer],
     ) -> Result<Go, StartError> {
-        while !self.is_over(until) {
-            if self.tick(until, gate, to)? == Go::Stop {
-                return Ok(Go::Stop);
+        self.fit(to);
+        loop {
+            let went = self.guarded(to, |session, to| {
+                while !session.is_over(until) {
+                    if session.tick_fitted(until, gate, to)? == Go::Stop {
+                        return Ok(Go::Stop);
+                    }
+                }
+                Ok(Go::On)
+            });
+            if went != Ok(Go::Again) {
+                return went;
             }
         }
-        Ok(Go::On)
     }
 
     /// Whether nothing is left to do before `until`, or at it.
     #[inline]
     pub fn is_over(&self, until: Instant) -> bool {
         let now = self.robot.now();
-        now >= until.min(self.last()) && self.due() > now && self.next_from_outside() > now
-    }
-
-    /// When a run is over at the latest: once the robot rests after the end of its plan.
-    #[inline]
-    fn last(&self) -> Instant {
-        self.ended.map_or(Instant::MAX, |ended| ended + self.rest)
+        now >= until.min(self.last) && self.due() > now && self.next_from_outside() > now
     }
 
     /// When the next request is due, or a fault begins or ends.
@@ -202,36 +203,52 @@ where
         to: &mut [&mut dyn Observer],
     ) -> Result<Go, StartError> {
         self.fit(to);
+        self.guarded(to, |session, to| session.tick_fitted(limit, gate, to))
+    }
+
+    #[inline]
+    fn tick_fitted(
+        &mut self,
+        limit: Instant,
+        gate: &mut (impl Gate + ?Sized),
+        to: &mut [&mut dyn Observer],
+    ) -> Result<Go, StartError> {
         let outside = self.next_from_outside().min(self.samples.next);
-        let target = self.due().min(outside).min(limit).min(self.last());
+        let target = self.due().min(outside).min(limit).min(self.last);
         match gate.pass(target, self.robot.now()) {
             Go::On => {}
             other => return Ok(other),
         }
         self.robot.advance(target);
         let now = self.robot.now();
-        let due = self.due() <= now;
+        if outside <= now {
+            self.before_step(now, to);
+        }
+        if self.due() <= now {
+            self.step(now, to)?;
+        }
+        Ok(Go::On)
+    }
+
+    /// Takes samples and does what was asked for, where their time has come.
+    #[cold]
+    fn before_step(&mut self, now: Instant, to: &mut [&mut dyn Observer]) {
         if self.samples.next <= now {
-            self.sample_on_grid(now, due, to);
+            self.sample_on_grid(now, self.due() <= now, to);
         }
         if self.next_from_outside() <= now {
             self.apply_due(now, to);
         }
-        // A request may have asked for a step at once.
-        if due || self.due() <= now {
-            self.step(now, to)?;
-        }
-        Ok(Go::On)
     }
 
     /// Makes the plan end here and now, as interrupted.
     pub fn stop(&mut self, to: &mut [&mut dyn Observer]) {
         let now = self.robot.now();
         self.apply_due(now, to);
-        if self.ended.is_none() {
+        if self.scheduler.ending().is_none() {
             self.scheduler.request_stop();
             // A plan that has not started ends at its start; one that cannot start has nothing to stop.
-            let _ = self.step(now, to);
+            let _ = self.guarded(to, |session, to| session.step(now, to).map(|()| Go::On));
         }
         self.robot.emergency_stop();
     }
@@ -250,46 +267,50 @@ where
         Figures(measured.chain(self.robot.figures()).collect())
     }
 
+    #[inline]
     fn step(&mut self, now: Instant, to: &mut [&mut dyn Observer]) -> Result<(), StartError> {
-        let wake = match self.wake {
-            Some(_) => self.guarded_step(now),
-            None => self.guarded_start(now)?,
+        let Session { scheduler, robot, sink, clock, .. } = self;
+        self.stepping = true;
+        let wake = match self.started {
+            true => scheduler.step(robot, sink, clock, now),
+            false => match scheduler.start(robot, sink, clock, now) {
+                Ok(wake) => wake,
+                Err(why) => {
+                    self.stepping = false;
+                    return Err(why);
+                }
+            },
         };
+        self.stepping = false;
         self.woke(wake, now, to);
         Ok(())
     }
 
-    fn guarded_start(&mut self, now: Instant) -> Result<Wake, StartError> {
-        let Session { scheduler, robot, sink, clock, .. } = self;
-        let start = AssertUnwindSafe(|| scheduler.start(robot, sink, clock, now));
-        match catch_unwind(start) {
-            Ok(wake) => wake,
-            Err(_) => Ok(self.panicked()),
+    /// Does something with this session. Where a component panics meanwhile, nothing of the plan can be trusted any
+    /// more: the run ends, and there is more to do. A panic of anybody else goes on.
+    fn guarded(
+        &mut self,
+        to: &mut [&mut dyn Observer],
+        mut drive: impl FnMut(&mut Self, &mut [&mut dyn Observer]) -> Result<Go, StartError>,
+    ) -> Result<Go, StartError> {
+        match catch_unwind(AssertUnwindSafe(|| drive(self, to))) {
+            Ok(went) => went,
+            Err(panic) if !self.stepping => resume_unwind(panic),
+            Err(_) => {
+                self.stepping = false;
+                self.abort(Fault::PANIC, to);
+                Ok(Go::Again)
+            }
         }
-    }
-
-    #[inline]
-    fn guarded_step(&mut self, now: Instant) -> Wake {
-        let Session { scheduler, robot, sink, clock, .. } = self;
-        let step = AssertUnwindSafe(|| scheduler.step(robot, sink, clock, now));
-        match catch_unwind(step) {
-            Ok(wake) => wake,
-            Err(_) => self.panicked(),
-        }
-    }
-
-    /// A component panicked: nothing of the plan can be trusted any more.
-    #[cold]
-    fn panicked(&mut self) -> Wake {
-        self.scheduler.abort(&mut self.robot, &mut self.sink, Fault::PANIC)
     }
 
     /// A step is over.
     #[inline]
     fn woke(&mut self, wake: Wake, now: Instant, to: &mut [&mut dyn Observer]) {
-        self.wake = Some(wake);
-        if matches!(wake, Wake::Ended(_)) {
-            self.ended = self.ended.or(Some(now));
+        self.started = true;
+        match wake {
+            Wake::At(due) => self.due = due,
+            _ => self.ended(now),
         }
         if !self.sink.is_empty() {
             self.tell_records(to);
@@ -297,6 +318,13 @@ where
         if !to.is_empty() {
             self.tell_step(now, to);
         }
+    }
+
+    /// The plan has ended, now or before.
+    #[cold]
+    fn ended(&mut self, now: Instant) {
+        self.due = Instant::MAX;
+        self.last = self.last.min(now + self.rest);
     }
 
     /// Fits what is kept, and the grid of samples, to who is there.
@@ -316,10 +344,10 @@ where
     #[cold]
     fn first_on_grid(&self, every: Duration) -> Instant {
         let now = self.robot.now();
-        match (every, self.wake) {
+        match (every, self.started) {
             (Duration::ZERO, _) => Instant::MAX,
-            (_, None) => now,
-            (every, Some(_)) => after(now, every),
+            (_, false) => now,
+            (every, true) => after(now, every),
         }
     }
 

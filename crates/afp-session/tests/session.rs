@@ -292,6 +292,25 @@ fn every_way_out_stops_the_robot() {
     assert!(notes.lines.last().unwrap().ends_with("Bump ended Error(panic)"), "{:#?}", notes.lines);
 }
 
+/// Panics when it is told of a step.
+struct Clumsy;
+
+impl Observer for Clumsy {
+    fn after_step(&mut self, _: &View<'_>) {
+        panic!("an observer is broken");
+    }
+}
+
+#[test]
+fn a_panic_of_an_observer_is_none_of_the_plan() {
+    let mut session = session();
+    let run = std::panic::AssertUnwindSafe(|| session.run(at(100), &mut Open, &mut [&mut Clumsy]));
+    assert!(std::panic::catch_unwind(run).is_err());
+    assert_eq!(session.ending(), None);
+    session.run(at(100), &mut Open, &mut []).unwrap();
+    assert!(session.robot().position > 0.0);
+}
+
 /// Counts what it is shown.
 #[derive(Default)]
 struct Tally {

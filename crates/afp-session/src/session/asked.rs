@@ -5,7 +5,7 @@ use afp::load::{Injection, LoadedPlan, NotActive};
 use afp_core::devices::{ControlId, Devices, FaultId, controls, faults};
 use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::{ComponentId, EntryKind, Names, TraceEntryId};
-use afp_core::{Duration, Instant, Value, Wake};
+use afp_core::{Duration, Instant, Value};
 
 use super::Session;
 use crate::any::SetError;
@@ -139,7 +139,7 @@ where
             Request::Stop => {
                 self.scheduler.request_stop();
                 // It does not wait for the plan's next step.
-                self.wake = self.wake.map(|_| Wake::At(now));
+                self.due = self.due.min(now);
                 Ok(())
             }
         }
@@ -161,9 +161,9 @@ where
     /// # Errors
     /// The value does not fit, the plan has ended, or too many writes wait.
     pub fn write(&mut self, entry: u16, value: Value) -> Result<(), afp_core::WriteError> {
-        match self.wake {
-            None => self.scheduler.plan_mut().set_input(entry, &value),
-            Some(_) => self.scheduler.write(entry, value),
+        match self.started {
+            false => self.scheduler.plan_mut().set_input(entry, &value),
+            true => self.scheduler.write(entry, value),
         }
     }
 
@@ -176,7 +176,7 @@ where
         let plan = self.scheduler.plan();
         let id = plan.entry_named(entry).ok_or(SetError::Unknown)?;
         let kind = self.names.entry(TraceEntryId(id.into())).kind;
-        if self.wake.is_none() && kind != EntryKind::In {
+        if !self.started && kind != EntryKind::In {
             return Err(SetError::NotIn);
         }
         let value = plan.read(id, text).map_err(|why| SetError::Unreadable {
