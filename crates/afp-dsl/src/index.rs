@@ -229,7 +229,11 @@ impl Index {
         owner: DefinitionId,
     ) -> impl Iterator<Item = (DefinitionId, &Definition)> {
         let home = self.definition(owner);
-        let first = self.definitions.partition_point(|known| known.name <= home.name);
+        // In a broken file, items may stand above the toolbox's own line.
+        let first = self.definitions.partition_point(|known| match home.kind {
+            DefinitionKind::Toolbox => known.name.file < home.name.file,
+            _ => known.name <= home.name,
+        });
         let all = (first..).map(DefinitionId::new).zip(&self.definitions[first..]);
         // A toolbox owns the whole file, everything else what lies within.
         let within = move |known: &Definition| match home.kind {

@@ -62,7 +62,7 @@ fn a_panic_stops_the_robot_and_ends_the_run() {
     toolboxes.add(Source::new("panicking.afp", templates::SOURCE), "panicking");
     let compiled = compile(&Source::new("breaks.afp", PLAN), &toolboxes, &Texts::default());
     let graph = compiled.graph.as_ref().unwrap_or_else(|| panic!("{}", compiled.render(false)));
-    let robot = simulated::<Simulation, _>(|registry| templates::register(registry));
+    let robot = simulated::<Simulation, _>(templates::register);
     let make = |world: &dyn AnyWorld, seed: u64, measures: &[&str]| {
         robot.session(graph, world, seed, measures)
     };
