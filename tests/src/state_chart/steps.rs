@@ -1,5 +1,6 @@
 //! From a trace to the events of a chart and to what must be active between them.
 
+use afp_core::Fault;
 use afp_core::trace::{ComponentId, Ending, Record};
 use serde_json::{Value, json};
 
@@ -32,6 +33,8 @@ impl Seen {
             Record::Interrupted { element } => Seen::Interrupted(element),
             Record::Finished { element, state } => Seen::Finished(element, state),
             Record::Started { component } => Seen::Started(component),
+            // The record names who panicked; it is the whole plan that fails.
+            Record::Faulted { fault, .. } if fault == Fault::PANIC => Seen::Faulted(WHOLE),
             Record::Faulted { component, .. } => Seen::Faulted(component),
             Record::Ended { plan, ending } => Seen::Ended(plan, ending),
             _ => return None,
