@@ -1,8 +1,8 @@
 //! What can break on a Carbot. How it is called stands in [`crate::table`].
 
-use afp_core::Duration;
-
 use crate::table;
+
+pub use afp_core::devices::Defect;
 
 /// Something that is broken for a while.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,21 +20,6 @@ pub enum Fault {
     DeadController,
     /// The battery has no more than this share of its charge left, 0 to 1.
     LowBattery(f64),
-}
-
-/// What is between a sensor and the plan.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Defect {
-    /// It repeats its last value as if it had just measured it.
-    Frozen,
-    /// It does not answer.
-    Lost,
-    /// It delivers what is no number.
-    NotANumber,
-    /// What it measures arrives so much later. The readings keep their times, so their age shows.
-    Delayed(Duration),
-    /// Each use takes so long.
-    Slow(Duration),
 }
 
 /// What measures.

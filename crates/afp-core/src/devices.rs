@@ -3,6 +3,8 @@
 //! Command line, scenarios, Python, logs and help read these rows; nobody but a robot's own crate names a
 //! device. Controls, faults and signals are numbered through the whole table, in its order.
 
+use crate::Duration;
+
 /// A control of a robot, by its number in the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ControlId(pub u16);
@@ -97,6 +99,21 @@ pub enum SignalType {
     Image,
     /// The outline of something that moves.
     Outline,
+}
+
+/// What can be wrong between a sensor and the plan: the faults that every sensor has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Defect {
+    /// It repeats its last value as if it had just measured it.
+    Frozen,
+    /// It does not answer.
+    Lost,
+    /// It delivers what is no number.
+    NotANumber,
+    /// What it measures arrives so much later. The readings keep their times, so their age shows.
+    Delayed(Duration),
+    /// Each use takes so long.
+    Slow(Duration),
 }
 
 /// The devices of a kind of robot.
