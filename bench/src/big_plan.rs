@@ -12,6 +12,26 @@ const LANE: &str =
 
 /// The text of a plan with that many actors, about 280 bytes each; the plan of the paper has 255.
 pub fn text(actors: usize) -> String {
+    written(actors, |actor| {
+        let turn = actor / 3 * 3 + 2;
+        [(actor + 1) % actors, if turn < actors { turn } else { 2 }]
+    })
+}
+
+/// A plan like that in which any actor may lead to any other one, always the same.
+pub fn random(actors: usize) -> String {
+    let mut state = 1_u64;
+    let mut draw = move || {
+        // Of Knuth's generator MMIX; the upper bits are the random ones.
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % actors
+    };
+    written(actors, |_| [draw(), draw()])
+}
+
+/// The text of a plan; `targets` says where an actor leads to: when it is done, and else.
+fn written(actors: usize, mut targets: impl FnMut(usize) -> [usize; 2]) -> String {
     let mut text = String::from("use carbot\n\n/// Drives here and there.\nplan Big {\n");
     text += "    in walldist: length = 30 cm\n";
     // Writing to a string cannot fail.
@@ -21,16 +41,13 @@ pub fn text(actors: usize) -> String {
     text += "\n    start drive0\n\n    supervise escape: CheckEscapeButton {\n";
     text += "        EscapeButtonPressed -> terminate\n    }\n";
     for actor in 0..actors {
-        actor_text(&mut text, actor, actors);
+        actor_text(&mut text, actor, targets(actor));
     }
     text += "}\n";
     text
 }
 
-fn actor_text(text: &mut String, actor: usize, actors: usize) {
-    let next = (actor + 1) % actors;
-    let turn = actor / 3 * 3 + 2;
-    let turn = if turn < actors { turn } else { 2 };
+fn actor_text(text: &mut String, actor: usize, [next, turn]: [usize; 2]) {
     let lane = match actor % 6 {
         0 => format!("        supervise lane{actor}: {LANE} {{ LaneNotFree -> drive{turn} }}\n"),
         _ => String::new(),

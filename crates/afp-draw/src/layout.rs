@@ -81,6 +81,9 @@ pub(super) struct Layout {
 /// How often boxes give way to edges.
 const ROUNDS: usize = 4;
 
+/// What routing may take before boxes stop giving way, in states of the search: about a second.
+const BUDGET: u64 = 20_000_000;
+
 /// Lays out the nodes; `links` out of a node count in their order, and node 0 comes first.
 pub(super) fn layout(nodes: &[Node], links: &[Link]) -> Layout {
     if nodes.is_empty() {
@@ -92,13 +95,15 @@ pub(super) fn layout(nodes: &[Node], links: &[Link]) -> Layout {
     place::place(&mut grid);
     let mut rows = Rows::new(&grid, nodes);
     let mut round = 1;
+    let mut effort = 0;
     loop {
         let corners = rows.corners(&grid, nodes);
         let (boxes, wires) = (bounds(nodes, &corners), wires(nodes, links, &corners));
         let found = router::route(&boxes, &wires, &[]);
+        effort += found.effort;
         // A box at which too many edges arrive cannot give way.
         let mut narrow = found.crowded.iter().filter(|narrow| !narrow.arrives).peekable();
-        if narrow.peek().is_none() || round == ROUNDS {
+        if narrow.peek().is_none() || round == ROUNDS || effort > BUDGET {
             return Layout::new(nodes, corners, found.corners);
         }
         for narrow in narrow {

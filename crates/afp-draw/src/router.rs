@@ -9,6 +9,7 @@
 
 mod gaps;
 mod lines;
+mod queue;
 mod search;
 mod sequence;
 mod spread;
@@ -78,6 +79,8 @@ pub(super) struct Routes {
     pub(super) corners: Vec<Vec<Point>>,
     /// Places where edges found less room than [`PITCH`] between them.
     pub(super) crowded: Vec<Crowded>,
+    /// How many states the searches went on from, which is what most of the time goes into.
+    pub(super) effort: u64,
 }
 
 /// A straight part of an edge in a gap that is too narrow.
@@ -168,7 +171,7 @@ pub(super) fn route(boxes: &[Bounds], wires: &[Wire], kept: &[Option<Vec<Point>>
     let mut corners: Vec<Vec<Point>> =
         (0..wires.len()).map(|wire| kept_of(wire).unwrap_or_default().to_vec()).collect();
     if order.is_empty() {
-        return Routes { corners, crowded: Vec::new() };
+        return Routes { corners, ..Routes::default() };
     }
     // Short edges first: long ones find their way around them.
     let length = |wire: usize| {
@@ -190,7 +193,7 @@ pub(super) fn route(boxes: &[Bounds], wires: &[Wire], kept: &[Option<Vec<Point>>
     let spread = |corners: &[Vec<Point>], joins: &[bool]| {
         let mut corners = corners.to_vec();
         let crowded = Spread { boxes: &boxes, wires, fixed: &fixed, joins }.apply(&mut corners);
-        Routes { corners, crowded }
+        Routes { corners, crowded, effort: 0 }
     };
     let mut best = spread(&corners, &joins);
     let mut tried = vec![false; wires.len()];
@@ -210,7 +213,7 @@ pub(super) fn route(boxes: &[Bounds], wires: &[Wire], kept: &[Option<Vec<Point>>
             best = found;
         }
     }
-    best
+    Routes { effort: search.effort(), ..best }
 }
 
 /// How many parts are too near to others to be told apart.

@@ -13,8 +13,8 @@ pub(super) struct Gaps {
     starts: Vec<usize>,
     /// The free intervals across.
     free: Vec<(f64, f64)>,
-    /// How many edges take each gap.
-    taken: Vec<u32>,
+    /// How many edges take each gap, and how many fit into it.
+    taken: Vec<(u32, u32)>,
 }
 
 impl Gaps {
@@ -44,7 +44,7 @@ impl Gaps {
             gaps.free.push((free_from, f64::INFINITY));
         }
         gaps.starts.push(gaps.free.len());
-        gaps.taken = vec![0; gaps.free.len()];
+        gaps.taken = gaps.free.iter().map(|gap| (0, fits(*gap))).collect();
         gaps
     }
 
@@ -59,10 +59,8 @@ impl Gaps {
 
     /// How many more edges a gap has than fit into it, if it gets another one.
     pub(super) fn excess(&self, gap: usize) -> u32 {
-        let (left, right) = self.free[gap];
-        let room = ((right - left) / PITCH).floor();
-        let fits = if room < f64::from(u32::MAX) { room as u32 + 1 } else { u32::MAX };
-        (self.taken[gap] + 1).saturating_sub(fits)
+        let (taken, fits) = self.taken[gap];
+        (taken + 1).saturating_sub(fits)
     }
 
     /// Takes the gaps from one end of a line to the other for so many edges.
@@ -72,11 +70,17 @@ impl Gaps {
         for band in first..=last.max(first) {
             let start = band.checked_sub(1).map_or(f64::NEG_INFINITY, |index| self.borders[index]);
             let gap = self.at(start.max(from), at);
-            self.taken[gap] += edges;
+            self.taken[gap].0 += edges;
         }
     }
 
     pub(super) fn axis(&self) -> Axis {
         self.axis
     }
+}
+
+/// How many edges fit into a gap side by side.
+fn fits((left, right): (f64, f64)) -> u32 {
+    let room = ((right - left) / PITCH).floor();
+    if room < f64::from(u32::MAX) { room as u32 + 1 } else { u32::MAX }
 }

@@ -1,10 +1,8 @@
 //! The cheapest path of one edge over the lines: A* with bends, crossings and full gaps.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
-
 use super::gaps::Gaps;
 use super::lines::{Lines, NONE};
+use super::queue::Queue;
 use super::{Axis, Bounds, Crowded, Heading, PITCH, Point, TIP, Wire, without_straight_corners};
 
 /// Costs in tenths of a pixel: a bend, a crossing, each edge too many in a gap.
@@ -42,7 +40,9 @@ pub(super) struct Search<'a> {
     arrived: Vec<u32>,
     visits: Vec<Visit>,
     stamp: u32,
-    heap: BinaryHeap<Reverse<(u64, u64, u32)>>,
+    queue: Queue,
+    /// How many states all searches have gone on from.
+    effort: u64,
 }
 
 /// Where a path may end.
@@ -76,7 +76,8 @@ impl<'a> Search<'a> {
             arrived: vec![0; boxes.len()],
             visits: vec![Visit { stamp: 0, cost: 0, from: NONE }; 4 * nodes],
             stamp: 0,
-            heap: BinaryHeap::new(),
+            queue: Queue::new(),
+            effort: 0,
         }
     }
 
@@ -100,6 +101,11 @@ impl<'a> Search<'a> {
         self.occupy(&points);
         self.arrived[wire.to] += u32::from(!joins);
         points
+    }
+
+    /// How many states all searches so far have gone on from.
+    pub(super) fn effort(&self) -> u64 {
+        self.effort
     }
 
     /// Whether as many edges arrive at the target of an edge as there is room for.
@@ -144,13 +150,13 @@ impl<'a> Search<'a> {
 
     fn find(&mut self, start: u32, side: usize, goal: &Goal) -> Option<Vec<Point>> {
         self.stamp += 1;
-        self.heap.clear();
+        self.queue.clear();
         self.reach(state(start, side), 0, NONE, goal);
-        while let Some(Reverse((_, far, at))) = self.heap.pop() {
-            let cost = u64::MAX - far;
+        while let Some((cost, at)) = self.queue.pop() {
             if cost > self.visits[at as usize].cost {
                 continue;
             }
+            self.effort += 1;
             let (node, side) = ((at / 4) as usize, (at % 4) as usize);
             if side == DOWN && goal.holds(self.lines.positions[node]) {
                 return Some(self.path(at));
@@ -178,8 +184,7 @@ impl<'a> Search<'a> {
         }
         *visit = Visit { stamp, cost, from };
         let rest = goal.rest(self.lines.positions[(at / 4) as usize], (at % 4) as usize);
-        // Among equals the one that has come farthest.
-        self.heap.push(Reverse((cost + rest, u64::MAX - cost, at)));
+        self.queue.push(cost, rest, at);
     }
 
     /// The cost of going on to the next node.

@@ -19,39 +19,46 @@ impl Maxima {
 
     /// The greatest value from `first` to `last`.
     pub(super) fn greatest(&self, first: usize, last: usize) -> f64 {
-        self.look(1, (0, self.leaves - 1), (first, last))
+        let (mut left, mut right) = (self.leaves + first, self.leaves + last);
+        let mut found = self.greatest[left].max(self.greatest[right]);
+        // From both ends up: what is above an end holds for it, what lies beside it is in between.
+        while left > 1 {
+            let between = left / 2 != right / 2;
+            if between && left.is_multiple_of(2) {
+                found = found.max(self.greatest[left + 1]);
+            }
+            if between && !right.is_multiple_of(2) {
+                found = found.max(self.greatest[right - 1]);
+            }
+            (left, right) = (left / 2, right / 2);
+            found = found.max(self.raised[left]).max(self.raised[right]);
+        }
+        found
     }
 
     /// Raises what is lower from `first` to `last`.
     pub(super) fn raise(&mut self, first: usize, last: usize, to: f64) {
-        self.lift(1, (0, self.leaves - 1), (first, last), to);
+        let (mut left, mut right) = (self.leaves + first, self.leaves + last);
+        self.lift(left, to);
+        self.lift(right, to);
+        while left > 1 {
+            let between = left / 2 != right / 2;
+            if between && left.is_multiple_of(2) {
+                self.lift(left + 1, to);
+            }
+            if between && !right.is_multiple_of(2) {
+                self.lift(right - 1, to);
+            }
+            (left, right) = (left / 2, right / 2);
+            self.greatest[left] = self.greatest[left].max(to);
+            self.greatest[right] = self.greatest[right].max(to);
+        }
     }
 
-    fn look(&self, node: usize, own: (usize, usize), range: (usize, usize)) -> f64 {
-        if range.1 < own.0 || own.1 < range.0 {
-            return f64::NEG_INFINITY;
-        }
-        if range.0 <= own.0 && own.1 <= range.1 {
-            return self.greatest[node];
-        }
-        let middle = own.0.midpoint(own.1);
-        let left = self.look(2 * node, (own.0, middle), range);
-        let right = self.look(2 * node + 1, (middle + 1, own.1), range);
-        self.raised[node].max(left).max(right)
-    }
-
-    fn lift(&mut self, node: usize, own: (usize, usize), range: (usize, usize), to: f64) {
-        if range.1 < own.0 || own.1 < range.0 {
-            return;
-        }
+    /// Raises everything below a node.
+    fn lift(&mut self, node: usize, to: f64) {
         self.greatest[node] = self.greatest[node].max(to);
-        if range.0 <= own.0 && own.1 <= range.1 {
-            self.raised[node] = self.raised[node].max(to);
-            return;
-        }
-        let middle = own.0.midpoint(own.1);
-        self.lift(2 * node, (own.0, middle), range, to);
-        self.lift(2 * node + 1, (middle + 1, own.1), range, to);
+        self.raised[node] = self.raised[node].max(to);
     }
 }
 

@@ -1,0 +1,154 @@
+//! The queue of the search: states by what their path costs at least.
+//!
+//! Most of what a search finds is never looked at again, so it is not worth sorting: states wait in
+//! buckets of nearly the same cost, and only the bucket at hand is a heap. What comes out is in the
+//! order of a single heap.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// How many buckets there are, and the bits of a cost that are alike within one.
+const BUCKETS: u64 = 1024;
+const ALIKE: u32 = 8;
+
+/// What a cost takes in an entry; the costs of paths over positions of 32 bits are far below.
+const COST_BITS: u32 = 48;
+const MOST: u64 = (1 << COST_BITS) - 1;
+
+/// A state that waits, as one number to be compared: the least cost of a path through it, the rest
+/// of that from here on (among equals the one that has come farthest), the state.
+type Entry = Reverse<u128>;
+
+/// States to go on from, the cheapest first.
+#[derive(Debug)]
+pub(super) struct Queue {
+    /// What is in the bucket at hand or belongs before it.
+    now: BinaryHeap<Entry>,
+    /// The number of the bucket at hand; bucket `n` is `n % BUCKETS` of `later`.
+    at: u64,
+    /// The first bucket for which `later` has no room.
+    end: u64,
+    later: Vec<Vec<Entry>>,
+    /// How many states wait in `later`.
+    waiting: usize,
+    /// What belongs into buckets from `end` on.
+    beyond: Vec<Entry>,
+}
+
+impl Queue {
+    pub(super) fn new() -> Queue {
+        Queue {
+            now: BinaryHeap::new(),
+            at: 0,
+            end: BUCKETS,
+            later: vec![Vec::new(); BUCKETS as usize],
+            waiting: 0,
+            beyond: Vec::new(),
+        }
+    }
+
+    /// Empties the queue.
+    pub(super) fn clear(&mut self) {
+        self.now.clear();
+        self.beyond.clear();
+        if self.waiting > 0 {
+            self.later.iter_mut().for_each(Vec::clear);
+            self.waiting = 0;
+        }
+        self.move_to(0);
+    }
+
+    /// Adds a state with the cost up to it and at least the cost from there on.
+    pub(super) fn push(&mut self, cost: u64, rest: u64, state: u32) {
+        let (least, rest) = (cost.saturating_add(rest).min(MOST), rest.min(MOST));
+        let costs = u128::from(least) << COST_BITS | u128::from(rest);
+        self.put(Reverse(costs << u32::BITS | u128::from(state)));
+    }
+
+    /// Takes out the cheapest state, with the cost up to it.
+    pub(super) fn pop(&mut self) -> Option<(u64, u32)> {
+        loop {
+            if let Some(Reverse(entry)) = self.now.pop() {
+                let rest = (entry >> u32::BITS) as u64 & MOST;
+                // The lower bits are the state.
+                return Some((least(entry) - rest, entry as u32));
+            }
+            if self.waiting == 0 {
+                let first = self.beyond.iter().map(|entry| bucket(entry.0)).min()?;
+                self.move_to(first);
+                for entry in std::mem::take(&mut self.beyond) {
+                    self.put(entry);
+                }
+                continue;
+            }
+            self.at += 1;
+            let next = &mut self.later[(self.at % BUCKETS) as usize];
+            self.waiting -= next.len();
+            self.now.extend(next.drain(..));
+        }
+    }
+
+    fn put(&mut self, entry: Entry) {
+        let bucket = bucket(entry.0);
+        if bucket <= self.at {
+            self.now.push(entry);
+        } else if bucket < self.end {
+            self.later[(bucket % BUCKETS) as usize].push(entry);
+            self.waiting += 1;
+        } else {
+            self.beyond.push(entry);
+        }
+    }
+
+    fn move_to(&mut self, bucket: u64) {
+        self.at = bucket;
+        self.end = bucket + BUCKETS;
+    }
+}
+
+fn least(entry: u128) -> u64 {
+    (entry >> (COST_BITS + u32::BITS)) as u64
+}
+
+fn bucket(entry: u128) -> u64 {
+    least(entry) >> ALIKE
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BUCKETS, Queue};
+
+    /// Costs near each other, far from each other, and below what has come out already.
+    #[test]
+    fn states_come_out_as_of_a_heap() {
+        let mut seed = 7_u64;
+        let mut next = |below: u64| {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (seed >> 33) % below
+        };
+        let mut queue = Queue::new();
+        for far in [1, 300, 3 * (BUCKETS << 8)] {
+            queue.clear();
+            let mut all: Vec<(u64, u64, u32)> = Vec::new();
+            let take = |all: &mut Vec<(u64, u64, u32)>, queue: &mut Queue| {
+                let first = all.iter().copied().min();
+                all.retain(|each| Some(*each) != first);
+                let (cost, state) = first.map(|(least, rest, state)| (least - rest, state)).unzip();
+                assert_eq!(queue.pop(), cost.zip(state), "{far}");
+            };
+            for turn in 0..4000_u32 {
+                let rest = next(10);
+                let cost = next(1000) * far;
+                queue.push(cost, rest, turn);
+                all.push((cost + rest, rest, turn));
+                if turn % 3 == 0 {
+                    take(&mut all, &mut queue);
+                }
+            }
+            while !all.is_empty() {
+                take(&mut all, &mut queue);
+            }
+            assert_eq!(queue.pop(), None);
+        }
+    }
+}
