@@ -1,9 +1,10 @@
-//! Typed templates from a toolbox: for each one a marker, its inputs, its outcomes.
+//! Typed templates from a toolbox: for each one a marker, its inputs, its outcomes; and its devices.
 //!
 //! A crate that implements a toolbox puts this into a module `templates`; the types that implement
 //! the templates carry the templates' names in the module around it.
 
 mod declared;
+mod devices;
 mod outcomes;
 mod ports;
 mod register;
@@ -30,10 +31,12 @@ pub fn toolbox(toolbox: &Toolbox, options: &Options) -> TokenStream {
     let enums = enums.map(|choices| enums::choices(core, choices, &rust_name(choices)));
     let templates = toolbox.templates.iter().map(|t| template(core, t));
     let register = register::register(core, toolbox);
+    let devices = devices::devices(core, toolbox);
     quote! {
         #text
         pub const SOURCE: &str = #source;
 
+        #devices
         #(#enums)*
         #(#templates)*
         #register

@@ -39,6 +39,8 @@ pub struct ControlRow {
     pub name: &'static str,
     /// What it is, for people.
     pub help: &'static str,
+    /// Whether it is there to end what runs; the Escape key of a terminal presses it.
+    pub stops: bool,
 }
 
 /// A way in which a device can fail.
@@ -141,6 +143,17 @@ impl AmountRow {
     }
 }
 
+/// How much of a fault is meant, zero of one of which there is no more or less; none where there is no such
+/// fault, or not so much of it.
+pub fn amount(table: &[DeviceRow], id: FaultId, amount: Option<f64>) -> Option<f64> {
+    let (_, _, row) = faults(table).find(|(known, ..)| *known == id)?;
+    match (row.amount, amount) {
+        (Some(of), amount) => of.checked(amount),
+        (None, None) => Some(0.0),
+        (None, Some(_)) => None,
+    }
+}
+
 /// The controls of a table with their devices.
 pub fn controls(table: &[DeviceRow]) -> impl Iterator<Item = (ControlId, &DeviceRow, &ControlRow)> {
     let all = table.iter().flat_map(|device| device.controls.iter().map(move |row| (device, row)));
@@ -172,6 +185,11 @@ pub fn find_control(table: &[DeviceRow], words: &str) -> Option<ControlId> {
     named.next().is_none().then_some(id)
 }
 
+/// The control that is there to end what runs.
+pub fn find_stop(table: &[DeviceRow]) -> Option<ControlId> {
+    controls(table).find(|(_, _, row)| row.stops).map(|(id, ..)| id)
+}
+
 /// A fault by its device and its own name.
 pub fn find_fault(table: &[DeviceRow], device: &str, name: &str) -> Option<FaultId> {
     let mut all = faults(table);
@@ -189,7 +207,7 @@ mod tests {
     use super::*;
 
     const fn control(name: &'static str) -> ControlRow {
-        ControlRow { name, help: "" }
+        ControlRow { name, help: "", stops: false }
     }
 
     const TABLE: &[DeviceRow] = &[

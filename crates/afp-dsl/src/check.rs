@@ -171,8 +171,9 @@ fn names(
     diags: &Diagnostics,
 ) -> (Meanings, Vec<Declared>) {
     let mut declared = toolboxes.declared().to_vec();
-    let is_tool =
-        |item: &Item| matches!(item, Item::Toolbox(_) | Item::Template(_) | Item::Object(_));
+    let is_tool = |item: &Item| {
+        matches!(item, Item::Toolbox(_) | Item::Template(_) | Item::Object(_) | Item::Device(_))
+    };
     let items: Vec<_> = files.iter().map(|file| file.tree.items()).collect();
     for (file, items) in files.iter().zip(&items) {
         if items.iter().any(is_tool) {

@@ -112,6 +112,16 @@ pub enum DefinitionKind {
     Event,
     /// An object type of a toolbox.
     Object,
+    /// A device of a toolbox; the robot as a whole is named by the word `robot`.
+    Device,
+    /// A control of a device.
+    Control,
+    /// A fault of a device.
+    Fault,
+    /// How much there is of a fault.
+    Amount,
+    /// A signal of a device.
+    Signal,
     /// An enum.
     Enum,
     /// A value of an enum.
@@ -145,14 +155,14 @@ pub enum Word {
     Type,
     /// `true` or `false`
     Truth,
-    /// What a template commands, behind `uses`.
+    /// What a template commands, behind `uses`, where its toolbox declares no such device.
     Resource,
-    /// A button, bumper or sensor of the robot, in a scenario.
-    Device,
-    /// Something about the robot that a scenario can expect, such as `collision`.
-    Fact,
-    /// What a scenario's fault is told, such as `kind`.
-    Argument,
+    /// A fault that every sensor has, such as `frozen`, in a scenario.
+    Fault,
+    /// How much there is of such a fault, such as `time`.
+    Amount,
+    /// A part of a signal that has several, such as `x` of a pose.
+    Field,
     /// Every actor, behind `idle`.
     All,
 }

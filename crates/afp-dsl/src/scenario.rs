@@ -2,15 +2,14 @@
 //!
 //! A scenario puts the robot into a world, lets things happen at instants, and says what is expected.
 //! Everything is resolved as in the static graph: components and entries go by the numbers of
-//! [`crate::unfold`], values are in SI units, times in nanoseconds. What presses, fails or collides is
-//! the platform's; the words for it are [`devices`].
+//! [`crate::unfold`], values are in SI units, times in nanoseconds. What is pressed, fails or signals is the
+//! robot's: it goes by the names that toolboxes declare.
 
-pub mod devices;
-
+use std::fmt;
 use std::sync::Arc;
 
 use crate::graph::Graph;
-use crate::toolbox::Constant;
+use crate::toolbox::{Constant, SignalType};
 use afp_syntax::source::Span;
 
 /// How long a scenario lasts unless it says otherwise, nanoseconds.
@@ -97,17 +96,48 @@ pub struct Stimulus {
 pub enum Action {
     /// An entry is written from outside.
     Set(u16, Constant),
-    /// A button or the bumper is held down, for so many nanoseconds or for as long as the robot's own
+    /// A control is held down, for so many nanoseconds or for as long as the robot's own
     /// presses last.
-    Press(devices::Control, Option<u64>),
+    Press(Part, Option<u64>),
     /// It is let go.
-    Release(devices::Control),
+    Release(Part),
     /// A device fails, for so many nanoseconds or for good.
-    Fail(devices::Failure, Option<u64>),
+    Fail(Failure, Option<u64>),
     /// A supervisor reports an event, or an element reaches a state, without a reason.
     Inject(Injection),
     /// An actor, those of a sub-plan, or all of them do nothing from their next start on.
     Idle(Option<u32>),
+}
+
+/// A control, a fault or a signal of a device, by names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// The device.
+    pub device: String,
+    /// What of it.
+    pub name: String,
+}
+
+/// A fault, and how much of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// The fault.
+    pub fault: Part,
+    /// In SI units; without it as much as the declaration says.
+    pub amount: Option<f64>,
+}
+
+/// A part of a signal that is no single value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Field {
+    /// Of a pose: metres.
+    X,
+    /// Of a pose: metres.
+    Y,
+    /// Of a pose: radians.
+    Heading,
+    /// Of a range: metres; without an echo there is none.
+    Distance,
 }
 
 /// An outcome that does not come from its component.
@@ -187,8 +217,17 @@ pub enum Claim {
     Running,
     /// The plan ends.
     End(Option<EndCause>),
-    /// The robot touches something.
-    Collision,
+    /// A signal of the robot, or a part of it, compares so with a value of its type.
+    Signal {
+        /// The signal.
+        signal: Part,
+        /// The part of it.
+        field: Option<Field>,
+        /// How.
+        comparison: Comparison,
+        /// With what.
+        value: Constant,
+    },
     /// An actor or sub-plan is interrupted.
     Interrupt(u32),
     /// An entry is written.
@@ -198,10 +237,6 @@ pub enum Claim {
         /// The element, supervisor or plan that writes it; anybody without one.
         by: Option<u32>,
     },
-    /// The last command to the drive was to stand still, or there was none.
-    Halted,
-    /// The robot does not move.
-    Standing,
 }
 
 /// Where an edge leads.
@@ -259,6 +294,41 @@ pub enum Comparison {
     Greater,
     /// `>=`
     GreaterEqual,
+}
+
+impl Part {
+    /// Something of a device.
+    pub(crate) fn new(device: &str, name: &str) -> Part {
+        Part { device: device.to_owned(), name: name.to_owned() }
+    }
+}
+
+/// `wheels.slip`
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}", self.device, self.name)
+    }
+}
+
+impl Field {
+    /// The parts of signals of a type.
+    pub fn of(ty: SignalType) -> &'static [Field] {
+        match ty {
+            SignalType::Pose => &[Field::X, Field::Y, Field::Heading],
+            SignalType::Range => &[Field::Distance],
+            _ => &[],
+        }
+    }
+
+    /// How it is written.
+    pub fn word(self) -> &'static str {
+        match self {
+            Field::X => "x",
+            Field::Y => "y",
+            Field::Heading => "heading",
+            Field::Distance => "distance",
+        }
+    }
 }
 
 impl Comparison {

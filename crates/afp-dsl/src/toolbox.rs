@@ -1,5 +1,6 @@
-//! What a toolbox file declares: templates with their ports, timing, help and icons.
+//! What a toolbox file declares: templates with their ports, timing, help and icons; devices.
 
+pub mod device;
 pub(crate) mod read;
 mod set;
 
@@ -8,6 +9,7 @@ use afp_syntax::source::Span;
 use std::sync::Arc;
 
 pub use afp_syntax::ast::TemplateKind;
+pub use device::{Amount, Control, Device, DeviceKind, Fault, Signal, SignalType};
 pub use set::Toolboxes;
 
 /// A checked toolbox file.
@@ -19,6 +21,8 @@ pub struct Toolbox {
     pub version: String,
     /// Its `///` lines.
     pub doc: String,
+    /// The devices as written.
+    pub devices: Vec<Device>,
     /// The templates as written.
     pub templates: Vec<Template>,
     /// The enums as written.
@@ -29,6 +33,13 @@ pub struct Toolbox {
     pub rust_path: String,
     /// The name in the text.
     pub span: Span,
+}
+
+impl Toolbox {
+    /// Whether it says what is true of a robot as a whole, so that it is a robot's.
+    pub(crate) fn declares_robot(&self) -> bool {
+        self.devices.iter().any(|device| device.kind == DeviceKind::Robot)
+    }
 }
 
 /// One actor, supervisor or computation that plans can use.

@@ -65,14 +65,15 @@ impl Printer {
     /// The lines of a file.
     pub fn print(mut self, root: &Node) -> Vec<Line> {
         self.fresh = true;
-        let mut last: Option<Kind> = None;
+        let mut after_large = false;
         for element in root.children_with_tokens() {
             match element {
                 rowan::NodeOrToken::Token(token) => self.trivia(&token),
                 rowan::NodeOrToken::Node(node) => {
-                    let apart = is_large(node.kind()) || last.is_some_and(is_large);
+                    let large = is_large(&node);
+                    let apart = large || after_large;
                     self.gap = Some(Gap::Line { columns: Columns::None, closes: false, apart });
-                    last = Some(node.kind());
+                    after_large = large;
                     self.node(&node);
                 }
             }
@@ -263,6 +264,7 @@ impl Body {
             | Kind::Template
             | Kind::Element
             | Kind::Guard
+            | Kind::Device
             | Kind::Enum => (Kind::OpenBrace, Kind::CloseBrace),
             _ => return None,
         };
@@ -302,8 +304,12 @@ fn is_comment(kind: Kind) -> bool {
 }
 
 /// Whether an item of a file is set apart by blank lines.
-fn is_large(kind: Kind) -> bool {
-    matches!(kind, Kind::Plan | Kind::Scenario | Kind::Template | Kind::Toolbox)
+fn is_large(node: &Node) -> bool {
+    match node.kind() {
+        Kind::Plan | Kind::Scenario | Kind::Template | Kind::Toolbox => true,
+        Kind::Device => Body::of(node).is_some_and(|body| body.broken),
+        _ => false,
+    }
 }
 
 fn columns(item: &Node) -> Columns {
@@ -311,7 +317,7 @@ fn columns(item: &Node) -> Columns {
     let is_const = first.is_some_and(|each| each.into_token().is_some_and(|t| t.text() == "const"));
     match item.kind() {
         Kind::Entry if is_const => Columns::None,
-        Kind::Entry | Kind::InPort | Kind::OutPort => Columns::Entry,
+        Kind::Entry | Kind::InPort | Kind::OutPort | Kind::Signal => Columns::Entry,
         Kind::Edge => Columns::Edge,
         Kind::Stimulus => Columns::Stimulus,
         _ => Columns::None,
@@ -321,7 +327,7 @@ fn columns(item: &Node) -> Columns {
 fn begins_cell(node: &Node, token: &Token, before: Option<&Token>) -> bool {
     match node.kind() {
         // The token behind the keyword.
-        Kind::Entry | Kind::InPort | Kind::OutPort => before.is_some_and(|before| {
+        Kind::Entry | Kind::InPort | Kind::OutPort | Kind::Signal => before.is_some_and(|before| {
             before.kind() == Kind::Keyword
                 && before.parent().as_ref() == Some(node)
                 && before.text() != "live"

@@ -14,7 +14,7 @@ scenario \"bumps into a crate while searching\" for WallFollowing {
     set walldist = 25 cm
 
     at 2 s:  press touch // stimuli and faults
-    at 8 s:  fail ultrasonic(kind = \"frozen\") for 500 ms
+    at 8 s:  fail ultrasonic.frozen for 500 ms
     at 50 s: press escape
 
     expect searchFirstWall -> backupCollision by touch within 3 ms after 2 s
@@ -61,6 +61,32 @@ plan P {
         Error -> terminate
     }
 }
+",
+    );
+}
+
+#[test]
+fn devices_are_as_short_as_their_author_wrote_them() {
+    becomes(
+        "toolbox t /// Help.\ndevice wheels{fault blocked fault slip( share:float=0.5 from 0 to 1 )}\
+         robot { }sensor bumper{press left,right\nsignal l:bool signal right:bool\n// why\nstop a}\
+         device x { }",
+        "\
+toolbox t
+
+/// Help.
+device wheels { fault blocked, fault slip(share: float = 0.5 from 0 to 1) }
+robot {}
+
+sensor bumper {
+    press left right
+    signal l:     bool
+    signal right: bool
+    // why
+    stop a
+}
+
+device x {}
 ",
     );
 }

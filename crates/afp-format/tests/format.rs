@@ -47,7 +47,7 @@ scenario \"bumps into a crate while searching\" for WallFollowing {
     world \"worlds/room_with_crate.toml\"
     robot at (0.5 m, 2 m) heading -(0 deg + 1 deg)
     at 2 s: press touch
-    at 8 s: fail ultrasonic(kind = \"frozen\") for 500 ms
+    at 8 s: fail ultrasonic.frozen for 500 ms
     expect searchFirstWall -> backupCollision by touch within 3 ms after 2 s
     expect walldist == -25 cm always
     until 60 s

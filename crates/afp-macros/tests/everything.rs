@@ -127,6 +127,12 @@ mod plan {
     );
 }
 
+mod vacuum {
+    //! A toolbox of nothing but devices.
+
+    afp_macros::toolbox!("../afp-codegen/tests/codegen/devices.afp");
+}
+
 mod golden {
     //! The golden cases of the code generator, but that of the paper's plan: who runs it compiles it.
 
@@ -288,12 +294,52 @@ fn entries_are_set_and_read_by_name() {
 }
 
 #[test]
+fn devices_are_found_by_their_numbers() {
+    use afp_core::devices::{self, Defect, Devices as _, SignalType};
+    use vacuum::devices::{Control, Devices, Fault};
+    use vacuum::signal;
+
+    let table = Devices::TABLE;
+    let control = |words| devices::find_control(table, words).and_then(Devices::control);
+    assert_eq!(control("left"), Some(Control::BumperLeft));
+    assert_eq!(control("bumper.right"), Some(Control::BumperRight));
+    assert_eq!(devices::find_stop(table).and_then(Devices::control), Some(Control::Panel));
+    let fault = |device, name, amount| {
+        devices::find_fault(table, device, name).and_then(|id| Devices::fault(id, amount))
+    };
+    let late = Defect::Delayed(afp_core::Duration::from_millis(300));
+    assert_eq!(fault("bumper", "delayed", Some(0.3)), Some(Fault::Bumper(late)));
+    assert_eq!(fault("battery", "nan", None), Some(Fault::Battery(Defect::NotANumber)));
+    assert_eq!(fault("battery", "low", None).and_then(Fault::battery_low), Some(0.05));
+    assert_eq!(fault("wheels", "runaway", Some(-2.0)).and_then(Fault::battery_low), None);
+    let by = fault("wheels", "runaway", Some(-2.0)).and_then(Fault::wheels_runaway);
+    assert_eq!(by, Some(Speed::from_si(-2.0)));
+    assert_eq!(fault("wheels", "blocked", None), Some(Fault::WheelsBlocked));
+    for (device, name, amount) in [("battery", "low", 1.5), ("wheels", "blocked", 0.5)] {
+        assert_eq!(fault(device, name, Some(amount)), None, "{device}.{name}");
+    }
+    for (id, device, name, ty) in [
+        (signal::BUMPER_RIGHT, "bumper", "right", SignalType::Bool),
+        (signal::BATTERY_VOLTAGE, "battery", "voltage", SignalType::Float("V")),
+        (signal::POSE, "robot", "pose", SignalType::Pose),
+        (signal::BUMPER_LEFT_2, "robot", "bumper_left", SignalType::Int),
+    ] {
+        assert_eq!(devices::find_signal(table, device, name), Some(id), "{device}.{name}");
+        let row = devices::signals(table).find(|(known, ..)| *known == id);
+        assert_eq!(row.map(|(_, _, row)| row.ty), Some(ty));
+    }
+}
+
+#[test]
 fn every_golden_case_is_compiled_here() {
     let folder = "../afp-codegen/tests/codegen";
     let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let mut cases: Vec<_> = files
         .filter(|path| path.extension().is_some_and(|ending| ending == "afp"))
-        .filter(|path| !path.ends_with("toolbox.afp") && !path.ends_with("wall_following.afp"))
+        .filter(|path| {
+            let elsewhere = ["toolbox.afp", "devices.afp", "wall_following.afp"];
+            !elsewhere.iter().any(|name| path.ends_with(name))
+        })
         .map(|path| path.display().to_string())
         .collect();
     cases.sort();

@@ -1,15 +1,14 @@
 //! `--press` and `--fail` as requests of a session.
 
-use afp_core::devices::{AmountRow, ControlId, DeviceRow, FaultId, controls, faults, find_control};
+use afp_core::devices::{
+    AmountRow, ControlId, DeviceRow, FaultId, controls, faults, find_control, find_stop,
+};
 use afp_core::{Duration, Instant};
 use afp_project::duration;
 use afp_session::{AnySession, HOLD, Request, RequestError};
 
 use crate::error::RunError;
 use crate::options::{Failure, Press};
-
-/// What the Escape key of the terminal presses, where the robot has it.
-const ESCAPE: &str = "escape";
 
 /// Asks a session for what the options say.
 ///
@@ -36,9 +35,9 @@ pub fn make(
     Ok(())
 }
 
-/// Presses the escape button; a robot that has none hears nothing.
-pub(crate) fn press_escape(session: &mut dyn AnySession, at: Instant) {
-    if let Some(id) = find_control(session.devices(), ESCAPE) {
+/// Presses the control that stops what runs, for the Escape key of the terminal; a robot may have none.
+pub(crate) fn press_stop(session: &mut dyn AnySession, at: Instant) {
+    if let Some(id) = find_stop(session.devices()) {
         // It refuses nothing but what is over, and that makes no difference any more.
         let _ = hold(session, id, at);
     }

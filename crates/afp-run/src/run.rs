@@ -124,7 +124,7 @@ fn run_to_end(
     loop {
         let went = session.run(end, gate, observers)?;
         if let Some(at) = gate.take_escape() {
-            requests::press_escape(session, at);
+            requests::press_stop(session, at);
             continue;
         }
         let stopped_by = match (went, session.ending()) {

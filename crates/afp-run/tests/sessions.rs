@@ -1,7 +1,7 @@
 //! What everybody who drives the simulator has in common: one clock, one trace, whoever looks.
 
 use afp::load::{LoadedPlan, Registry};
-use afp_carbot::table::{TABLE, TOUCHED};
+use afp_carbot::table::{TABLE, signal};
 use afp_core::devices::find_fault;
 use afp_core::{Duration, Instant};
 use afp_dsl::compile;
@@ -85,7 +85,8 @@ fn every_sample_is_of_the_type_that_its_row_says() {
         assert_eq!(seen > 0, device.name != "world", "{}.{}", device.name, row.name);
     }
     let mut touched = None;
-    session.read(TOUCHED, &mut |value| touched = Some(value == SampleRef::Bool(true)));
+    session
+        .read(signal::TOUCH_TOUCHED, &mut |value| touched = Some(value == SampleRef::Bool(true)));
     assert_eq!(touched, Some(false));
     assert_eq!(session.robot().figures().len(), 1);
 }

@@ -3,6 +3,7 @@
 //! Every part may be missing, since the text may be half typed; whoever reads the view skips holes,
 //! for which the parser has reported an error already.
 
+mod device;
 mod formula;
 mod plan;
 mod scenario;
@@ -14,6 +15,7 @@ use crate::kind::{Afp, Kind};
 use crate::source::Span;
 use crate::{Node, node_span};
 
+pub use device::{Amount, Control, Device, DeviceKind, DevicePart, Fault, Press, Signal};
 pub use formula::{Formula, FormulaKind, Operator, Sign};
 pub use plan::{Bind, Edge, Element, ElementKind, Entry, Guard, Plan, Start};
 pub use scenario::{Action, Bound, Claim, ClaimKind, Line, LineKind, Path, Scenario};
@@ -88,6 +90,8 @@ pub enum Item {
     Object(Object),
     /// A template of a toolbox.
     Template(Template),
+    /// A device of a toolbox.
+    Device(Device),
 }
 
 impl File {
@@ -108,6 +112,7 @@ impl File {
                 Kind::Toolbox => Item::Toolbox(Toolbox::new(node, file)),
                 Kind::Object => Item::Object(Object::new(node, file)),
                 Kind::Template => Item::Template(Template::new(node, file)),
+                Kind::Device => Item::Device(Device::new(node, file)),
                 _ => return None,
             })
         };
@@ -290,6 +295,15 @@ fn tokens(node: &Node, kind: Kind, file: u16) -> Vec<Name> {
         None::<()>
     });
     found
+}
+
+/// Least and greatest value in a node, and the place of both.
+fn range(node: &Node, file: u16) -> Option<(Formula, Formula, Span)> {
+    let range = child(node, Kind::Range)?;
+    let mut ends = Formula::children_of(&range, file).into_iter();
+    let (from, to) = (ends.next()?, ends.next()?);
+    let span = from.span().to(to.span());
+    Some((from, to, span))
 }
 
 /// The first word of the grammar in a node.

@@ -145,6 +145,18 @@ kinds! {
     InPort
     /// `out port: type on S | T`
     OutPort
+    /// `device wheels { ... }`, `sensor bumper { ... }` or `robot { ... }`
+    Device
+    /// `press left right` or `stop escape`
+    Press
+    /// A control behind `press` or `stop`.
+    Control
+    /// `fault slip(...)`
+    Fault
+    /// `share: type = formula from formula to formula`
+    Amount
+    /// `signal left: type` or `truth pose: type`
+    Signal
     /// `from formula to formula`
     Range
     /// `on S | T`

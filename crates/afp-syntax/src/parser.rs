@@ -4,6 +4,7 @@
 //! meets what it does not expect reports it once, skips to where an item of some level can begin
 //! again, and goes on.
 
+mod device;
 mod file;
 mod formula;
 mod plan;

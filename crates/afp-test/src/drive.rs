@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use afp_core::devices::{SignalId, find_signal};
+use afp_core::devices::SignalId;
 use afp_core::{Duration, Instant, StartError};
 use afp_dsl::scenario::Scenario;
 use afp_log::{About, NameTable, SessionLog};
@@ -17,6 +17,7 @@ use crate::setting::Setting;
 use crate::stimuli::{self, owned};
 use crate::verdict::{Broken, Verdict};
 use crate::watch::Watch;
+use crate::watch::signals::Signals;
 
 /// How long a run goes on when the plan has ended: the robot comes to rest.
 const REST: Duration = Duration::from_millis(1000);
@@ -29,8 +30,6 @@ struct Judge<'a> {
     watch: Watch<'a>,
     /// The line of the scenario that each request stands for.
     lines: BTreeMap<RequestId, usize>,
-    halted: Option<SignalId>,
-    standing: Option<SignalId>,
     broken: Vec<Broken>,
     /// Whether entries have always held what was committed.
     sound: bool,
@@ -51,13 +50,12 @@ pub(crate) fn run(
         refused(scenario, &format!("the simulator cannot do '{line}': {why}"))
     })?;
     let mut log = log.map(|path| self::log(path, scenario, setting, &*session)).transpose()?;
-    let signal = |name| find_signal(session.devices(), "robot", name);
+    let signals = Signals::new(scenario, session.devices())
+        .map_err(|signal| refused(scenario, &format!("the robot has no signal '{signal}'")))?;
     let mut judge = Judge {
         scenario,
-        watch: Watch::new(scenario, session.names()),
+        watch: Watch::new(scenario, session.names(), signals),
         lines,
-        halted: signal("halted"),
-        standing: signal("standing"),
         broken: Vec::new(),
         sound: true,
         timeline: Vec::new(),
@@ -68,14 +66,14 @@ pub(crate) fn run(
     let until = Instant::from_nanos(scenario.until);
     let went = session.run(until, &mut gate, &mut observers);
     let went = went.map_err(|error| cannot_start(scenario, error))?;
-    let figures = session.end();
+    session.end();
     log.map(SessionLog::finish).transpose()?;
     if went == Go::Stop {
         return Ok(None);
     }
     let end = session.now();
     let Judge { mut watch, broken: refused, timeline, .. } = judge;
-    let mut broken = watch.finish(end, figures.spans("contacts"));
+    let mut broken = watch.finish(end);
     broken.extend(refused);
     broken.sort_by_key(|broken| broken.at);
     Ok(Some(Verdict {
@@ -136,16 +134,11 @@ impl Observer for Judge<'_> {
     }
 
     fn wants(&self, _: Instant, signal: SignalId) -> bool {
-        self.halted == Some(signal) || self.standing == Some(signal)
+        self.watch.signals().wants(signal)
     }
 
     fn on_sample(&mut self, _: Instant, signal: SignalId, value: SampleRef<'_>) {
-        let SampleRef::Bool(truth) = value else { return };
-        if self.halted == Some(signal) {
-            self.watch.set_halted(truth);
-        } else {
-            self.watch.set_standing(truth);
-        }
+        self.watch.on_signal(signal, value);
     }
 
     fn after_samples(&mut self, at: Instant) {

@@ -10,6 +10,7 @@ mod reach;
 use std::fmt::Write;
 use std::sync::Arc;
 
+use afp_core::devices::{DeviceRow, find_signal};
 use afp_dsl::graph::{Component, Graph};
 use afp_dsl::scenario::Scenario;
 use afp_run::RunError;
@@ -30,18 +31,37 @@ pub struct Generated {
     pub left_out: Vec<String>,
 }
 
+/// What a robot signals when it is to stand and does; where it declares such signals, scenarios expect them.
+#[derive(Clone, Copy, Debug)]
+struct Rest {
+    /// `robot.halted`: whether the last command was to stand.
+    halted: bool,
+    /// `robot.standing`: whether it does not move.
+    standing: bool,
+}
+
+impl Rest {
+    fn of(robot: &[DeviceRow]) -> Rest {
+        let has = |name| find_signal(robot, "robot", name).is_some();
+        Rest { halted: has("halted"), standing: has("standing") }
+    }
+}
+
 /// Scenarios for a graph's plan and all its sub-plans. `from` is the plan's file, seen from the one to be
-/// written; `quiet` is a run of the plan in which nothing happens; `run` runs it, and others like it.
+/// written; `quiet` is a run of the plan in which nothing happens; `robot` has the devices of the robot that it
+/// runs on; `run` runs it, and others like it.
 ///
 /// # Errors
 /// What `run` says.
 pub fn generate(
     from: &str,
     quiet: &Scenario,
+    robot: &[DeviceRow],
     run: &mut dyn FnMut(&Scenario) -> Result<Verdict, RunError>,
 ) -> Result<Generated, RunError> {
     let graph: &Arc<Graph> = &quiet.graph;
     let parts = Parts::new(graph);
+    let rest = Rest::of(robot);
     let reach = Reach::explore(&parts, quiet, run)?;
     let mut all = Generated { text: String::new(), scenarios: 0, left_out: Vec::new() };
     for element in parts.elements() {
@@ -53,7 +73,7 @@ pub fn generate(
             continue;
         };
         for supervisor in parts.supervisors_over(element) {
-            let pair = Pair { parts: &parts, way, active, element, supervisor };
+            let pair = Pair { parts: &parts, rest, way, active, element, supervisor };
             pair.add(&mut all);
         }
     }

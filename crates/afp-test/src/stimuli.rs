@@ -6,8 +6,7 @@ use afp::load::Injection;
 use afp_core::devices::{find_control, find_fault};
 use afp_core::trace::ComponentId;
 use afp_core::{Duration, Instant, Text, Value};
-use afp_dsl::scenario::devices::{Control, Failure};
-use afp_dsl::scenario::{self, Action, Scenario};
+use afp_dsl::scenario::{self, Action, Failure, Part, Scenario};
 use afp_dsl::toolbox::Constant;
 use afp_session::{AnySession, HOLD, Request, RequestError, RequestId};
 
@@ -36,8 +35,9 @@ fn requests(
     at: Instant,
     action: &Action,
 ) -> Result<Vec<(Instant, Request)>, RequestError> {
-    let press = |at: Instant, control: &Control, held| {
-        let id = find_control(session.devices(), control.word()).ok_or(RequestError::NoControl)?;
+    let press = |at: Instant, control: &Part, held| {
+        let id = find_control(session.devices(), &control.to_string());
+        let id = id.ok_or(RequestError::NoControl)?;
         Ok((at, Request::Press(id, held)))
     };
     Ok(match action {
@@ -48,14 +48,11 @@ fn requests(
         }
         Action::Release(control) => vec![press(at, control, false)?],
         Action::Fail(failure, time) => {
-            let Failure { device, kind, amount } = failure;
-            let id = find_fault(session.devices(), device, kind).ok_or(RequestError::NoFault)?;
-            let amount = match amount {
-                Some(Constant::Float(amount)) => Some(*amount),
-                _ => None,
-            };
+            let Failure { fault, amount } = failure;
+            let id = find_fault(session.devices(), &fault.device, &fault.name);
+            let id = id.ok_or(RequestError::NoFault)?;
             let lasting = time.map_or(Duration::MAX, Duration::from_nanos);
-            vec![(at, Request::Break(id, amount, lasting))]
+            vec![(at, Request::Break(id, *amount, lasting))]
         }
         Action::Idle(element) => vec![(at, Request::Idle(element.map(ComponentId)))],
         Action::Inject(injection) => vec![(at, Request::Inject(injected(injection)))],

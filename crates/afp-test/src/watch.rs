@@ -2,20 +2,24 @@
 
 pub(crate) mod hits;
 mod look;
+pub(crate) mod signals;
 #[cfg(test)]
 mod tests;
 
+use afp_core::devices::SignalId;
 use afp_core::trace::{
     Author, ComponentId, DEADLINE_MISSED, ERROR, Ending, Names, Record, TraceEntryId,
 };
 use afp_core::{Instant, Value, ValueRef};
 use afp_dsl::scenario::{Cause, Claim, Destination, EndCause, Expectation, Outcome, Scenario};
 use afp_dsl::unfold::{Goal, Place, places};
-use afp_session::Span;
+
+use afp_session::SampleRef;
 
 use crate::verdict::Broken;
 use hits::Hits;
 use look::Look;
+use signals::Signals;
 
 /// Listens to the run of a scenario.
 pub(crate) struct Watch<'a> {
@@ -56,10 +60,8 @@ pub(crate) struct State {
     units: Vec<String>,
     /// How the plan ended.
     pub(crate) ending: Option<Ending>,
-    /// Whether the last command to the drive was to stand still.
-    halted: bool,
-    /// Whether the robot does not move.
-    standing: bool,
+    /// What the robot signals.
+    pub(crate) signals: Signals,
 }
 
 /// Something that happened at an instant.
@@ -77,7 +79,7 @@ pub(crate) enum Happening {
 }
 
 impl<'a> Watch<'a> {
-    pub(crate) fn new(scenario: &'a Scenario, names: &dyn Names) -> Self {
+    pub(crate) fn new(scenario: &'a Scenario, names: &dyn Names, signals: Signals) -> Self {
         let places = places(&scenario.graph);
         let entries = (0..names.entries()).map(|id| names.entry(TraceEntryId(id)));
         let units: Vec<_> = entries.map(|entry| entry.unit.to_owned()).collect();
@@ -87,8 +89,7 @@ impl<'a> Watch<'a> {
                 entries: vec![Value::Unset; units.len()],
                 units,
                 ending: None,
-                halted: true,
-                standing: true,
+                signals,
             },
             hits: Hits::new(&scenario.graph),
             looks: scenario.expectations.iter().map(Look::new).collect(),
@@ -141,8 +142,7 @@ impl<'a> Watch<'a> {
 
     /// Whether the robot has to be looked at between steps.
     pub(crate) fn looks_at_robot(&self) -> bool {
-        let robot = |each: &Expectation| matches!(each.claim, Claim::Halted | Claim::Standing);
-        self.scenario.expectations.iter().any(robot)
+        !self.state.signals.is_empty()
     }
 
     /// The first entry that holds something else than its commits say: its number, what it holds, and
@@ -157,14 +157,14 @@ impl<'a> Watch<'a> {
         pairs.find(|(_, held, committed)| held != committed)
     }
 
-    /// Whether the last command to the drive was to stand still.
-    pub(crate) fn set_halted(&mut self, halted: bool) {
-        self.state.halted = halted;
+    /// What the robot signals.
+    pub(crate) fn signals(&self) -> &Signals {
+        &self.state.signals
     }
 
-    /// Whether the robot does not move.
-    pub(crate) fn set_standing(&mut self, standing: bool) {
-        self.state.standing = standing;
+    /// A signal of the robot says something.
+    pub(crate) fn on_signal(&mut self, signal: SignalId, value: SampleRef<'_>) {
+        self.state.signals.set(signal, value);
     }
 
     /// The step at this instant is over: what holds now holds until the next one.
@@ -175,7 +175,7 @@ impl<'a> Watch<'a> {
     }
 
     /// The run is over.
-    pub(crate) fn finish(&mut self, end: Instant, contacts: &[Span]) -> Vec<Broken> {
+    pub(crate) fn finish(&mut self, end: Instant) -> Vec<Broken> {
         for id in 0..self.since.len() as u32 {
             self.set_active(end, ComponentId(id), false);
         }
@@ -184,7 +184,7 @@ impl<'a> Watch<'a> {
         let mut broken: Vec<_> = std::mem::take(&mut self.looks)
             .into_iter()
             .zip(expectations)
-            .filter_map(|(look, expectation)| look.finish(end, &self.state, contacts, expectation))
+            .filter_map(|(look, expectation)| look.finish(end, &self.state, expectation))
             .collect();
         broken.extend(self.unexpected_error(end));
         broken.sort_by_key(|broken| broken.at);

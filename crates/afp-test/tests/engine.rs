@@ -6,6 +6,7 @@ use afp_dsl::Compiled;
 use afp_dsl::files::Texts;
 use afp_dsl::scenario::Scenario;
 use afp_dsl::toolbox::Toolboxes;
+use afp_session::AnyRobot;
 use afp_syntax::source::Source;
 use afp_test::{Setting, Verdict};
 
@@ -107,6 +108,11 @@ fn each_kind_of_claim_is_kept() {
         expect standing always after 25 s
         never running after 29 s
         never collision
+        expect robot.pose.x != 0 m always
+        expect robot.standing == false within 1 s after 500 ms
+        expect ultrasonic.echo.distance > 1 cm
+        expect battery.left <= 1 always
+        never battery.left < 0.5
         never back active
         until 30 s"
     ));
@@ -123,15 +129,17 @@ fn each_kind_of_claim_breaks() {
     breaks("at 1 s: set way = 2 m\n expect way == 1 m always\n until 2 s", "it is 2 m", 1.0);
     breaks("at 1 s: press escape\n expect end by OK", "as Interrupted", 2.0);
     breaks("expect end before 1 s\n until 1 s", "did not end", 0.999_999_999);
-    breaks("expect collision before 1 s", "touched nothing", 0.999_999_999);
+    breaks("expect collision before 1 s", "it was never so", 0.999_999_999);
     breaks(
         "at 1 s: press touch\n expect interrupt of go 2 times\n until 2 s",
         "once, at 1.000",
         2.0,
     );
     breaks("at 1 s: press touch\n expect commit by go once\n until 2 s", "did not happen", 2.0);
-    breaks("expect halted always\n until 2 s", "told to move", 0.01);
-    breaks("expect standing after 1 s\n until 2 s", "never stood", 2.0);
+    breaks("expect halted always\n until 2 s", "it was not so", 0.01);
+    breaks("expect standing after 1 s\n until 2 s", "it was never so", 2.0);
+    breaks("expect robot.pose.x > 90 m\n until 2 s", "it was never so; in the end it is", 2.0);
+    breaks("never robot.pose.x > -90 m after 1 s\n until 2 s", "it was so", 1.0);
     breaks("at 1 s: press escape\n expect running always\n until 5 s", "otherwise", 1.0);
 }
 
@@ -175,13 +183,17 @@ fn idle_actors_are_active_and_do_nothing() {
     );
     passes(&lines);
     let moving = run(&lines.replace("idle all", "release touch"));
-    let whys: Vec<_> = moving.broken.iter().map(|broken| broken.why.as_str()).collect();
-    assert_eq!(whys[..2], ["the drive was told to move", "the robot moved"]);
+    let said = |broken: &afp_test::Broken| format!("{}: {}", broken.text, broken.why);
+    let whys: Vec<_> = moving.broken.iter().map(said).collect();
+    assert_eq!(whys[..2], [
+        "expect halted always after 1.1 s: it was not so",
+        "expect standing always after 1.5 s: it was not so",
+    ]);
 }
 
 #[test]
 fn an_error_that_nobody_expects_breaks_a_scenario() {
-    let dead = "at 1 s: fail odometry(kind = \"lost\")\n";
+    let dead = "at 1 s: fail odometry.lost\n";
     let verdict = run(&format!("{FREE} {dead} expect go active"));
     let [broken] = verdict.broken.as_slice() else { panic!("{:?}", verdict.broken) };
     assert!(broken.why.contains("ended in Error"), "{broken:?}");
@@ -211,7 +223,7 @@ fn scenarios_are_made_for_every_event_at_five_points_and_pass() {
     let setting = Setting::find(scenario, Path::new("case.afp"), &robot()).unwrap();
     let quiet = Scenario::quiet("", scenario.graph.clone(), "case.afp", 30_000_000_000);
     let mut go = |scenario: &Scenario| afp_test::run(scenario, &setting, &robot(), None);
-    let made = afp_test::generate("case.afp", &quiet, &mut go).unwrap();
+    let made = afp_test::generate("case.afp", &quiet, robot().devices(), &mut go).unwrap();
     assert_eq!(made.left_out, [""; 0]);
     assert!(made.scenarios >= 15, "{}", made.text);
     assert!(made.text.contains("expect go -> back by touch.TouchSensorPressed once within"));
@@ -254,10 +266,11 @@ plan Ahead {
     let quiet = Scenario::quiet("", base.scenarios[0].graph.clone(), "case.afp", 30_000_000_000);
     let setting = Setting::find(&quiet, Path::new("case.afp"), &robot()).unwrap();
     let mut runs = 0;
-    let made = afp_test::generate("case.afp", &quiet, &mut |scenario: &Scenario| {
-        runs += 1;
-        afp_test::run(scenario, &setting, &robot(), None)
-    });
+    let made =
+        afp_test::generate("case.afp", &quiet, robot().devices(), &mut |scenario: &Scenario| {
+            runs += 1;
+            afp_test::run(scenario, &setting, &robot(), None)
+        });
     let made = made.unwrap();
     assert_eq!(made.left_out, ["no run reached 'never'"]);
     assert!(runs < 20, "{runs} runs");
@@ -271,19 +284,4 @@ plan Ahead {
         let verdict = afp_test::run(&scenario, &setting, &robot(), None).unwrap();
         assert!(verdict.passed(), "{}\n{}", scenario.name, verdict.report());
     }
-}
-
-#[test]
-fn the_words_for_faults_are_those_of_the_simulator() {
-    use afp_dsl::scenario::devices::DEVICES;
-    let pairs = |(device, kinds): &(&'static str, &'static [&'static str])| {
-        let device = *device;
-        kinds.iter().map(move |kind| (device, *kind)).collect::<Vec<_>>()
-    };
-    let mut ours: Vec<_> = DEVICES.iter().flat_map(pairs).collect();
-    let rows = afp_core::devices::faults(afp_carbot::table::TABLE);
-    let mut theirs: Vec<_> = rows.map(|(_, device, row)| (device.name, row.name)).collect();
-    ours.sort_unstable();
-    theirs.sort_unstable();
-    assert_eq!(ours, theirs);
 }

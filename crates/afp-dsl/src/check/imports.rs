@@ -43,6 +43,9 @@ pub(crate) fn read(
             continue;
         };
         let span = line.span();
+        if let Some(name) = line.toolbox() {
+            devices_of_two(&name, &import.toolbox, linked, diags);
+        }
         if let Some((_, first)) =
             imports.iter().find(|(known, _)| known.qualifier == import.qualifier)
         {
@@ -63,6 +66,30 @@ pub(crate) fn read(
         imports.push((import, span));
     }
     (imports.into_iter().map(|(import, _)| import).collect(), failed)
+}
+
+/// Reports the devices of a toolbox that one before it declares, too.
+fn devices_of_two(
+    name: &Name,
+    toolbox: &Arc<Toolbox>,
+    linked: &[Arc<Toolbox>],
+    diags: &mut Diagnostics,
+) {
+    let before = linked.iter().take_while(|known| !Arc::ptr_eq(known, toolbox));
+    let mut devices = before.flat_map(|it| it.devices.iter().map(move |device| (it, device)));
+    let both = devices.find_map(|(other, device)| {
+        let own = toolbox.devices.iter().find(|own| own.name == device.name)?;
+        Some((&other.name, device, own))
+    });
+    let Some((other, device, own)) = both else { return };
+    let message =
+        format!("'{other}' and '{}' both declare the device '{}'", toolbox.name, own.name);
+    diags.push(
+        Diagnostic::new(Code::E0517, name.span, message)
+            .note(device.span, "one declaration")
+            .note(own.span, "the other one")
+            .help("use one of the toolboxes, or give the device another name in one of them"),
+    );
 }
 
 fn one(
@@ -153,7 +180,7 @@ pub(crate) fn check_order(file: &File, diags: &mut Diagnostics) {
     }
 }
 
-/// Reports templates and object types in a file that is no toolbox.
+/// Reports templates, object types and devices in a file that is no toolbox.
 pub(crate) fn check_no_templates(file: &File, diags: &mut Diagnostics) {
     let items = file.items();
     if items.iter().any(|item| matches!(item, Item::Toolbox(_))) {
@@ -163,6 +190,7 @@ pub(crate) fn check_no_templates(file: &File, diags: &mut Diagnostics) {
         let name = match item {
             Item::Template(template) => template.name(),
             Item::Object(object) => object.name(),
+            Item::Device(device) => device.name().or_else(|| device.keyword()),
             _ => None,
         };
         if let Some(name) = name {

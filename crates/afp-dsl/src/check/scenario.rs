@@ -6,10 +6,13 @@
 mod actions;
 mod claims;
 mod commits;
+mod devices;
 mod names;
 mod often;
 mod paths;
 mod resolve;
+mod robot;
+mod signals;
 mod times;
 
 use std::sync::Arc;
@@ -30,6 +33,7 @@ use afp_syntax::unquote;
 
 use paths::Paths;
 use resolve::Resolver;
+use robot::Robot;
 
 /// The plans of a program, as far as they could be checked.
 pub(super) struct Plans<'a> {
@@ -49,6 +53,7 @@ pub(super) fn check(
     diags: &mut Diagnostics,
 ) -> Vec<Scenario> {
     let mut checked = Vec::new();
+    let robot = Robot::of(program);
     for (place, file) in files.iter().enumerate() {
         let mut named: Vec<Name> = Vec::new();
         for node in nodes(&file.tree) {
@@ -56,7 +61,7 @@ pub(super) fn check(
             if let Some(name) = node.name() {
                 twice(&name, &mut named, diags);
             }
-            let scenario = scenario(context, files, plans, &node, diags);
+            let scenario = scenario(context, (files, &robot), plans, &node, diags);
             checked.extend(scenario.filter(|_| place == 0));
         }
     }
@@ -103,6 +108,8 @@ struct Checker<'a> {
     context: Context<'a>,
     /// The plan.
     paths: Paths<'a>,
+    /// What the robot has.
+    robot: &'a Robot<'a>,
     head: &'a PlanHead,
     /// When it ends.
     until: u64,
@@ -111,7 +118,7 @@ struct Checker<'a> {
 
 fn scenario(
     context: Context<'_>,
-    files: &[PlanFile],
+    (files, robot): (&[PlanFile], &Robot<'_>),
     plans: &Plans<'_>,
     node: &ast::Scenario,
     diags: &mut Diagnostics,
@@ -119,7 +126,7 @@ fn scenario(
     let place = node.plan().and_then(|reference| plan(context, &reference, diags));
     let program = context.program;
     let resolver = Resolver { program, members: plans.members };
-    names::record(context, &resolver, place, &node.lines());
+    names::record(context, &resolver, robot, place, &node.lines());
     let (name, place) = (node.name()?, place?);
     let graph = assemble::graph(program, plans.plans.to_vec(), plans.order, place)?;
     let graph = Arc::new(graph);
@@ -131,7 +138,7 @@ fn scenario(
         .collect();
     let (until, until_span) = times::until(&lines, diags);
     let paths = Paths::new(&graph, resolver, place);
-    let checker = Checker { context, paths, head, until, until_span };
+    let checker = Checker { context, paths, robot, head, until, until_span };
     let plan_file = &files.get(head.file)?.source.name;
     let mut scenario = Scenario {
         span: name.span,

@@ -3,8 +3,8 @@
 use super::DefinitionKind;
 use super::record::{Found, Meanings};
 use crate::outline::{Component, Outline, Plan};
-use crate::toolbox::TemplateKind;
-use afp_syntax::ast::{self, Item, Part};
+use crate::toolbox::{DeviceKind, TemplateKind};
+use afp_syntax::ast::{self, DevicePart, Item, Part};
 use afp_syntax::source::Span;
 
 /// A definition before it has a number: others go by their names' places.
@@ -150,6 +150,7 @@ pub(crate) fn of_toolbox(items: &[Item], meanings: &Meanings) -> Vec<Declared> {
                 }
             }
             Item::Template(node) => of_template(node, owner, meanings, &mut all),
+            Item::Device(node) => of_device(node, owner, &mut all),
             Item::Use(_) | Item::Plan(_) | Item::Scenario(_) => {}
         }
     }
@@ -186,6 +187,47 @@ fn of_template(
             let ty = ty.and_then(|ty| type_of(&ty, meanings));
             let one = Declared::new(kind, name.span, span).doc(doc);
             all.push(one.owner(owner).made_from(ty));
+        }
+    }
+}
+
+fn of_device(node: &ast::Device, toolbox: Option<Span>, all: &mut Vec<Declared>) {
+    // The robot as a whole is known by its word.
+    let name = match node.kind() {
+        DeviceKind::Robot => node.keyword(),
+        _ => node.name(),
+    };
+    let owner = name.map(|name| name.span);
+    if let Some(name) = owner {
+        let one = Declared::new(DefinitionKind::Device, name, node.span());
+        all.push(one.doc(node.doc()).owner(toolbox));
+    }
+    let mut part = |kind, name: Option<ast::Name>, span, doc: String, owner| {
+        let name = name?.span;
+        all.push(Declared::new(kind, name, span).doc(doc).owner(owner));
+        Some(name)
+    };
+    for each in node.parts() {
+        match each {
+            DevicePart::Press(press) => {
+                for control in press.controls() {
+                    let doc = Some(control.doc()).filter(|doc| !doc.is_empty());
+                    let doc = doc.unwrap_or_else(|| press.doc());
+                    part(DefinitionKind::Control, control.name(), control.span(), doc, owner);
+                }
+            }
+            DevicePart::Fault(fault) => {
+                let (name, doc) = (fault.name(), fault.doc());
+                let home = part(DefinitionKind::Fault, name, fault.span(), doc, owner);
+                if let Some(amount) = fault.amount() {
+                    let (name, doc) = (amount.name(), String::new());
+                    part(DefinitionKind::Amount, name, amount.span(), doc, home);
+                }
+            }
+            DevicePart::Signal(signal) => {
+                let (name, doc) = (signal.name(), signal.doc());
+                part(DefinitionKind::Signal, name, signal.span(), doc, owner);
+            }
         }
     }
 }

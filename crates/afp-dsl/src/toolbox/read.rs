@@ -1,5 +1,6 @@
 //! Reads a toolbox file and checks what it declares.
 
+mod device;
 mod ports;
 mod template;
 
@@ -10,7 +11,7 @@ use crate::check::types::Types;
 use crate::check::{enums, imports, shadows, size};
 use crate::index::{self, Declared, Meanings, Recorder};
 use crate::rows::MAX_ROWS;
-use crate::toolbox::{Template, Toolbox};
+use crate::toolbox::{Device, Template, Toolbox};
 use crate::types::{Object, is_built_in};
 use afp_syntax::ast::{File, Item, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
@@ -18,6 +19,7 @@ use afp_syntax::parse;
 use afp_syntax::source::{Source, Span};
 use afp_syntax::unquote;
 
+use device::Devices;
 use ports::Site;
 
 impl Toolbox {
@@ -115,6 +117,7 @@ fn read(
     let mut toolbox = Toolbox {
         version: version.map(|version| unquote(&version, diags)).unwrap_or_default(),
         doc: head.map(|head| head.doc()).unwrap_or_default(),
+        devices: Vec::new(),
         templates: Vec::new(),
         enums: Vec::new(),
         objects: Vec::new(),
@@ -123,7 +126,9 @@ fn read(
         name: name.as_ref().map(|name| name.text.clone()).unwrap_or_default(),
     };
     let types = declare(&items, &mut toolbox, diags);
-    let site = Site { types: &types, source: &source.text, record };
+    let site = Site { types: &types, source: &source.text, record, devices: &[] };
+    toolbox.devices = devices(&items, &site, diags);
+    let site = Site { devices: &toolbox.devices, ..site };
     toolbox.templates = templates(&items, &site, diags);
     let spans = toolbox.templates.iter().map(|template| template.span);
     size::at_most(
@@ -190,6 +195,28 @@ fn declare(items: &[Item], toolbox: &mut Toolbox, diags: &mut Diagnostics) -> Ty
         }
     }
     types
+}
+
+fn devices(items: &[Item], site: &Site<'_>, diags: &mut Diagnostics) -> Vec<Device> {
+    let mut devices = Devices::default();
+    for item in items {
+        if let Item::Device(node) = item {
+            devices.read(node, site, diags);
+        }
+    }
+    let all = || devices.all.iter();
+    let controls = all().flat_map(|it| it.controls.iter().map(|row| row.span));
+    let faults = all().flat_map(|it| it.faults.iter().map(|row| row.span.unwrap_or(it.span)));
+    let signals = all().flat_map(|it| it.signals.iter().map(|row| row.span));
+    let mut at_most = |what, spans: &mut dyn Iterator<Item = Span>| {
+        let help = "declare fewer of them";
+        size::at_most(MAX_ROWS, ("a toolbox", what), spans, help, diags);
+    };
+    at_most("devices", &mut all().map(|it| it.span));
+    at_most("controls", &mut controls.into_iter());
+    at_most("faults", &mut faults.into_iter());
+    at_most("signals", &mut signals.into_iter());
+    devices.all
 }
 
 fn templates(items: &[Item], site: &Site<'_>, diags: &mut Diagnostics) -> Vec<Template> {

@@ -16,6 +16,7 @@ use afp_syntax::source::{Source, Sources, Span};
 pub struct Toolboxes {
     list: Vec<Arc<Toolbox>>,
     broken: Vec<Name>,
+    robot: Option<String>,
     sources: Sources,
     diags: Diagnostics,
     meanings: Meanings,
@@ -47,6 +48,17 @@ impl Toolboxes {
     /// The toolbox of that name; `None` when there is none or it has errors.
     pub fn get(&self, name: &str) -> Option<&Arc<Toolbox>> {
         self.list.iter().find(|toolbox| toolbox.name == name)
+    }
+
+    /// Says which toolbox declares the devices of the robot that plans run on. Scenarios know its words whatever
+    /// their plans use.
+    pub fn set_robot(&mut self, toolbox: &str) {
+        self.robot = Some(toolbox.to_owned());
+    }
+
+    /// The toolbox that was said to declare the robot's devices.
+    pub(crate) fn robot(&self) -> Option<&str> {
+        self.robot.as_deref()
     }
 
     /// All toolboxes without errors.

@@ -78,6 +78,10 @@ fn begins_item(gap: &Token) -> bool {
         Kind::InPort,
         Kind::OutPort,
         Kind::Outcome,
+        Kind::Device,
+        Kind::Press,
+        Kind::Fault,
+        Kind::Signal,
         Kind::Expect,
         Kind::Stimulus,
     ];

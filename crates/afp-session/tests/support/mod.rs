@@ -58,14 +58,14 @@ impl Devices for ToyDevices {
         DeviceRow {
             name: "bumper",
             help: "in front",
-            controls: &[ControlRow { name: "front", help: "" }],
+            controls: &[ControlRow { name: "front", help: "", stops: false }],
             faults: &[FaultRow { name: "lost", amount: None, help: "it is never touched" }],
             signals: &[SignalRow { name: "touched", ty: SignalType::Bool, truth: false, help: "" }],
         },
         DeviceRow {
             name: "horn",
             help: "others have one",
-            controls: &[ControlRow { name: "honk", help: "" }],
+            controls: &[ControlRow { name: "honk", help: "", stops: false }],
             faults: &[],
             signals: &[],
         },

@@ -2,7 +2,7 @@
 
 use afp_carbot::devices::Ultrasonic;
 use afp_carbot::fault::Fault;
-use afp_carbot::table::{self, Carbot, Control};
+use afp_carbot::table::{Carbot, Control, signal};
 use afp_core::{Instant, Platform};
 use afp_session::{
     Active, Figure, FigureValue, Image, Measure, Pose2, Ranging, Refused, Robot, SampleRef,
@@ -49,8 +49,8 @@ impl Robot for Simulation {
 
     fn press(&mut self, control: Control, held: bool) -> Result<(), Refused> {
         match (control, held) {
-            (Control::Escape, true) => self.press_escape(),
-            (Control::Escape, false) => self.release_escape(),
+            (Control::ButtonsEscape, true) => self.press_escape(),
+            (Control::ButtonsEscape, false) => self.release_escape(),
             (Control::Touch, true) => self.press_bumper(),
             (Control::Touch, false) => self.release_bumper(),
         }
@@ -66,27 +66,27 @@ impl Robot for Simulation {
         self.sample_truth(to);
         self.sample_ranging(to);
         let Snapshot { odometry, rotator, touched, .. } = self.snapshot();
-        if to.wants(table::BELIEVED) {
+        if to.wants(signal::ODOMETRY_POSE) {
             let moved =
                 Pose2 { x: odometry.x.si(), y: odometry.y.si(), heading: odometry.heading.si() };
             let pose = self.start.beyond(moved);
-            to.put(table::BELIEVED, frame(WORLD, BELIEVED, pose, 0.0));
+            to.put(signal::ODOMETRY_POSE, frame(WORLD, BELIEVED, pose, 0.0));
         }
-        to.put(table::BEARING, SampleRef::Float(rotator));
-        to.put(table::TOUCHED, SampleRef::Bool(touched));
-        to.put(table::ESCAPE, SampleRef::Bool(self.escape));
-        to.put(table::CHARGE, SampleRef::Float(self.battery.charge().left));
-        if to.wants(table::PICTURE)
+        to.put(signal::ROTATOR_BEARING, SampleRef::Float(rotator));
+        to.put(signal::TOUCH_TOUCHED, SampleRef::Bool(touched));
+        to.put(signal::BUTTONS_ESCAPE, SampleRef::Bool(self.escape));
+        to.put(signal::BATTERY_LEFT, SampleRef::Float(self.battery.charge().left));
+        if to.wants(signal::CAMERA_PICTURE)
             && let Some((time, picture)) = self.view()
         {
             let (width, height) = (picture.width as u32, picture.height as u32);
             let image = Image { time, frame: CAMERA, width, height, rgb: picture.rgb };
-            to.put(table::PICTURE, SampleRef::Image(image));
+            to.put(signal::CAMERA_PICTURE, SampleRef::Image(image));
         }
-        if to.wants(table::OUTLINE) {
+        if to.wants(signal::WORLD_OUTLINE) {
             for obstacle in self.movers() {
                 if let Some(shape) = self.shape(obstacle) {
-                    to.put(table::OUTLINE, SampleRef::Outline(&shape));
+                    to.put(signal::WORLD_OUTLINE, SampleRef::Outline(&shape));
                 }
             }
         }
@@ -106,28 +106,28 @@ impl Robot for Simulation {
 impl Simulation {
     fn sample_truth(&self, to: &mut Samples<'_, '_>) {
         let truth = self.truth();
-        if to.wants(table::POSE) {
-            to.put(table::POSE, frame(WORLD, BASE, truth.pose(), 0.0));
+        if to.wants(signal::POSE) {
+            to.put(signal::POSE, frame(WORLD, BASE, truth.pose(), 0.0));
         }
-        to.put(table::HALTED, SampleRef::Bool(truth.is_halted()));
-        to.put(table::STANDING, SampleRef::Bool(truth.is_standing()));
+        to.put(signal::HALTED, SampleRef::Bool(truth.is_halted()));
+        to.put(signal::STANDING, SampleRef::Bool(truth.is_standing()));
         // A touch lasts to the end of the physics step that found it.
         let touching = truth.collisions().last().is_some_and(|last| last.end == self.now());
-        to.put(table::COLLISION, SampleRef::Bool(touching));
+        to.put(signal::COLLISION, SampleRef::Bool(touching));
     }
 
     fn sample_ranging(&self, to: &mut Samples<'_, '_>) {
-        if !to.wants(table::ECHO) && !to.wants(table::ECHO_FRAME) {
+        if !to.wants(signal::ULTRASONIC_ECHO) && !to.wants(signal::ULTRASONIC_FRAME) {
             return;
         }
         let (beam, Snapshot { rotator, sonar, .. }) = (self.beam(), self.snapshot());
         let sensor = Pose2 { x: beam.forward.si(), y: 0.0, heading: rotator };
-        to.put(table::ECHO_FRAME, frame(BASE, SONAR, sensor, SONAR_HEIGHT));
+        to.put(signal::ULTRASONIC_FRAME, frame(BASE, SONAR, sensor, SONAR_HEIGHT));
         if let Some(sonar) = sonar {
             let pose = Pose2 { heading: sonar.bearing, ..sensor };
             let (half_angle, range) = (beam.opening.si() / 2.0, sonar.distance);
             let ranging = Ranging { time: sonar.time, frame: BASE, pose, half_angle, range };
-            to.put(table::ECHO, SampleRef::Range(ranging));
+            to.put(signal::ULTRASONIC_ECHO, SampleRef::Range(ranging));
         }
     }
 

@@ -1,6 +1,6 @@
 //! Toolboxes in the typed view.
 
-use super::{Formula, Name, Type, child, doc, keyword, token, tokens, views};
+use super::{Formula, Name, Type, child, doc, keyword, range, token, tokens, views};
 use crate::kind::Kind;
 use crate::source::Span;
 
@@ -134,11 +134,7 @@ impl InPort {
 
     /// Least and greatest value, and the place of both.
     pub fn range(&self) -> Option<(Formula, Formula, Span)> {
-        let range = child(&self.node, Kind::Range)?;
-        let mut ends = Formula::children_of(&range, self.file).into_iter();
-        let (from, to) = (ends.next()?, ends.next()?);
-        let span = from.span().to(to.span());
-        Some((from, to, span))
+        range(&self.node, self.file)
     }
 }
 

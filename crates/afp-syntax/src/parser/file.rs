@@ -31,6 +31,8 @@ impl Parser<'_, '_> {
             "toolbox" => self.toolbox(),
             "enum" => self.enumeration(),
             "object" => self.object(),
+            "device" | "sensor" => self.device(),
+            "robot" if self.at_device() => self.device(),
             "actor" | "supervisor" | "computation" if self.nth(2) == Kind::OpenBrace => {
                 self.template();
             }

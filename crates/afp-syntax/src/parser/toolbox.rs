@@ -51,7 +51,8 @@ impl Parser<'_, '_> {
         let template = matches!(self.word(0), "actor" | "supervisor" | "computation")
             && self.nth(1) == Kind::Name
             && self.nth(2) == Kind::OpenBrace;
-        template || (self.word(0) == "object" && self.nth(1) == Kind::Name) || self.at_top_item()
+        let object = self.word(0) == "object" && self.nth(1) == Kind::Name;
+        template || object || self.at_device() || self.at_top_item()
     }
 
     fn at_part(&self) -> bool {
@@ -106,6 +107,12 @@ impl Parser<'_, '_> {
         self.keyword();
         self.eat_word("live");
         self.port("give the port a name");
+        self.value_and_range();
+        self.close_item();
+    }
+
+    /// A value and its bounds, each of which may be missing.
+    pub(super) fn value_and_range(&mut self) {
         if self.eat(Kind::Equal) {
             self.formula();
         }
@@ -120,7 +127,6 @@ impl Parser<'_, '_> {
             }
             self.close();
         }
-        self.close_item();
     }
 
     fn out_port(&mut self) {
@@ -139,9 +145,10 @@ impl Parser<'_, '_> {
         self.close_item();
     }
 
-    fn port(&mut self, help: &str) {
+    /// A name and its type.
+    pub(super) fn port(&mut self, help: &str) {
         self.name(help);
-        if self.expect(Kind::Colon, "write ':' and the port's type") {
+        if self.expect(Kind::Colon, "write ':' and a type") {
             self.ty();
         }
     }

@@ -23,7 +23,7 @@ scenario "bumps into a crate while searching" for WallFollowing {
     seed 7
     set walldist = 25 cm
     at 2 s:  press touch                 // stimuli and faults
-    at 8 s:  fail ultrasonic(kind = "frozen") for 500 ms
+    at 8 s:  fail ultrasonic.frozen for 500 ms
     at 50 s: press escape
     at 51 s: set a.b = 3 + 4
     at 52 s: fire searchFirstWall.touch.TouchSensorPressed
@@ -54,6 +54,10 @@ fn words_of_the_grammar_are_names_where_something_is_bound_to_them() {
         actor a: A(live = 2 m = 3 range => start) { state -> terminate actor -> a supervise -> a } }
         toolbox t version \"1\" actor A { in live: bool in live live: bool state to }";
     assert_eq!(errors(text), []);
+    let devices = "toolbox t version \"1\" device press { press press stop stop fault fault
+        signal signal: bool fault signal(fault: float = 1) press signal truth
+        signal truth: pose } sensor robot { } robot { truth robot: bool }";
+    assert_eq!(errors(devices), []);
 }
 
 #[test]
@@ -124,6 +128,12 @@ const PIECES: &[&str] = &[
     "+",
     "%",
     "toolbox",
+    "device",
+    "sensor",
+    "robot",
+    "press",
+    "fault",
+    "signal",
     "enum",
     "scenario",
     "for",

@@ -6,8 +6,8 @@ use afp_core::Instant;
 use afp_dsl::graph::Component;
 use afp_dsl::unfold::Goal;
 
-use super::Generated;
 use super::reach::Way;
+use super::{Generated, Rest};
 use crate::parts::Parts;
 use crate::watch::Activation;
 use afp_dsl::types::text::duration;
@@ -20,6 +20,7 @@ const BEHIND: u64 = 200_000_000;
 /// An element and a supervisor that watches over it.
 pub(super) struct Pair<'a> {
     pub parts: &'a Parts<'a>,
+    pub rest: Rest,
     /// The run in which the element is active, and when.
     pub way: &'a Way,
     pub active: Activation,
@@ -113,9 +114,13 @@ impl Pair<'_> {
             lines.extend(self.ending(goal, &soon));
             lines.extend(self.interrupts(at, &soon));
             lines.extend(self.commits(at, event, goal, &soon));
-            lines.push(format!("expect halted always after {time}"));
+            if self.rest.halted {
+                lines.push(format!("expect halted always after {time}"));
+            }
             lines.extend(
-                stand.map(|stand| format!("expect standing always after {}", duration(stand))),
+                stand
+                    .filter(|_| self.rest.standing)
+                    .map(|stand| format!("expect standing always after {}", duration(stand))),
             );
         }
         lines.push(format!(

@@ -5,7 +5,6 @@ use afp_core::{Ending, Instant, Value};
 use afp_dsl::scenario::{Claim, Expectation, Wanted};
 use afp_dsl::toolbox::Constant;
 use afp_run::quantity;
-use afp_session::Span;
 
 use super::{Happening, State, ends, fits, leads};
 use crate::verdict::Broken;
@@ -79,14 +78,14 @@ impl<'a> Look<'a> {
                 let known = state.entries.get(*entry as usize).and_then(constant);
                 Some(known.is_some_and(|known| comparison.holds(&known, value)))
             }
-            Claim::Halted => Some(state.halted),
-            Claim::Standing => Some(state.standing),
+            Claim::Signal { signal, field, comparison, value } => {
+                state.signals.holds(signal, *field, |said| comparison.holds(said, value))
+            }
             Claim::Transition { .. }
             | Claim::Happens(_)
             | Claim::End(_)
             | Claim::Interrupt(_)
-            | Claim::Commit { .. }
-            | Claim::Collision => None,
+            | Claim::Commit { .. } => None,
         }
     }
 
@@ -109,16 +108,14 @@ impl<'a> Look<'a> {
         mut self,
         end: u64,
         state: &State,
-        contacts: &[Span],
         expectation: &Expectation,
     ) -> Option<Broken> {
         // The last state holds to the end of the scenario, even if the run was cut short.
         self.pass(u64::MAX);
-        if expectation.claim == Claim::Collision {
-            self.touch(contacts);
-        }
         let window = expectation.window;
+        let unsaid = matches!(expectation.claim, Claim::Signal { .. }) && self.now.is_none();
         let (at, why) = match expectation.wanted {
+            _ if unsaid => (window.to.min(end), self.missing(state)),
             Wanted::Once if self.held.is_some() => return None,
             Wanted::Once => (window.to.min(end), self.missing(state)),
             Wanted::Never => (self.held?, "it was so".to_owned()),
@@ -132,21 +129,6 @@ impl<'a> Look<'a> {
         };
         let (text, span) = (expectation.text.clone(), expectation.span);
         Some(Broken { text, span, at: Instant::from_nanos(at), why })
-    }
-
-    /// Takes the robot's contacts into account.
-    fn touch(&mut self, contacts: &[Span]) {
-        let window = self.expectation.window;
-        let within = |contact: &&Span| {
-            contact.end.as_nanos() >= window.from && contact.begin.as_nanos() <= window.to
-        };
-        let first =
-            contacts.iter().filter(within).map(|c| c.begin.as_nanos().max(window.from)).min();
-        self.held = first;
-        let whole = contacts
-            .iter()
-            .any(|c| c.begin.as_nanos() <= window.from && c.end.as_nanos() >= window.to);
-        self.failed = (!whole).then_some(window.from);
     }
 
     /// How often it happened.
@@ -170,9 +152,12 @@ impl<'a> Look<'a> {
                 Some(ending) => format!("the plan ended otherwise, as {}", word(ending)),
             },
             (Claim::Compare { entry, .. }, None) => self.value(*entry, state),
-            (Claim::Collision, None) => "the robot touched nothing".to_owned(),
-            (Claim::Halted, None) => "the drive was never told to stand still".to_owned(),
-            (Claim::Standing, None) => "the robot never stood".to_owned(),
+            (Claim::Signal { signal, field, .. }, None) => {
+                let shown = state.signals.shown(signal, *field);
+                shown.map_or("it was never so".to_owned(), |shown| {
+                    format!("it was never so; {shown}")
+                })
+            }
             _ => "it did not happen".to_owned(),
         }
     }
@@ -180,8 +165,12 @@ impl<'a> Look<'a> {
     fn otherwise(&self, state: &State) -> String {
         match &self.expectation.claim {
             Claim::Compare { entry, .. } => self.value(*entry, state),
-            Claim::Halted => "the drive was told to move".to_owned(),
-            Claim::Standing => "the robot moved".to_owned(),
+            Claim::Signal { signal, field, .. } => {
+                let shown = state.signals.shown(signal, *field);
+                shown.map_or("it was not so".to_owned(), |shown| {
+                    format!("it was otherwise; {shown}")
+                })
+            }
             _ => "it was otherwise".to_owned(),
         }
     }

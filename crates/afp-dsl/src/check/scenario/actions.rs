@@ -5,15 +5,12 @@ use super::paths::{Found, Part};
 use crate::check::names::unknown;
 use crate::check::timing;
 use crate::graph::{Component, EntryKind, Target};
-use crate::scenario::devices::{self, Control, DEVICES, Failure};
 use crate::scenario::{Action, Injection, Outcome};
 use crate::toolbox::Constant;
-use crate::types::{Dimension, Type};
-use afp_syntax::ast::{self, Bind, Formula, FormulaKind, Name};
+use crate::types::Type;
+use afp_syntax::ast::{self, Bind, Name};
 use afp_syntax::diagnostics::words;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
-use afp_syntax::source::Span;
-use afp_syntax::unquote;
 
 /// Everything that can happen.
 const VERBS: &[&str] = &["press", "release", "fail", "fire", "finish", "idle", "set"];
@@ -32,8 +29,8 @@ impl Checker<'_> {
                 let (entry, value) = self.set(&path, &node.value()?, &kinds, diags)?;
                 Some(Action::Set(entry, value))
             }
-            "press" => Some(Action::Press(control(&path, diags)?, duration)),
-            "release" => Some(Action::Release(control(&path, diags)?)),
+            "press" => Some(Action::Press(self.control(&path, diags)?, duration)),
+            "release" => Some(Action::Release(self.control(&path, diags)?)),
             "fail" => Some(Action::Fail(self.failure(&path, &node.binds(), diags)?, duration)),
             "fire" => self.fire(&path, &node.binds(), diags),
             "finish" => self.finish(&path, &node.binds(), diags),
@@ -127,69 +124,6 @@ impl Checker<'_> {
         let error = Diagnostic::new(Code::E0602, path.span(), "'idle' is for actors and sub-plans");
         diags.push(error.help(help));
         None
-    }
-
-    fn failure(
-        &self,
-        path: &ast::Path,
-        binds: &[Bind],
-        diags: &mut Diagnostics,
-    ) -> Option<Failure> {
-        let named = path.text();
-        let Some((device, kinds)) = DEVICES.iter().find(|(device, _)| *device == named) else {
-            let known = DEVICES.iter().map(|(device, _)| *device);
-            let message = format!("the robot has no device '{named}' that can fail");
-            diags.push(unknown(Code::E0606, path.span(), message, &named, known, ""));
-            return None;
-        };
-        let kind = binds.iter().find_map(|bind| match bind {
-            Bind::In { port, formula: Some(formula), .. } if port.text == "kind" => Some(formula),
-            _ => None,
-        });
-        let Some((formula, text)) = kind.and_then(|kind| Some((kind, text_of(kind, diags)?)))
-        else {
-            diags.push(unsaid(path.span(), device, kinds));
-            return None;
-        };
-        let Some(kind) = kinds.iter().find(|kind| **kind == text) else {
-            let message = format!("'{device}' cannot fail as '{text}'");
-            let known = kinds.iter().copied();
-            diags.push(unknown(Code::E0606, formula.span(), message, &text, known, ""));
-            return None;
-        };
-        let amount = self.amount(kind, binds, diags)?;
-        Some(Failure { device, kind, amount })
-    }
-
-    /// How much of a fault, where it is said.
-    fn amount(
-        &self,
-        kind: &str,
-        binds: &[Bind],
-        diags: &mut Diagnostics,
-    ) -> Option<Option<Constant>> {
-        let known = devices::amount(kind);
-        let mut amount = None;
-        for bind in binds {
-            let (Bind::In { port, .. } | Bind::Out { port, .. }) = bind;
-            match (bind, known) {
-                _ if port.text == "kind" => {}
-                (Bind::In { formula: Some(formula), .. }, Some((name, ty)))
-                    if port.text == name =>
-                {
-                    let ty = Type::Quantity(Dimension::named(ty).unwrap_or(Dimension::NONE));
-                    amount = Some(self.constant(formula, &ty, diags)?.1);
-                }
-                _ => {
-                    let message = format!("'{}' says nothing of a fault \"{kind}\"", port.text);
-                    let known = known.iter().map(|(name, _)| *name).chain(["kind"]);
-                    let error = unknown(Code::E0606, port.span, message, &port.text, known, "");
-                    diags.push(error);
-                    return None;
-                }
-            }
-        }
-        Some(amount)
     }
 
     /// A component and the name of one of its outcomes.
@@ -307,30 +241,5 @@ impl Checker<'_> {
         let values: Option<Vec<_>> =
             wanted.iter().zip(values).map(|((place, ..), value)| Some((*place, value?))).collect();
         values
-    }
-}
-
-/// Reports that nothing says how a device fails.
-fn unsaid(span: Span, device: &str, kinds: &[&str]) -> Diagnostic {
-    let example: Vec<_> =
-        kinds.iter().map(|kind| format!("'{device}(kind = \"{kind}\")'")).collect();
-    let message = format!("how '{device}' fails is not said");
-    Diagnostic::new(Code::E0606, span, message).help(format!("write {}", example.join(" or ")))
-}
-
-fn control(path: &ast::Path, diags: &mut Diagnostics) -> Option<Control> {
-    let found = Control::parse(&path.text());
-    if found.is_none() {
-        let known = Control::ALL.iter().map(|control| control.word());
-        let message = format!("the robot has no '{}' that can be pressed", path.text());
-        diags.push(unknown(Code::E0606, path.span(), message, &path.text(), known, ""));
-    }
-    found
-}
-
-fn text_of(formula: &Formula, diags: &mut Diagnostics) -> Option<String> {
-    match formula.kind() {
-        FormulaKind::Text(quoted) => Some(unquote(&quoted, diags)),
-        _ => None,
     }
 }

@@ -9,7 +9,7 @@ use crate::graph::{Component, Target};
 use crate::scenario::{Cause, Claim, Comparison, Destination, EndCause, Expectation, Outcome};
 use crate::types::Type;
 use afp_syntax::ast::{self, Bound, ClaimKind, Formula, Line, Name, Path};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
 
 impl Checker<'_> {
     pub(super) fn expectation(
@@ -169,8 +169,7 @@ impl Checker<'_> {
         let help = match others.as_slice() {
             [] => "look at the plan's edges, or expect another element".to_owned(),
             others => {
-                let list =
-                    afp_syntax::diagnostics::words::list(others.iter().map(String::as_str), "or");
+                let list = words::list(others.iter().map(String::as_str), "or");
                 format!("what leads there is {list}")
             }
         };
@@ -318,8 +317,16 @@ impl Checker<'_> {
         diags: &mut Diagnostics,
     ) -> Option<Claim> {
         let comparison = Comparison::parse(&sign.text)?;
-        let (entry, plan, id) =
-            self.paths.entry(&path.names()).map_err(|error| diags.push(*error)).ok()?;
+        let (entry, plan, id) = match self.paths.entry(&path.names()) {
+            Ok(found) => found,
+            Err(_) if self.is_of_robot(path) => {
+                return self.compare_signal(path, sign, value, diags);
+            }
+            Err(error) => {
+                diags.push(*error);
+                return None;
+            }
+        };
         let declared = &self.paths.graph.plan(plan).entries[id.index()];
         if let Type::Object(_) = declared.ty {
             let message = format!("'{}' is an object, which only components can read", path.text());
@@ -343,16 +350,24 @@ impl Checker<'_> {
         Some(Claim::Compare { entry, comparison, value })
     }
 
+    /// Reports that there is nothing of a name, neither in the plan nor of the robot.
+    fn no_fact(&self, path: &Path, error: Diagnostic) -> Diagnostic {
+        let (written, facts) = (path.text(), self.facts());
+        let facts = || facts.iter().map(String::as_str);
+        match error.fix.is_none() && words::nearest(&written, facts()).is_some() {
+            true => unknown(Code::E0602, error.span, error.message, &written, facts(), ""),
+            false => error,
+        }
+    }
+
     fn fact(&self, path: &Path, diags: &mut Diagnostics) -> Option<Claim> {
         let names = path.names();
         let (found, rest) = match self.paths.find(self.paths.main(), &names) {
             Ok(found) => found,
+            Err(_) if self.is_of_robot(path) => return self.fact_of_robot(path, diags),
             Err(error) => {
-                let fact = robot_fact(&path.text());
-                if fact.is_none() {
-                    diags.push(*error);
-                }
-                return fact;
+                diags.push(self.no_fact(path, *error));
+                return None;
             }
         };
         if rest.is_empty() {
@@ -380,15 +395,5 @@ impl Checker<'_> {
             return None;
         }
         Some(Claim::Happens(Cause { component: self.paths.number(found), outcome }))
-    }
-}
-
-/// What can be said of the robot without naming a part of the plan.
-pub(super) fn robot_fact(word: &str) -> Option<Claim> {
-    match word {
-        "collision" => Some(Claim::Collision),
-        "halted" => Some(Claim::Halted),
-        "standing" => Some(Claim::Standing),
-        _ => None,
     }
 }

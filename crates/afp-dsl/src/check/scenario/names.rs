@@ -1,28 +1,32 @@
 //! Records what the names in a scenario mean, of a sound plan or a broken one, line by line.
 
 use super::resolve::{Cause, Part, Resolver, Walk};
+use super::robot::{Found, Robot};
 use crate::check::Context;
 use crate::check::formula::Scope;
 use crate::check::names::Places;
 use crate::index::{Recorder, Word};
-use crate::scenario::devices::{self, Control, DEVICES};
+use crate::scenario::Field;
+use crate::toolbox::{Control, Fault, Signal};
 use afp_syntax::ast::{self, Bind, ClaimKind, Formula, Line, LineKind, Name, Path};
 
 /// Records what the names in lines mean; `plan` is that of the scenario, where there is one.
 pub(super) fn record(
     context: Context<'_>,
     resolver: &Resolver<'_>,
+    robot: &Robot<'_>,
     plan: Option<usize>,
     lines: &[Line],
 ) {
     let record = context.program.record;
-    let names = Names { context, resolver, record, plan };
+    let names = Names { context, resolver, robot, record, plan };
     lines.iter().for_each(|line| names.line(line));
 }
 
 struct Names<'a> {
     context: Context<'a>,
     resolver: &'a Resolver<'a>,
+    robot: &'a Robot<'a>,
     record: &'a Recorder,
     plan: Option<usize>,
 }
@@ -62,10 +66,12 @@ impl Names<'_> {
                 self.entry(&path);
                 action.value().iter().for_each(|value| self.formula(value));
             }
-            "press" | "release" => self.words(&path, Control::parse(&path.text()).is_some()),
+            "press" | "release" => {
+                self.unknown(self.robot.record::<Control>(&path.names(), self.record));
+            }
             "fail" => {
-                self.words(&path, DEVICES.iter().any(|(device, _)| *device == path.text()));
-                self.arguments(&binds);
+                self.unknown(self.robot.record::<Fault>(&path.names(), self.record));
+                self.amounts(&path, &binds);
             }
             "idle" => match path.names().as_slice() {
                 [name] if name.text == "all" && !self.is_component(name) => {
@@ -90,7 +96,10 @@ impl Names<'_> {
             }
             ClaimKind::Active(path) | ClaimKind::Interrupt(path) => self.component(&path),
             ClaimKind::Compare(path, _, value) => {
-                self.entry(&path);
+                match self.is_entry(&path) {
+                    true => self.entry(&path),
+                    false => self.of_robot(&path, |path| self.entry(path)),
+                }
                 value.iter().for_each(|value| self.formula(value));
             }
             ClaimKind::End(Some(path)) => match (path.names().as_slice(), ending(&path)) {
@@ -104,10 +113,8 @@ impl Names<'_> {
                 by.iter().for_each(|path| self.component(path));
             }
             ClaimKind::Fact(path) => match path.names().as_slice() {
-                [name] if is_fact(&name.text) && !self.is_component(name) => {
-                    self.record.word(name.span, Word::Fact);
-                }
-                _ => self.component(&path),
+                [name, ..] if self.is_component(name) => self.component(&path),
+                _ => self.of_robot(&path, |path| self.component(path)),
             },
             ClaimKind::Hole => claim.paths().iter().for_each(|path| self.component(path)),
             ClaimKind::Running | ClaimKind::End(None) => {}
@@ -196,28 +203,42 @@ impl Names<'_> {
         }
     }
 
-    /// What a fault is told.
-    fn arguments(&self, binds: &[Bind]) {
-        let known = |name: &str| {
-            let amounts = DEVICES.iter().flat_map(|(_, kinds)| *kinds);
-            name == "kind" || { amounts }
-                .any(|kind| devices::amount(kind).is_some_and(|(a, _)| a == name))
-        };
+    /// How much there is of a fault.
+    fn amounts(&self, path: &Path, binds: &[Bind]) {
+        let Found::Row(_, fault, _) = self.robot.find::<Fault>(&path.names()) else { return };
         for bind in binds {
             let (Bind::In { port, .. } | Bind::Out { port, .. }) = bind;
-            if known(&port.text) {
-                self.record.word(port.span, Word::Argument);
+            let amount = fault.amount.as_ref().filter(|amount| amount.name == port.text);
+            match amount.map(|amount| amount.span) {
+                Some(Some(span)) => self.record.definition(port.span, span),
+                Some(None) => self.record.word(port.span, Word::Amount),
+                None => {}
             }
         }
     }
 
-    fn words(&self, path: &Path, known: bool) {
-        for name in path.names() {
-            match known {
-                true => self.record.word(name.span, Word::Device),
-                false => self.record.unknown(name.span),
-            }
+    /// A signal of the robot; something else where the robot has nothing of that name.
+    fn of_robot(&self, path: &Path, otherwise: impl Fn(&Path)) {
+        let names = path.names();
+        let found = self.robot.find::<Signal>(&names);
+        if let Found::Nothing = found {
+            return otherwise(path);
         }
+        let rest = self.robot.record::<Signal>(&names, self.record);
+        match (found, rest) {
+            (Found::Row(_, signal, _), [name, more @ ..])
+                if Field::of(signal.ty).iter().any(|field| field.word() == name.text) =>
+            {
+                self.record.word(name.span, Word::Field);
+                self.unknown(more);
+            }
+            _ => self.unknown(rest),
+        }
+    }
+
+    fn is_entry(&self, path: &Path) -> bool {
+        let found = |plan| self.resolver.entry(plan, &path.names()).end.is_ok();
+        self.plan.is_some_and(found)
     }
 
     fn unknown(&self, names: &[Name]) {
@@ -248,8 +269,4 @@ fn ending(path: &Path) -> Option<Word> {
         "Error" => Some(Word::Error),
         _ => None,
     }
-}
-
-fn is_fact(word: &str) -> bool {
-    super::claims::robot_fact(word).is_some()
 }

@@ -5,7 +5,7 @@ use crate::check::names::Places;
 use crate::check::names::{Names, unknown};
 use crate::check::types::Types;
 use crate::index::Recorder;
-use crate::toolbox::{Constant, InPort, OutPort, Outcome, TemplateKind};
+use crate::toolbox::{Constant, Device, InPort, OutPort, Outcome, TemplateKind};
 use crate::types::Type;
 use crate::types::text;
 use afp_syntax::ast::{self, Formula};
@@ -37,7 +37,7 @@ pub(super) fn input(
         site.names_only(node);
         return None;
     };
-    let values = Values { site, ty: &ty };
+    let values = Values { site, ty: &ty, of: Declared::Port };
     let range = node
         .range()
         .and_then(|(least, greatest, span)| values.range(&least, &greatest, span, diags));
@@ -101,6 +101,8 @@ pub(super) struct Site<'a> {
     pub source: &'a str,
     /// What is found out about names.
     pub record: &'a Recorder,
+    /// The devices of the toolbox.
+    pub devices: &'a [Device],
 }
 
 impl Site<'_> {
@@ -110,7 +112,12 @@ impl Site<'_> {
             self.types.resolve(&ty, self.record, &mut Diagnostics::default());
         }
         let range = node.range().map(|(least, greatest, _)| [least, greatest]);
-        for formula in node.default().into_iter().chain(range.into_iter().flatten()) {
+        self.values_only(node.default().into_iter().chain(range.into_iter().flatten()));
+    }
+
+    /// Finds out what the names in values mean of whose type nothing is known.
+    pub fn values_only(&self, values: impl Iterator<Item = Formula>) {
+        for formula in values {
             self.formula(&formula, None, &mut Diagnostics::default());
         }
     }
@@ -134,10 +141,20 @@ impl Site<'_> {
     }
 }
 
-/// Values that stand in the declaration of one port.
-struct Values<'a> {
-    site: &'a Site<'a>,
-    ty: &'a Type,
+/// What is declared with values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Declared {
+    /// A port of a template.
+    Port,
+    /// How much there is of a fault.
+    Amount,
+}
+
+/// Values that stand in the declaration of one port or amount.
+pub(super) struct Values<'a> {
+    pub site: &'a Site<'a>,
+    pub ty: &'a Type,
+    pub of: Declared,
 }
 
 impl Values<'_> {
@@ -145,7 +162,8 @@ impl Values<'_> {
         self.site.formula(formula, Some(self.ty), diags)
     }
 
-    fn default(
+    /// The default, within the range.
+    pub fn default(
         &self,
         formula: &Formula,
         range: Option<(f64, f64)>,
@@ -168,15 +186,20 @@ impl Values<'_> {
             && !(least..=greatest).contains(&number)
         {
             let (least, greatest) = (text::value(least, self.ty), text::value(greatest, self.ty));
+            let message = match self.of {
+                Declared::Port => "the default is out of the port's range",
+                Declared::Amount => "the default is out of the range",
+            };
             diags.push(
-                Diagnostic::new(Code::E0224, span, "the default is out of the port's range")
+                Diagnostic::new(Code::E0224, span, message)
                     .help(format!("use a value from '{least}' to '{greatest}'")),
             );
         }
         Some(value)
     }
 
-    fn range(
+    /// Least and greatest value.
+    pub fn range(
         &self,
         least: &Formula,
         greatest: &Formula,

@@ -1,13 +1,13 @@
 //! One template: its parts, each where it belongs and as often as it may stand.
 
-use crate::check::names::Names;
+use crate::check::names::{Names, unknown};
 use crate::check::{size, timing};
 use crate::index::Word;
 use crate::rows::{MAX_EVENTS, MAX_ROWS, MAX_STATES};
 use crate::toolbox::read::ports::{self, Site};
 use crate::toolbox::{Outcome, Template, TemplateKind};
 use afp_syntax::ast::{self, Name, Part};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
 use afp_syntax::source::Span;
 use afp_syntax::unquote;
 
@@ -45,7 +45,7 @@ pub(super) fn read(
             }
             Part::Uses(resource, span) => {
                 if let Some(resource) = resource {
-                    site.record.word(resource.span, Word::Resource);
+                    names_device(resource, site, diags);
                 }
                 uses(resource.as_ref(), *span, &mut template, diags);
             }
@@ -104,6 +104,21 @@ fn uses(resource: Option<&Name>, span: Span, template: &mut Template, diags: &mu
     } else {
         template.uses.push(resource.text.clone());
     }
+}
+
+/// Says what `uses` names: a device of the toolbox, or what other toolboxes command, too.
+fn names_device(resource: &Name, site: &Site<'_>, diags: &mut Diagnostics) {
+    let known = site.devices.iter().find(|device| device.name == resource.text);
+    if let Some(device) = known {
+        return site.record.definition(resource.span, device.span);
+    }
+    let names = || site.devices.iter().map(|device| device.name.as_str());
+    if words::nearest(&resource.text, names()).is_none() {
+        return site.record.word(resource.span, Word::Resource);
+    }
+    site.record.unknown(resource.span);
+    let message = format!("the toolbox has no device '{}'", resource.text);
+    diags.push(unknown(Code::E0516, resource.span, message, &resource.text, names(), ""));
 }
 
 fn misfit(word: &str, why: &str, span: Span, diags: &mut Diagnostics) {

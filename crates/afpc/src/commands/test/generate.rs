@@ -65,7 +65,7 @@ fn generate(
     let plan_file = file.display().to_string();
     let quiet = Scenario::quiet("as it goes", Arc::new(graph), plan_file, RUN);
     let setting = Setting::find(&quiet, file, robot)?;
-    afp_test::generate(&way(file, to)?, &quiet, &mut |scenario| {
+    afp_test::generate(&way(file, to)?, &quiet, robot.devices(), &mut |scenario| {
         afp_test::run(scenario, &setting, robot, None)
     })
 }

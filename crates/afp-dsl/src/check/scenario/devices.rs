@@ -1,0 +1,140 @@
+//! What is pressed in a scenario, and what fails.
+
+use super::Checker;
+use super::robot::{Found, Robot, with_devices};
+use crate::check::names::unknown;
+use crate::scenario::{Failure, Part};
+use crate::toolbox::{Constant, Control, Device, Fault};
+use crate::types::{Type, text};
+use afp_syntax::ast::{Bind, Path};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
+
+impl Checker<'_> {
+    /// What is pressed.
+    pub(super) fn control(&self, path: &Path, diags: &mut Diagnostics) -> Option<Part> {
+        let names = path.names();
+        let written = path.text();
+        let error = match self.robot.find::<Control>(&names) {
+            Found::Row(device, control, used) if used == names.len() => {
+                return Some(Part::new(&device.name, &control.name));
+            }
+            Found::Several(devices) => {
+                let message = format!("several devices have a control '{written}'");
+                let help = format!("write {}", with_devices(&devices, &written));
+                Diagnostic::new(Code::E0606, path.span(), message).help(help)
+            }
+            Found::Device(device) if names.len() == 1 && !device.controls.is_empty() => {
+                let message = format!("what of '{written}' is pressed is not said");
+                let named = device.controls.iter().map(|it| format!("{written}.{}", it.name));
+                let named: Vec<_> = named.collect();
+                let help = format!("write {}", words::list(named.iter().map(String::as_str), "or"));
+                Diagnostic::new(Code::E0606, path.span(), message).help(help)
+            }
+            _ => {
+                let message = format!("the robot has no '{written}' that can be pressed");
+                let known = self.robot.words::<Control>();
+                let known = known.iter().map(String::as_str);
+                unknown(Code::E0606, path.span(), message, &written, known, NOTHING)
+            }
+        };
+        diags.push(error);
+        None
+    }
+
+    /// What fails, how, and how much.
+    pub(super) fn failure(
+        &self,
+        path: &Path,
+        binds: &[Bind],
+        diags: &mut Diagnostics,
+    ) -> Option<Failure> {
+        let (device, fault) = match broken(self.robot, path) {
+            Ok(found) => found,
+            Err(error) => {
+                diags.push(*error);
+                return None;
+            }
+        };
+        let amount = self.amount(fault, binds, diags)?;
+        Some(Failure { fault: Part::new(&device.name, &fault.name), amount })
+    }
+
+    /// How much of a fault, where it is said.
+    fn amount(
+        &self,
+        fault: &Fault,
+        binds: &[Bind],
+        diags: &mut Diagnostics,
+    ) -> Option<Option<f64>> {
+        let mut amount = None;
+        for bind in binds {
+            let (Bind::In { port, .. } | Bind::Out { port, .. }) = bind;
+            let known = fault.amount.as_ref().filter(|known| known.name == port.text);
+            let (Some(known), Bind::In { formula: Some(formula), .. }) = (known, bind) else {
+                let message = format!("'{}' says nothing of the fault '{}'", port.text, fault.name);
+                let known = fault.amount.iter().map(|known| known.name.as_str());
+                let none = "remove the brackets";
+                diags.push(unknown(Code::E0606, port.span, message, &port.text, known, none));
+                return None;
+            };
+            let ty = Type::Quantity(known.dimension);
+            let (_, Constant::Float(value)) = self.constant(formula, &ty, diags)? else {
+                return None;
+            };
+            if !(known.from..=known.to).contains(&value) {
+                let message = format!("the {} is out of its range", known.name);
+                let (from, to) = (text::value(known.from, &ty), text::value(known.to, &ty));
+                diags.push(
+                    Diagnostic::new(Code::E0224, formula.span(), message)
+                        .help(format!("use a value from '{from}' to '{to}'")),
+                );
+                return None;
+            }
+            amount = Some(value);
+        }
+        Some(amount)
+    }
+}
+
+/// What can be done where the robot has nothing of a kind.
+const NOTHING: &str = "remove the line";
+
+/// A device and the fault that a path names.
+fn broken<'a>(robot: &Robot<'a>, path: &Path) -> Result<(&'a Device, &'a Fault), Box<Diagnostic>> {
+    let (names, written) = (path.names(), path.text());
+    let error = match (robot.find::<Fault>(&names), names.as_slice()) {
+        (Found::Row(device, fault, 2), [_, _]) => return Ok((device, fault)),
+        // Which device it is of is always said, as on the command line.
+        (Found::Row(device, ..), [name]) => {
+            let message = format!("what fails as '{written}' is not said");
+            let help = format!("write '{}.{}'", device.name, name.text);
+            Diagnostic::new(Code::E0606, path.span(), message).help(help)
+        }
+        (Found::Several(devices), _) => {
+            let message = format!("several devices can fail as '{written}'");
+            let help = format!("write {}", with_devices(&devices, &written));
+            Diagnostic::new(Code::E0606, path.span(), message).help(help)
+        }
+        (Found::Device(device), [_]) if !device.faults.is_empty() => {
+            let message = format!("how '{written}' fails is not said");
+            let named = device.faults.iter().map(|it| format!("{written}.{}", it.name));
+            let named: Vec<_> = named.collect();
+            let help = format!("write {}", words::list(named.iter().map(String::as_str), "or"));
+            Diagnostic::new(Code::E0606, path.span(), message).help(help)
+        }
+        (Found::Device(device), [_, name, ..]) if !device.faults.is_empty() => {
+            let message = format!("'{}' cannot fail as '{}'", device.name, name.text);
+            let known = device.faults.iter().map(|it| it.name.as_str());
+            unknown(Code::E0606, name.span, message, &name.text, known, "")
+        }
+        _ => {
+            let first = names.first().map_or(written.as_str(), |name| &name.text);
+            let message = format!("the robot has no device '{first}' that can fail");
+            let fails = robot.devices.iter().filter(|device| !device.faults.is_empty());
+            let known = fails.map(|device| device.name.as_str());
+            let span = names.first().map_or(path.span(), |name| name.span);
+            unknown(Code::E0606, span, message, first, known, NOTHING)
+        }
+    };
+    Err(Box::new(error))
+}

@@ -1,0 +1,183 @@
+//! The words of the robot: its devices, what can be pressed, how they fail, what they signal.
+//!
+//! They come from the toolboxes that the plan uses, and from the robot's own.
+
+use std::sync::Arc;
+
+use crate::check::Program;
+use crate::index::{Recorder, Word};
+use crate::toolbox::{Control, Device, Fault, Signal, Toolbox};
+use afp_syntax::ast::Name;
+use afp_syntax::diagnostics::words;
+use afp_syntax::source::Span;
+
+/// The devices that a scenario can name.
+pub(super) struct Robot<'a> {
+    pub devices: Vec<&'a Device>,
+}
+
+/// Something that a device has under a name.
+pub(super) trait Row: Sized {
+    fn rows(device: &Device) -> &[Self];
+    fn name(&self) -> &str;
+    /// Where it is declared; `None` for what needs no declaration.
+    fn span(&self) -> Option<Span>;
+}
+
+/// What names lead to.
+pub(super) enum Found<'a, T> {
+    /// A row of a device, and how many of the names say it.
+    Row(&'a Device, &'a T, usize),
+    /// A device, named by the first name, and nothing of it.
+    Device(&'a Device),
+    /// The first name alone, which several devices have.
+    Several(Vec<&'a Device>),
+    /// Nothing.
+    Nothing,
+}
+
+impl<'a> Robot<'a> {
+    /// The devices of the robot's toolbox, then of all others that plans use.
+    ///
+    /// The robot's toolbox is the one that was said to be; else one of those in use that declares a robot; else
+    /// the first that does.
+    pub fn of(program: &'a Program<'_>) -> Robot<'a> {
+        let all = program.toolboxes;
+        let is_robot = |toolbox: &&Arc<Toolbox>| toolbox.declares_robot();
+        let own = match all.robot() {
+            Some(name) => all.get(name),
+            None => program.linked.iter().find(is_robot).or_else(|| all.iter().find(is_robot)),
+        };
+        let mut devices: Vec<&Device> = Vec::new();
+        for toolbox in own.into_iter().chain(&program.linked) {
+            for device in &toolbox.devices {
+                if !devices.iter().any(|known| known.name == device.name) {
+                    devices.push(device);
+                }
+            }
+        }
+        Robot { devices }
+    }
+
+    /// The device of that name.
+    pub fn device(&self, name: &str) -> Option<&'a Device> {
+        self.devices.iter().copied().find(|device| device.name == name)
+    }
+
+    /// What names lead to: a device and something of it, or something that one device alone has.
+    pub fn find<T: Row>(&self, names: &[Name]) -> Found<'a, T> {
+        let Some(first) = names.first() else { return Found::Nothing };
+        let device = self.device(&first.text);
+        if let (Some(device), Some(second)) = (device, names.get(1)) {
+            let row = T::rows(device).iter().find(|row| row.name() == second.text);
+            return row.map_or(Found::Device(device), |row| Found::Row(device, row, 2));
+        }
+        let mut having = self.devices.iter().copied().filter_map(|device| {
+            let row = T::rows(device).iter().find(|row| row.name() == first.text)?;
+            Some((device, row))
+        });
+        match (having.next(), having.next(), device) {
+            (Some((device, row)), None, _) => Found::Row(device, row, 1),
+            (Some((one, _)), Some((two, _)), _) => {
+                let more = having.map(|(device, _)| device);
+                Found::Several([one, two].into_iter().chain(more).collect())
+            }
+            (None, _, Some(device)) => Found::Device(device),
+            (None, _, None) => Found::Nothing,
+        }
+    }
+
+    /// How everything of a kind can be named: by its own name where no other device has it.
+    pub fn words<T: Row>(&self) -> Vec<String> {
+        let rows = || {
+            self.devices
+                .iter()
+                .flat_map(|device| T::rows(device).iter().map(move |row| (device, row)))
+        };
+        let alone = |row: &T| rows().filter(|(_, other)| other.name() == row.name()).count() == 1;
+        let word = |(device, row): (&&Device, &T)| match alone(row) {
+            true => row.name().to_owned(),
+            false => format!("{}.{}", device.name, row.name()),
+        };
+        rows().map(word).collect()
+    }
+
+    /// Says what the names of something mean, and gives those that are left.
+    pub fn record<'n, T: Row>(&self, names: &'n [Name], record: &Recorder) -> &'n [Name] {
+        let of_row = |name: &Name, row: &T| match row.span() {
+            Some(span) => record.definition(name.span, span),
+            None => record.word(name.span, Word::Fault),
+        };
+        match (self.find::<T>(names), names) {
+            (Found::Row(_, row, 1), [name, rest @ ..]) => {
+                of_row(name, row);
+                rest
+            }
+            (Found::Row(device, row, _), [home, name, rest @ ..]) => {
+                record.definition(home.span, device.span);
+                of_row(name, row);
+                rest
+            }
+            (Found::Device(device), [home, rest @ ..]) => {
+                record.definition(home.span, device.span);
+                rest
+            }
+            (Found::Several(devices), [name, rest @ ..]) => {
+                let rows = devices.iter().filter_map(|device| {
+                    T::rows(device).iter().find(|row| row.name() == name.text)?.span()
+                });
+                record.several(name.span, rows);
+                rest
+            }
+            (_, names) => names,
+        }
+    }
+}
+
+/// Names of something that several devices have, each with its device, for people.
+pub(super) fn with_devices(devices: &[&Device], name: &str) -> String {
+    let full: Vec<_> = devices.iter().map(|device| format!("{}.{name}", device.name)).collect();
+    words::list(full.iter().map(String::as_str), "or")
+}
+
+impl Row for Control {
+    fn rows(device: &Device) -> &[Control] {
+        &device.controls
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn span(&self) -> Option<Span> {
+        Some(self.span)
+    }
+}
+
+impl Row for Fault {
+    fn rows(device: &Device) -> &[Fault] {
+        &device.faults
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn span(&self) -> Option<Span> {
+        self.span
+    }
+}
+
+impl Row for Signal {
+    fn rows(device: &Device) -> &[Signal] {
+        &device.signals
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn span(&self) -> Option<Span> {
+        Some(self.span)
+    }
+}

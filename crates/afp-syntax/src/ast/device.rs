@@ -1,0 +1,173 @@
+//! Devices of a toolbox in the typed view.
+
+use super::{Formula, Name, Type, child, children, doc, range, token, views};
+use crate::kind::Kind;
+use crate::source::Span;
+
+views! {
+    /// `device`, `sensor` or `robot` with its parts.
+    Device
+    /// `press left right` or `stop escape`
+    Press
+    /// A control of a device.
+    Control
+    /// A fault of a device.
+    Fault
+    /// How much there is of a fault.
+    Amount
+    /// What a device signals.
+    Signal
+}
+
+/// What a device is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum DeviceKind {
+    /// A device.
+    Device,
+    /// A sensor: it also fails in the ways in which every sensor does.
+    Sensor,
+    /// The robot as a whole.
+    Robot,
+}
+
+/// A part of a device.
+#[derive(Clone, Debug)]
+pub enum DevicePart {
+    /// What can be pressed.
+    Press(Press),
+    /// A way in which it fails.
+    Fault(Fault),
+    /// What it signals.
+    Signal(Signal),
+}
+
+impl Device {
+    /// What its keyword says.
+    pub fn kind(&self) -> DeviceKind {
+        match self.keyword().map(|word| word.text).as_deref() {
+            Some("sensor") => DeviceKind::Sensor,
+            Some("robot") => DeviceKind::Robot,
+            _ => DeviceKind::Device,
+        }
+    }
+
+    /// `device`, `sensor` or `robot`, and its place.
+    pub fn keyword(&self) -> Option<Name> {
+        token(&self.node, Kind::Keyword, self.file)
+    }
+
+    /// Its name; the robot has none.
+    pub fn name(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+
+    /// Its `///` lines.
+    pub fn doc(&self) -> String {
+        doc(&self.node)
+    }
+
+    /// Its parts as written.
+    pub fn parts(&self) -> Vec<DevicePart> {
+        let file = self.file;
+        let part = |node: crate::Node| {
+            Some(match node.kind() {
+                Kind::Press => DevicePart::Press(Press::new(node, file)),
+                Kind::Fault => DevicePart::Fault(Fault::new(node, file)),
+                Kind::Signal => DevicePart::Signal(Signal::new(node, file)),
+                _ => return None,
+            })
+        };
+        self.node.children().filter_map(part).collect()
+    }
+}
+
+impl Press {
+    /// `press` or `stop`, and its place.
+    pub fn keyword(&self) -> Option<Name> {
+        token(&self.node, Kind::Keyword, self.file)
+    }
+
+    /// Its `///` lines, which describe all of its controls.
+    pub fn doc(&self) -> String {
+        doc(&self.node)
+    }
+
+    /// What can be pressed.
+    pub fn controls(&self) -> Vec<Control> {
+        let controls = children(&self.node, Kind::Control);
+        controls.map(|node| Control::new(node, self.file)).collect()
+    }
+}
+
+impl Control {
+    /// Its name.
+    pub fn name(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+
+    /// Its own `///` lines.
+    pub fn doc(&self) -> String {
+        doc(&self.node)
+    }
+}
+
+impl Fault {
+    /// Its name.
+    pub fn name(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+
+    /// Its `///` lines.
+    pub fn doc(&self) -> String {
+        doc(&self.node)
+    }
+
+    /// How much there can be of it.
+    pub fn amount(&self) -> Option<Amount> {
+        child(&self.node, Kind::Amount).map(|node| Amount::new(node, self.file))
+    }
+}
+
+impl Amount {
+    /// Its name.
+    pub fn name(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+
+    /// Its type.
+    pub fn ty(&self) -> Option<Type> {
+        child(&self.node, Kind::Type).map(|node| Type::new(node, self.file))
+    }
+
+    /// What is taken where nothing is said.
+    pub fn default(&self) -> Option<Formula> {
+        Formula::child_of(&self.node, self.file)
+    }
+
+    /// Least and greatest value, and the place of both.
+    pub fn range(&self) -> Option<(Formula, Formula, Span)> {
+        range(&self.node, self.file)
+    }
+}
+
+impl Signal {
+    /// `signal` or `truth`, and its place.
+    pub fn keyword(&self) -> Option<Name> {
+        token(&self.node, Kind::Keyword, self.file)
+    }
+
+    /// Its name.
+    pub fn name(&self) -> Option<Name> {
+        token(&self.node, Kind::Name, self.file)
+    }
+
+    /// Its `///` lines.
+    pub fn doc(&self) -> String {
+        doc(&self.node)
+    }
+
+    /// Its type.
+    pub fn ty(&self) -> Option<Type> {
+        child(&self.node, Kind::Type).map(|node| Type::new(node, self.file))
+    }
+}

@@ -1,0 +1,135 @@
+//! What the robot signals, as far as expectations are about it.
+
+use afp_core::devices::{DeviceRow, SignalId, SignalType, find_signal, signals};
+use afp_dsl::scenario::{Claim, Field, Part, Scenario};
+use afp_dsl::toolbox::Constant;
+use afp_run::quantity;
+use afp_session::SampleRef;
+
+/// The signals that expectations are about, with what they said last.
+#[derive(Default)]
+pub(crate) struct Signals(Vec<Followed>);
+
+struct Followed {
+    signal: Part,
+    field: Option<Field>,
+    id: SignalId,
+    /// The SI unit, empty for what is no quantity.
+    unit: &'static str,
+    said: Said,
+}
+
+/// What a signal said last.
+enum Said {
+    /// It said nothing yet.
+    Nothing,
+    /// There was nothing to measure, such as an echo.
+    Empty,
+    Value(Constant),
+}
+
+impl Signals {
+    /// Those that the expectations of a scenario are about.
+    ///
+    /// # Errors
+    /// The first one that the robot has not.
+    pub(crate) fn new(scenario: &Scenario, table: &'static [DeviceRow]) -> Result<Signals, Part> {
+        let mut all: Vec<Followed> = Vec::new();
+        for expectation in &scenario.expectations {
+            let Claim::Signal { signal, field, .. } = &expectation.claim else { continue };
+            let known = |each: &Followed| each.signal == *signal && each.field == *field;
+            if all.iter().any(known) {
+                continue;
+            }
+            let id = find_signal(table, &signal.device, &signal.name);
+            let id = id.ok_or_else(|| signal.clone())?;
+            let unit = unit(table, id, *field);
+            all.push(Followed {
+                signal: signal.clone(),
+                field: *field,
+                id,
+                unit,
+                said: Said::Nothing,
+            });
+        }
+        Ok(Signals(all))
+    }
+
+    /// Whether there are any.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Whether an expectation is about a signal.
+    pub(crate) fn wants(&self, id: SignalId) -> bool {
+        self.0.iter().any(|each| each.id == id)
+    }
+
+    /// A signal says something.
+    pub(crate) fn set(&mut self, id: SignalId, value: SampleRef<'_>) {
+        for each in self.0.iter_mut().filter(|each| each.id == id) {
+            each.said = said(value, each.field);
+        }
+    }
+
+    /// Whether what a signal said last is so; `None` where it said nothing yet.
+    pub(super) fn holds(
+        &self,
+        signal: &Part,
+        field: Option<Field>,
+        is_so: impl FnOnce(&Constant) -> bool,
+    ) -> Option<bool> {
+        match &self.find(signal, field)?.said {
+            Said::Nothing => None,
+            Said::Empty => Some(false),
+            Said::Value(value) => Some(is_so(value)),
+        }
+    }
+
+    /// What a signal says in the end, for people; `None` for what is true or false and needs no more words.
+    pub(super) fn shown(&self, signal: &Part, field: Option<Field>) -> Option<String> {
+        let each = self.find(signal, field)?;
+        match &each.said {
+            Said::Nothing => Some("the robot never said".to_owned()),
+            Said::Empty => Some("there was nothing in the end".to_owned()),
+            Said::Value(Constant::Bool(_) | Constant::Choice(_)) => None,
+            Said::Value(Constant::Int(number)) => Some(format!("in the end it is {number}")),
+            Said::Value(Constant::Float(number)) => {
+                Some(format!("in the end it is {}", quantity(*number, each.unit)))
+            }
+            Said::Value(Constant::Text(text)) => Some(format!("in the end it is \"{text}\"")),
+        }
+    }
+
+    fn find(&self, signal: &Part, field: Option<Field>) -> Option<&Followed> {
+        self.0.iter().find(|each| each.signal == *signal && each.field == field)
+    }
+}
+
+fn said(value: SampleRef<'_>, field: Option<Field>) -> Said {
+    Said::Value(match (value, field) {
+        (SampleRef::Bool(value), _) => Constant::Bool(value),
+        (SampleRef::Int(value), _) => Constant::Int(value),
+        (SampleRef::Float(value), _) => Constant::Float(value),
+        (SampleRef::Text(text), _) => Constant::Text(text.to_owned()),
+        (SampleRef::Pose(frame), Some(Field::X)) => Constant::Float(frame.pose.x),
+        (SampleRef::Pose(frame), Some(Field::Y)) => Constant::Float(frame.pose.y),
+        (SampleRef::Pose(frame), Some(Field::Heading)) => Constant::Float(frame.pose.heading),
+        (SampleRef::Range(reading), Some(Field::Distance)) => match reading.range {
+            Some(range) => Constant::Float(range),
+            None => return Said::Empty,
+        },
+        // The compiler names no part that a type has not.
+        _ => return Said::Empty,
+    })
+}
+
+fn unit(table: &'static [DeviceRow], id: SignalId, field: Option<Field>) -> &'static str {
+    let row = signals(table).find(|(known, ..)| *known == id);
+    match (row.map(|(_, _, row)| row.ty), field) {
+        (Some(SignalType::Float(unit)), _) => unit,
+        (_, Some(Field::Heading)) => "rad",
+        (_, Some(_)) => "m",
+        _ => "",
+    }
+}
