@@ -1,4 +1,4 @@
-//! The Escape key of the terminal as the robot's escape button.
+//! The Escape key of the terminal, which presses the control that stops what runs.
 
 #[cfg(unix)]
 pub(crate) use terminal::{Keys, give_back};

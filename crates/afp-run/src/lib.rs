@@ -61,6 +61,7 @@ where
     // The help of the options' own struct must not take the place of the program's.
     let command = RunOptions::augment_args(Command::new(program.name)).about(about);
     let command = command.long_about(None).after_help(EXAMPLES);
+    let command = options::for_robot(command, &kind::<R>());
     let matches = command.get_matches();
     match RunOptions::from_arg_matches(&matches) {
         Ok(options) => finish(run(&program, &kind::<R>(), Box::new(make), &options, None)),
@@ -80,8 +81,8 @@ pub fn finish(result: Result<u8, RunError>) -> ExitCode {
 pub const EXAMPLES: &str = "\
 Examples:
   --seed 7                        another robot, another noise
-  --set walldist=35cm             another value for an 'in' entry
-  --press escape@20s --json       press the button after 20 s; lines for machines
-  --speed 1x --until 2min         in real time; Escape presses the robot's button
+  --set distance=35cm             another value for an 'in' entry
+  --until 2min --json             two minutes; lines for machines
+  --speed 1x                      in real time; the Escape key presses what stops the robot
 
 Exit codes: 0 done, 1 a file cannot be read or written, 2 wrong options, 3 the plan ended in Error";

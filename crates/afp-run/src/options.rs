@@ -1,14 +1,17 @@
 //! The options of `afpc run` and of every generated binary.
 
+mod help;
 mod parse;
 
 use std::path::PathBuf;
 
 use afp_core::{Duration, Instant};
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use crate::error::RunError;
 
+pub use help::for_robot;
+pub(crate) use help::words;
 pub use parse::{Destination, Failure, Press, Speed, failure, press};
 
 /// How a run goes.
@@ -18,11 +21,7 @@ pub struct RunOptions {
     #[arg(long, value_name = "FILE")]
     pub world: Option<PathBuf>,
 
-    /// The robot that the plan drives
-    #[arg(long, value_name = "ROBOT", default_value = "sim")]
-    pub robot: Robot,
-
-    /// Sets an 'in' entry, with its unit, or a value of the world: --set walldist=35cm, --set world.robot.charge=0.5
+    /// Sets an 'in' entry, with its unit, or a value of the world: --set distance=35cm, --set world.KEY=VALUE
     #[arg(long, value_name = "ENTRY=VALUE", value_parser = parse::assignment)]
     pub set: Vec<(String, String)>,
 
@@ -38,15 +37,15 @@ pub struct RunOptions {
     #[arg(long, value_name = "SPEED", default_value = "max", value_parser = parse::speed)]
     pub speed: Speed,
 
-    /// Presses the robot's button or its bumper: --press escape@20s, --press touch@3s
-    #[arg(long, value_name = "BUTTON@TIME", value_parser = parse::press)]
+    /// Presses a control of the robot: --press NAME@3s, --press DEVICE.NAME@3s
+    #[arg(long, value_name = "CONTROL@TIME", value_parser = parse::press)]
     pub press: Vec<Press>,
 
-    /// Breaks something, for a while or for good: --fail ultrasonic.frozen@5s..7s, --fail wheels.slip=0.2@3s
-    #[arg(long, value_name = "DEVICE.KIND[=AMOUNT]@TIME[..TIME]", value_parser = parse::failure)]
+    /// Breaks something, for a while or for good: --fail DEVICE.FAULT@5s..7s, --fail DEVICE.FAULT=0.2@3s
+    #[arg(long, value_name = "DEVICE.FAULT[=AMOUNT]@TIME[..TIME]", value_parser = parse::failure)]
     pub fail: Vec<Failure>,
 
-    /// Judges the run by this measure of the robot, too: --measure wall
+    /// Judges the run by this measure of the robot, too
     #[arg(long, value_name = "NAME")]
     pub measure: Vec<String>,
 
@@ -75,15 +74,6 @@ pub struct RunOptions {
     pub rt_report: bool,
 }
 
-/// What a plan drives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Robot {
-    /// The simulated Carbot
-    Sim,
-    /// The Carbot's Raspberry Pi
-    Pi,
-}
-
 /// How long a run at full speed lasts unless told otherwise.
 const DEFAULT_UNTIL: Duration = Duration::from_secs(60);
 
@@ -93,9 +83,7 @@ impl RunOptions {
     /// # Errors
     /// [`RunError::Usage`] says what the option waits for.
     pub fn check(&self) -> Result<(), RunError> {
-        let refused = if self.robot == Robot::Pi {
-            ("'--robot pi' waits for the Raspberry Pi driver of afp-carbot", "use '--robot sim'")
-        } else if self.live.is_some() {
+        let refused = if self.live.is_some() {
             ("'--live' waits for the live server of afp-log", "write a log with '--log FILE'")
         } else if self.rt_report {
             (

@@ -1,14 +1,14 @@
 //! `--press` and `--fail` as requests of a session.
 
 use afp_core::devices::{
-    AmountRow, ControlId, DeviceRow, FaultId, controls, faults, find_control, find_stop,
+    AmountRow, ControlId, DeviceRow, FaultId, faults, find_control, find_stop,
 };
 use afp_core::{Duration, Instant};
 use afp_project::duration;
 use afp_session::{AnySession, HOLD, Request, RequestError};
 
 use crate::error::RunError;
-use crate::options::{Failure, Press};
+use crate::options::{Failure, Press, words};
 
 /// Asks a session for what the options say.
 ///
@@ -28,7 +28,7 @@ pub fn make(
     }
     for press in presses {
         let id = find_control(table, &press.control).ok_or_else(|| {
-            RunError::usage(no_control(table, &press.control), "press one of these")
+            RunError::usage(no_control(table, &press.control), "write '--press CONTROL@3s'")
         })?;
         hold(session, id, press.at).map_err(|why| refused(&press.to_string(), &why))?;
     }
@@ -55,8 +55,11 @@ fn refused(what: &str, why: &RequestError) -> RunError {
 
 /// What cannot be pressed, and what can.
 pub fn no_control(table: &[DeviceRow], name: &str) -> String {
-    let names: Vec<_> = controls(table).map(|(_, _, row)| format!("'{}'", row.name)).collect();
-    format!("the robot has no button '{name}'; it has {}", names.join(" and "))
+    let known: Vec<_> = words(table).into_iter().map(|(word, _)| format!("'{word}'")).collect();
+    match known.is_empty() {
+        true => format!("the robot has no control '{name}', nor any other"),
+        false => format!("the robot has no control '{name}'; it has {}", known.join(", ")),
+    }
 }
 
 /// A fault and its amount in SI units.
@@ -64,7 +67,11 @@ fn find_fault(table: &[DeviceRow], failure: &Failure) -> Result<(FaultId, Option
     let Failure { device, kind, .. } = failure;
     let mut all = faults(table);
     let found = all.find(|(_, at, row)| at.name == device && row.name == kind);
-    let wrong = |why: String| RunError::usage(why, "such as --fail ultrasonic.frozen@5s..7s");
+    let such = || match faults(table).next() {
+        Some((_, at, row)) => format!("such as --fail {}.{}@5s..7s", at.name, row.name),
+        None => "leave '--fail' out; nothing of this robot can fail".to_owned(),
+    };
+    let wrong = |why: String| RunError::usage(why, such());
     let (id, _, row) = found.ok_or_else(|| wrong(no_fault(table, device, kind)))?;
     let amount = failure.amount.as_deref().map(|text| amount(text, row.amount));
     Ok((id, amount.transpose().map_err(wrong)?))
@@ -129,7 +136,7 @@ mod tests {
             assert!(error.contains(says), "{text}: {error}");
         }
         assert!(
-            no_control(TABLE, "start").contains("no button 'start'; it has 'touch' and 'escape'")
+            no_control(TABLE, "start").contains("no control 'start'; it has 'touch', 'escape'")
         );
     }
 }

@@ -1,4 +1,4 @@
-//! Seeds, worlds and values as people write them: `0..1000`, `random:7..99`, `walldist=20cm..60cm:5cm`.
+//! Seeds, worlds and values as people write them: `0..1000`, `random:7..99`, `distance=20cm..60cm:5cm`.
 
 use std::fmt;
 use std::ops::Range;
@@ -79,7 +79,7 @@ pub fn worlds(text: &str) -> Result<Vec<String>, String> {
     }
 }
 
-/// What is varied and how: `walldist=20cm..60cm`, `walldist=20cm..60cm:5cm`, `walldist=20cm,30cm`.
+/// What is varied and how: `distance=20cm..60cm`, `distance=20cm..60cm:5cm`, `distance=20cm,30cm`.
 ///
 /// Both ends belong to a range. Without a step, whole numbers without a unit go one by one, and everything
 /// else in four equal steps.
@@ -89,7 +89,7 @@ pub fn worlds(text: &str) -> Result<Vec<String>, String> {
 pub fn axis(text: &str) -> Result<Axis, String> {
     let (name, values) = match text.split_once('=') {
         Some((name, values)) if !name.trim().is_empty() => (name.trim().to_owned(), values.trim()),
-        _ => return Err("expected what to vary, such as walldist=20cm..60cm".to_owned()),
+        _ => return Err("expected what to vary, such as distance=20cm..60cm".to_owned()),
     };
     let texts = match values.split_once("..") {
         Some((from, to)) => range(from, to)?,
@@ -175,7 +175,7 @@ mod tests {
     #[test]
     fn what_is_no_range_says_why() {
         for (text, why) in [
-            ("d", "such as walldist=20cm..60cm"),
+            ("d", "such as distance=20cm..60cm"),
             ("d=20cm..1m", "same unit"),
             ("d=a..b", "no number"),
             ("d=60cm..20cm:5cm", "no values lie in"),

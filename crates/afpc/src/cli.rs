@@ -1,5 +1,7 @@
 //! The command line's grammar.
 
+use afp_run::options::for_robot;
+use afp_session::AnyRobot;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::commands::{
@@ -65,9 +67,11 @@ Examples:
 
 Exit codes: 0 done, 1 a plan is wrong or a file cannot be read or written, 2 wrong usage, 3 the plan ended in Error";
 
-/// Reads the command line; does not come back when it asks for help or makes no sense.
-pub fn parse() -> Command {
-    let matches = command().get_matches();
+/// Reads the command line; does not come back when it asks for help or makes no sense. The help of `run` has
+/// the words of the robot.
+pub fn parse(robot: &dyn AnyRobot) -> Command {
+    let command = command().mut_subcommand("run", |run| for_robot(run, robot));
+    let matches = command.get_matches();
     if let Some((name, _)) = matches.subcommand()
         && let Some(error) = later::refusal(name)
     {

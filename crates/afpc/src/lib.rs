@@ -40,5 +40,5 @@ fn robot(linked: &[Linked]) -> impl Loader {
 
 /// The whole program.
 pub fn main(linked: &'static [Linked]) -> ExitCode {
-    commands::dispatch(&cli::parse(), linked)
+    commands::dispatch(&cli::parse(&robot(linked)), linked)
 }

@@ -111,7 +111,7 @@ fn entries_are_set_with_their_units() {
     run("--set walldist=35deg").fails(2, &["not a length", "a number and a unit: "]);
     run("--set wall=1m").fails(2, &["no entry 'wall'", "can be set: 'walldist' (length)"]);
     run("--set wallangle=1rad").fails(2, &["'wallangle' cannot be set", "'in' entry"]);
-    run("--set walldist").fails(2, &["walldist=35cm"]);
+    run("--set walldist").fails(2, &["distance=35cm"]);
 }
 
 #[test]
@@ -128,13 +128,14 @@ fn an_entry_without_a_value_is_asked_for() {
 fn options_that_wait_for_something_say_for_what() {
     let place = Place::with_plan();
     for (option, text) in [
-        ("--robot pi", "'--robot pi' waits for the Raspberry Pi driver"),
         ("--live 8765", "'--live' waits for the live server"),
         ("--rt-report", "'--rt-report' waits for the real-time driver"),
     ] {
         place.afpc(&format!("run wall_following.afp {option}")).fails(2, &[text, "help: "]);
     }
-    place.afpc("run wall_following.afp --press start@1s").fails(2, &["no button 'start'"]);
+    place
+        .afpc("run wall_following.afp --press start@1s")
+        .fails(2, &["no control 'start'; it has 'touch', 'escape'"]);
     place.afpc("run wall_following.afp --fail sonar.lost@1s").fails(2, &["there are battery, "]);
     place.afpc("run wall_following.afp --until 5").fails(2, &["20s or 500ms"]);
     assert_eq!(place.files(), ["wall_following.afp"]);

@@ -78,13 +78,13 @@ pub(super) fn speed(text: &str) -> Result<Speed, String> {
     }
 }
 
-/// Reads `escape@20s`. Whether there is such a control, the robot knows.
+/// Reads `start@20s`. Whether there is such a control, the robot knows.
 ///
 /// # Errors
 /// It is not written so.
 pub fn press(text: &str) -> Result<Press, String> {
     let (control, time) =
-        text.split_once('@').ok_or("expected a button and a time, such as escape@20s")?;
+        text.split_once('@').ok_or("expected a control and a time, CONTROL@20s")?;
     Ok(Press { control: control.to_owned(), at: instant(time)? })
 }
 
@@ -95,7 +95,7 @@ pub fn press(text: &str) -> Result<Press, String> {
 pub fn failure(text: &str) -> Result<Failure, String> {
     let (what, when) = text
         .split_once('@')
-        .ok_or("expected what fails, how and when, such as ultrasonic.frozen@5s..7s")?;
+        .ok_or("expected what fails, how and when, DEVICE.FAULT@5s or DEVICE.FAULT@5s..7s")?;
     let (what, amount) = match what.split_once('=') {
         Some((what, amount)) => (what, Some(amount.to_owned())),
         None => (what, None),
@@ -120,7 +120,7 @@ pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
         Some((name, value)) if !name.trim().is_empty() => {
             Ok((name.trim().to_owned(), value.trim().to_owned()))
         }
-        _ => Err("expected an entry and its value, such as walldist=35cm".to_owned()),
+        _ => Err("expected an entry and its value, such as distance=35cm".to_owned()),
     }
 }
 
@@ -160,7 +160,7 @@ mod tests {
     #[test]
     fn what_fails_has_a_time_that_goes_on() {
         for (text, says) in [
-            ("ultrasonic.frozen", "such as ultrasonic.frozen@5s..7s"),
+            ("ultrasonic.frozen", "DEVICE.FAULT@5s..7s"),
             ("touch.lost@3s..2s", "it ends before it begins"),
             ("touch.lost@3", "20s or 500ms"),
         ] {
