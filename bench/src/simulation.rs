@@ -136,7 +136,7 @@ impl RobotSink for Recorder {
                 half_angle: 0.26,
                 range: sonar.distance,
             };
-            self.ranging(snapshot.time, ranging);
+            self.ranging(snapshot.time, "ultrasonic", ranging, 0.15);
         }
     }
 }

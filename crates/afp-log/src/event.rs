@@ -1,40 +1,260 @@
-//! Trace records as messages: names beside ids, so that a reader needs no tables.
+//! What happened as messages of the file, and back: names beside ids, so that a reader needs no tables.
 
 use afp_core::trace::{
-    self, Author, Cause, ComponentId, ComponentName, ERROR, Ending, EntryName, Names, Record,
-    TraceEntryId, Verdict,
+    self, Cause, ComponentId, ComponentName, ERROR, EntryName, Names, TraceEntryId,
 };
-use afp_core::{Duration, Fault, Instant, ValueRef};
+use afp_core::{Duration, Instant, ValueRef};
+use afp_session::{Datum, Done, EndingKind, EventKind, Miss, Requested, RunEvent, Stimulus};
 use prost_types::Timestamp;
 
 use crate::proto::afp::plan_event::{self, Kind};
 use crate::proto::afp::plan_table::{Component, Outcome};
-use crate::proto::afp::{Entry, PlanEvent, PlanTable, Value, plan_table, value};
+use crate::proto::afp::request::{self, Became, Output};
+use crate::proto::afp::{Entry, PlanEvent, PlanTable, Request, Value, plan_table, value};
+use crate::read::instant;
 
-/// A record as a message.
-pub fn describe(at: Instant, record: &Record<'_>, names: &(impl Names + ?Sized)) -> PlanEvent {
-    let teller = Teller { names };
-    let mut event = teller.describe(record);
-    event.time = Some(timestamp(at));
-    event
+/// What happened, as a message.
+pub(crate) fn encode(event: RunEvent) -> PlanEvent {
+    let kind = kind(event.kind);
+    let missed = event.missed;
+    let cause = missed.and_then(|miss| miss.cause);
+    PlanEvent {
+        time: Some(timestamp(event.at)),
+        kind: kind.into(),
+        component: event.component,
+        outcome: event.outcome,
+        target: event.target,
+        entry: event.entry,
+        port: event.port,
+        old: event.old.map(encode_value),
+        value: event.value.map(encode_value),
+        supervisor: event.supervisor,
+        fault: event.fault,
+        fault_text: event.fault_text,
+        lateness_ns: missed.map_or(0, |miss| miss.lateness.as_nanos()),
+        cause: match cause {
+            None => plan_event::Cause::NoCause,
+            Some(Cause::LateRelease) => plan_event::Cause::LateRelease,
+            Some(Cause::LongPoll) => plan_event::Cause::LongPoll,
+        }
+        .into(),
+        skipped: missed.map_or(0, |miss| miss.skipped),
+        ending: match event.ending {
+            None => plan_event::Ending::NotEnded,
+            Some(EndingKind::Ok) => plan_event::Ending::Ok,
+            Some(EndingKind::Interrupted) => plan_event::Ending::EndedInterrupted,
+            Some(EndingKind::Error) => plan_event::Ending::Error,
+        }
+        .into(),
+        lost: event.lost,
+        asked_ns: event.asked.map_or(0, Instant::as_nanos),
+        component_id: event.component_id.0,
+        outcome_id: event.outcome_id.into(),
+        entry_id: event.entry_id.0,
+        supervisor_id: event.supervisor_id.0,
+        unit: event.unit,
+        request: event.request.map(encode_request),
+    }
+}
+
+/// What a message says.
+pub(crate) fn decode(message: PlanEvent) -> RunEvent {
+    let kind = known(message.kind());
+    let missed = (kind == EventKind::Missed).then(|| Miss {
+        lateness: Duration::from_nanos(message.lateness_ns),
+        cause: match message.cause() {
+            plan_event::Cause::NoCause => None,
+            plan_event::Cause::LateRelease => Some(Cause::LateRelease),
+            plan_event::Cause::LongPoll => Some(Cause::LongPoll),
+        },
+        skipped: message.skipped,
+    });
+    let ending = match message.ending() {
+        plan_event::Ending::NotEnded => None,
+        plan_event::Ending::Ok => Some(EndingKind::Ok),
+        plan_event::Ending::EndedInterrupted => Some(EndingKind::Interrupted),
+        plan_event::Ending::Error => Some(EndingKind::Error),
+    };
+    let asked = Instant::from_nanos(message.asked_ns);
+    RunEvent {
+        at: instant(&message.time),
+        kind,
+        missed,
+        ending,
+        asked: (kind == EventKind::ClockWentBack).then_some(asked),
+        component: message.component,
+        component_id: ComponentId(message.component_id),
+        outcome: message.outcome,
+        // Positions are below this; a damaged one is that of nothing.
+        outcome_id: u16::try_from(message.outcome_id).unwrap_or(u16::MAX),
+        target: message.target,
+        supervisor: message.supervisor,
+        supervisor_id: ComponentId(message.supervisor_id),
+        entry: message.entry,
+        entry_id: TraceEntryId(message.entry_id),
+        port: message.port,
+        old: message.old.map(decode_value),
+        value: message.value.map(decode_value),
+        unit: message.unit,
+        fault: message.fault,
+        fault_text: message.fault_text,
+        lost: message.lost,
+        request: message.request.and_then(decode_request),
+    }
+}
+
+fn kind(kind: EventKind) -> Kind {
+    match kind {
+        EventKind::Unknown => Kind::Unknown,
+        EventKind::ClockWentBack => Kind::ClockWentBack,
+        EventKind::StopRequested => Kind::StopRequested,
+        EventKind::Requested => Kind::Requested,
+        EventKind::Injected => Kind::Injected,
+        EventKind::Polled => Kind::Polled,
+        EventKind::Missed => Kind::Missed,
+        EventKind::Event => Kind::Event,
+        EventKind::AlreadyThere => Kind::AlreadyThere,
+        EventKind::Interrupted => Kind::Interrupted,
+        EventKind::Finished => Kind::Finished,
+        EventKind::Committed => Kind::Committed,
+        EventKind::Input => Kind::Input,
+        EventKind::Started => Kind::Started,
+        EventKind::Diverted => Kind::Diverted,
+        EventKind::Faulted => Kind::Faulted,
+        EventKind::Ended => Kind::Ended,
+        EventKind::Lost => Kind::Lost,
+    }
+}
+
+fn known(kind: Kind) -> EventKind {
+    match kind {
+        Kind::Unknown => EventKind::Unknown,
+        Kind::ClockWentBack => EventKind::ClockWentBack,
+        Kind::StopRequested => EventKind::StopRequested,
+        Kind::Requested => EventKind::Requested,
+        Kind::Injected => EventKind::Injected,
+        Kind::Polled => EventKind::Polled,
+        Kind::Missed => EventKind::Missed,
+        Kind::Event => EventKind::Event,
+        Kind::AlreadyThere => EventKind::AlreadyThere,
+        Kind::Interrupted => EventKind::Interrupted,
+        Kind::Finished => EventKind::Finished,
+        Kind::Committed => EventKind::Committed,
+        Kind::Input => EventKind::Input,
+        Kind::Started => EventKind::Started,
+        Kind::Diverted => EventKind::Diverted,
+        Kind::Faulted => EventKind::Faulted,
+        Kind::Ended => EventKind::Ended,
+        Kind::Lost => EventKind::Lost,
+    }
+}
+
+/// A value as a message.
+pub(crate) fn encode_value(datum: Datum) -> Value {
+    Value {
+        value: match datum {
+            Datum::Unset => None,
+            Datum::Truth(truth) => Some(value::Value::Truth(truth)),
+            Datum::Integer(integer) => Some(value::Value::Integer(integer)),
+            Datum::Number(number) => Some(value::Value::Number(number)),
+            Datum::Text(text) => Some(value::Value::Text(text)),
+            Datum::Choice(choice) => Some(value::Value::Choice(choice)),
+            Datum::Object(object) => Some(value::Value::Object(object)),
+        },
+    }
+}
+
+/// What the message of a value says.
+pub(crate) fn decode_value(message: Value) -> Datum {
+    match message.value {
+        None => Datum::Unset,
+        Some(value::Value::Truth(truth)) => Datum::Truth(truth),
+        Some(value::Value::Integer(integer)) => Datum::Integer(integer),
+        Some(value::Value::Number(number)) => Datum::Number(number),
+        Some(value::Value::Text(text)) => Datum::Text(text),
+        Some(value::Value::Choice(choice)) => Datum::Choice(choice),
+        Some(value::Value::Object(object)) => Datum::Object(object),
+    }
+}
+
+fn encode_request(request: Requested) -> Request {
+    let Requested { at, what, done } = request;
+    let about =
+        |kind: request::Kind, name| Request { kind: kind.into(), name, ..Request::default() };
+    let message = match what {
+        Stimulus::Write { entry, value, unit } => {
+            Request { value: Some(encode_value(value)), unit, ..about(request::Kind::Write, entry) }
+        }
+        Stimulus::Press { control, held: true } => about(request::Kind::Press, control),
+        Stimulus::Press { control, held: false } => about(request::Kind::Release, control),
+        Stimulus::Break { fault, amount, lasting } => Request {
+            amount,
+            lasting_ns: (lasting != Duration::MAX).then_some(lasting.as_nanos()),
+            ..about(request::Kind::Fail, fault)
+        },
+        Stimulus::Inject { component, outcome, outputs } => {
+            let output = |(port, value): (u16, Datum)| Output {
+                port: port.into(),
+                value: Some(encode_value(value)),
+            };
+            let outputs = outputs.into_iter().map(output).collect();
+            Request { outcome, outputs, ..about(request::Kind::Fire, component) }
+        }
+        Stimulus::Idle { element } => about(request::Kind::Idle, element.unwrap_or_default()),
+        Stimulus::Stop => about(request::Kind::Stop, String::new()),
+    };
+    let (became, why) = match done {
+        Done::Done => (Became::Done, String::new()),
+        Done::Refused(why) => (Became::Refused, why),
+        Done::NotReached => (Became::NotReached, String::new()),
+    };
+    Request { at_ns: at.as_nanos(), became: became.into(), why, ..message }
+}
+
+/// What the message of a request says; none for a kind that this release does not know.
+fn decode_request(message: Request) -> Option<Requested> {
+    let done = match message.became() {
+        Became::Done => Done::Done,
+        Became::Refused => Done::Refused(message.why.clone()),
+        Became::NotReached => Done::NotReached,
+    };
+    let at = Instant::from_nanos(message.at_ns);
+    let (kind, name) = (message.kind(), message.name);
+    let value = |value: Option<Value>| value.map_or(Datum::Unset, decode_value);
+    let what = match kind {
+        request::Kind::Unknown => return None,
+        request::Kind::Write => {
+            Stimulus::Write { entry: name, value: value(message.value), unit: message.unit }
+        }
+        request::Kind::Press => Stimulus::Press { control: name, held: true },
+        request::Kind::Release => Stimulus::Press { control: name, held: false },
+        request::Kind::Fail => Stimulus::Break {
+            fault: name,
+            amount: message.amount,
+            lasting: message.lasting_ns.map_or(Duration::MAX, Duration::from_nanos),
+        },
+        request::Kind::Fire => {
+            let output =
+                |output: Output| Some((u16::try_from(output.port).ok()?, value(output.value)));
+            let outputs = message.outputs.into_iter().filter_map(output).collect();
+            Stimulus::Inject { component: name, outcome: message.outcome, outputs }
+        }
+        request::Kind::Idle => {
+            Stimulus::Idle { element: Some(name).filter(|name| !name.is_empty()) }
+        }
+        request::Kind::Stop => Stimulus::Stop,
+    };
+    Some(Requested { at, what, done })
 }
 
 /// A value of an entry as a message.
-pub fn entry(names: &(impl Names + ?Sized), id: TraceEntryId, value: ValueRef<'_>) -> Entry {
+pub(crate) fn entry(names: &(impl Names + ?Sized), id: TraceEntryId, value: ValueRef<'_>) -> Entry {
     let EntryName { path, ty, unit, .. } = names.entry(id);
     Entry {
         name: path.to_owned(),
         r#type: ty.to_owned(),
         unit: unit.to_owned(),
-        value: Some(Teller { names }.value(Some(id), value)),
-    }
-}
-
-/// The author of a commit: a path, or `outside`.
-pub fn author(names: &(impl Names + ?Sized), author: Author) -> String {
-    match author {
-        Author::Component(id) => names.component(id).path.to_owned(),
-        Author::Outside => "outside".to_owned(),
+        value: Some(encode_value(Datum::new(names, Some(id), value))),
     }
 }
 
@@ -71,233 +291,9 @@ pub(crate) fn table(names: &(impl Names + ?Sized)) -> PlanTable {
     }
 }
 
-/// The record behind an event of a log, as far as counting it matters: without values, and with one fault for all.
-/// `None` where it says nothing about components.
-pub fn record(event: &PlanEvent) -> Option<Record<'static>> {
-    let component = ComponentId(event.component_id);
-    let outcome = u16::try_from(event.outcome_id).ok()?;
-    let none = ValueRef::Unset;
-    Some(match event.kind() {
-        Kind::Started => Record::Started { component },
-        Kind::Finished => Record::Finished { element: component, state: outcome },
-        Kind::Interrupted => Record::Interrupted { element: component },
-        Kind::Event => Record::Event { supervisor: component, event: outcome },
-        Kind::Faulted => Record::Faulted { component, fault: Fault::INTERNAL },
-        Kind::Polled => Record::Polled { supervisor: component, verdict: Verdict::Clear },
-        Kind::Missed => Record::Missed {
-            supervisor: component,
-            lateness: Duration::from_nanos(event.lateness_ns),
-            cause: match event.cause() {
-                plan_event::Cause::LongPoll => Cause::LongPoll,
-                plan_event::Cause::LateRelease | plan_event::Cause::NoCause => Cause::LateRelease,
-            },
-            skipped: event.skipped,
-        },
-        Kind::Ended => Record::Ended {
-            plan: component,
-            ending: match event.ending() {
-                plan_event::Ending::Error => Ending::Error(Fault::INTERNAL),
-                plan_event::Ending::EndedInterrupted => Ending::Interrupted,
-                plan_event::Ending::Ok | plan_event::Ending::NotEnded => Ending::Ok,
-            },
-        },
-        Kind::Committed => Record::Committed {
-            author: match event.component_id {
-                u32::MAX => Author::Outside,
-                _ => Author::Component(component),
-            },
-            entry: TraceEntryId(event.entry_id),
-            old: none,
-            new: none,
-        },
-        _ => return None,
-    })
-}
-
 /// An instant as protobuf writes it.
 pub(crate) fn timestamp(at: Instant) -> Timestamp {
     let nanos = at.as_nanos();
     // Both fit: a u64 holds 584 years of nanoseconds.
     Timestamp { seconds: (nanos / 1_000_000_000) as i64, nanos: (nanos % 1_000_000_000) as i32 }
-}
-
-struct Teller<'a, N: ?Sized> {
-    names: &'a N,
-}
-
-impl<N: Names + ?Sized> Teller<'_, N> {
-    fn describe(&self, record: &Record<'_>) -> PlanEvent {
-        match *record {
-            Record::ClockWentBack { asked } => {
-                PlanEvent { asked_ns: asked.as_nanos(), ..self.about(Kind::ClockWentBack, 0) }
-            }
-            Record::StopRequested => self.about(Kind::StopRequested, 0),
-            Record::Injected { component, outcome } => PlanEvent {
-                // Where it leads is told when it is taken.
-                target: String::new(),
-                ..self.outcome(Kind::Injected, component, outcome)
-            },
-            Record::Polled { supervisor, verdict } => self.polled(supervisor, verdict),
-            Record::Missed { supervisor, lateness, cause, skipped } => PlanEvent {
-                lateness_ns: lateness.as_nanos(),
-                cause: match cause {
-                    Cause::LateRelease => plan_event::Cause::LateRelease,
-                    Cause::LongPoll => plan_event::Cause::LongPoll,
-                }
-                .into(),
-                skipped,
-                ..self.about(Kind::Missed, supervisor.0)
-            },
-            Record::Event { supervisor, event } => self.outcome(Kind::Event, supervisor, event),
-            Record::AlreadyThere { supervisor, event } => {
-                self.outcome(Kind::AlreadyThere, supervisor, event)
-            }
-            Record::Interrupted { element } => self.about(Kind::Interrupted, element.0),
-            Record::Finished { element, state } => self.outcome(Kind::Finished, element, state),
-            Record::Committed { author, entry, old, new } => {
-                self.committed(author, entry, old, new)
-            }
-            Record::Input { component, port, value } => PlanEvent {
-                port: self.names.input(component, port).to_owned(),
-                value: Some(self.value(None, value)),
-                ..self.about(Kind::Input, component.0)
-            },
-            Record::Started { component } => self.about(Kind::Started, component.0),
-            Record::Diverted { element, supervisor, event } => PlanEvent {
-                component: self.path(element),
-                component_id: element.0,
-                supervisor: self.path(supervisor),
-                supervisor_id: supervisor.0,
-                ..self.outcome(Kind::Diverted, supervisor, event)
-            },
-            Record::Faulted { component, fault } => self.fault(Kind::Faulted, component.0, fault),
-            Record::Ended { plan, ending } => self.ended(plan, ending),
-        }
-    }
-
-    fn path(&self, id: ComponentId) -> String {
-        self.names.component(id).path.to_owned()
-    }
-
-    fn about(&self, kind: Kind, id: u32) -> PlanEvent {
-        let component = self.path(ComponentId(id));
-        PlanEvent { kind: kind.into(), component, component_id: id, ..PlanEvent::default() }
-    }
-
-    fn outcome(&self, kind: Kind, id: ComponentId, outcome: u16) -> PlanEvent {
-        PlanEvent {
-            outcome: self.names.outcome(id, outcome).to_owned(),
-            target: self.names.target(id, outcome).to_owned(),
-            outcome_id: outcome.into(),
-            ..self.about(kind, id.0)
-        }
-    }
-
-    fn fault(&self, kind: Kind, id: u32, fault: Fault) -> PlanEvent {
-        PlanEvent {
-            fault: fault.code().to_owned(),
-            fault_text: fault.to_string(),
-            ..self.about(kind, id)
-        }
-    }
-
-    fn polled(&self, supervisor: ComponentId, verdict: Verdict) -> PlanEvent {
-        match verdict {
-            Verdict::Clear => self.about(Kind::Polled, supervisor.0),
-            Verdict::Event(event) => {
-                // Where the event leads is told when it is taken.
-                PlanEvent { target: String::new(), ..self.outcome(Kind::Polled, supervisor, event) }
-            }
-            Verdict::Fault(fault) => self.fault(Kind::Polled, supervisor.0, fault),
-        }
-    }
-
-    fn committed(
-        &self,
-        by: Author,
-        entry: TraceEntryId,
-        old: ValueRef<'_>,
-        new: ValueRef<'_>,
-    ) -> PlanEvent {
-        let EntryName { path, unit, .. } = self.names.entry(entry);
-        PlanEvent {
-            kind: Kind::Committed.into(),
-            component: author(self.names, by),
-            component_id: match by {
-                Author::Component(id) => id.0,
-                Author::Outside => u32::MAX,
-            },
-            entry: path.to_owned(),
-            entry_id: entry.0,
-            unit: unit.to_owned(),
-            old: Some(self.value(Some(entry), old)),
-            value: Some(self.value(Some(entry), new)),
-            ..PlanEvent::default()
-        }
-    }
-
-    fn ended(&self, plan: ComponentId, ending: Ending) -> PlanEvent {
-        let with = |ending: plan_event::Ending| PlanEvent {
-            ending: ending.into(),
-            ..self.about(Kind::Ended, plan.0)
-        };
-        match ending {
-            Ending::Ok => with(plan_event::Ending::Ok),
-            Ending::Interrupted => with(plan_event::Ending::EndedInterrupted),
-            Ending::Error(fault) => PlanEvent {
-                ending: plan_event::Ending::Error.into(),
-                ..self.fault(Kind::Ended, plan.0, fault)
-            },
-        }
-    }
-
-    fn value(&self, entry: Option<TraceEntryId>, value: ValueRef<'_>) -> Value {
-        let ty = || entry.map_or("", |id| self.names.entry(id).ty);
-        let kind = match value {
-            ValueRef::Unset => None,
-            ValueRef::Bool(truth) => Some(value::Value::Truth(truth)),
-            ValueRef::Int(integer) => Some(value::Value::Integer(integer)),
-            ValueRef::Float(number) => Some(value::Value::Number(number)),
-            ValueRef::Text(text) => Some(value::Value::Text(text.to_owned())),
-            ValueRef::Choice(choice) => Some(value::Value::Choice(match entry {
-                Some(id) => format!("{}.{}", ty(), self.names.choice(id, choice)),
-                None => format!("#{choice}"),
-            })),
-            ValueRef::Object(commit) => Some(value::Value::Object(format!("{}#{commit}", ty()))),
-        };
-        Value { value: kind }
-    }
-}
-
-/// How a plan ended, in a word; empty while it runs.
-pub fn ending_word(ending: plan_event::Ending) -> &'static str {
-    match ending {
-        plan_event::Ending::NotEnded => "",
-        plan_event::Ending::Ok => "ok",
-        plan_event::Ending::EndedInterrupted => "interrupted",
-        plan_event::Ending::Error => "error",
-    }
-}
-
-/// What happened, in a word, as JSON and Python tell it.
-pub fn kind_word(kind: plan_event::Kind) -> &'static str {
-    match kind {
-        Kind::Unknown => "unknown",
-        Kind::ClockWentBack => "clock_went_back",
-        Kind::StopRequested => "stop_requested",
-        Kind::Polled => "polled",
-        Kind::Missed => "missed",
-        Kind::Event => "event",
-        Kind::AlreadyThere => "already_there",
-        Kind::Interrupted => "interrupted",
-        Kind::Finished => "finished",
-        Kind::Committed => "committed",
-        Kind::Input => "input",
-        Kind::Started => "started",
-        Kind::Diverted => "diverted",
-        Kind::Faulted => "faulted",
-        Kind::Ended => "ended",
-        Kind::Lost => "lost",
-        Kind::Injected => "injected",
-    }
 }

@@ -36,13 +36,13 @@ pub(crate) fn pose(at: Instant, frame: &str, at_pose: Pose2) -> PoseInFrame {
     }
 }
 
-/// Without an echo the scan has no ranges: infinity would read as free space.
-pub(crate) fn ranging(ranging: &Ranging) -> LaserScan {
+/// What a range sensor says that stands so high, metres. Without an echo the scan has no ranges: infinity would read as free space.
+pub(crate) fn ranging(ranging: &Ranging, height: f64) -> LaserScan {
     LaserScan {
         timestamp: Some(timestamp(ranging.time)),
         frame_id: ranging.frame.to_owned(),
         pose: Some(Pose {
-            position: Some(place(ranging.pose, 0.0)),
+            position: Some(place(ranging.pose, height)),
             orientation: Some(turned(ranging.pose.heading)),
         }),
         start_angle: -ranging.half_angle,

@@ -6,11 +6,12 @@
 
 mod doctor;
 mod error;
-pub mod event;
+mod event;
 mod foxglove;
 mod names;
-pub mod proto;
+mod proto;
 mod read;
+mod recipe;
 mod recorder;
 mod recover;
 pub mod robot;
@@ -23,7 +24,8 @@ pub use afp_session::{Kept, OwnedRecord};
 pub use doctor::doctor;
 pub use error::LogError;
 pub use names::NameTable;
-pub use read::{Heard, LogData, TopicInfo, instant, read};
-pub use recorder::{About, FRAMES, Recorder, WhenFull, Written};
+pub use read::{Configured, Heard, LogData, TopicInfo, read};
+pub use recipe::WORLD;
+pub use recorder::{About, FRAMES, Recorder, Signal, WhenFull, Written};
 pub use recover::{Recovered, recover, recovered_name};
 pub use session::SessionLog;

@@ -44,7 +44,7 @@ impl NameTable {
     }
 
     /// The names that a log keeps: those of components, not of entries.
-    pub fn from_table(table: &PlanTable) -> Self {
+    pub(crate) fn from_table(table: &PlanTable) -> Self {
         let outcome =
             |outcome: &plan_table::Outcome| (outcome.name.clone(), outcome.target.clone());
         let component = |row: &plan_table::Component| Component {

@@ -4,12 +4,15 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use afp_core::Instant;
+use afp_session::{Datum, RunEvent};
 use mcap::records::Record;
 use prost::Message;
 use prost_types::Timestamp;
 
 use crate::error::LogError;
-use crate::proto::afp::{Configuration, PlanEvent, PlanTable};
+use crate::event::{decode, decode_value};
+use crate::names::NameTable;
+use crate::proto::afp::{Configuration, Entry, PlanEvent, PlanTable, Sample};
 use crate::proto::foxglove::{
     CompressedImage, FrameTransform, FrameTransforms, LaserScan, Pose, PoseInFrame, Quaternion,
     Vector3,
@@ -24,19 +27,23 @@ pub struct LogData {
     pub facts: BTreeMap<String, String>,
     /// The attachments that are text, by name.
     pub attachments: BTreeMap<String, String>,
-    /// What the plan consists of.
-    pub table: PlanTable,
+    /// What the run came to, once it was over: its metadata record `afp.end`.
+    pub end: BTreeMap<String, String>,
+    /// What the plan consists of; the names of its entries stand in what happened.
+    pub names: NameTable,
     /// What happened, in order.
-    pub events: Vec<PlanEvent>,
+    pub events: Vec<RunEvent>,
     /// The configuration at the start and after each commit.
-    pub configurations: Vec<Configuration>,
+    pub configurations: Vec<Configured>,
+    /// What devices said, by `DEVICE/SIGNAL`, whenever they said something else.
+    pub samples: BTreeMap<String, Vec<(Instant, Datum)>>,
     /// Where the robot was.
     pub poses: Vec<(Instant, Pose2)>,
     /// Where the robot believed to be.
     pub believed: Vec<(Instant, Pose2)>,
-    /// What the range sensor said.
+    /// What range sensors said.
     pub rangings: Vec<Heard>,
-    /// What the camera saw: when, and the picture as a PNG file.
+    /// What cameras saw: when, and the picture as a PNG file.
     pub images: Vec<(Instant, Vec<u8>)>,
     /// The channels by topic.
     pub topics: BTreeMap<String, TopicInfo>,
@@ -48,7 +55,18 @@ pub struct LogData {
     pub cut_short: Option<String>,
 }
 
-/// A reading of the range sensor.
+/// All entries after a commit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Configured {
+    /// When.
+    pub at: Instant,
+    /// Who wrote, or `outside`; empty at the start.
+    pub author: String,
+    /// The paths of the entries and their values.
+    pub entries: Vec<(String, Datum)>,
+}
+
+/// A reading of a range sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Heard {
     /// When it was taken.
@@ -96,7 +114,7 @@ pub fn read(path: &Path) -> Result<LogData, LogError> {
 }
 
 /// The instant of a protobuf time stamp; one before zero counts as zero.
-pub fn instant(time: &Option<Timestamp>) -> Instant {
+pub(crate) fn instant(time: &Option<Timestamp>) -> Instant {
     let Some(Timestamp { seconds, nanos }) = *time else { return Instant::ZERO };
     let (seconds, nanos) = (u64::try_from(seconds), u64::try_from(nanos));
     let (seconds, nanos) = (seconds.unwrap_or(0), nanos.unwrap_or(0));
@@ -107,7 +125,8 @@ pub fn instant(time: &Option<Timestamp>) -> Instant {
 struct Reader {
     log: LogData,
     schemas: BTreeMap<u16, String>,
-    channels: BTreeMap<u16, String>,
+    /// Topic and schema.
+    channels: BTreeMap<u16, (String, String)>,
     footer: bool,
 }
 
@@ -120,24 +139,29 @@ impl Reader {
             Record::Channel(channel) => {
                 let schema = self.schemas.get(&channel.schema_id).cloned().unwrap_or_default();
                 let topic = self.log.topics.entry(channel.topic.clone()).or_default();
-                topic.schema = schema;
-                self.channels.insert(channel.id, channel.topic);
+                topic.schema.clone_from(&schema);
+                self.channels.insert(channel.id, (channel.topic, schema));
             }
             Record::Message { header, data } => {
-                let Some(topic) = self.channels.get(&header.channel_id).cloned() else { return };
+                let Some((topic, schema)) = self.channels.get(&header.channel_id).cloned() else {
+                    return;
+                };
                 if let Some(info) = self.log.topics.get_mut(&topic) {
                     info.messages += 1;
                 }
                 let at = Instant::from_nanos(header.log_time);
                 let (first, last) = self.log.span.unwrap_or((at, at));
                 self.log.span = Some((first.min(at), last.max(at)));
-                if let Err(error) = self.message(&topic, at, &data) {
+                if let Err(error) = self.message(&topic, &schema, at, &data) {
                     let said = format!("a message on {topic} does not decode: {error}");
                     self.log.cut_short.get_or_insert(said);
                 }
             }
             Record::Metadata(metadata) if metadata.name == "afp.run" => {
                 self.log.facts = metadata.metadata;
+            }
+            Record::Metadata(metadata) if metadata.name == "afp.end" => {
+                self.log.end = metadata.metadata;
             }
             Record::Attachment { header, data, .. } => {
                 if let Ok(text) = String::from_utf8(data.into_owned()) {
@@ -149,22 +173,32 @@ impl Reader {
         }
     }
 
-    fn message(&mut self, topic: &str, at: Instant, data: &[u8]) -> Result<(), prost::DecodeError> {
-        match topic {
-            "/plan/events" => self.log.events.push(PlanEvent::decode(data)?),
-            "/plan/configuration" => self.log.configurations.push(Configuration::decode(data)?),
-            "/plan/table" => self.log.table = PlanTable::decode(data)?,
-            "/robot/pose" => {
+    fn message(
+        &mut self,
+        topic: &str,
+        schema: &str,
+        at: Instant,
+        data: &[u8],
+    ) -> Result<(), prost::DecodeError> {
+        match (topic, schema) {
+            ("/plan/events", _) => self.log.events.push(decode(PlanEvent::decode(data)?)),
+            ("/plan/configuration", _) => {
+                self.log.configurations.push(configured(Configuration::decode(data)?));
+            }
+            ("/plan/table", _) => {
+                self.log.names = NameTable::from_table(&PlanTable::decode(data)?);
+            }
+            ("/robot/pose", _) => {
                 let message = PoseInFrame::decode(data)?;
                 self.log.poses.extend(pose(message.pose.as_ref()).map(|pose| (at, pose)));
             }
-            "/tf" => {
+            ("/tf", _) => {
                 let message = FrameTransforms::decode(data)?;
                 let believed = |each: &&FrameTransform| each.child_frame_id == BELIEVED;
                 let believed = message.transforms.iter().find(believed).and_then(placed);
                 self.log.believed.extend(believed.map(|pose| (at, pose)));
             }
-            "/robot/ultrasonic" => {
+            (_, "foxglove.LaserScan") => {
                 let LaserScan { timestamp, pose: at, end_angle, ranges, .. } =
                     LaserScan::decode(data)?;
                 self.log.rangings.extend(pose(at.as_ref()).map(|pose| Heard {
@@ -174,13 +208,28 @@ impl Reader {
                     range: ranges.first().copied(),
                 }));
             }
-            "/robot/camera" => {
+            (_, "foxglove.CompressedImage") => {
                 let CompressedImage { timestamp, data, .. } = CompressedImage::decode(data)?;
                 self.log.images.push((instant(&timestamp), data));
+            }
+            (_, "afp.Sample") => {
+                let Sample { value, .. } = Sample::decode(data)?;
+                let name = topic.strip_prefix("/robot/").unwrap_or(topic).to_owned();
+                let value = value.map_or(Datum::Unset, decode_value);
+                self.log.samples.entry(name).or_default().push((at, value));
             }
             _ => {}
         }
         Ok(())
+    }
+}
+
+fn configured(message: Configuration) -> Configured {
+    let entry = |entry: Entry| (entry.name, entry.value.map_or(Datum::Unset, decode_value));
+    Configured {
+        at: instant(&message.time),
+        author: message.author,
+        entries: message.entries.into_iter().map(entry).collect(),
     }
 }
 

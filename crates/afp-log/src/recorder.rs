@@ -18,7 +18,7 @@ use crate::error::LogError;
 use crate::names::NameTable;
 use crate::robot::{Image, Level, Pose2, Ranging, Shape, Transform};
 use crate::write::LogFile;
-use afp_session::OwnedRecord;
+use afp_session::{Datum, OwnedRecord, RunEvent};
 
 /// Frames in one message of [`Recorder::transforms`].
 pub const FRAMES: usize = 3;
@@ -69,22 +69,39 @@ pub(crate) enum Item {
     Lost { at: Instant, count: u64 },
     Transforms { at: Instant, transforms: Transforms },
     Pose { at: Instant, frame: &'static str, pose: Pose2 },
-    Ranging { at: Instant, ranging: Ranging },
-    Image { at: Instant, image: Image },
+    Ranging { at: Instant, device: &'static str, ranging: Ranging, height: f64 },
+    Image { at: Instant, device: &'static str, image: Image },
+    Sample { at: Instant, signal: Signal, value: Datum },
+    Event(Box<RunEvent>),
+    End { at: Instant, facts: Vec<(String, String)> },
     Scene { at: Instant, shapes: Box<[Shape]> },
     Text { at: Instant, level: Level, name: &'static str, text: Box<str> },
+}
+
+/// A signal of a device that has a channel of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Signal {
+    /// The device.
+    pub device: &'static str,
+    /// The signal.
+    pub name: &'static str,
+    /// Its SI unit; empty for none.
+    pub unit: &'static str,
 }
 
 impl Item {
     fn at(&self) -> Option<Instant> {
         match self {
             Item::Record(owned) => Some(owned.at),
+            Item::Event(event) => Some(event.at),
             Item::Started(at)
             | Item::Lost { at, .. }
             | Item::Transforms { at, .. }
             | Item::Pose { at, .. }
             | Item::Ranging { at, .. }
             | Item::Image { at, .. }
+            | Item::Sample { at, .. }
+            | Item::End { at, .. }
             | Item::Scene { at, .. }
             | Item::Text { at, .. } => Some(*at),
         }
@@ -157,14 +174,30 @@ impl Recorder {
         self.push(Item::Pose { at, frame, pose }, at);
     }
 
-    /// What a range sensor says.
-    pub fn ranging(&mut self, at: Instant, ranging: Ranging) {
-        self.push(Item::Ranging { at, ranging }, at);
+    /// What a range sensor says that stands so high, metres.
+    pub fn ranging(&mut self, at: Instant, device: &'static str, ranging: Ranging, height: f64) {
+        self.push(Item::Ranging { at, device, ranging, height }, at);
     }
 
     /// What a camera saw; the writer makes a PNG of it.
-    pub fn image(&mut self, at: Instant, image: Image) {
-        self.push(Item::Image { at, image }, at);
+    pub fn image(&mut self, at: Instant, device: &'static str, image: Image) {
+        self.push(Item::Image { at, device, image }, at);
+    }
+
+    /// What a device says now; allocates for texts.
+    pub fn sample(&mut self, at: Instant, signal: Signal, value: Datum) {
+        self.push(Item::Sample { at, signal, value }, at);
+    }
+
+    /// Something that no record says: what came from outside; allocates.
+    pub fn event(&mut self, event: RunEvent) {
+        let at = event.at;
+        self.push(Item::Event(Box::new(event)), at);
+    }
+
+    /// What the run came to: the metadata record `afp.end`.
+    pub fn end(&mut self, at: Instant, facts: Vec<(String, String)>) {
+        self.push(Item::End { at, facts }, at);
     }
 
     /// What stands in the room; allocates, so meant for the start.
@@ -243,7 +276,7 @@ fn write_all(mut file: LogFile, mut items: Consumer<Item>, end: &End) -> Outcome
             idle = false;
             last = item.at().unwrap_or(last);
             if failure.is_none() {
-                failure = file.write(&item).err();
+                failure = file.write(item).err();
             }
         }
         if failure.is_none() && flushed.elapsed() >= FLUSH_EVERY {

@@ -1,15 +1,19 @@
 //! A log as an observer of a session.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
-use afp_core::devices::{DeviceRow, SignalId, SignalType, signals};
+use afp_core::devices::{DeviceRow, SignalId, SignalRow, SignalType, signals};
 use afp_core::trace::{Ending, Record, Sink};
 use afp_core::{Duration, Instant};
-use afp_session::{NamedRecord, Observer, SAMPLE, SampleRef, Sampling, Shape};
+use afp_session::{
+    AnySession, Applied, Datum, Done, NamedRecord, Observer, Requested, RunEvent, SAMPLE,
+    SampleRef, Sampling, Shape,
+};
 
 use crate::error::LogError;
 use crate::names::NameTable;
-use crate::recorder::{About, FRAMES, Recorder, WhenFull, Written};
+use crate::recorder::{About, FRAMES, Recorder, Signal, WhenFull, Written};
 use crate::robot::{Image, Level, Transform};
 
 /// How often a log gets what the camera sees.
@@ -18,13 +22,16 @@ const FILM: Duration = Duration::from_millis(500);
 /// Records a session: its trace, and what its robot signals.
 pub struct SessionLog {
     recorder: Recorder,
-    signals: Vec<SignalType>,
+    /// The signals of the robot, what they are, and what was last written of them.
+    signals: Vec<(Signal, SignalType, Option<Datum>)>,
     /// The frame whose place has a channel of its own.
     body: Option<SignalId>,
     started: bool,
     frames: Vec<Transform>,
-    /// When the last echo was sent that the log has.
-    last_echo: Option<Instant>,
+    /// When the last echo of each range sensor was sent that the log has.
+    echoes: BTreeMap<SignalId, Instant>,
+    /// How high the frame of a device stands, metres.
+    heights: BTreeMap<&'static str, f64>,
     /// When the camera is looked at next; never where it is not to be logged.
     camera: Instant,
     /// What moves, as it was last written.
@@ -42,7 +49,7 @@ impl SessionLog {
         path: &Path,
         about: &About,
         names: NameTable,
-        devices: &[DeviceRow],
+        devices: &'static [DeviceRow],
         scene: Vec<Shape>,
         camera: bool,
     ) -> Result<Self, LogError> {
@@ -50,23 +57,43 @@ impl SessionLog {
         recorder.scene(Instant::ZERO, scene.clone());
         Ok(SessionLog {
             recorder,
-            signals: signals(devices).map(|(_, _, row)| row.ty).collect(),
+            signals: signals(devices).map(|(_, device, row)| channel(device, row)).collect(),
             body: afp_core::devices::find_signal(devices, "robot", "pose"),
             started: false,
             frames: Vec::new(),
-            last_echo: None,
+            echoes: BTreeMap::new(),
+            heights: BTreeMap::new(),
             camera: if camera { Instant::ZERO } else { Instant::MAX },
             shapes: scene,
             moved: Vec::new(),
         })
     }
 
-    /// Waits for the writer and gives the log its name.
+    /// Writes what the session came to, waits for the writer and gives the log its name.
     ///
     /// # Errors
     /// The first failure of the writer.
-    pub fn finish(self) -> Result<Written, LogError> {
+    pub fn finish(mut self, session: &dyn AnySession) -> Result<Written, LogError> {
+        let now = session.now();
+        for (at, what) in session.pending() {
+            let request = Requested { at, what, done: Done::NotReached };
+            self.recorder.event(RunEvent::requested(now, request));
+        }
+        self.recorder.end(now, vec![("trace".to_owned(), session.trace().to_string())]);
         self.recorder.finish()
+    }
+
+    /// Notes what a device says, if it said something else before.
+    fn signal(&mut self, at: Instant, id: SignalId, value: Datum) {
+        let Some((signal, _, last)) = self.signals.get_mut(usize::from(id.0)) else { return };
+        if last.as_ref() != Some(&value) {
+            *last = Some(value.clone());
+            self.recorder.sample(at, *signal, value);
+        }
+    }
+
+    fn device(&self, id: SignalId) -> &'static str {
+        self.signals.get(usize::from(id.0)).map_or("", |(signal, ..)| signal.device)
     }
 
     /// Notes where something is, if it has moved since.
@@ -93,6 +120,16 @@ impl Observer for SessionLog {
         }
     }
 
+    fn on_request(&mut self, applied: &Applied<'_>) {
+        let text = match applied.refused {
+            None => applied.what.to_string(),
+            Some(why) => format!("{}: {why}", applied.what),
+        };
+        let level = if applied.refused.is_some() { Level::Warning } else { Level::Info };
+        self.recorder.event(applied.event());
+        self.recorder.text(applied.now, level, "outside", &text);
+    }
+
     fn wants_clear_polls(&self) -> bool {
         true
     }
@@ -103,9 +140,8 @@ impl Observer for SessionLog {
 
     fn wants(&self, at: Instant, signal: SignalId) -> bool {
         match self.signals.get(usize::from(signal.0)) {
-            Some(SignalType::Image) => at >= self.camera,
-            Some(SignalType::Pose | SignalType::Range | SignalType::Outline) => true,
-            _ => false,
+            Some((_, SignalType::Image, _)) => at >= self.camera,
+            other => other.is_some(),
         }
     }
 
@@ -115,19 +151,27 @@ impl Observer for SessionLog {
                 if self.body == Some(signal) {
                     self.recorder.pose(at, frame.parent, frame.pose);
                 }
+                self.heights.insert(self.device(signal), frame.height);
                 self.frames.push(frame);
             }
-            SampleRef::Range(ranging) if self.last_echo != Some(ranging.time) => {
-                self.last_echo = Some(ranging.time);
-                self.recorder.ranging(at, ranging);
+            SampleRef::Range(ranging) => {
+                if self.echoes.insert(signal, ranging.time) != Some(ranging.time) {
+                    let device = self.device(signal);
+                    let height = self.heights.get(device).copied().unwrap_or_default();
+                    self.recorder.ranging(at, device, ranging, height);
+                }
             }
             SampleRef::Image(image) => {
                 self.camera = at + FILM;
                 let afp_session::Image { time, frame, width, height, rgb } = image;
-                self.recorder.image(at, Image { time, frame, width, height, rgb: rgb.into() });
+                let image = Image { time, frame, width, height, rgb: rgb.into() };
+                self.recorder.image(at, self.device(signal), image);
             }
             SampleRef::Outline(shape) => self.outline(shape),
-            _ => {}
+            SampleRef::Bool(truth) => self.signal(at, signal, Datum::Truth(truth)),
+            SampleRef::Int(integer) => self.signal(at, signal, Datum::Integer(integer)),
+            SampleRef::Float(number) => self.signal(at, signal, Datum::Number(number)),
+            SampleRef::Text(text) => self.signal(at, signal, Datum::Text(text.to_owned())),
         }
     }
 
@@ -140,6 +184,11 @@ impl Observer for SessionLog {
             self.recorder.scene(at, std::mem::take(&mut self.moved));
         }
     }
+}
+
+fn channel(device: &DeviceRow, row: &SignalRow) -> (Signal, SignalType, Option<Datum>) {
+    let unit = if let SignalType::Float(unit) = row.ty { unit } else { "" };
+    (Signal { device: device.name, name: row.name, unit }, row.ty, None)
 }
 
 /// What people who read the log as text want to know, and how much it matters.

@@ -1,12 +1,10 @@
 //! What a log says about deadlines, interruptions and coverage.
 
 use afp_core::Duration;
+use afp_core::trace::{ComponentId, Kind, Names};
 use afp_session::{Counts, Usage};
 
-use crate::event;
-use crate::names::NameTable;
-use crate::proto::afp::plan_table;
-use crate::read::{LogData, instant};
+use crate::read::LogData;
 
 /// A supervisor's record.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -63,10 +61,11 @@ pub struct Statistics {
 
 /// Counts what happened.
 pub fn statistics(log: &LogData) -> Statistics {
-    let mut counts = Counts::new(&NameTable::from_table(&log.table));
+    let names = &log.names;
+    let mut counts = Counts::new(names);
     for event in &log.events {
-        if let Some(record) = event::record(event) {
-            counts.record(instant(&event.time), &record);
+        if let Some(record) = event.record() {
+            counts.record(event.at, &record);
         }
     }
     counts.finish(log.span.map(|(_, last)| last).unwrap_or_default());
@@ -74,19 +73,20 @@ pub fn statistics(log: &LogData) -> Statistics {
         lost: log.events.iter().map(|event| event.lost).sum(),
         ..Statistics::default()
     };
-    for (usage, row) in counts.components.iter().zip(&log.table.components) {
-        let path = row.path.clone();
-        for (count, outcome) in usage.outcomes.iter().zip(&row.outcomes) {
-            match count {
-                1.. => all.covered += 1,
+    for (id, usage) in (0..).map(ComponentId).zip(&counts.components) {
+        let row = names.component(id);
+        let path = row.path.to_owned();
+        for (outcome, count) in (0..).zip(&usage.outcomes) {
+            match (count, names.target(id, outcome)) {
+                (1.., _) => all.covered += 1,
                 // What leads nowhere cannot happen.
-                0 if outcome.target.is_empty() || outcome.target == "ignore" => {}
-                0 => all.uncovered.push(format!("{path}.{}", outcome.name)),
+                (0, "" | "ignore") => {}
+                (0, _) => all.uncovered.push(format!("{path}.{}", names.outcome(id, outcome))),
             }
         }
-        match row.kind() {
-            plan_table::Kind::Supervisor => all.supervisors.push(supervisor(path, usage)),
-            plan_table::Kind::Plan | plan_table::Kind::Unknown => {}
+        match row.kind {
+            Kind::Supervisor => all.supervisors.push(supervisor(path, usage)),
+            Kind::Plan => {}
             _ => all.elements.push(ElementStatistics {
                 path,
                 activations: usage.starts,

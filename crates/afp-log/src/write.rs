@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use afp_core::Instant;
 use afp_core::trace::{Author, Names, Record, TraceEntryId};
 use afp_output::Output;
+use afp_session::{EventKind, RunEvent, author as author_of};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::write::NoSeek;
 use mcap::{Attachment, Compression, WriteOptions, Writer};
@@ -14,15 +15,15 @@ use prost::Message;
 
 use crate::error::LogError;
 use crate::names::NameTable;
-use crate::proto::afp::{Configuration, Entry, PlanEvent};
+use crate::proto::afp::{Configuration, Entry, Sample};
 use crate::proto::{AFP_SET, FOXGLOVE_SET};
-use crate::recorder::{About, Item};
+use crate::recorder::{About, Item, Signal};
 use crate::{event, foxglove};
 
 /// Uncompressed bytes after which a chunk is closed.
 const CHUNK: u64 = 256 * 1024;
 
-/// A channel of a log.
+/// A channel that every log has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Topic {
     Events,
@@ -30,24 +31,32 @@ pub(crate) enum Topic {
     Table,
     Transforms,
     Pose,
-    Ultrasonic,
-    Camera,
     Scene,
     Log,
 }
 
 /// Topic, schema and the descriptors that explain it, in the order of [`Topic`].
-const CHANNELS: [(&str, &str, &[u8]); 9] = [
+const CHANNELS: [(&str, &str, &[u8]); 7] = [
     ("/plan/events", "afp.PlanEvent", AFP_SET),
     ("/plan/configuration", "afp.Configuration", AFP_SET),
     ("/plan/table", "afp.PlanTable", AFP_SET),
     ("/tf", "foxglove.FrameTransforms", FOXGLOVE_SET),
     ("/robot/pose", "foxglove.PoseInFrame", FOXGLOVE_SET),
-    ("/robot/ultrasonic", "foxglove.LaserScan", FOXGLOVE_SET),
-    ("/robot/camera", "foxglove.CompressedImage", FOXGLOVE_SET),
     ("/scene", "foxglove.SceneUpdate", FOXGLOVE_SET),
     ("/log", "foxglove.Log", FOXGLOVE_SET),
 ];
+
+/// Schema and descriptors of what range sensors, cameras and other devices say.
+const RANGING: (&str, &[u8]) = ("foxglove.LaserScan", FOXGLOVE_SET);
+const IMAGE: (&str, &[u8]) = ("foxglove.CompressedImage", FOXGLOVE_SET);
+const SAMPLE: (&str, &[u8]) = ("afp.Sample", AFP_SET);
+
+/// A channel, and how many messages it has.
+#[derive(Clone, Copy, Debug, Default)]
+struct Channel {
+    id: u16,
+    count: u32,
+}
 
 /// A file of records. It need not be one that can go back: a pipe takes a log too.
 pub(crate) type LogWriter = Writer<NoSeek<BufWriter<Output>>>;
@@ -83,8 +92,10 @@ pub(crate) fn end(mut writer: LogWriter) -> Result<(Output, u64), LogError> {
 /// A log that is being written, under its name with `.part` appended.
 pub(crate) struct LogFile {
     writer: LogWriter,
-    ids: [u16; CHANNELS.len()],
-    counts: [u32; CHANNELS.len()],
+    /// Those that every log has, then those of devices that have said something.
+    channels: Vec<Channel>,
+    /// Where the channel of a signal is among them; of a whole device where it has no name.
+    signals: BTreeMap<(&'static str, &'static str), usize>,
     path: PathBuf,
     names: NameTable,
     entries: Vec<Entry>,
@@ -101,8 +112,8 @@ impl LogFile {
         let entries = (0..names.entries()).map(unset).collect();
         let mut log = LogFile {
             writer,
-            ids: [0; CHANNELS.len()],
-            counts: [0; CHANNELS.len()],
+            channels: Vec::new(),
+            signals: BTreeMap::new(),
             path: path.to_owned(),
             names,
             entries,
@@ -116,9 +127,8 @@ impl LogFile {
     /// Schemas, channels, what ran and from what text; all before the first message, so that a
     /// log cut short still has them.
     fn describe(&mut self, about: &About) -> Result<(), LogError> {
-        for (id, (topic, schema, set)) in self.ids.iter_mut().zip(CHANNELS) {
-            let schema = self.writer.add_schema(schema, "protobuf", set)?;
-            *id = self.writer.add_channel(schema, topic, "protobuf", &BTreeMap::new())?;
+        for (topic, schema, set) in CHANNELS {
+            self.open(topic, schema, set)?;
         }
         let metadata = about.facts.iter().cloned().collect();
         self.writer.write_metadata(&Metadata { name: "afp.run".into(), metadata })?;
@@ -135,26 +145,73 @@ impl LogFile {
         self.flush()
     }
 
-    pub(crate) fn write(&mut self, item: &Item) -> Result<(), LogError> {
+    /// Opens a channel; gives its position.
+    fn open(&mut self, topic: &str, schema: &str, set: &[u8]) -> Result<usize, LogError> {
+        let schema = self.writer.add_schema(schema, "protobuf", set)?;
+        let id = self.writer.add_channel(schema, topic, "protobuf", &BTreeMap::new())?;
+        self.channels.push(Channel { id, count: 0 });
+        Ok(self.channels.len() - 1)
+    }
+
+    /// The position of the channel of a signal, opened where it is new.
+    fn of_signal(
+        &mut self,
+        device: &'static str,
+        name: &'static str,
+        (schema, set): (&str, &[u8]),
+    ) -> Result<usize, LogError> {
+        if let Some(known) = self.signals.get(&(device, name)) {
+            return Ok(*known);
+        }
+        let topic = match (device, name) {
+            (device, "") => format!("/robot/{device}"),
+            // What is about the whole robot.
+            ("robot", name) => format!("/robot/{name}"),
+            (device, name) => format!("/robot/{device}/{name}"),
+        };
+        let new = self.open(&topic, schema, set)?;
+        self.signals.insert((device, name), new);
+        Ok(new)
+    }
+
+    pub(crate) fn write(&mut self, item: Item) -> Result<(), LogError> {
         match item {
             Item::Record(owned) => self.record(owned.at, &owned.get()),
-            Item::Started(at) => self.configuration(*at, String::new()),
-            Item::Lost { at, count } => self.lost(*at, *count),
+            Item::Event(event) => {
+                self.close_commit()?;
+                self.send(Topic::Events, event.at, &event::encode(*event))
+            }
+            Item::Started(at) => self.configuration(at, String::new()),
+            Item::Lost { at, count } => self.lost(at, count),
             Item::Transforms { at, transforms } => {
-                self.send(Topic::Transforms, *at, &foxglove::transforms(*at, transforms))
+                self.send(Topic::Transforms, at, &foxglove::transforms(at, &transforms))
             }
             Item::Pose { at, frame, pose } => {
-                self.send(Topic::Pose, *at, &foxglove::pose(*at, frame, *pose))
+                self.send(Topic::Pose, at, &foxglove::pose(at, frame, pose))
             }
-            Item::Ranging { at, ranging } => {
-                self.send(Topic::Ultrasonic, *at, &foxglove::ranging(ranging))
+            Item::Ranging { at, device, ranging, height } => {
+                let channel = self.of_signal(device, "", RANGING)?;
+                self.send_to(channel, at, &foxglove::ranging(&ranging, height))
             }
-            Item::Image { at, image } => self.send(Topic::Camera, *at, &foxglove::image(image)),
+            Item::Image { at, device, image } => {
+                let channel = self.of_signal(device, "", IMAGE)?;
+                self.send_to(channel, at, &foxglove::image(&image))
+            }
+            Item::Sample { at, signal: Signal { device, name, unit }, value } => {
+                let channel = self.of_signal(device, name, SAMPLE)?;
+                let (time, unit) = (Some(event::timestamp(at)), unit.to_owned());
+                let value = Some(event::encode_value(value));
+                self.send_to(channel, at, &Sample { time, value, unit })
+            }
             Item::Scene { at, shapes } => {
-                self.send(Topic::Scene, *at, &foxglove::scene(*at, shapes))
+                self.send(Topic::Scene, at, &foxglove::scene(at, &shapes))
             }
             Item::Text { at, level, name, text } => {
-                self.send(Topic::Log, *at, &foxglove::text(*at, *level, name, text))
+                self.send(Topic::Log, at, &foxglove::text(at, level, name, &text))
+            }
+            Item::End { facts, .. } => {
+                let metadata = facts.into_iter().collect();
+                Ok(self.writer.write_metadata(&Metadata { name: "afp.end".into(), metadata })?)
             }
         }
     }
@@ -170,7 +227,8 @@ impl LogFile {
             }
             _ => self.close_commit()?,
         }
-        self.send(Topic::Events, at, &event::describe(at, record, &self.names))
+        let event = RunEvent::new(at, record, &self.names);
+        self.send(Topic::Events, at, &event::encode(event))
     }
 
     fn set(&mut self, entry: TraceEntryId, value: afp_core::ValueRef<'_>) {
@@ -183,7 +241,7 @@ impl LogFile {
     fn close_commit(&mut self) -> Result<(), LogError> {
         match self.commit.take() {
             None => Ok(()),
-            Some((at, author)) => self.configuration(at, event::author(&self.names, author)),
+            Some((at, author)) => self.configuration(at, author_of(&self.names, author)),
         }
     }
 
@@ -194,28 +252,33 @@ impl LogFile {
     }
 
     fn lost(&mut self, at: Instant, count: u64) -> Result<(), LogError> {
-        let lost = PlanEvent {
-            time: Some(event::timestamp(at)),
-            kind: crate::proto::afp::plan_event::Kind::Lost.into(),
-            lost: count,
-            ..PlanEvent::default()
-        };
-        self.send(Topic::Events, at, &lost)
+        let kind = EventKind::Lost;
+        let lost = RunEvent { at, kind, lost: count, ..RunEvent::default() };
+        self.send(Topic::Events, at, &event::encode(lost))
     }
 
     fn send(&mut self, topic: Topic, at: Instant, message: &impl Message) -> Result<(), LogError> {
+        self.send_to(topic as usize, at, message)
+    }
+
+    fn send_to(
+        &mut self,
+        channel: usize,
+        at: Instant,
+        message: &impl Message,
+    ) -> Result<(), LogError> {
+        let Some(channel) = self.channels.get_mut(channel) else { return Ok(()) };
         self.buffer.clear();
         // A Vec grows as needed; only a fixed buffer could be too short.
         let _ = message.encode(&mut self.buffer);
         let time = at.as_nanos();
-        let sequence = &mut self.counts[topic as usize];
         let header = MessageHeader {
-            channel_id: self.ids[topic as usize],
-            sequence: *sequence,
+            channel_id: channel.id,
+            sequence: channel.count,
             log_time: time,
             publish_time: time,
         };
-        *sequence = sequence.wrapping_add(1);
+        channel.count = channel.count.wrapping_add(1);
         Ok(self.writer.write_to_known_channel(&header, &self.buffer)?)
     }
 

@@ -10,12 +10,12 @@ use afp_core::trace::{
     Sink, TraceEntryId, Verdict,
 };
 use afp_core::{Duration, Instant, ValueRef};
-use afp_log::proto::afp::plan_event;
 use afp_log::robot::{Level, Pose2, Ranging, Shape, Transform};
 use afp_log::statistics::statistics;
 use afp_log::{
-    About, LogError, NameTable, Recorder, WhenFull, doctor, read, recover, recovered_name,
+    About, LogError, NameTable, Recorder, Signal, WhenFull, doctor, read, recover, recovered_name,
 };
+use afp_session::{Build, Datum, Done, EventKind, Recipe, Requested, RunEvent, Stimulus, TextFile};
 
 /// A plan of one actor with one supervisor and two entries.
 struct Names1;
@@ -110,16 +110,9 @@ fn run(log: &mut Recorder) {
                 &frames.map(|child| Transform { parent: "world", child, pose, height: 0.1 }),
             );
             let range = (n % 100 == 0).then_some(1.5);
-            log.ranging(
-                now,
-                Ranging {
-                    time: now,
-                    frame: "sonar",
-                    pose: Pose2::default(),
-                    half_angle: 0.13,
-                    range,
-                },
-            );
+            let pose = Pose2::default();
+            let ranging = Ranging { time: now, frame: "sonar", pose, half_angle: 0.13, range };
+            log.ranging(now, "ultrasonic", ranging, 0.1);
         }
     }
     let (lateness, cause) = (Duration::from_millis(3), Cause::LongPoll);
@@ -161,10 +154,10 @@ fn what_is_written_is_read() {
     assert_eq!(log.span, Some((at(0), at(3001))));
     assert_eq!(log.topics["/tf"].schema, "foxglove.FrameTransforms");
     assert_eq!(log.topics["/robot/ultrasonic"].messages, 40);
-    assert_eq!(log.table.components[1].outcomes[0].target, "terminate");
+    assert_eq!(log.names.target(ComponentId(1), 0), "terminate");
     assert_eq!(log.events.len(), 2009);
     let event = &log.events[2003];
-    assert_eq!(event.kind(), plan_event::Kind::Event);
+    assert_eq!(event.kind, EventKind::Event);
     assert_eq!(
         (&*event.component, &*event.outcome, &*event.target),
         ("go.touch", "TouchSensorPressed", "go")
@@ -173,9 +166,64 @@ fn what_is_written_is_read() {
     assert_eq!(time, at(2000));
     assert!((pose.x - 2.0).abs() < 1e-9 && (pose.heading - 0.25).abs() < 1e-9);
     assert_eq!(log.configurations.len(), 3);
-    let values = log.configurations[2].entries.iter().map(|entry| format!("{:?}", entry.value));
-    let values: Vec<_> = values.collect();
-    assert!(values[0].contains("Number(0.3)") && values[1].contains("Choice(\"Side.right\")"));
+    let values = [("far", Datum::Number(0.3)), ("side", Datum::Choice("Side.right".to_owned()))];
+    assert_eq!(log.configurations[2].entries, values.map(|(name, it)| (name.to_owned(), it)));
+    assert_eq!(doctor(&path).unwrap(), [""; 0]);
+}
+
+#[test]
+fn a_recipe_comes_back_as_it_was_written() {
+    let text = |name: &str, text: &str| TextFile { name: name.to_owned(), text: text.to_owned() };
+    let (control, fault) = ("touch.touch".to_owned(), "wheels.slip".to_owned());
+    let outputs = vec![(1, Datum::Choice("#2".to_owned())), (2, Datum::Number(0.1))];
+    let (component, outcome) = ("go.touch".to_owned(), "TouchSensorPressed".to_owned());
+    let (entry, value) = ("side".to_owned(), Datum::Choice("Side.right".to_owned()));
+    let requests = [
+        Stimulus::Write { entry, value, unit: String::new() },
+        Stimulus::Press { control: control.clone(), held: true },
+        Stimulus::Press { control, held: false },
+        Stimulus::Break { fault: fault.clone(), amount: Some(0.2), lasting: Duration::MAX },
+        Stimulus::Break { fault, amount: None, lasting: Duration::from_millis(1) },
+        Stimulus::Inject { component, outcome, outputs },
+        Stimulus::Idle { element: None },
+        Stimulus::Idle { element: Some("go".to_owned()) },
+        Stimulus::Stop,
+    ];
+    let recipe = Recipe {
+        plan: "Walk".to_owned(),
+        file: "plans/walk.afp".to_owned(),
+        texts: vec![text("plans/walk.afp", "plan Walk {}"), text("a.afp", "plan A {}")],
+        toolboxes: vec![text("gripper", "actor Grip {}")],
+        robot: "sim".to_owned(),
+        world: text("room", "name = \"room\""),
+        start: Some(Pose2 { x: 0.1, y: -1.0 / 3.0, heading: 2.5 }),
+        seed: u64::MAX,
+        measures: vec!["wall".to_owned()],
+        settings: vec![("side".to_owned(), "right".to_owned())],
+        until: Some(at(60_000)),
+        requests: requests.iter().map(|what| (at(1), what.clone())).collect(),
+        build: Build { version: "0.1.0".to_owned(), commit: Some("abc".to_owned()) },
+    };
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.mcap");
+    let names = NameTable::new(&Names1);
+    let mut log = Recorder::create(&path, &About::new(&recipe), names, WhenFull::Wait).unwrap();
+    let become_ = [Done::Done, Done::Refused("it is gone".to_owned()), Done::NotReached];
+    for (what, done) in requests.iter().zip(become_.iter().cycle()) {
+        let request = Requested { at: at(1), what: what.clone(), done: done.clone() };
+        log.event(RunEvent::requested(at(2), request));
+    }
+    let signal = Signal { device: "battery", name: "left", unit: "" };
+    log.sample(at(3), signal, Datum::Number(0.5));
+    log.end(at(4), vec![("trace".to_owned(), "12ab".to_owned())]);
+    log.finish().unwrap();
+    let log = read(&path).unwrap();
+    assert_eq!(log.recipe(), recipe);
+    assert_eq!(log.not_reached().count(), 3);
+    assert_eq!(log.events[1].request.as_ref().unwrap().done, become_[1]);
+    assert_eq!(log.samples["battery/left"], [(at(3), Datum::Number(0.5))]);
+    assert_eq!(log.topics["/robot/battery/left"].schema, "afp.Sample");
+    assert_eq!(log.end["trace"], "12ab");
     assert_eq!(doctor(&path).unwrap(), [""; 0]);
 }
 
@@ -275,7 +323,7 @@ fn a_full_queue_is_counted_and_told() {
     assert_eq!(log.finish().unwrap().lost, lost);
     let log = read(&path).unwrap();
     assert_eq!(log.events.iter().map(|event| event.lost).sum::<u64>(), lost);
-    let kept = log.events.iter().filter(|event| event.kind() == plan_event::Kind::Polled).count();
+    let kept = log.events.iter().filter(|event| event.kind == EventKind::Polled).count();
     assert_eq!(kept as u64 + lost, 200_000);
     assert!(doctor(&path).unwrap()[0].contains("were lost"));
 }

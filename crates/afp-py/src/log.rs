@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use afp_log::instant;
 use afp_log::robot::Pose2;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -31,12 +30,11 @@ pub fn read_log<'py>(py: Python<'py>, path: PathBuf) -> PyResult<Bound<'py, PyDi
     dict.set_item("channels", channels)?;
     let entries = PyList::empty(py);
     for configuration in &log.configurations {
-        let time = instant(&configuration.time).as_secs_f64();
         let values = PyDict::new(py);
-        for entry in &configuration.entries {
-            values.set_item(&entry.name, value(py, entry.value.as_ref())?)?;
+        for (name, held) in &configuration.entries {
+            values.set_item(name, value(py, Some(held))?)?;
         }
-        entries.append((time, values))?;
+        entries.append((configuration.at.as_secs_f64(), values))?;
     }
     dict.set_item("entries", entries)?;
     let events: Vec<_> = log.events.into_iter().map(Event::logged).collect();

@@ -68,15 +68,14 @@ impl Runner {
         afp_std::templates::register(&mut registry);
         afp_carbot::templates::register(&mut registry);
         let host = host(py, plan, &mut registry)?;
-        let mut loaded = LoadedPlan::new(graph, &registry).map_err(|why| {
+        let loaded = LoadedPlan::new(graph, &registry).map_err(|why| {
             error(format!("{why}\n  help: implement it in Python (see Toolbox), or run the plan with afpc, which links Rust"))
         })?;
+        let mut inputs = Vec::new();
         for (name, value) in set {
             let name: String = name.extract()?;
             let entry = entry(&loaded, &name)?;
-            let value = Given::new(&value)?.for_entry(&loaded, entry)?;
-            NamedPlan::set_input(&mut loaded, entry, &value)
-                .map_err(|why| error(format!("'{name}': {why}")))?;
+            inputs.push((entry, Given::new(&value)?.for_entry(&loaded, entry)?, name));
         }
         let file = plan.file();
         let setting = Setting {
@@ -85,11 +84,16 @@ impl Runner {
             room: &world.room,
             seed,
             file: &file,
+            texts: compiled.plan_texts(),
             log: log.as_deref(),
         };
         let stop = Arc::new(AtomicBool::new(false));
         let pause = Pause::new(host.clone(), Arc::clone(&stop));
-        let session = Mutex::new(Run::new(loaded, &setting, pause)?);
+        let mut run = Run::new(loaded, &setting, pause)?;
+        for (entry, value, name) in inputs {
+            run.write(entry, value).map_err(|why| error(format!("'{name}': {why}")))?;
+        }
+        let session = Mutex::new(run);
         let process = std::process::id();
         Ok(Runner { session, host, stop, process, compiled })
     }

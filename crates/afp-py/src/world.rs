@@ -57,7 +57,7 @@ impl World {
             None => error(why.message),
         })?;
         let world = Arc::new(room.clone());
-        Ok(World { loaded: LoadedWorld { world, text, path: None }, room })
+        Ok(World { loaded: LoadedWorld { world, text, path: None, start: None }, room })
     }
 
     /// The world that `afpc run` would take for the plan of this file.

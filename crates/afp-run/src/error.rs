@@ -11,6 +11,8 @@ use afp_log::LogError;
 use afp_project::{ProjectError, shown};
 use afp_session::SessionError;
 
+use crate::stderr::say;
+
 /// The process did what was asked.
 pub const EXIT_OK: u8 = 0;
 /// The plan is wrong, or a file cannot be read or written.
@@ -57,6 +59,13 @@ pub enum RunError {
         /// What is wrong.
         message: String,
     },
+    /// A run did not come out as it did before.
+    Differs {
+        /// How.
+        message: String,
+        /// What may be the reason.
+        help: String,
+    },
     /// The project file is wrong.
     Project(ProjectError),
     /// The log cannot be written.
@@ -82,6 +91,7 @@ impl RunError {
             RunError::Missing { .. }
             | RunError::File { .. }
             | RunError::Content { .. }
+            | RunError::Differs { .. }
             | RunError::Project(_)
             | RunError::Log(_) => EXIT_FAILED,
         }
@@ -89,7 +99,7 @@ impl RunError {
 
     /// Tells standard error and gives the exit code.
     pub fn report(&self) -> ExitCode {
-        anstream::eprintln!("{}", self.styled());
+        say(self.styled());
         ExitCode::from(self.code())
     }
 
@@ -104,7 +114,9 @@ impl RunError {
         };
         match self {
             RunError::Usage { message, help: None } => report(message, Vec::new()),
-            RunError::Usage { message, help: Some(help) } | RunError::Missing { message, help } => {
+            RunError::Usage { message, help: Some(help) }
+            | RunError::Missing { message, help }
+            | RunError::Differs { message, help } => {
                 format!("{}\n  help: {help}", report(message, Vec::new()))
             }
             RunError::File { what, path, error } => {

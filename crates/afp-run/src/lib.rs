@@ -3,6 +3,7 @@
 //! [`main()`] is the whole of a generated binary; [`run`] drives the session of any plan on any simulated robot.
 //! Neither knows the language or a robot.
 
+mod again;
 mod error;
 mod hash;
 pub mod inputs;
@@ -14,6 +15,7 @@ mod picture;
 mod report;
 pub mod requests;
 mod run;
+mod stderr;
 mod stop;
 mod svg;
 pub mod world;
@@ -21,7 +23,7 @@ pub mod world;
 use std::process::ExitCode;
 
 use afp_core::rt::{NamedPlan, Plan};
-use afp_session::{AnySession, AnyWorld, Session, Simulated, kind};
+use afp_session::{AnySession, AnyWorld, Session, Simulated, TextFile, kind};
 use clap::{Args, Command, FromArgMatches};
 
 use crate::options::RunOptions;
@@ -30,8 +32,9 @@ pub use error::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, EXIT_USAGE, RunError};
 pub use hash::hash;
 pub use output::write_whole;
 pub use picture::{PictureFormat, Rasterizer};
-pub use report::{line, quantity, timeline};
+pub use report::{event_line, line, quantity, timeline};
 pub use run::{MakeSession, run};
+pub use stderr::{say, warn};
 pub use stop::StopFlag;
 pub use svg::{draw_film, draw_log, draw_sonar};
 
@@ -42,8 +45,28 @@ pub struct Program<'a> {
     pub name: &'a str,
     /// The plan's file, as it was named; the world is looked for beside its folder.
     pub file: &'a str,
-    /// Path and text of the plan's file, then of those that it uses, for the log.
+    /// Path and text of the plan's file, then of those that it uses, then of toolboxes ([`Program::TOOLBOX`]), for the
+    /// log.
     pub texts: &'a [(&'a str, &'a str)],
+}
+
+impl Program<'_> {
+    /// What the texts of toolboxes are called, before their names.
+    pub const TOOLBOX: &'static str = "toolbox/";
+
+    /// The texts of the plan, and those of toolboxes by their names.
+    pub(crate) fn text_files(&self) -> (Vec<TextFile>, Vec<TextFile>) {
+        let file =
+            |name: &str, text: &str| TextFile { name: name.to_owned(), text: text.to_owned() };
+        let (mut plan, mut toolboxes) = (Vec::new(), Vec::new());
+        for (path, text) in self.texts {
+            match path.strip_prefix(Self::TOOLBOX) {
+                Some(name) => toolboxes.push(file(name, text)),
+                None => plan.push(file(path, text)),
+            }
+        }
+        (plan, toolboxes)
+    }
 }
 
 /// The whole of a generated binary: reads the command line, runs the plan, tells what happened.
@@ -84,5 +107,7 @@ Examples:
   --set distance=35cm             another value for an 'in' entry
   --until 2min --json             two minutes; lines for machines
   --speed 1x                      in real time; the Escape key presses what stops the robot
+  --again run.mcap                the run of a log once more, with the same trace
 
-Exit codes: 0 done, 1 a file cannot be read or written, 2 wrong options, 3 the plan ended in Error";
+Exit codes: 0 done, 1 a file cannot be read or written or a run does not repeat, 2 wrong options, 3 the plan ended in
+Error, 143 stopped by SIGTERM";

@@ -6,6 +6,7 @@ mod parse;
 use std::path::PathBuf;
 
 use afp_core::{Duration, Instant};
+use afp_session::Pose2;
 use clap::Args;
 
 use crate::error::RunError;
@@ -20,6 +21,23 @@ pub struct RunOptions {
     /// World file, map (.yaml) or random:SEED; else `[run] world` in afp.toml, else worlds/<plan>.toml, else a built-in room
     #[arg(long, value_name = "FILE")]
     pub world: Option<PathBuf>,
+
+    /// Repeats the run of a log: its plan, world, seed, values and all that came from outside
+    #[arg(
+        long,
+        value_name = "LOG",
+        conflicts_with_all = ["world", "start", "set", "seed", "press", "fail"]
+    )]
+    pub again: Option<PathBuf>,
+
+    /// Where the robot starts instead of where the world says: --start 2m,1m,90deg
+    #[arg(
+        long,
+        value_name = "X,Y,HEADING",
+        value_parser = parse::start,
+        allow_hyphen_values = true
+    )]
+    pub start: Option<Pose2>,
 
     /// Sets an 'in' entry, with its unit, or a value of the world: --set distance=35cm, --set world.KEY=VALUE
     #[arg(long, value_name = "ENTRY=VALUE", value_parser = parse::assignment)]

@@ -11,23 +11,19 @@ use std::io::{self, IsTerminal, Write};
 use afp_core::Instant;
 use afp_core::trace::{Kind, Names, Record};
 use afp_log::LogData;
-use afp_log::event::describe;
-use afp_log::proto::afp::{plan_event, plan_table};
-use afp_session::{NamedRecord, Observer};
+use afp_session::{Applied, EventKind, NamedRecord, Observer, RunEvent};
 
 use progress::Progress;
-pub(crate) use summary::{Ran, StoppedBy, Summary};
+pub(crate) use summary::{Ran, Requests, StoppedBy, Summary};
 pub use timeline::quantity;
 
 /// The timeline of a log, line by line.
 pub fn timeline(log: &LogData) -> impl Iterator<Item = String> {
     log.events.iter().filter_map(|event| {
-        let row = log.table.components.get(event.component_id as usize);
-        let (kind, template) =
-            row.map_or((plan_table::Kind::Unknown, ""), |row| (row.kind(), row.template.as_str()));
-        let watches = kind == plan_table::Kind::Supervisor;
-        let starts = event.kind() == plan_event::Kind::Started;
-        if watches && starts { None } else { timeline::line(event, template) }
+        let name = log.names.component(event.component_id);
+        let watches = name.kind == Kind::Supervisor;
+        let starts = event.kind == EventKind::Started;
+        if watches && starts { None } else { timeline::line(event, name.template) }
     })
 }
 
@@ -41,7 +37,12 @@ pub fn line(at: Instant, record: &Record<'_>, names: &dyn Names) -> Option<Strin
         },
         _ => "",
     };
-    timeline::line(&describe(at, record, names), template)
+    timeline::line(&RunEvent::new(at, record, names), template)
+}
+
+/// What happened besides the records, as a line of the timeline.
+pub fn event_line(event: &RunEvent) -> Option<String> {
+    timeline::line(event, "")
 }
 
 /// Tells of a run as an observer.
@@ -50,6 +51,10 @@ pub(crate) struct Shown<'a>(pub &'a RefCell<Report>);
 impl Observer for Shown<'_> {
     fn on_record(&mut self, named: &NamedRecord<'_>) {
         self.0.borrow_mut().tell(named.at, named.record, named.names);
+    }
+
+    fn on_request(&mut self, applied: &Applied<'_>) {
+        self.0.borrow_mut().tell_event(&applied.event());
     }
 }
 
@@ -94,9 +99,22 @@ impl Report {
             return;
         }
         let line = match self.json {
-            true => json::line(&describe(at, record, names)),
+            true => json::line(&RunEvent::new(at, record, names)),
             false => line(at, record, names),
         };
+        self.tell_line(line);
+    }
+
+    /// Tells of what came from outside.
+    fn tell_event(&mut self, event: &RunEvent) {
+        let line = match self.json {
+            true => json::line(event),
+            false => timeline::line(event, ""),
+        };
+        self.tell_line(line);
+    }
+
+    fn tell_line(&mut self, line: Option<String>) {
         if let Some(line) = line {
             self.progress.clear();
             self.write(&line);

@@ -5,7 +5,7 @@ use afp_core::devices::{
 };
 use afp_core::{Duration, Instant};
 use afp_project::duration;
-use afp_session::{AnySession, HOLD, Request, RequestError};
+use afp_session::{AnySession, HOLD, Recipe, Request, RequestError};
 
 use crate::error::RunError;
 use crate::options::{Failure, Press, words};
@@ -33,6 +33,16 @@ pub fn make(
         hold(session, id, press.at).map_err(|why| refused(&press.to_string(), &why))?;
     }
     Ok(())
+}
+
+/// Asks a session for all that came from outside in a run that is repeated.
+///
+/// # Errors
+/// Its plan or its robot are others.
+pub(crate) fn repeat(session: &mut dyn AnySession, recipe: &Recipe) -> Result<(), RunError> {
+    recipe.ask(session).map_err(|error| {
+        RunError::usage(error.to_string(), "the plan or the robot are not those of the log")
+    })
 }
 
 /// Presses the control that stops what runs, for the Escape key of the terminal; a robot may have none.

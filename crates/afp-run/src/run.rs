@@ -9,18 +9,22 @@ use std::path::{Path, PathBuf};
 use afp_core::{Ending, Instant, StartError};
 use afp_log::{About, NameTable, SessionLog, Written};
 use afp_project::ProjectFile;
-use afp_session::{AnyRobot, AnySession, AnyWorld, Counts, Go, Observer, SessionError, Track};
+use afp_session::{
+    AnyRobot, AnySession, AnyWorld, Build, Counts, Go, Observer, Recipe, Requested, SessionError,
+    TextFile, Track,
+};
 
+use crate::again::Again;
 use crate::error::{EXIT_OK, EXIT_PLAN_ERROR, RunError};
 use crate::hash::hash;
 use crate::options::{RunOptions, Speed};
 use crate::output::write_whole;
 use crate::pace::Pace;
 use crate::picture::Rasterizer;
-use crate::report::{Ran, Report, Shown, StoppedBy, Summary};
+use crate::report::{Ran, Report, Requests, Shown, StoppedBy, Summary};
 use crate::stop::StopFlag;
 use crate::svg::{self, Picture};
-use crate::world::{self, LoadedWorld};
+use crate::world::LoadedWorld;
 use crate::{Program, inputs, requests};
 
 use gate::RunGate;
@@ -44,11 +48,14 @@ pub fn run(
     rasterizer: Option<Rasterizer<'_>>,
 ) -> Result<u8, RunError> {
     options.check()?;
-    let mut world = world::find(options.world.as_deref(), Path::new(program.file), robot)?;
-    inputs::change_world(&mut world, &options.set, robot)?;
-    let measures = measures(program, options)?;
-    let measures: Vec<_> = measures.iter().map(String::as_str).collect();
-    let mut session = make(&*world.world, options.seed, &measures).map_err(|why| match why {
+    let again = options.again.as_deref().map(Again::read).transpose()?;
+    let world = match &again {
+        Some(again) => again.world(robot)?,
+        None => find_world(program, options, robot)?,
+    };
+    let recipe = recipe(program, options, &world, again.as_ref())?;
+    let measures: Vec<_> = recipe.measures.iter().map(String::as_str).collect();
+    let mut session = make(&*world.world, recipe.seed, &measures).map_err(|why| match why {
         SessionError::World(message) => RunError::Content {
             path: world.path.clone().unwrap_or_default(),
             span: None,
@@ -57,9 +64,65 @@ pub fn run(
         },
         other => other.into(),
     })?;
-    inputs::set_all(&mut *session, &options.set)?;
-    let facts = robot.facts();
-    drive(&mut *session, &Setting { program, options, world: &world, facts, rasterizer })
+    match &again {
+        Some(again) => requests::repeat(&mut *session, &again.recipe)?,
+        None => {
+            inputs::set_all(&mut *session, &options.set)?;
+            requests::make(&mut *session, &options.press, &options.fail)?;
+        }
+    }
+    let (facts, world, again) = (robot.facts(), &world, again.as_ref());
+    let setting = Setting { program, options, recipe, world, facts, again, rasterizer };
+    drive(&mut *session, &setting)
+}
+
+/// The world that the options ask for.
+fn find_world(
+    program: &Program<'_>,
+    options: &RunOptions,
+    robot: &dyn AnyRobot,
+) -> Result<LoadedWorld, RunError> {
+    let asked = options.world.as_deref();
+    let mut world = crate::world::find(asked, Path::new(program.file), robot)?;
+    inputs::change_world(&mut world, &options.set, robot)?;
+    let Some(start) = options.start else { return Ok(world) };
+    let refused = |why| RunError::usage(format!("'--start': {why}"), "choose another start");
+    world.started_at(start).map_err(refused)
+}
+
+/// All that it takes to repeat the run, but for what comes from outside.
+fn recipe(
+    program: &Program<'_>,
+    options: &RunOptions,
+    world: &LoadedWorld,
+    again: Option<&Again>,
+) -> Result<Recipe, RunError> {
+    let mut measures = measures(program, options)?;
+    let build = Build::this();
+    let (texts, toolboxes) = program.text_files();
+    let (plan, file) = (program.name.to_owned(), program.file.to_owned());
+    let end = Some(options.end()).filter(|end| *end < Instant::MAX);
+    if let Some(Again { recipe, .. }) = again {
+        measures.extend(recipe.measures.iter().cloned());
+        let until = options.until.map(|until| Instant::ZERO + until).or(recipe.until);
+        let recipe = recipe.clone();
+        return Ok(Recipe { plan, file, texts, toolboxes, measures, until, build, ..recipe });
+    }
+    Ok(Recipe {
+        plan,
+        file,
+        texts,
+        toolboxes,
+        robot: "sim".to_owned(),
+        world: TextFile { name: world.world.name().to_owned(), text: world.text.clone() },
+        start: world.start,
+        seed: options.seed,
+        measures,
+        settings: options.set.clone(),
+        until: end,
+        requests: Vec::new(),
+        build,
+    })
 }
 
 /// The measures that the project asks for, and the options.
@@ -75,7 +138,10 @@ fn measures(program: &Program<'_>, options: &RunOptions) -> Result<Vec<String>, 
 struct Setting<'a> {
     program: &'a Program<'a>,
     options: &'a RunOptions,
+    recipe: Recipe,
     world: &'a LoadedWorld,
+    /// The run that is repeated.
+    again: Option<&'a Again>,
     /// What the log says of the robot.
     facts: &'static [(&'static str, &'static str)],
     rasterizer: Option<Rasterizer<'a>>,
@@ -84,7 +150,7 @@ struct Setting<'a> {
 /// Drives a session to its end and says what it came to.
 fn drive(session: &mut dyn AnySession, setting: &Setting<'_>) -> Result<u8, RunError> {
     let Setting { program, options, world, rasterizer, .. } = *setting;
-    requests::make(session, &options.press, &options.fail)?;
+    let end = setting.recipe.until.unwrap_or(Instant::MAX);
     let paths = Paths::new(program, options)?;
     let raster = paths.raster(rasterizer)?;
     let mut log = match &paths.log {
@@ -97,21 +163,26 @@ fn drive(session: &mut dyn AnySession, setting: &Setting<'_>) -> Result<u8, RunE
     };
     let stop =
         StopFlag::on_signals().map_err(RunError::file("cannot handle", "signals".as_ref()))?;
-    let report = RefCell::new(Report::new(options.json, options.end()));
+    let report = RefCell::new(Report::new(options.json, end));
     report.borrow_mut().head(&head(setting));
     let mut counts = Counts::new(session.names());
     let mut track = Track::new(session.devices());
-    let mut gate = RunGate::new(&report, Pace::new(options.speed), stop);
+    let mut gate = RunGate::new(&report, Pace::new(options.speed), stop.clone());
+    let mut requests = Requests::default();
     let mut shown = Shown(&report);
-    let mut observers: Vec<&mut dyn Observer> = vec![&mut counts, &mut track, &mut shown];
+    let mut observers: Vec<&mut dyn Observer> =
+        vec![&mut counts, &mut track, &mut requests, &mut shown];
     observers.extend(log.as_mut().map(|log| log as &mut dyn Observer));
-    let stopped_by = run_to_end(session, options.end(), &mut gate, &mut observers)
+    let stopped_by = run_to_end(session, end, &mut gate, &mut observers)
         .map_err(|error| inputs::missing(error, session.names()))?;
     let speed = session.now().as_secs_f64() / gate.spent();
     drop(gate);
-    let written = log.map(SessionLog::finish).transpose()?;
-    let came = Came { stopped_by, speed, written, counts, track, raster };
-    came.finish(session, report.into_inner(), &paths, setting)
+    let written = log.map(|log| log.finish(session)).transpose()?;
+    let requests = requests.finish(session);
+    let came = Came { stopped_by, speed, written, counts, track, requests, raster };
+    let code = came.finish(session, report.into_inner(), &paths, setting)?;
+    setting.again.map_or(Ok(()), |again| again.compare(program, session.trace()))?;
+    Ok(stop.exit_code().filter(|_| stopped_by.is_some()).unwrap_or(code))
 }
 
 /// Runs the plan to its end, or until it is stopped.
@@ -144,6 +215,7 @@ struct Came<'a> {
     written: Option<Written>,
     counts: Counts,
     track: Track,
+    requests: Vec<Requested>,
     /// What makes the picture's bytes of an SVG that is not to be one.
     raster: Option<Rasterizer<'a>>,
 }
@@ -157,17 +229,18 @@ impl Came<'_> {
         paths: &Paths,
         setting: &Setting<'_>,
     ) -> Result<u8, RunError> {
-        let Came { stopped_by, speed, written, counts, track, raster } = self;
+        let Came { stopped_by, speed, written, counts, track, requests, raster } = self;
         let measured = session.end();
         let ran = Ran {
             plan: setting.program.name,
             world: setting.world.world.name(),
-            seed: setting.options.seed,
+            seed: setting.recipe.seed,
             stopped_by,
             end: session.now(),
             misses: session.misses(),
             trace: session.trace(),
             distance: track.distance,
+            requests,
         };
         let figures = ran.figures(&counts, measured, session.names());
         if let Some(path) = &paths.svg {
@@ -198,59 +271,42 @@ impl Came<'_> {
     }
 }
 
-fn head(setting: &Setting<'_>) -> [(&'static str, String); 3] {
-    let Setting { program, options, world, .. } = setting;
+fn head(setting: &Setting<'_>) -> Vec<(&'static str, String)> {
+    let Setting { program, recipe, world, again, .. } = setting;
     let file = match &world.path {
         Some(path) => path.display().to_string(),
         None => "built-in room".to_owned(),
     };
-    [
+    let mut head = vec![
         ("plan", format!("{} ({})", program.name, program.file)),
         ("world", format!("{} ({file})", world.world.name())),
-        ("seed", options.seed.to_string()),
-    ]
+        ("seed", recipe.seed.to_string()),
+    ];
+    head.extend(again.map(|again| ("again", again.path.display().to_string())));
+    head
 }
 
 /// What the log says of the run: enough to do it again.
 fn about(setting: &Setting<'_>) -> About {
-    let Setting { program, options, world, .. } = setting;
-    let set = options.set.iter().map(|(name, value)| format!("{name}={value}"));
-    let lines = |all: &mut dyn Iterator<Item = String>| all.collect::<Vec<_>>().join("\n");
-    let until = match options.end() {
-        Instant::MAX => String::new(),
-        end => end.as_nanos().to_string(),
-    };
+    let Setting { options, recipe, world, facts, .. } = setting;
+    let mut about = About::new(recipe);
     let clock = if options.speed == Speed::Max { "virtual" } else { "virtual, paced" };
-    let facts = [
-        ("plan", program.name.to_owned()),
-        ("plan_file", program.file.to_owned()),
-        ("plan_hash", plan_hash(program)),
-        ("robot", "sim".to_owned()),
-        ("seed", options.seed.to_string()),
-        ("set", set.collect::<Vec<_>>().join("\n")),
-        ("press", lines(&mut options.press.iter().map(ToString::to_string))),
-        ("fail", lines(&mut options.fail.iter().map(ToString::to_string))),
-        ("world", world.world.name().to_owned()),
+    let more = [
+        ("plan_hash", plan_hash(&recipe.texts)),
         ("world_hash", hash(&world.text)),
-        ("until_ns", until),
         ("clock", clock.to_owned()),
-        ("afp_version", env!("CARGO_PKG_VERSION").to_owned()),
     ];
-    let of_robot = setting.facts.iter().map(|(key, value)| (*key, (*value).to_owned()));
-    let facts = facts.into_iter().chain(of_robot);
-    let texts = program.texts.iter();
-    let mut attachments: Vec<_> =
-        texts.map(|(path, text)| ((*path).to_owned(), "text/plain", (*text).to_owned())).collect();
-    attachments.push(("world.toml".to_owned(), "application/toml", world.text.clone()));
-    About { facts: facts.map(|(key, value)| (key.to_owned(), value)).collect(), attachments }
+    about.facts.extend(more.map(|(key, value)| (key.to_owned(), value)));
+    about.facts.extend(facts.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())));
+    about
 }
 
 /// The hash of the plan's text; of several files, that of their paths and texts.
-fn plan_hash(program: &Program<'_>) -> String {
-    match program.texts {
-        [(_, text)] => hash(text),
-        texts => {
-            hash(&texts.iter().map(|(path, text)| format!("{path}\0{text}\0")).collect::<String>())
+fn plan_hash(texts: &[TextFile]) -> String {
+    match texts {
+        [one] => hash(&one.text),
+        all => {
+            hash(&all.iter().map(|it| format!("{}\0{}\0", it.name, it.text)).collect::<String>())
         }
     }
 }

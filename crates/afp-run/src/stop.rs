@@ -1,11 +1,18 @@
 //! Requests to stop from outside: Ctrl-C, SIGTERM.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 
 /// Whether somebody asked the process to stop.
 #[derive(Clone, Debug, Default)]
-pub struct StopFlag(Arc<AtomicBool>);
+pub struct StopFlag(Arc<Stop>);
+
+#[derive(Debug, Default)]
+struct Stop {
+    raised: AtomicBool,
+    /// The number of the signal that asked, where others than the user send it; else zero.
+    signal: AtomicU8,
+}
 
 impl StopFlag {
     /// The flag that Ctrl-C and SIGTERM raise, one for the process. A second signal ends the
@@ -29,12 +36,21 @@ impl StopFlag {
 
     /// Whether it was raised.
     pub fn is_raised(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
+        self.0.raised.load(Ordering::Relaxed)
     }
 
     /// The flag itself, for other threads to look at.
     pub fn flag(&self) -> &AtomicBool {
-        &self.0
+        &self.0.raised
+    }
+
+    /// What a program that ends as asked exits with, if SIGTERM or SIGHUP asked: 128 and the signal, as a shell says
+    /// of one that died of it. None for Ctrl-C, with which people end what has no end.
+    pub fn exit_code(&self) -> Option<u8> {
+        match self.0.signal.load(Ordering::Relaxed) {
+            0 => None,
+            signal => Some(128 + signal),
+        }
     }
 }
 
@@ -81,7 +97,12 @@ mod signals {
                 keys::give_back();
                 // There is no other end than this one; nothing is to be done about a failure.
                 let _ = low_level::emulate_default_handler(signal);
-            } else if flag.0.swap(true, Ordering::Relaxed) {
+                continue;
+            }
+            if let (SIGTERM | SIGHUP, Ok(number)) = (signal, u8::try_from(signal)) {
+                flag.0.signal.store(number, Ordering::Relaxed);
+            }
+            if flag.0.raised.swap(true, Ordering::Relaxed) {
                 keys::give_back();
                 low_level::exit(EXIT_SIGNAL);
             }

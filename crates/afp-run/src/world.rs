@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use afp_project::{ProjectFile, shown};
-use afp_session::{AnyRobot, AnyWorld, WorldError};
+use afp_session::{AnyRobot, AnyWorld, Pose2, WorldError};
 
 use crate::error::RunError;
 
@@ -20,6 +20,19 @@ pub struct LoadedWorld {
     pub text: String,
     /// Its file; `None` for the built-in room.
     pub path: Option<PathBuf>,
+    /// Where the robot starts instead of where the file says.
+    pub start: Option<Pose2>,
+}
+
+impl LoadedWorld {
+    /// The same world with the robot at another start.
+    ///
+    /// # Errors
+    /// Why it cannot start there.
+    pub fn started_at(self, start: Pose2) -> Result<LoadedWorld, String> {
+        let world = self.world.started_at(start)?;
+        Ok(LoadedWorld { world, start: Some(start), ..self })
+    }
 }
 
 /// What asks for a room made up instead of a file, before the seed.
@@ -98,13 +111,17 @@ fn map(path: &Path, yaml: String, robot: &dyn AnyRobot) -> Result<String, RunErr
     robot.text_of_map(&name, &yaml, &bytes).map_err(wrong)
 }
 
-fn parse(
+/// The world of a text, which `path` is called in errors.
+///
+/// # Errors
+/// The first thing that is wrong with it.
+pub(crate) fn parse(
     text: String,
     path: Option<PathBuf>,
     robot: &dyn AnyRobot,
 ) -> Result<LoadedWorld, RunError> {
     match robot.world(&text) {
-        Ok(world) => Ok(LoadedWorld { world, text, path }),
+        Ok(world) => Ok(LoadedWorld { world, text, path, start: None }),
         Err(error) => Err(RunError::Content {
             path: path.unwrap_or_else(|| "built-in room".into()),
             span: error.span,

@@ -6,10 +6,9 @@ use afp_core::{Actor, Fault, Instant, Poll};
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
-use afp_log::proto::afp::plan_event::{Ending, Kind};
 use afp_run::options::RunOptions;
 use afp_run::{EXIT_PLAN_ERROR, Program, run};
-use afp_session::{AnyWorld, Loader, simulated};
+use afp_session::{AnyWorld, EndingKind, EventKind, Loader, simulated};
 use afp_sim::Simulation;
 use afp_syntax::source::Source;
 use clap::{Args, Command, FromArgMatches};
@@ -75,7 +74,8 @@ fn a_panic_stops_the_robot_and_ends_the_run() {
     let log = afp_log::read(&log).unwrap();
     assert_eq!(log.cut_short, None);
     let last = log.events.last().unwrap();
-    assert_eq!((last.kind(), last.ending(), &*last.fault), (Kind::Ended, Ending::Error, "panic"));
-    let end = afp_log::instant(&last.time).as_secs_f64();
+    assert_eq!((last.kind, last.ending), (EventKind::Ended, Some(EndingKind::Error)));
+    assert_eq!(last.fault, "panic");
+    let end = last.at.as_secs_f64();
     assert!((0.99..1.02).contains(&end), "{end}");
 }

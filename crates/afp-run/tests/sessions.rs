@@ -67,7 +67,7 @@ fn looking_judging_logging_and_pausing_do_not_change_the_run() {
     parts.stop(&mut observers);
     assert_ne!(parts.trace(), whole.trace());
     assert!(parts.ending().is_some());
-    assert_eq!((track.path.len(), log.finish().unwrap().lost), (1301, 0));
+    assert_eq!((track.path.len(), log.finish(&parts).unwrap().lost), (1301, 0));
     assert!(parts.end().number("wall_error", "judged_s").unwrap() > 1.0);
 }
 

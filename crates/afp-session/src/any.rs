@@ -10,6 +10,7 @@ use crate::figures::Figures;
 use crate::observer::{Gate, Go, Observer};
 use crate::request::{Request, RequestError, RequestId};
 use crate::sample::SampleRef;
+use crate::stimulus::Stimulus;
 
 /// A session, whatever its plan and its robot.
 pub trait AnySession: Send {
@@ -99,8 +100,11 @@ pub trait AnySession: Send {
     /// on every machine.
     fn trace(&self) -> TraceHash;
 
-    /// What was asked for so far, with the instants.
+    /// What was asked for so far, with the instants: asked for from the start on, the same run comes of it.
     fn requests(&self) -> &[(Instant, Request)];
+
+    /// What was asked for and has not come yet, by time.
+    fn pending(&self) -> Vec<(Instant, Stimulus)>;
 }
 
 /// Why an entry cannot be set.

@@ -23,23 +23,28 @@
 
 mod any;
 mod counts;
+mod event;
 mod faults;
 mod figures;
 mod observer;
+mod recipe;
 mod record;
 mod request;
 mod robot;
 mod robots;
 mod sample;
 mod session;
+mod stimulus;
 mod track;
 mod world;
 
 pub use any::{AnySession, SetError};
 pub use counts::{Counts, Usage};
+pub use event::{Datum, Done, EndingKind, EventKind, Miss, OUTSIDE, Requested, RunEvent, author};
 pub use faults::{Active, Faults};
 pub use figures::{Figure, FigureValue, Figures, Span};
-pub use observer::{Gate, Go, NamedRecord, Observer, Open, Sampling, View};
+pub use observer::{Applied, Gate, Go, NamedRecord, Observer, Open, Sampling, View};
+pub use recipe::{Build, Recipe, RecipeError, TextFile};
 pub use record::{Keep, Kept, OwnedRecord};
 pub use request::{HOLD, Request, RequestError, RequestId};
 pub use robot::{ControlOf, FaultOf, Measure, Refused, Robot, Simulated};
@@ -48,5 +53,6 @@ pub use robots::{AnyRobot, Kind, SessionError, kind};
 pub use robots::{Loader, Simulator, simulated};
 pub use sample::{Image, Pose2, Ranging, SampleRef, Samples, Shape, Transform};
 pub use session::{SAMPLE, Session};
+pub use stimulus::Stimulus;
 pub use track::{Mark, Track, Waypoint};
 pub use world::{AnyWorld, Drawing, Patch, Thing, World, WorldError};

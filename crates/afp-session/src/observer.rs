@@ -4,8 +4,10 @@ use afp_core::devices::SignalId;
 use afp_core::trace::{ComponentId, Ending, Names, Record};
 use afp_core::{Duration, Instant, ValueRef};
 
+use crate::event::{Done, Requested, RunEvent};
 use crate::request::{RequestError, RequestId};
 use crate::sample::SampleRef;
+use crate::stimulus::Stimulus;
 
 /// Whether a run goes on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,6 +87,29 @@ impl NamedRecord<'_> {
     }
 }
 
+/// A request whose time has come.
+#[derive(Clone, Copy, Debug)]
+pub struct Applied<'a> {
+    /// When.
+    pub now: Instant,
+    /// The instant that it was meant for.
+    pub at: Instant,
+    /// Its number.
+    pub id: RequestId,
+    /// What was asked for.
+    pub what: &'a Stimulus,
+    /// Why it cannot be done; none where it was.
+    pub refused: Option<&'a RequestError>,
+}
+
+impl Applied<'_> {
+    /// The same as an event of the run.
+    pub fn event(&self) -> RunEvent {
+        let done = self.refused.map_or(Done::Done, |why| Done::Refused(why.to_string()));
+        RunEvent::requested(self.now, Requested { at: self.at, what: self.what.clone(), done })
+    }
+}
+
 /// Is told what happens in a run. It never touches the session.
 pub trait Observer {
     /// A record of the step that is over.
@@ -123,9 +148,9 @@ pub trait Observer {
         let _ = at;
     }
 
-    /// A request that was taken cannot be met now that it is due.
-    fn on_refused(&mut self, at: Instant, request: RequestId, why: &RequestError) {
-        let _ = (at, request, why);
+    /// A request was due, and was done or cannot be done.
+    fn on_request(&mut self, applied: &Applied<'_>) {
+        let _ = applied;
     }
 }
 

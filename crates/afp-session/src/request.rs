@@ -62,6 +62,10 @@ pub enum RequestError {
     NotActive(String),
     /// There is no such actor or sub-plan.
     NoElement,
+    /// The plan has no such entry, or its entry has no such value.
+    NoEntry(String),
+    /// There is no such state or event.
+    NoOutcome(String),
     /// The plan was compiled into the program: its components report what they see, and nothing else.
     Compiled,
 }
@@ -69,10 +73,18 @@ pub enum RequestError {
 /// What is still to come, by time; at one time as it was made.
 #[derive(Clone, Debug)]
 pub(crate) struct Requests {
-    waiting: BTreeMap<(Instant, RequestId), Request>,
+    waiting: BTreeMap<(Instant, RequestId), Waiting>,
     made: u64,
     /// When the next one is due.
     next: Instant,
+}
+
+/// A request that observers have not been told of.
+#[derive(Clone, Debug)]
+pub(crate) struct Waiting {
+    pub(crate) request: Request,
+    /// Whether it has been done already.
+    pub(crate) done: bool,
 }
 
 impl Default for Requests {
@@ -83,11 +95,25 @@ impl Default for Requests {
 
 impl Requests {
     pub(crate) fn add(&mut self, at: Instant, request: Request) -> RequestId {
+        self.insert(at, Waiting { request, done: false })
+    }
+
+    /// Adds one that is done already, for observers to be told of.
+    pub(crate) fn add_done(&mut self, at: Instant, request: Request) {
+        self.insert(at, Waiting { request, done: true });
+    }
+
+    fn insert(&mut self, at: Instant, waiting: Waiting) -> RequestId {
         let id = RequestId(self.made);
         self.made += 1;
-        self.waiting.insert((at, id), request);
+        self.waiting.insert((at, id), waiting);
         self.next = self.next.min(at);
         id
+    }
+
+    /// What is still to come, in order.
+    pub(crate) fn pending(&self) -> impl Iterator<Item = (Instant, &Request)> {
+        self.waiting.iter().map(|((at, _), waiting)| (*at, &waiting.request))
     }
 
     #[inline]
@@ -95,11 +121,11 @@ impl Requests {
         self.next
     }
 
-    pub(crate) fn take_due(&mut self, now: Instant) -> Option<(RequestId, Request)> {
+    pub(crate) fn take_due(&mut self, now: Instant) -> Option<(Instant, RequestId, Waiting)> {
         let first = self.waiting.first_entry().filter(|first| first.key().0 <= now)?;
-        let ((_, id), request) = first.remove_entry();
+        let ((at, id), waiting) = first.remove_entry();
         self.next = self.waiting.keys().next().map_or(Instant::MAX, |(at, _)| *at);
-        Some((id, request))
+        Some((at, id, waiting))
     }
 }
 
@@ -118,6 +144,8 @@ impl fmt::Display for RequestError {
             RequestError::Write(why) => why.fmt(f),
             RequestError::NotActive(path) => write!(f, "'{path}' is not active"),
             RequestError::NoElement => f.write_str("there is no such actor"),
+            RequestError::NoEntry(name) => write!(f, "the plan has no such entry '{name}'"),
+            RequestError::NoOutcome(name) => write!(f, "there is no '{name}'"),
             RequestError::Compiled => {
                 f.write_str("the plan was compiled in; only a loaded one can be made to report")
             }

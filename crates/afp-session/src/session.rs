@@ -37,6 +37,8 @@ pub struct Session<P: NamedPlan, R: Robot, S = Kept> {
     started: bool,
     /// Whether a step is under way: a panic is the plan's then.
     stepping: bool,
+    /// When the last step was made, once there was one.
+    stepped: Option<Instant>,
     /// When the next step is made: now before the start, never after the end.
     due: Instant,
     /// When the run is over at the latest: once the robot rests after the end of its plan.
@@ -92,6 +94,7 @@ where
             sink,
             started: false,
             stepping: false,
+            stepped: None,
             due: robot.now(),
             last: Instant::MAX,
             rest: Duration::ZERO,
@@ -308,6 +311,7 @@ where
     #[inline]
     fn woke(&mut self, wake: Wake, now: Instant, to: &mut [&mut dyn Observer]) {
         self.started = true;
+        self.stepped = Some(now);
         match wake {
             Wake::At(due) => self.due = due,
             _ => self.ended(now),

@@ -9,8 +9,8 @@ use afp_core::devices::{ControlId, FaultId, SignalId};
 use afp_core::trace::{Ending, Record, Verdict};
 use afp_core::{Duration, Fault, Instant, Platform, Text, Value, WriteError};
 use afp_session::{
-    AnySession, Figure, Go, Measure, NamedRecord, Observer, Open, Request, RequestError, RequestId,
-    SampleRef, Sampling, Session, SetError, View,
+    AnySession, Applied, Figure, Go, Measure, NamedRecord, Observer, Open, Request, RequestError,
+    RequestId, SampleRef, Sampling, Session, SetError, View,
 };
 use support::{POSITION, Toy, plan};
 
@@ -87,8 +87,10 @@ impl Observer for Notes {
         self.samples.push((at, of.pose.x));
     }
 
-    fn on_refused(&mut self, at: Instant, request: RequestId, why: &RequestError) {
-        self.refused.push((at, request, why.clone()));
+    fn on_request(&mut self, applied: &Applied<'_>) {
+        if let Some(why) = applied.refused {
+            self.refused.push((applied.now, applied.id, why.clone()));
+        }
     }
 }
 

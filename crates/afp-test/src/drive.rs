@@ -9,8 +9,8 @@ use afp_dsl::scenario::Scenario;
 use afp_log::{About, NameTable, SessionLog};
 use afp_run::RunError;
 use afp_session::{
-    AnySession, Go, Loader, NamedRecord, Observer, RequestError, RequestId, SampleRef, Sampling,
-    View,
+    AnySession, Applied, Build, Go, Loader, NamedRecord, Observer, Recipe, RequestId, SampleRef,
+    Sampling, TextFile, View,
 };
 
 use crate::setting::Setting;
@@ -67,7 +67,7 @@ pub(crate) fn run(
     let went = session.run(until, &mut gate, &mut observers);
     let went = went.map_err(|error| cannot_start(scenario, error))?;
     session.end();
-    log.map(SessionLog::finish).transpose()?;
+    log.map(|log| log.finish(&*session)).transpose()?;
     if went == Go::Stop {
         return Ok(None);
     }
@@ -145,11 +145,14 @@ impl Observer for Judge<'_> {
         self.watch.settle(at);
     }
 
-    fn on_refused(&mut self, at: Instant, request: RequestId, why: &RequestError) {
-        let line = self.lines.get(&request).and_then(|line| self.scenario.stimuli.get(*line));
-        if let Some(stimulus) = line {
+    fn on_request(&mut self, applied: &Applied<'_>) {
+        let line = self.lines.get(&applied.id).and_then(|line| self.scenario.stimuli.get(*line));
+        if let (Some(stimulus), Some(why)) = (line, applied.refused) {
             let (text, span) = (stimulus.text.clone(), stimulus.span);
-            self.broken.push(Broken { text, span, at, why: why.to_string() });
+            self.broken.push(Broken { text, span, at: applied.now, why: why.to_string() });
+        }
+        if let Some(line) = afp_run::event_line(&applied.event()) {
+            self.timeline.push((applied.now, line));
         }
     }
 }
@@ -181,22 +184,39 @@ fn cannot_start(scenario: &Scenario, error: StartError) -> RunError {
     refused(scenario, &error.to_string())
 }
 
+/// The texts of the plan's files, as they are by now: a plan has run even if its file is gone.
+fn texts(scenario: &Scenario) -> Vec<TextFile> {
+    let file = Path::new(&scenario.plan_file);
+    let name = file.file_name().map(|name| name.to_string_lossy().into_owned());
+    let mut names: Vec<_> = name.into_iter().collect();
+    for used in scenario.graph.plans.iter().filter_map(|plan| plan.file.as_ref()) {
+        if !names.contains(used) {
+            names.push(used.clone());
+        }
+    }
+    let read = |name: String| {
+        let text = std::fs::read_to_string(file.with_file_name(&name)).ok()?;
+        Some(TextFile { name, text })
+    };
+    names.into_iter().filter_map(read).collect()
+}
+
 /// What the log says of the run.
 fn about(scenario: &Scenario, setting: &Setting) -> About {
     let world = &setting.world;
-    let facts = [
-        ("plan", scenario.graph.main().name.clone()),
-        ("plan_file", scenario.plan_file.clone()),
-        ("scenario", scenario.name.clone()),
-        ("robot", "sim".to_owned()),
-        ("seed", scenario.seed.to_string()),
-        ("world", world.world.name().to_owned()),
-        ("until_ns", scenario.until.to_string()),
-        ("clock", "virtual".to_owned()),
-        ("afp_version", env!("CARGO_PKG_VERSION").to_owned()),
-    ];
-    About {
-        facts: facts.map(|(key, value)| (key.to_owned(), value)).to_vec(),
-        attachments: vec![("world.toml".to_owned(), "application/toml", world.text.clone())],
-    }
+    let mut about = About::new(&Recipe {
+        plan: scenario.graph.main().name.clone(),
+        file: scenario.plan_file.clone(),
+        texts: texts(scenario),
+        robot: "sim".to_owned(),
+        world: TextFile { name: world.world.name().to_owned(), text: world.text.clone() },
+        start: world.start,
+        seed: scenario.seed,
+        until: Some(Instant::from_nanos(scenario.until)),
+        build: Build::this(),
+        ..Recipe::default()
+    });
+    about.facts.push(("scenario".to_owned(), scenario.name.clone()));
+    about.facts.push(("clock".to_owned(), "virtual".to_owned()));
+    about
 }

@@ -32,7 +32,7 @@ impl Setting {
         };
         if let Some(start) = scenario.robot {
             let pose = Pose2 { x: start.x, y: start.y, heading: start.heading };
-            found.world = found.world.started_at(pose).map_err(|what| {
+            found = found.started_at(pose).map_err(|what| {
                 let message = format!("'{}': {what}", scenario.name);
                 RunError::usage(message, "change the line 'robot at ...'")
             })?;

@@ -8,7 +8,7 @@ use std::io::{BufRead, BufReader, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use afp_run::RunError;
+use afp_run::{RunError, say};
 use serde_json::Value;
 
 use crate::plan_file::NoPlan;
@@ -60,7 +60,7 @@ pub fn build(job: Job<'_>) -> Result<Option<PathBuf>, NoPlan> {
         true => Ok(binary),
         false => {
             let folder = job.folder.display();
-            anstream::eprintln!("error: cargo could not build the crate in '{folder}'");
+            say(format_args!("error: cargo could not build the crate in '{folder}'"));
             Err(NoPlan::Wrong)
         }
     }

@@ -1,6 +1,7 @@
 //! The command line's grammar.
 
 use afp_run::options::for_robot;
+use afp_run::say;
 use afp_session::AnyRobot;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
@@ -76,7 +77,7 @@ pub fn parse(robot: &dyn AnyRobot) -> Command {
         && let Some(error) = later::refusal(name)
     {
         // The exit code of wrong usage, in the words of every other error.
-        anstream::eprintln!("{error}");
+        say(&error);
         std::process::exit(error.code().into());
     }
     match Cli::from_arg_matches(&matches) {

@@ -9,7 +9,8 @@ use afp_dsl::graph::Graph;
 use afp_dsl::{Compiled, compile_plan};
 use afp_log::LogData;
 use afp_project::{ProjectError, ProjectFile};
-use afp_run::RunError;
+use afp_run::{RunError, say};
+use afp_session::Recipe;
 use afp_syntax::source::Source;
 
 use crate::toolboxes::OwnToolboxes;
@@ -53,7 +54,8 @@ impl PlanFile {
         let (path, plan) = split(argument);
         let text =
             fs::read_to_string(&path).map_err(RunError::file("cannot read the plan", &path))?;
-        PlanFile::compile(path, text, &read_used, plan)
+        let source = Source::new(path.display().to_string(), text);
+        PlanFile::compile(path, &source, &read_used, plan)
     }
 
     /// The plan of a log, from the texts that the log holds, or else from its file.
@@ -61,31 +63,30 @@ impl PlanFile {
     /// # Errors
     /// The log names no plan, or its file cannot be read.
     pub fn of_log(log: &LogData) -> Result<PlanFile, RunError> {
-        let fact = |key: &str| log.facts.get(key).map_or("", String::as_str);
-        let (file, plan) = (fact("plan_file"), fact("plan"));
+        let Recipe { plan, file, texts, .. } = log.recipe();
         if file.is_empty() {
             return Err(RunError::usage("the log does not say which plan ran", "name a whole log"));
         }
-        let Some(text) = log.attachments.get(file) else {
+        let Some(first) = texts.first() else {
             return PlanFile::read(&format!("{file}:{plan}"));
         };
         let read = |path: &str| {
-            let text = log.attachments.get(path).cloned();
-            text.ok_or_else(|| "it is not in the log".to_owned())
+            let found = texts.iter().find(|known| known.name == path);
+            found.map(|it| it.text.clone()).ok_or_else(|| "it is not in the log".to_owned())
         };
-        PlanFile::compile(file.into(), text.clone(), &read, Some(plan))
+        let source = Source::new(&first.name, &first.text);
+        PlanFile::compile(file.into(), &source, &read, Some(&plan))
     }
 
     fn compile(
         path: PathBuf,
-        text: String,
+        source: &Source,
         files: &dyn Files,
         plan: Option<&str>,
     ) -> Result<PlanFile, RunError> {
         let own = OwnToolboxes::read(ProjectFile::of_plan(&path)?)?;
         let toolboxes = own.with_built_in()?;
-        let source = Source::new(path.display().to_string(), text);
-        let compiled = compile_plan(&source, &toolboxes, files, plan);
+        let compiled = compile_plan(source, &toolboxes, files, plan);
         Ok(PlanFile { path, compiled, own })
     }
 
@@ -100,7 +101,7 @@ impl PlanFile {
     /// Tells standard error what is wrong.
     pub fn report(&self) {
         if !self.compiled.diags.is_empty() {
-            anstream::eprintln!("{}", self.compiled.render(true));
+            say(self.compiled.render(true));
         }
     }
 

@@ -16,7 +16,7 @@ use std::process::Command;
 use afp_codegen::{RunnerOptions, runner_files};
 use afp_dsl::graph::Graph;
 use afp_project::ProjectFile;
-use afp_run::{RunError, hash};
+use afp_run::{RunError, hash, say};
 
 use crate::cargo::{self, Blame, Job};
 use crate::plan_file::NoPlan;
@@ -133,7 +133,7 @@ impl Runner {
         })?;
         let texts: Vec<_> = files.iter().map(|(path, text)| (&**path, &**text)).collect();
         crate_folder::write(&self.folder, &texts, &self.options.origin)?;
-        anstream::eprintln!("building a runner for {names} (once) ...");
+        say(format_args!("building a runner for {names} (once) ..."));
         let begun = fresh::begin(&self.folder)?;
         let built = cargo::build(Job {
             folder: &self.folder,

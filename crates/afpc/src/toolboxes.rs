@@ -60,6 +60,11 @@ impl OwnToolboxes {
         }
     }
 
+    /// Names and texts of the toolboxes.
+    pub fn texts(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.files.iter().map(|file| (file.toolbox.name.as_str(), file.text.as_str()))
+    }
+
     /// Those that a plan uses, with their crates.
     ///
     /// # Errors

@@ -53,6 +53,9 @@ pub struct PlanEvent {
     /// The SI unit of `old` and `value`.
     #[prost(string, tag = "23")]
     pub unit: ::prost::alloc::string::String,
+    /// What came from outside.
+    #[prost(message, optional, tag = "24")]
+    pub request: ::core::option::Option<Request>,
 }
 /// Nested message and enum types in `PlanEvent`.
 pub mod plan_event {
@@ -99,6 +102,8 @@ pub mod plan_event {
         Lost = 15,
         /// A test made `component` report `outcome`.
         Injected = 16,
+        /// Something came from outside: `request`.
+        Requested = 17,
     }
     impl Kind {
         /// String value of the enum field names used in the ProtoBuf definition.
@@ -124,6 +129,7 @@ pub mod plan_event {
                 Self::Ended => "ENDED",
                 Self::Lost => "LOST",
                 Self::Injected => "INJECTED",
+                Self::Requested => "REQUESTED",
             }
         }
         /// Creates an enum from field names used in the ProtoBuf definition.
@@ -146,6 +152,7 @@ pub mod plan_event {
                 "ENDED" => Some(Self::Ended),
                 "LOST" => Some(Self::Lost),
                 "INJECTED" => Some(Self::Injected),
+                "REQUESTED" => Some(Self::Requested),
                 _ => None,
             }
         }
@@ -231,6 +238,161 @@ pub mod plan_event {
             }
         }
     }
+}
+/// Something that came from outside. Those of a whole log, asked for at their instants, repeat the run.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Request {
+    #[prost(enumeration = "request::Kind", tag = "1")]
+    pub kind: i32,
+    /// The instant that it was meant for.
+    #[prost(uint64, tag = "2")]
+    pub at_ns: u64,
+    /// An entry, device and control, device and fault, or a path; empty for all.
+    #[prost(string, tag = "3")]
+    pub name: ::prost::alloc::string::String,
+    #[prost(string, tag = "4")]
+    pub outcome: ::prost::alloc::string::String,
+    #[prost(message, optional, tag = "5")]
+    pub value: ::core::option::Option<Value>,
+    /// The SI unit of `value`.
+    #[prost(string, tag = "6")]
+    pub unit: ::prost::alloc::string::String,
+    /// In SI units; as much as the robot declares where there is none.
+    #[prost(double, optional, tag = "7")]
+    pub amount: ::core::option::Option<f64>,
+    /// For good where there is none.
+    #[prost(uint64, optional, tag = "8")]
+    pub lasting_ns: ::core::option::Option<u64>,
+    #[prost(message, repeated, tag = "9")]
+    pub outputs: ::prost::alloc::vec::Vec<request::Output>,
+    #[prost(enumeration = "request::Became", tag = "10")]
+    pub became: i32,
+    #[prost(string, tag = "11")]
+    pub why: ::prost::alloc::string::String,
+}
+/// Nested message and enum types in `Request`.
+pub mod request {
+    /// An output port by position in the template, and its value.
+    #[derive(Clone, PartialEq, ::prost::Message)]
+    pub struct Output {
+        #[prost(uint32, tag = "1")]
+        pub port: u32,
+        #[prost(message, optional, tag = "2")]
+        pub value: ::core::option::Option<super::Value>,
+    }
+    #[derive(
+        Clone,
+        Copy,
+        Debug,
+        PartialEq,
+        Eq,
+        Hash,
+        PartialOrd,
+        Ord,
+        ::prost::Enumeration
+    )]
+    #[repr(i32)]
+    pub enum Kind {
+        Unknown = 0,
+        /// The entry `name` is written with `value`.
+        Write = 1,
+        /// The control `name` is held down.
+        Press = 2,
+        /// The control `name` is let go.
+        Release = 3,
+        /// The fault `name` begins, by `amount`, for `lasting_ns`.
+        Fail = 4,
+        /// The component `name` reports `outcome` with `outputs`.
+        Fire = 5,
+        /// The actor or sub-plan `name`, or all of them, do nothing any more.
+        Idle = 6,
+        /// The plan is stopped.
+        Stop = 7,
+    }
+    impl Kind {
+        /// String value of the enum field names used in the ProtoBuf definition.
+        ///
+        /// The values are not transformed in any way and thus are considered stable
+        /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+        pub fn as_str_name(&self) -> &'static str {
+            match self {
+                Self::Unknown => "UNKNOWN",
+                Self::Write => "WRITE",
+                Self::Press => "PRESS",
+                Self::Release => "RELEASE",
+                Self::Fail => "FAIL",
+                Self::Fire => "FIRE",
+                Self::Idle => "IDLE",
+                Self::Stop => "STOP",
+            }
+        }
+        /// Creates an enum from field names used in the ProtoBuf definition.
+        pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+            match value {
+                "UNKNOWN" => Some(Self::Unknown),
+                "WRITE" => Some(Self::Write),
+                "PRESS" => Some(Self::Press),
+                "RELEASE" => Some(Self::Release),
+                "FAIL" => Some(Self::Fail),
+                "FIRE" => Some(Self::Fire),
+                "IDLE" => Some(Self::Idle),
+                "STOP" => Some(Self::Stop),
+                _ => None,
+            }
+        }
+    }
+    #[derive(
+        Clone,
+        Copy,
+        Debug,
+        PartialEq,
+        Eq,
+        Hash,
+        PartialOrd,
+        Ord,
+        ::prost::Enumeration
+    )]
+    #[repr(i32)]
+    pub enum Became {
+        Done = 0,
+        /// It could not be done: `why`.
+        Refused = 1,
+        /// The run was over before.
+        NotReached = 2,
+    }
+    impl Became {
+        /// String value of the enum field names used in the ProtoBuf definition.
+        ///
+        /// The values are not transformed in any way and thus are considered stable
+        /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+        pub fn as_str_name(&self) -> &'static str {
+            match self {
+                Self::Done => "DONE",
+                Self::Refused => "REFUSED",
+                Self::NotReached => "NOT_REACHED",
+            }
+        }
+        /// Creates an enum from field names used in the ProtoBuf definition.
+        pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+            match value {
+                "DONE" => Some(Self::Done),
+                "REFUSED" => Some(Self::Refused),
+                "NOT_REACHED" => Some(Self::NotReached),
+                _ => None,
+            }
+        }
+    }
+}
+/// What a device says, whenever it says something else; on /robot/DEVICE/SIGNAL.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Sample {
+    #[prost(message, optional, tag = "1")]
+    pub time: ::core::option::Option<::prost_types::Timestamp>,
+    #[prost(message, optional, tag = "2")]
+    pub value: ::core::option::Option<Value>,
+    /// The SI unit of `value`.
+    #[prost(string, tag = "3")]
+    pub unit: ::prost::alloc::string::String,
 }
 /// A value; none of the fields while nobody has written it.
 #[derive(Clone, PartialEq, ::prost::Message)]

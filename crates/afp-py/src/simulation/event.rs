@@ -1,19 +1,14 @@
 //! `Event`: one thing that happened.
 
 use afp::load::PlanNames;
-use afp_log::event::{describe, ending_word, kind_word};
-use afp_log::instant;
-use afp_log::proto::afp::plan_event::{Cause, Kind};
-use afp_log::proto::afp::value::Value as Told;
-use afp_log::proto::afp::{PlanEvent, Value};
-use afp_session::OwnedRecord;
+use afp_session::{Datum, Done, EndingKind, Miss, OwnedRecord, RunEvent};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 
 /// One thing that happened in a run.
 #[pyclass(module = "afp", frozen)]
 pub struct Event {
-    event: PlanEvent,
+    event: RunEvent,
     line: Option<String>,
 }
 
@@ -21,12 +16,13 @@ impl Event {
     /// From a record of a run.
     pub fn new(record: &OwnedRecord, names: &PlanNames) -> Event {
         let (at, what) = (record.at, record.get());
-        Event { event: describe(at, &what, names), line: line(record, names) }
+        Event { event: RunEvent::new(at, &what, names), line: line(record, names) }
     }
 
     /// From a log.
-    pub fn logged(event: PlanEvent) -> Event {
-        Event { event, line: None }
+    pub fn logged(event: RunEvent) -> Event {
+        let line = event.request.is_some().then(|| afp_run::event_line(&event)).flatten();
+        Event { line: line.as_deref().map(plain), event }
     }
 }
 
@@ -35,13 +31,13 @@ impl Event {
     /// When, seconds since the start.
     #[getter]
     fn time(&self) -> f64 {
-        instant(&self.event.time).as_secs_f64()
+        self.event.at.as_secs_f64()
     }
 
     /// What happened: `started`, `event`, `finished`, `interrupted`, `committed`, `faulted`, `ended`, ...
     #[getter]
     fn kind(&self) -> &'static str {
-        kind_word(self.event.kind())
+        self.event.kind.word()
     }
 
     /// Whom it happened to: the path of an element or supervisor; who wrote, for `committed`.
@@ -101,7 +97,7 @@ impl Event {
     /// How a plan ended: `ok`, `interrupted`, `error`.
     #[getter]
     fn ending(&self) -> Option<&'static str> {
-        Some(ending_word(self.event.ending())).filter(|word| !word.is_empty())
+        self.event.ending.map(EndingKind::word)
     }
 
     /// The code of a fault.
@@ -119,16 +115,28 @@ impl Event {
     /// By how much a deadline was missed, seconds.
     #[getter]
     fn lateness(&self) -> Option<f64> {
-        (self.event.kind() == Kind::Missed).then(|| self.event.lateness_ns as f64 / 1e9)
+        self.event.missed.map(|miss| miss.lateness.as_secs_f64())
     }
 
     /// Why a deadline was missed: `late_release` or `long_poll`.
     #[getter]
     fn cause(&self) -> Option<&'static str> {
-        match self.event.cause() {
-            Cause::NoCause => None,
-            Cause::LateRelease => Some("late_release"),
-            Cause::LongPoll => Some("long_poll"),
+        self.event.missed.as_ref().map(Miss::word).filter(|word| !word.is_empty())
+    }
+
+    /// What came from outside, in the words of scenarios: `press touch.touch`.
+    #[getter]
+    fn request(&self) -> Option<String> {
+        self.event.request.as_ref().map(|request| request.what.to_string())
+    }
+
+    /// Why what came from outside was not done: a reason, or `not reached`.
+    #[getter]
+    fn refused(&self) -> Option<&str> {
+        match &self.event.request.as_ref()?.done {
+            Done::Done => None,
+            Done::Refused(why) => Some(why),
+            Done::NotReached => Some("not reached"),
         }
     }
 
@@ -153,7 +161,11 @@ impl Event {
 /// The line of a timeline, without colours; none for what is not worth one.
 pub fn line(record: &OwnedRecord, names: &PlanNames) -> Option<String> {
     let styled = afp_run::line(record.at, &record.get(), names)?;
-    Some(anstream::adapter::strip_str(&styled).to_string())
+    Some(plain(&styled))
+}
+
+fn plain(styled: &str) -> String {
+    anstream::adapter::strip_str(styled).to_string()
 }
 
 /// A text that is there or not.
@@ -162,15 +174,15 @@ fn text(text: &str) -> Option<&str> {
 }
 
 /// A value as Python has it.
-pub fn value(py: Python<'_>, value: Option<&Value>) -> PyResult<Py<PyAny>> {
-    match value.and_then(|value| value.value.as_ref()) {
-        None => Ok(py.None()),
-        Some(Told::Truth(truth)) => truth.into_py_any(py),
-        Some(Told::Integer(integer)) => integer.into_py_any(py),
-        Some(Told::Number(number)) => number.into_py_any(py),
-        Some(Told::Choice(choice)) => {
+pub fn value(py: Python<'_>, value: Option<&Datum>) -> PyResult<Py<PyAny>> {
+    match value {
+        None | Some(Datum::Unset) => Ok(py.None()),
+        Some(Datum::Truth(truth)) => truth.into_py_any(py),
+        Some(Datum::Integer(integer)) => integer.into_py_any(py),
+        Some(Datum::Number(number)) => number.into_py_any(py),
+        Some(Datum::Choice(choice)) => {
             choice.rsplit_once('.').map_or(&**choice, |(_, name)| name).into_py_any(py)
         }
-        Some(Told::Text(text) | Told::Object(text)) => text.into_py_any(py),
+        Some(Datum::Text(text) | Datum::Object(text)) => text.into_py_any(py),
     }
 }

@@ -1,7 +1,6 @@
 //! What is kept of a run.
 
-use afp_core::Instant;
-use afp_session::{NamedRecord, Observer, OwnedRecord, RequestError, RequestId};
+use afp_session::{Applied, NamedRecord, Observer, OwnedRecord};
 use pyo3::PyErr;
 
 use crate::errors::error;
@@ -20,7 +19,9 @@ impl Observer for Keeper {
         self.records.push(OwnedRecord::new(named.at, named.record));
     }
 
-    fn on_refused(&mut self, at: Instant, _: RequestId, why: &RequestError) {
-        self.refused = Some(error(format!("at {} s: {why}", at.as_secs_f64())));
+    fn on_request(&mut self, applied: &Applied<'_>) {
+        if let Some(why) = applied.refused {
+            self.refused = Some(error(format!("at {} s: {why}", applied.now.as_secs_f64())));
+        }
     }
 }

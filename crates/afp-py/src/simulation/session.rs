@@ -11,7 +11,9 @@ use afp_dsl::graph::Graph;
 use afp_log::{About, NameTable, SessionLog};
 use afp_run::inputs::missing;
 use afp_run::world::LoadedWorld;
-use afp_session::{AnySession, Figures, Go, Observer, Request, Robot, Session, Track};
+use afp_session::{
+    AnySession, Build, Figures, Go, Observer, Recipe, Request, Robot, Session, TextFile, Track,
+};
 use afp_sim::{Simulation, World as Room};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -27,6 +29,8 @@ pub struct Setting<'a> {
     pub room: &'a Room,
     pub seed: u64,
     pub file: &'a Path,
+    /// Path and text of the plan's file and of those that it uses.
+    pub texts: Vec<(String, String)>,
     pub log: Option<&'a Path>,
 }
 
@@ -254,29 +258,30 @@ impl Run {
 
     /// Ends the log; where it is.
     pub fn close(&mut self) -> PyResult<Option<PathBuf>> {
-        let closed = self.log.take().map(SessionLog::finish).transpose();
+        let closed = self.log.take().map(|log| log.finish(&self.session)).transpose();
         closed.map_err(|why| log_error(&why))?;
         Ok(self.log_path.clone())
     }
 }
 
+fn text_file(name: &str, text: &str) -> TextFile {
+    TextFile { name: name.to_owned(), text: text.to_owned() }
+}
+
 /// What the log says of the run.
 fn about(setting: &Setting<'_>) -> About {
-    let facts = [
-        ("plan", setting.graph.main().name.clone()),
-        ("plan_file", setting.file.display().to_string()),
-        ("robot", "sim".to_owned()),
-        ("seed", setting.seed.to_string()),
-        ("world", setting.world.world.name().to_owned()),
-        ("clock", "virtual".to_owned()),
-        ("afp_version", env!("CARGO_PKG_VERSION").to_owned()),
-    ];
-    About {
-        facts: facts.map(|(key, value)| (key.to_owned(), value)).to_vec(),
-        attachments: vec![(
-            "world.toml".to_owned(),
-            "application/toml",
-            setting.world.text.clone(),
-        )],
-    }
+    let LoadedWorld { world, text, start, .. } = setting.world;
+    let mut about = About::new(&Recipe {
+        plan: setting.graph.main().name.clone(),
+        file: setting.file.display().to_string(),
+        texts: setting.texts.iter().map(|(name, text)| text_file(name, text)).collect(),
+        robot: "sim".to_owned(),
+        world: text_file(world.name(), text),
+        start: *start,
+        seed: setting.seed,
+        build: Build::this(),
+        ..Recipe::default()
+    });
+    about.facts.push(("clock".to_owned(), "virtual".to_owned()));
+    about
 }

@@ -4,7 +4,11 @@ use std::fmt;
 use std::path::PathBuf;
 
 use afp_core::Instant;
+use afp_core::rt::{Unit, parse_quantity};
 use afp_project::duration;
+use afp_session::Pose2;
+
+use crate::world::change::{ANGLE, LENGTH};
 
 /// How fast simulated time passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -115,6 +119,20 @@ fn instant(text: &str) -> Result<Instant, String> {
     Ok(Instant::ZERO + duration(text)?)
 }
 
+/// Reads `1m,50cm,90deg`.
+pub(super) fn start(text: &str) -> Result<Pose2, String> {
+    let wrong = || "expected x, y and a heading, such as 1m,50cm,90deg".to_owned();
+    let quantity = |text: &str, units: &[Unit<'static>]| {
+        parse_quantity(text.trim(), units.iter().copied()).map_err(|_| wrong())
+    };
+    let [x, y, heading] = text.split(',').collect::<Vec<_>>().try_into().map_err(|_| wrong())?;
+    Ok(Pose2 {
+        x: quantity(x, LENGTH)?,
+        y: quantity(y, LENGTH)?,
+        heading: quantity(heading, ANGLE)?.to_radians(),
+    })
+}
+
 pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((name, value)) if !name.trim().is_empty() => {
@@ -166,6 +184,15 @@ mod tests {
         ] {
             let error = failure(text).unwrap_err();
             assert!(error.contains(says), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn a_start_has_units() {
+        let pose = start("1m, -50cm,180deg").unwrap();
+        assert_eq!((pose.x, pose.y, pose.heading), (1.0, -0.5, std::f64::consts::PI));
+        for wrong in ["1,2,3", "1m,2m", "1m,2m,90deg,", "1m,2m,1m", "", "1m,2s,0deg"] {
+            assert!(start(wrong).is_err_and(|why| why.contains("1m,50cm,90deg")), "{wrong}");
         }
     }
 

@@ -2,11 +2,7 @@
 //!
 //! Nothing here depends on the machine: interpreter and generated binary print the same bytes.
 
-use afp_log::event::{ending_word, kind_word};
-use afp_log::instant;
-use afp_log::proto::afp::plan_event::{Cause, Kind};
-use afp_log::proto::afp::value::Value as Told;
-use afp_log::proto::afp::{PlanEvent, Value};
+use afp_session::{Datum, Done, EndingKind, Miss, RunEvent};
 use serde::Serialize;
 
 #[derive(Default, Serialize)]
@@ -41,25 +37,19 @@ struct Line<'a> {
     cause: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
     skipped: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    request: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refused: Option<&'a str>,
 }
 
 /// An event as a line of JSON, without its end.
-pub(super) fn line(event: &PlanEvent) -> Option<String> {
-    let (lateness_s, cause, skipped) = match event.kind() {
-        Kind::Missed => (
-            Some(event.lateness_ns as f64 / 1e9),
-            match event.cause() {
-                Cause::LateRelease => "late_release",
-                Cause::LongPoll => "long_poll",
-                Cause::NoCause => "",
-            },
-            Some(event.skipped),
-        ),
-        _ => (None, "", None),
-    };
+pub(super) fn line(event: &RunEvent) -> Option<String> {
+    let missed = event.missed.as_ref();
+    let request = event.request.as_ref();
     let line = Line {
-        t: instant(&event.time).as_secs_f64(),
-        kind: kind_word(event.kind()),
+        t: event.at.as_secs_f64(),
+        kind: event.kind.word(),
         component: &event.component,
         outcome: &event.outcome,
         target: &event.target,
@@ -68,22 +58,27 @@ pub(super) fn line(event: &PlanEvent) -> Option<String> {
         old: event.old.as_ref().map(value),
         new: event.value.as_ref().map(value),
         unit: &event.unit,
-        ending: ending_word(event.ending()),
+        ending: event.ending.map_or("", EndingKind::word),
         fault: &event.fault,
         text: &event.fault_text,
-        lateness_s,
-        cause,
-        skipped,
+        lateness_s: missed.map(|miss| miss.lateness.as_secs_f64()),
+        cause: missed.map_or("", Miss::word),
+        skipped: missed.map(|miss| miss.skipped),
+        request: request.map(|request| request.what.to_string()),
+        refused: request.and_then(|request| match &request.done {
+            Done::Refused(why) => Some(why.as_str()),
+            Done::Done | Done::NotReached => None,
+        }),
     };
     serde_json::to_string(&line).ok()
 }
 
-fn value(value: &Value) -> serde_json::Value {
-    match &value.value {
-        None => serde_json::Value::Null,
-        Some(Told::Truth(truth)) => (*truth).into(),
-        Some(Told::Integer(integer)) => (*integer).into(),
-        Some(Told::Number(number)) => (*number).into(),
-        Some(Told::Text(text) | Told::Choice(text) | Told::Object(text)) => text.as_str().into(),
+fn value(datum: &Datum) -> serde_json::Value {
+    match datum {
+        Datum::Unset => serde_json::Value::Null,
+        Datum::Truth(truth) => (*truth).into(),
+        Datum::Integer(integer) => (*integer).into(),
+        Datum::Number(number) => (*number).into(),
+        Datum::Text(text) | Datum::Choice(text) | Datum::Object(text) => text.as_str().into(),
     }
 }

@@ -5,10 +5,15 @@ use std::path::PathBuf;
 
 use afp_core::Instant;
 use afp_core::trace::{ComponentId, Ending, Kind, Names, TraceHash};
-use afp_session::{Counts, Figure, FigureValue, Figures, Span, Usage};
+use afp_session::{
+    AnySession, Applied, Counts, Done, Figure, FigureValue, Figures, Observer, Requested, Span,
+    Stimulus, Usage,
+};
 use anstyle::{AnsiColor, Style};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
+
+use super::timeline::stimulus;
 
 const QUIET: Style = Style::new().dimmed();
 const STRONG: Style = Style::new().bold();
@@ -45,6 +50,9 @@ pub(crate) struct RunFigures {
     interruptions: u64,
     deadline_misses: u64,
     distance_m: f64,
+    /// What came from outside, and what was to come.
+    #[serde(serialize_with = "by_time", skip_serializing_if = "Vec::is_empty")]
+    requests: Vec<Requested>,
     /// What measures and robot say.
     #[serde(flatten, serialize_with = "by_name")]
     measured: Figures,
@@ -78,11 +86,31 @@ pub(crate) struct Ran<'a> {
     pub misses: u64,
     pub trace: TraceHash,
     pub distance: f64,
+    pub requests: Vec<Requested>,
+}
+
+/// Keeps what came from outside.
+#[derive(Default)]
+pub(crate) struct Requests(Vec<Requested>);
+
+impl Requests {
+    /// All of it, and what did not come before the end.
+    pub(crate) fn finish(mut self, session: &dyn AnySession) -> Vec<Requested> {
+        let late = session.pending().into_iter();
+        self.0.extend(late.map(|(at, what)| Requested { at, what, done: Done::NotReached }));
+        self.0
+    }
+}
+
+impl Observer for Requests {
+    fn on_request(&mut self, applied: &Applied<'_>) {
+        self.0.extend(applied.event().request);
+    }
 }
 
 impl Ran<'_> {
     pub(crate) fn figures(
-        &self,
+        self,
         counts: &Counts,
         measured: Figures,
         names: &dyn Names,
@@ -112,6 +140,7 @@ impl Ran<'_> {
             interruptions: counts.interruptions,
             deadline_misses: self.misses,
             distance_m: self.distance,
+            requests: self.requests,
             measured,
             trace: self.trace.to_string(),
         }
@@ -191,6 +220,32 @@ fn by_name<S: Serializer>(figures: &Figures, to: S) -> Result<S::Ok, S::Error> {
     map.end()
 }
 
+fn by_time<S: Serializer>(requests: &[Requested], to: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Row<'a> {
+        at_s: f64,
+        request: String,
+        done: bool,
+        #[serde(skip_serializing_if = "str::is_empty")]
+        why: &'a str,
+    }
+    to.collect_seq(requests.iter().map(|request| Row {
+        at_s: request.at.as_secs_f64(),
+        request: request.what.to_string(),
+        done: request.done == Done::Done,
+        why: why_not(request),
+    }))
+}
+
+/// Why a request was not done; empty where it was.
+fn why_not(request: &Requested) -> &str {
+    match &request.done {
+        Done::Done => "",
+        Done::Refused(why) => why,
+        Done::NotReached => "the run was over before",
+    }
+}
+
 struct Numbers<'a>(&'a [(&'static str, f64)]);
 
 impl Serialize for Numbers<'_> {
@@ -211,6 +266,19 @@ impl Serialize for SpanRow<'_> {
         map.serialize_entry("begin_s", &self.span.begin.as_secs_f64())?;
         map.serialize_entry("end_s", &self.span.end.as_secs_f64())?;
         map.end()
+    }
+}
+
+/// Whether people want to read of it: that a control was let go they know.
+fn is_worth_a_line(request: &Requested) -> bool {
+    !matches!(request.what, Stimulus::Press { held: false, .. })
+}
+
+fn request(request: &Requested) -> String {
+    let (what, at) = (stimulus(&request.what), request.at.as_secs_f64());
+    match why_not(request) {
+        "" => format!("{what} at {at} s"),
+        why => format!("{BAD}{what} at {at} s: {why}{BAD:#}"),
     }
 }
 
@@ -249,10 +317,17 @@ impl Summary {
             let pairs = pairs.iter().map(|(name, count)| format!("{name} {count}"));
             pairs.collect::<Vec<_>>().join(", ")
         };
-        line("active", counts(&figures.activations));
-        line("states, events", counts(&figures.outcomes));
-        if !figures.faults.is_empty() {
-            line("faults", counts(&figures.faults));
+        for (key, pairs) in [
+            ("active", &figures.activations),
+            ("states, events", &figures.outcomes),
+            ("faults", &figures.faults),
+        ] {
+            if !pairs.is_empty() {
+                line(key, counts(pairs));
+            }
+        }
+        for (n, request) in figures.requests.iter().filter(|it| is_worth_a_line(it)).enumerate() {
+            line(if n == 0 { "from outside" } else { "" }, self::request(request));
         }
         line("interruptions", figures.interruptions.to_string());
         line("deadline misses", figures.deadline_misses.to_string());

@@ -2,11 +2,9 @@
 
 use std::fmt::Write;
 
-use afp_log::instant;
-use afp_log::proto::afp::plan_event::{Cause, Ending, Kind};
-use afp_log::proto::afp::value::Value as Told;
-use afp_log::proto::afp::{PlanEvent, Value};
+use afp_core::trace::Cause;
 use afp_number::Rounded;
+use afp_session::{Datum, Done, EndingKind, EventKind, Requested, RunEvent, Stimulus};
 use anstyle::{AnsiColor, Style};
 
 const QUIET: Style = Style::new().dimmed();
@@ -27,14 +25,16 @@ pub(super) fn head(what: &[(&str, String)]) -> String {
 
 /// An event as a line without its end; `None` for what is not worth a line. The template is that
 /// of the event's component.
-pub(super) fn line(event: &PlanEvent, template: &str) -> Option<String> {
+pub(super) fn line(event: &RunEvent, template: &str) -> Option<String> {
+    use EventKind as Kind;
     let component = &event.component;
-    let text = match event.kind() {
+    let text = match event.kind {
         Kind::Unknown | Kind::Polled | Kind::Input | Kind::Interrupted => return None,
         Kind::ClockWentBack => {
-            let asked = event.asked_ns as f64 / 1e9;
+            let asked = event.asked.unwrap_or_default().as_secs_f64();
             format!("{BAD}! the clock went back to {asked:.6} s{BAD:#}")
         }
+        Kind::Requested => requested(event.request.as_ref()?),
         Kind::StopRequested => format!("{EVENT}■ stop requested{EVENT:#}"),
         Kind::Injected => format!("{EVENT}◇ {} (injected){EVENT:#}", outcome(component, event)),
         Kind::Missed => missed(event),
@@ -53,47 +53,65 @@ pub(super) fn line(event: &PlanEvent, template: &str) -> Option<String> {
         Kind::Ended => ended(event),
         Kind::Lost => format!("{BAD}! {} records lost{BAD:#}", event.lost),
     };
-    let at = instant(&event.time).as_secs_f64();
+    let at = event.at.as_secs_f64();
     Some(format!("{at:>10.3}  {text}"))
 }
 
-fn outcome(path: &str, event: &PlanEvent) -> String {
+fn outcome(path: &str, event: &RunEvent) -> String {
     match &*event.target {
         "" => format!("{path}.{}", event.outcome),
         target => format!("{path}.{} → {target}", event.outcome),
     }
 }
 
-fn missed(event: &PlanEvent) -> String {
-    let cause = match event.cause() {
-        Cause::LateRelease => "late release",
-        Cause::LongPoll => "long poll",
-        Cause::NoCause => "unknown cause",
+/// What came from outside, in the words of scenarios.
+fn requested(request: &Requested) -> String {
+    let what = stimulus(&request.what);
+    match &request.done {
+        Done::Done => format!("{EVENT}● {what}{EVENT:#}  {QUIET}from outside{QUIET:#}"),
+        Done::Refused(why) => format!("{BAD}! {what}: {why}{BAD:#}"),
+        Done::NotReached => {
+            let at = request.at.as_secs_f64();
+            format!("{BAD}! not reached: {what} at {at} s{BAD:#}")
+        }
+    }
+}
+
+/// A stimulus with its quantities as people write them.
+pub(super) fn stimulus(what: &Stimulus) -> String {
+    match what {
+        Stimulus::Write { entry, value, unit } => format!("set {entry} = {}", datum(value, unit)),
+        other => other.to_string(),
+    }
+}
+
+fn missed(event: &RunEvent) -> String {
+    let Some(miss) = event.missed else { return String::new() };
+    let cause = match miss.cause {
+        Some(Cause::LateRelease) => "late release",
+        Some(Cause::LongPoll) => "long poll",
+        None => "unknown cause",
     };
-    let PlanEvent { component, skipped, .. } = event;
-    let late = event.lateness_ns as f64 / 1e6;
+    let (component, skipped) = (&event.component, miss.skipped);
+    let late = miss.lateness.as_secs_f64() * 1e3;
     format!(
         "{BAD}! {component} missed its deadline by {late:.3} ms{BAD:#}  \
          {QUIET}({cause}, {skipped} releases skipped){QUIET:#}"
     )
 }
 
-fn commit(event: &PlanEvent) -> String {
-    let show = |value: &Option<Value>| show(value, &event.unit);
+fn commit(event: &RunEvent) -> String {
+    let show = |value: &Option<Datum>| datum(value.as_ref().unwrap_or(&Datum::Unset), &event.unit);
     let (entry, old, new) = (&event.entry, show(&event.old), show(&event.value));
     let author = &event.component;
     format!("{DATA}◆ {entry}: {old} → {new}{DATA:#}  {QUIET}by {author}{QUIET:#}")
 }
 
 /// A value as people write it.
-fn show(value: &Option<Value>, unit: &str) -> String {
-    match value.as_ref().and_then(|value| value.value.as_ref()) {
-        None => "unset".to_owned(),
-        Some(Told::Truth(truth)) => truth.to_string(),
-        Some(Told::Integer(integer)) => integer.to_string(),
-        Some(Told::Number(number)) => quantity(*number, unit),
-        Some(Told::Text(text)) => format!("{text:?}"),
-        Some(Told::Choice(text) | Told::Object(text)) => text.clone(),
+fn datum(value: &Datum, unit: &str) -> String {
+    match value {
+        Datum::Number(number) => quantity(*number, unit),
+        other => other.to_string(),
     }
 }
 
@@ -123,18 +141,18 @@ fn whole_or_parts(number: f64, unit: &str, part: &str, power: u8) -> String {
     }
 }
 
-fn ended(event: &PlanEvent) -> String {
-    let PlanEvent { component, fault, fault_text, .. } = event;
-    let style = match (event.component_id, event.ending()) {
-        (_, Ending::Error) => BAD,
+fn ended(event: &RunEvent) -> String {
+    let RunEvent { component, fault, fault_text, .. } = event;
+    let style = match (event.component_id.0, event.ending) {
+        (_, Some(EndingKind::Error)) => BAD,
         (0, _) => STRONG,
         _ => QUIET,
     };
-    let how = match event.ending() {
-        Ending::Ok => "OK".to_owned(),
-        Ending::EndedInterrupted => "Interrupted".to_owned(),
-        Ending::Error => format!("Error: {fault_text} ({fault})"),
-        Ending::NotEnded => "somehow".to_owned(),
+    let how = match event.ending {
+        Some(EndingKind::Ok) => "OK".to_owned(),
+        Some(EndingKind::Interrupted) => "Interrupted".to_owned(),
+        Some(EndingKind::Error) => format!("Error: {fault_text} ({fault})"),
+        None => "somehow".to_owned(),
     };
     format!("{style}■ {component} ended: {how}{style:#}")
 }

@@ -55,8 +55,8 @@ pub fn draw_film(log: &LogData) -> Result<String, RunError> {
         let help = "log a run with them: 'afpc run plan.afp --camera --log run.mcap'";
         return Err(RunError::usage("the log holds no pictures of the camera", help));
     }
-    let names = NameTable::from_table(&log.table);
-    let (path, _) = follow(log, &names);
+    let names = &log.names;
+    let (path, _) = follow(log, names);
     let known = actors(&path);
     let actor_at = |at: Instant| {
         let behind = log.poses.partition_point(|(time, _)| *time <= at);
@@ -78,7 +78,7 @@ pub fn draw_film(log: &LogData) -> Result<String, RunError> {
         let x = MARGIN + column as f64 * (WIDTH + GAP);
         let y = HEAD + row as f64 * (HEIGHT + CAPTION + GAP);
         let shot = Shot { at: *at, png, actor: actor_at(*at) };
-        draw(&mut svg, &shot, &names, &known, (x, y));
+        draw(&mut svg, &shot, names, &known, (x, y));
     }
     svg.push_str("</svg>\n");
     Ok(svg)

@@ -2,17 +2,13 @@
 
 use afp_core::Instant;
 use afp_core::trace::{ComponentId, Kind, Names};
-use afp_log::proto::afp::{PlanEvent, plan_event};
-use afp_log::{LogData, NameTable, instant};
+use afp_log::{LogData, NameTable, WORLD};
 use std::sync::Arc;
 
-use afp_session::{AnyRobot, AnyWorld, Mark, Pose2, Waypoint};
+use afp_session::{AnyRobot, AnyWorld, EventKind, Mark, Pose2, RunEvent, Waypoint};
 
 use super::{Picture, draw};
 use crate::error::RunError;
-
-/// The attachment that holds the world.
-const WORLD: &str = "world.toml";
 
 /// Draws the path of a logged run over its world.
 ///
@@ -20,8 +16,8 @@ const WORLD: &str = "world.toml";
 /// The log has no world, or one that this release does not understand.
 pub fn draw_log(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError> {
     let world = world_of(log, robot)?;
-    let names = NameTable::from_table(&log.table);
-    let (path, marks) = follow(log, &names);
+    let names = &log.names;
+    let (path, marks) = follow(log, names);
     let way = path.windows(2).map(|pair| {
         let (from, to) = (pair[0].pose, pair[1].pose);
         libm::hypot(to.x - from.x, to.y - from.y)
@@ -39,7 +35,7 @@ pub fn draw_log(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError>
         path: &path,
         marks: &marks,
     };
-    Ok(draw(&picture, &names))
+    Ok(draw(&picture, names))
 }
 
 /// The world of a logged run.
@@ -56,7 +52,11 @@ pub(super) fn world_of(log: &LogData, robot: &dyn AnyRobot) -> Result<Arc<dyn An
     let Some(text) = log.attachments.get(WORLD) else {
         return Err(content(format!("the log has no attachment '{WORLD}'"), None, ""));
     };
-    robot.world(text).map_err(|error| content(error.message, error.span, text))
+    let world = robot.world(text).map_err(|error| content(error.message, error.span, text))?;
+    match log.recipe().start {
+        None => Ok(world),
+        Some(start) => world.started_at(start).map_err(|why| content(why, None, text)),
+    }
 }
 
 /// The line below the title.
@@ -72,15 +72,11 @@ pub(super) fn follow(log: &LogData, names: &NameTable) -> (Vec<Waypoint>, Vec<Ma
     let after = std::iter::once((Instant::MAX, None));
     for (at, pose) in log.poses.iter().map(|(at, pose)| (*at, Some(pose))).chain(after) {
         // At an instant the robot is looked at before the step; only the start comes first.
-        let before = |event: &&PlanEvent| {
-            let time = instant(&event.time);
-            time < at || time == Instant::ZERO
-        };
+        let before = |event: &&RunEvent| event.at < at || event.at == Instant::ZERO;
         while let Some(event) = events.next_if(before) {
-            let id = ComponentId(event.component_id);
-            if event.kind() == plan_event::Kind::Event {
+            if event.kind == EventKind::Event {
                 marks.push(mark(event, last));
-            } else if names.component(id).kind == Kind::Actor {
+            } else if names.component(event.component_id).kind == Kind::Actor {
                 actor = active(event).unwrap_or(actor);
             }
         }
@@ -93,21 +89,14 @@ pub(super) fn follow(log: &LogData, names: &NameTable) -> (Vec<Waypoint>, Vec<Ma
 }
 
 /// Which actor is active after an actor's event; `None` when it says nothing about that.
-fn active(event: &PlanEvent) -> Option<Option<ComponentId>> {
-    match event.kind() {
-        plan_event::Kind::Started => Some(Some(ComponentId(event.component_id))),
-        plan_event::Kind::Interrupted | plan_event::Kind::Finished | plan_event::Kind::Faulted => {
-            Some(None)
-        }
+fn active(event: &RunEvent) -> Option<Option<ComponentId>> {
+    match event.kind {
+        EventKind::Started => Some(Some(event.component_id)),
+        EventKind::Interrupted | EventKind::Finished | EventKind::Faulted => Some(None),
         _ => None,
     }
 }
 
-fn mark(event: &PlanEvent, pose: Pose2) -> Mark {
-    Mark {
-        pose,
-        at: instant(&event.time),
-        supervisor: ComponentId(event.component_id),
-        event: event.outcome_id as u16,
-    }
+fn mark(event: &RunEvent, pose: Pose2) -> Mark {
+    Mark { pose, at: event.at, supervisor: event.component_id, event: event.outcome_id }
 }

@@ -5,7 +5,7 @@
 
 use afp_core::Instant;
 use afp_log::robot::Pose2;
-use afp_log::{Heard, LogData, NameTable};
+use afp_log::{Heard, LogData};
 
 use afp_session::AnyRobot;
 
@@ -34,8 +34,8 @@ pub fn draw_sonar(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunErro
         let help = "log a longer run, with something in reach of the range sensor";
         return Err(RunError::usage("the log holds no echoes", help));
     }
-    let names = NameTable::from_table(&log.table);
-    let (path, marks) = follow(log, &names);
+    let names = &log.names;
+    let (path, marks) = follow(log, names);
     let view = View::around(bounds(&drawing, &path));
     let mut canvas = room(&drawing, view);
     canvas.robot(&drawing.body, drawing.start, false);
@@ -59,7 +59,7 @@ pub fn draw_sonar(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunErro
     let mut legend = Legend::new(view);
     legend.head(log.facts.get("plan").map_or("", String::as_str), &subtitle(&*world, log));
     legend.sonar();
-    legend.events(marks::counted(&marks, &kinds, &names));
+    legend.events(marks::counted(&marks, &kinds, names));
     legend.figures(&figures(log, heard));
     Ok(canvas.finish(legend))
 }

@@ -18,13 +18,15 @@ pub fn key(name: &str) -> Option<&str> {
     name.strip_prefix(PREFIX)
 }
 
-const LENGTH: &[Unit<'static>] = &[
+/// Metres first.
+pub(crate) const LENGTH: &[Unit<'static>] = &[
     Unit { name: "m", scale: Scale::Decimal(0) },
     Unit { name: "cm", scale: Scale::Decimal(-2) },
     Unit { name: "mm", scale: Scale::Decimal(-3) },
     Unit { name: "km", scale: Scale::Decimal(3) },
 ];
-const ANGLE: &[Unit<'static>] = &[
+/// Degrees first.
+pub(crate) const ANGLE: &[Unit<'static>] = &[
     Unit { name: "deg", scale: Scale::Decimal(0) },
     Unit { name: "rad", scale: Scale::fraction(1, 1, 0, -1) },
 ];
@@ -64,7 +66,11 @@ impl LoadedWorld {
         text: &str,
         robot: &dyn AnyRobot,
     ) -> Result<LoadedWorld, RunError> {
-        super::parse(self.changed(key, text)?.0, self.path.clone(), robot)
+        let world = super::parse(self.changed(key, text)?.0, self.path.clone(), robot)?;
+        match self.start {
+            None => Ok(world),
+            Some(start) => world.started_at(start).map_err(|why| refused(key, text, &why)),
+        }
     }
 
     /// What a value for a key is in SI units; `None` for what is no number.

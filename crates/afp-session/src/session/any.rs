@@ -13,6 +13,7 @@ use crate::record::Keep;
 use crate::request::{Request, RequestError, RequestId};
 use crate::robot::Robot;
 use crate::sample::SampleRef;
+use crate::stimulus::Stimulus;
 
 impl<P, R, S> AnySession for Session<P, R, S>
 where
@@ -109,5 +110,9 @@ where
 
     fn requests(&self) -> &[(Instant, Request)] {
         self.requests()
+    }
+
+    fn pending(&self) -> Vec<(Instant, Stimulus)> {
+        self.pending()
     }
 }

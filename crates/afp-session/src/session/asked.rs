@@ -9,12 +9,13 @@ use afp_core::{Duration, Instant, Value};
 
 use super::Session;
 use crate::any::SetError;
-use crate::observer::Observer;
+use crate::observer::{Applied, Observer};
 use crate::record::Keep;
 #[cfg(feature = "load")]
 use crate::record::Kept;
-use crate::request::{Request, RequestError, RequestId};
+use crate::request::{Request, RequestError, RequestId, Waiting};
 use crate::robot::Robot;
+use crate::stimulus::Stimulus;
 
 /// What only loaded plans can do, as functions over them.
 pub(super) struct Testing<P> {
@@ -51,8 +52,24 @@ where
             return Err(RequestError::Over { at, now });
         }
         self.check(&request)?;
+        let at = self.after_step_at(at);
         self.asked.push((at, request.clone()));
         Ok(self.requests.add(at, request))
+    }
+
+    /// The instant itself, or the next one where its step has been made already: requests come before the step of
+    /// their instant, and so they do when the run is repeated.
+    fn after_step_at(&self, at: Instant) -> Instant {
+        match self.stepped == Some(at) {
+            true => at + Duration::from_nanos(1),
+            false => at,
+        }
+    }
+
+    /// What was asked for and has not come yet, by time.
+    pub fn pending(&self) -> Vec<(Instant, Stimulus)> {
+        let named = |request| Stimulus::new(request, self.table(), &self.names);
+        self.requests.pending().map(|(at, request)| (at, named(request))).collect()
     }
 
     /// What was asked for so far, with the instants.
@@ -98,26 +115,33 @@ where
 
     /// Does what is due, and lets faults begin and end.
     pub(super) fn apply_due(&mut self, now: Instant, to: &mut [&mut dyn Observer]) {
-        let mut broken = None;
-        while let Some((id, request)) = self.requests.take_due(now) {
-            if matches!(request, Request::Break(..)) {
-                broken = Some(id);
-            }
-            if let Err(why) = self.apply(request, now) {
-                to.iter_mut().for_each(|each| each.on_refused(now, id, &why));
+        let mut applied = Vec::new();
+        while let Some((at, id, Waiting { request, done })) = self.requests.take_due(now) {
+            let what = (!to.is_empty()).then(|| Stimulus::new(&request, self.table(), &self.names));
+            let broken = matches!(request, Request::Break(..));
+            let result = if done { Ok(()) } else { self.apply(request, now) };
+            applied.push((at, id, what, broken, result));
+        }
+        if applied.iter().any(|it| it.3) || self.faults.next_change() <= now {
+            let set = self.robot.set_faults(&self.faults.advance(now));
+            for (.., broken, result) in &mut applied {
+                if *broken && result.is_ok() && set.is_err() {
+                    *result = Err(RequestError::Refused);
+                }
             }
         }
-        if broken.is_some() || self.faults.next_change() <= now {
-            let set = self.robot.set_faults(&self.faults.advance(now));
-            if let (Err(_), Some(id)) = (set, broken) {
-                to.iter_mut().for_each(|each| each.on_refused(now, id, &RequestError::Refused));
-            }
+        for (at, id, what, _, result) in &applied {
+            let Some(what) = what else { continue };
+            let applied = Applied { now, at: *at, id: *id, what, refused: result.as_ref().err() };
+            to.iter_mut().for_each(|each| each.on_request(&applied));
         }
     }
 
     fn apply(&mut self, request: Request, now: Instant) -> Result<(), RequestError> {
         match request {
-            Request::Write(entry, value) => self.write(entry, value).map_err(RequestError::Write),
+            Request::Write(entry, value) => {
+                self.write_now(entry, value).map_err(RequestError::Write)
+            }
             Request::Press(id, held) => {
                 let control = R::Devices::control(id).ok_or(RequestError::NoControl)?;
                 self.robot.press(control, held).map_err(|_| RequestError::Refused)
@@ -161,6 +185,15 @@ where
     /// # Errors
     /// The value does not fit, the plan has ended, or too many writes wait.
     pub fn write(&mut self, entry: u16, value: Value) -> Result<(), afp_core::WriteError> {
+        self.write_now(entry, value.clone())?;
+        let at = self.after_step_at(self.robot.now());
+        let request = Request::Write(entry, value);
+        self.asked.push((at, request.clone()));
+        self.requests.add_done(at, request);
+        Ok(())
+    }
+
+    fn write_now(&mut self, entry: u16, value: Value) -> Result<(), afp_core::WriteError> {
         match self.started {
             false => self.scheduler.plan_mut().set_input(entry, &value),
             true => self.scheduler.write(entry, value),

@@ -2,7 +2,7 @@
 
 use afp::load::PlanNames;
 use afp_core::Instant;
-use afp_core::trace::{Author, ComponentId, Record};
+use afp_core::trace::{Author, ComponentId, Names, Record};
 use afp_dsl::graph::Graph;
 use afp_dsl::unfold::places;
 use afp_log::LogData;
@@ -85,12 +85,12 @@ impl Hits {
 
     /// Adds what a logged run of the same plan used; `false` when the log is of another plan.
     pub fn add_log(&mut self, log: &LogData) -> bool {
-        if log.table.components.len() != self.counts.components.len() {
+        if log.names.components() as usize != self.counts.components.len() {
             return false;
         }
         for event in &log.events {
-            if let Some(record) = afp_log::event::record(event) {
-                self.hear(afp_log::instant(&event.time), &record);
+            if let Some(record) = event.record() {
+                self.hear(event.at, &record);
             }
         }
         true

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use afp_codegen::{CrateFile, declaration};
 use afp_project::shown;
-use afp_run::RunError;
+use afp_run::{RunError, say};
 use afp_syntax::source::{Source, Sources, Span};
 
 use super::message::Message;
@@ -44,14 +44,14 @@ impl Blame<'_> {
         let own = self.toolboxes.iter().any(|own| is_in(message, own.krate.folder.as_deref()));
         if message.is_error {
             for found in self.places(message) {
-                anstream::eprintln!("{}", found.shown().styled());
+                say(found.shown().styled());
             }
             let path = shown(&real(&message.path()));
             let (line, column) = message.place;
-            anstream::eprintln!("  = in {}:{line}:{column}", path.display());
+            say(format_args!("  = in {}:{line}:{column}", path.display()));
         }
         if message.is_error || own {
-            anstream::eprintln!("{}", message.rendered);
+            say(&message.rendered);
         }
     }
 

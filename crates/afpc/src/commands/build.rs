@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use afp_codegen::{CrateOptions, crate_files};
-use afp_run::RunError;
+use afp_run::{RunError, say};
 use clap::{Args, ValueEnum};
 
 use super::print;
@@ -82,7 +82,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let files = crate_files(&graph, &options);
     let texts: Vec<_> = files.iter().map(|file| (&*file.path, &*file.text)).collect();
     crate_folder::write(&folder, &texts, &origin)?;
-    anstream::eprintln!("generated {}", folder.display());
+    say(format_args!("generated {}", folder.display()));
     // Plans beside one another share what they are built from.
     let shared = arguments.output.is_none().then(|| Path::new(BUILDS).join("build"));
     let no_cargo = RunError::Missing {

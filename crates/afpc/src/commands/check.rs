@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use afp_dsl::Compiled;
 use afp_dsl::files::normalised;
 use afp_dsl::timing::{Target, check_target, timing};
-use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_USAGE};
+use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_USAGE, say};
 use afp_syntax::diagnostics::Code;
 use afp_syntax::source::Span;
 use clap::Args;
@@ -83,7 +83,7 @@ fn check(name: &str, arguments: &Arguments, told: &mut Told) -> Result<u8, NoPla
             print(&compiled.diags.json_lines(&compiled.sources))?;
         }
         false if compiled.diags.is_empty() => {}
-        false => anstream::eprintln!("{}", compiled.render(true)),
+        false => say(compiled.render(true)),
     }
     if arguments.timing {
         show_timing(&file, &targets, arguments.json)?;

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Read;
 use std::path::Path;
 
-use afp_run::{EXIT_FAILED, EXIT_OK, RunError, write_whole};
+use afp_run::{EXIT_FAILED, EXIT_OK, RunError, say, write_whole};
 use afp_syntax::source::{Source, Sources};
 use clap::Args;
 use similar::TextDiff;
@@ -89,8 +89,8 @@ fn formatted(shown: &str, text: &str) -> Result<String, NoPlan> {
     afp_format::format(text).map_err(|diags| {
         let mut sources = Sources::default();
         sources.add(Source::new(shown, text).into());
-        anstream::eprintln!("{}", diags.render(&sources, true));
-        anstream::eprintln!("{shown}: left as it is, since it has syntax errors");
+        say(diags.render(&sources, true));
+        say(format_args!("{shown}: left as it is, since it has syntax errors"));
         NoPlan::Wrong
     })
 }

@@ -9,7 +9,7 @@ use afp_draw::{Options, Usage};
 use afp_dsl::graph::Graph;
 use afp_dsl::outline::{Outline, PlanId};
 use afp_dsl::toolbox::Toolbox;
-use afp_run::{EXIT_FAILED, EXIT_OK, PictureFormat, RunError, write_whole};
+use afp_run::{EXIT_FAILED, EXIT_OK, PictureFormat, RunError, say, write_whole};
 use afp_syntax::source::Source;
 use clap::{Args, ValueEnum};
 
@@ -175,7 +175,7 @@ fn layout(path: &str) -> Layout {
     let wrong = errors.iter().map(|error| format!("{path}:{error}"));
     let unread = why.iter().map(|why| format!("cannot read '{path}': {why}"));
     for warning in unread.chain(wrong) {
-        anstream::eprintln!("warning: {warning}");
+        say(format_args!("warning: {warning}"));
     }
     layout
 }

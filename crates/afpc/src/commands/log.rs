@@ -7,7 +7,7 @@ mod timeline;
 use std::path::PathBuf;
 
 use afp_log::{doctor, read, recover, recovered_name};
-use afp_run::{EXIT_FAILED, EXIT_OK, RunError};
+use afp_run::{EXIT_FAILED, EXIT_OK, RunError, say};
 use clap::{Args, ValueEnum};
 
 use super::print;
@@ -78,7 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
             let log = read(&arguments.file).map_err(RunError::from)?;
             if let Some(cut) = &log.cut_short {
                 let name = arguments.file.display();
-                anstream::eprintln!("warning: '{name}' is not whole: {cut}");
+                say(format_args!("warning: '{name}' is not whole: {cut}"));
             }
             print(&timeline::text(&log))
         }
@@ -104,8 +104,8 @@ fn save(arguments: &Arguments) -> Result<u8, NoPlan> {
     }
     let saved = recover(&arguments.file, &to).map_err(RunError::from)?;
     match &saved.damage {
-        Some(damage) => anstream::eprintln!("the log ends early: {damage}"),
-        None => anstream::eprintln!("nothing was wrong with the log"),
+        Some(damage) => say(format_args!("the log ends early: {damage}")),
+        None => say("nothing was wrong with the log"),
     }
     print(&format!("{} messages saved\n{}\n", saved.messages, saved.path.display()))
 }

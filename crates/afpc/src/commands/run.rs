@@ -1,11 +1,10 @@
 //! `afpc run`: compiles a plan in memory and drives the simulated robot with it.
 
-use afp_run::Program;
 use afp_run::options::RunOptions;
+use afp_run::{Program, RunError};
 use afp_session::{AnyWorld, Loader};
 use clap::Args;
 
-use crate::cli::PlanArgument;
 use crate::picture;
 use crate::plan_file::{NoPlan, PlanFile};
 use crate::{Linked, robot, runner};
@@ -13,8 +12,9 @@ use crate::{Linked, robot, runner};
 /// Arguments of `afpc run`.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    #[command(flatten)]
-    plan: PlanArgument,
+    /// File with the plan; FILE:Plan for another than its first. With '--again' that of the log, unless one is named
+    #[arg(value_name = "FILE[:PLAN]", required_unless_present = "again")]
+    plan: Option<String>,
     #[command(flatten)]
     options: RunOptions,
 }
@@ -25,7 +25,11 @@ pub struct Arguments {
 /// The plan is wrong, a file does not work.
 pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
     arguments.options.check()?;
-    let file = PlanFile::read(&arguments.plan.plan)?;
+    let file = match (&arguments.plan, &arguments.options.again) {
+        (Some(plan), _) => PlanFile::read(plan)?,
+        (None, Some(log)) => PlanFile::of_log(&afp_log::read(log).map_err(RunError::from)?)?,
+        (None, None) => return Err(RunError::usage("no plan is named", "name its file").into()),
+    };
     runner::become_one_for(file.compiled.graph.iter().map(|graph| (&file.own, graph)), linked)?;
     let (file, graph) = file.checked()?;
     let robot = robot(linked);
@@ -33,7 +37,12 @@ pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
         robot.session(&graph, world, seed, measures)
     };
     let path = file.path.display().to_string();
-    let texts = file.compiled.plan_texts();
+    let mut texts = file.compiled.plan_texts();
+    texts.extend(
+        file.own
+            .texts()
+            .map(|(name, text)| (format!("{}{name}", Program::TOOLBOX), text.to_owned())),
+    );
     let texts: Vec<_> = texts.iter().map(|(path, text)| (path.as_str(), text.as_str())).collect();
     let program = Program { name: &graph.main().name, file: &path, texts: &texts };
     let pixels = |svg: &str| picture::pixels(svg, picture::DEFAULT_SCALE);

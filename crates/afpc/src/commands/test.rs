@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant as Wall;
 
 use afp_dsl::scenario::Scenario;
-use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, RunError};
+use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, RunError, say};
 use afp_session::Loader;
 use afp_test::{Coverage, Hits, Setting, Verdict};
 use clap::Args;
@@ -96,7 +96,7 @@ pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
     for file in &files {
         let file = PlanFile::read(&file.display().to_string())?;
         if file.compiled.diags.has_errors() {
-            anstream::eprintln!("{}", file.compiled.render(true));
+            say(file.compiled.render(true));
             code = EXIT_FAILED;
         }
         read.push(file);

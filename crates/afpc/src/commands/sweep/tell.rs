@@ -3,6 +3,7 @@
 use std::cell::Cell;
 use std::fmt::Write;
 
+use afp_run::say;
 use afp_sweep::{Ending, Findings, Group, Measure, Outcome, Place, Spread, Sweep};
 use anstyle::{AnsiColor, Style};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
@@ -41,11 +42,11 @@ impl<'a> Teller<'a> {
     pub fn head(&self, place: &Place, done: usize) {
         let (all, journal) = (self.sweep.len(), place.journal.display());
         if done as u64 == all {
-            anstream::eprintln!("all {all} runs are done ({journal}); '--restart' does them again");
+            say(format_args!("all {all} runs are done ({journal}); '--restart' does them again"));
         } else if done > 0 {
-            anstream::eprintln!(
+            say(format_args!(
                 "going on: {done} of {all} runs are done ({journal}); '--restart' begins anew"
-            );
+            ));
         }
     }
 

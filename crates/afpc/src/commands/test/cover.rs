@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use afp_run::{PictureFormat, RunError};
+use afp_run::{PictureFormat, RunError, say};
 use afp_test::Coverage;
 
 use super::Case;
@@ -43,6 +43,6 @@ fn file_of(plans: &[(&Case<'_>, Coverage)], index: usize, folder: &Path) -> Path
 fn draw(case: &Case<'_>, coverage: &Coverage, path: &Path) -> Result<(), NoPlan> {
     let svg = graph::with_usage(case.plan_file, &case.scenario.graph, &coverage.usage, path)?;
     picture::write(path, &svg)?;
-    anstream::eprintln!("coverage drawn: {}", path.display());
+    say(format_args!("coverage drawn: {}", path.display()));
     Ok(())
 }

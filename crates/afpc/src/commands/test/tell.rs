@@ -1,7 +1,7 @@
 //! What `afpc test` prints: a line for each scenario, what broke, a sum.
 
 use std::fmt::Write;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write as _};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -28,6 +28,11 @@ pub(super) struct Teller {
     failure: Mutex<Option<NoPlan>>,
 }
 
+/// Shows how far it is; nothing is lost where nobody sees it.
+fn show(text: &str) {
+    let _ = anstream::stderr().write_all(text.as_bytes());
+}
+
 impl Teller {
     pub fn new(all: usize, json: bool) -> Self {
         let progress = std::io::stderr().is_terminal();
@@ -38,7 +43,7 @@ impl Teller {
     pub fn done(&self, case: &Case<'_>, done: &Done) {
         let number = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         if self.progress {
-            anstream::eprint!("\r\x1b[K");
+            show("\r\x1b[K");
         }
         if !self.json
             && let Err(failure) = print(&format!("{}\n", line(case, done)))
@@ -47,7 +52,7 @@ impl Teller {
             first.get_or_insert(failure);
         }
         if self.progress && number < self.all {
-            anstream::eprint!("{QUIET}{number} of {}{QUIET:#}", self.all);
+            show(&format!("{QUIET}{number} of {}{QUIET:#}", self.all));
         }
     }
 

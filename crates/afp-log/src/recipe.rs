@@ -1,0 +1,130 @@
+//! The recipe of a run in its log: facts, attachments and what came from outside.
+
+use afp_core::Instant;
+use afp_session::{Build, Done, EventKind, Pose2, Recipe, TextFile};
+
+use crate::read::LogData;
+use crate::recorder::About;
+
+/// The attachment that holds the world.
+pub const WORLD: &str = "world.toml";
+/// What the attachments of toolboxes begin with.
+const TOOLBOX: &str = "toolbox/";
+
+const TEXT: &str = "text/plain";
+
+impl About {
+    /// What a log says of a run before it begins: what came from outside stands among its events.
+    pub fn new(recipe: &Recipe) -> About {
+        let until = recipe.until.map_or_else(String::new, |until| until.as_nanos().to_string());
+        let set = recipe.settings.iter().map(|(name, value)| format!("{name}={value}"));
+        let start = recipe.start.map_or_else(String::new, written);
+        let mut facts = vec![
+            ("plan", recipe.plan.clone()),
+            ("plan_file", recipe.file.clone()),
+            ("plan_text", recipe.texts.first().map(|it| it.name.clone()).unwrap_or_default()),
+            ("robot", recipe.robot.clone()),
+            ("seed", recipe.seed.to_string()),
+            ("set", set.collect::<Vec<_>>().join("\n")),
+            ("world", recipe.world.name.clone()),
+            ("start_m_rad", start),
+            ("measures", recipe.measures.join("\n")),
+            ("until_ns", until),
+            ("afp_version", recipe.build.version.clone()),
+            ("afp_commit", recipe.build.commit.clone().unwrap_or_default()),
+        ];
+        facts.retain(|(_, value)| !value.is_empty());
+        let texts = recipe.texts.iter().map(|it| (it.name.clone(), TEXT, it.text.clone()));
+        let toolboxes = recipe
+            .toolboxes
+            .iter()
+            .map(|it| (format!("{TOOLBOX}{}", it.name), TEXT, it.text.clone()));
+        let world = (WORLD.to_owned(), "application/toml", recipe.world.text.clone());
+        About {
+            facts: facts.into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
+            attachments: texts.chain(toolboxes).chain([world]).collect(),
+        }
+    }
+}
+
+impl LogData {
+    /// All that it takes to repeat the run. What a log does not say is empty.
+    pub fn recipe(&self) -> Recipe {
+        let fact = |key: &str| self.facts.get(key).map_or("", String::as_str);
+        let lines = |key: &str| fact(key).lines().map(str::to_owned).collect::<Vec<_>>();
+        let pair = |line: String| {
+            let (name, value) = line.split_once('=')?;
+            Some((name.to_owned(), value.to_owned()))
+        };
+        let world = self.attachments.get(WORLD).cloned().unwrap_or_default();
+        Recipe {
+            plan: fact("plan").to_owned(),
+            file: fact("plan_file").to_owned(),
+            texts: self.texts(fact("plan_text")),
+            toolboxes: self.toolboxes(),
+            robot: fact("robot").to_owned(),
+            world: TextFile { name: fact("world").to_owned(), text: world },
+            start: read(fact("start_m_rad")),
+            seed: fact("seed").parse().unwrap_or_default(),
+            measures: lines("measures"),
+            settings: lines("set").into_iter().filter_map(pair).collect(),
+            until: self
+                .stopped()
+                .or_else(|| fact("until_ns").parse().ok().map(Instant::from_nanos)),
+            requests: self.requests(),
+            build: Build {
+                version: fact("afp_version").to_owned(),
+                commit: self.facts.get("afp_commit").cloned(),
+            },
+        }
+    }
+
+    /// The plan's file, then those that it uses.
+    fn texts(&self, plan: &str) -> Vec<TextFile> {
+        let is_text = |name: &&String| *name != WORLD && !name.starts_with(TOOLBOX);
+        let mut names: Vec<_> = self.attachments.keys().filter(is_text).collect();
+        names.sort_by_key(|name| name.as_str() != plan);
+        let file = |name: &String| {
+            let text = self.attachments.get(name).cloned().unwrap_or_default();
+            TextFile { name: name.clone(), text }
+        };
+        names.into_iter().map(file).collect()
+    }
+
+    fn toolboxes(&self) -> Vec<TextFile> {
+        let toolbox = |(name, text): (&String, &String)| {
+            let name = name.strip_prefix(TOOLBOX)?.to_owned();
+            Some(TextFile { name, text: text.clone() })
+        };
+        self.attachments.iter().filter_map(toolbox).collect()
+    }
+
+    /// What came from outside, in the order in which it was done.
+    fn requests(&self) -> Vec<(Instant, afp_session::Stimulus)> {
+        let made = self.events.iter().filter_map(|event| event.request.clone());
+        made.map(|request| (request.at, request.what)).collect()
+    }
+
+    /// When somebody stopped the run, or when its log breaks off.
+    fn stopped(&self) -> Option<Instant> {
+        let stopped = self.events.iter().find(|event| event.kind == EventKind::StopRequested);
+        let cut = self.cut_short.as_ref().and(self.span).map(|(_, last)| last);
+        stopped.map(|event| event.at).or(cut)
+    }
+
+    /// What was asked for and did not come before the end.
+    pub fn not_reached(&self) -> impl Iterator<Item = &afp_session::Requested> {
+        let requests = self.events.iter().filter_map(|event| event.request.as_ref());
+        requests.filter(|request| request.done == Done::NotReached)
+    }
+}
+
+fn written(pose: Pose2) -> String {
+    format!("{} {} {}", pose.x, pose.y, pose.heading)
+}
+
+fn read(text: &str) -> Option<Pose2> {
+    let mut numbers = text.split(' ').map(|number| number.parse::<f64>().ok());
+    let pose = Pose2 { x: numbers.next()??, y: numbers.next()??, heading: numbers.next()?? };
+    numbers.next().is_none().then_some(pose)
+}

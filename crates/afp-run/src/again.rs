@@ -1,0 +1,88 @@
+//! `--again`: the run of a log once more.
+
+use std::path::{Path, PathBuf};
+
+use afp_core::trace::TraceHash;
+use afp_session::{AnyRobot, Build, Recipe};
+
+use crate::Program;
+use crate::error::RunError;
+use crate::stderr::warn;
+use crate::world::{self, LoadedWorld};
+
+/// A run to be repeated.
+pub(crate) struct Again {
+    /// Its log.
+    pub(crate) path: PathBuf,
+    /// All that it takes.
+    pub(crate) recipe: Recipe,
+    /// The hash of its trace; none where its log breaks off.
+    trace: Option<String>,
+}
+
+impl Again {
+    /// Reads a log.
+    ///
+    /// # Errors
+    /// It cannot be read, or says nothing of its plan or its world.
+    pub(crate) fn read(path: &Path) -> Result<Self, RunError> {
+        let log = afp_log::read(path)?;
+        let recipe = log.recipe();
+        if recipe.plan.is_empty() || recipe.world.text.is_empty() {
+            let message = format!("'{}' does not say which plan ran where", path.display());
+            return Err(RunError::usage(message, "name the log of a run"));
+        }
+        if let Some(cut) = &log.cut_short {
+            warn(&format!("'{}' is not whole: {cut}", path.display()));
+        }
+        Ok(Again { path: path.to_owned(), recipe, trace: log.end.get("trace").cloned() })
+    }
+
+    /// The world of the run.
+    ///
+    /// # Errors
+    /// This robot knows no such world.
+    pub(crate) fn world(&self, robot: &dyn AnyRobot) -> Result<LoadedWorld, RunError> {
+        let world = world::parse(self.recipe.world.text.clone(), Some(self.path.clone()), robot)?;
+        let Some(start) = self.recipe.start else { return Ok(world) };
+        world.started_at(start).map_err(|why| RunError::Content {
+            path: self.path.clone(),
+            span: None,
+            text: String::new(),
+            message: why,
+        })
+    }
+
+    /// Says where this run differs from that of the log, if it does.
+    ///
+    /// # Errors
+    /// Both have the same plan, but another trace.
+    pub(crate) fn compare(&self, program: &Program<'_>, trace: TraceHash) -> Result<(), RunError> {
+        let (texts, toolboxes) = program.text_files();
+        let differs = [
+            (self.recipe.build.differs(&Build::this()), "another build of afp"),
+            (texts != self.recipe.texts, "another text of the plan"),
+            (toolboxes != self.recipe.toolboxes, "another text of a toolbox"),
+        ];
+        let differs: Vec<_> = differs.iter().filter(|it| it.0).map(|it| it.1).collect();
+        let path = self.path.display();
+        if self.recipe.build.differs(&Build::this()) {
+            let (old, new) = (&self.recipe.build, Build::this());
+            warn(&format!("'{path}' was made by afp {old}, this is afp {new}"));
+        }
+        let Some(logged) = &self.trace else { return Ok(()) };
+        let now = trace.to_string();
+        let said = format!("the trace is {now}, that of '{path}' is {logged}");
+        match (now == *logged, differs.is_empty()) {
+            (true, _) => Ok(()),
+            (false, true) => Err(RunError::Differs {
+                message: format!("the run did not repeat: {said}"),
+                help: "a component uses a clock, a random number or a file of its own".to_owned(),
+            }),
+            (false, false) => {
+                warn(&format!("{said}: the log has {}", differs.join(" and ")));
+                Ok(())
+            }
+        }
+    }
+}

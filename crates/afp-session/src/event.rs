@@ -1,0 +1,484 @@
+//! What happened in a run as plain data: names in place of ids, so that it needs no plan to be understood.
+//!
+//! Timelines, lines of JSON, Python and logs read this; a log's file alone has another form of it.
+
+use afp_core::trace::{
+    Author, Cause, ComponentId, Ending, EntryName, Names, Record, TraceEntryId, Verdict,
+};
+use afp_core::{Duration, Fault, Instant, Value, ValueRef};
+
+use crate::stimulus::Stimulus;
+
+/// One thing that happened in a run. What does not apply to its kind is empty.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunEvent {
+    /// When.
+    pub at: Instant,
+    /// What.
+    pub kind: EventKind,
+    /// The path of the component that it is about; of a commit, of its author.
+    pub component: String,
+    /// Its number; [`OUTSIDE`] for a commit of nobody inside the plan.
+    pub component_id: ComponentId,
+    /// The state or event.
+    pub outcome: String,
+    /// Its position in the template.
+    pub outcome_id: u16,
+    /// Where the outcome leads: an element, `terminate`, `ignore`.
+    pub target: String,
+    /// The supervisor that diverted a start.
+    pub supervisor: String,
+    /// Its number.
+    pub supervisor_id: ComponentId,
+    /// The entry that was written.
+    pub entry: String,
+    /// Its number.
+    pub entry_id: TraceEntryId,
+    /// The input port that was read.
+    pub port: String,
+    /// The value before a commit.
+    pub old: Option<Datum>,
+    /// The value after a commit, or of an input.
+    pub value: Option<Datum>,
+    /// The SI unit of the values.
+    pub unit: String,
+    /// The code of a fault.
+    pub fault: String,
+    /// The fault in words.
+    pub fault_text: String,
+    /// By how much a deadline was missed.
+    pub missed: Option<Miss>,
+    /// How a plan ended.
+    pub ending: Option<EndingKind>,
+    /// The time that a step was asked for when the clock went back.
+    pub asked: Option<Instant>,
+    /// How many records could not be kept.
+    pub lost: u64,
+    /// What came from outside.
+    pub request: Option<Requested>,
+}
+
+/// The author of a commit that nobody inside the plan made.
+pub const OUTSIDE: ComponentId = ComponentId(u32::MAX);
+
+/// What kind of thing happened.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum EventKind {
+    /// Something that this release does not know.
+    #[default]
+    Unknown,
+    /// A step was asked for an earlier time than the one before.
+    ClockWentBack,
+    /// The plan was asked to stop.
+    StopRequested,
+    /// Something came from outside: a press, a fault, a write.
+    Requested,
+    /// A component was made to report an outcome.
+    Injected,
+    /// A supervisor was polled.
+    Polled,
+    /// A deadline was missed.
+    Missed,
+    /// An event was taken.
+    Event,
+    /// An event was not taken, as it leads to the element already active.
+    AlreadyThere,
+    /// An element was interrupted.
+    Interrupted,
+    /// An element reached a state.
+    Finished,
+    /// An entry changed.
+    Committed,
+    /// A component is about to start with a value at an input port.
+    Input,
+    /// A component started.
+    Started,
+    /// An event replaced the start of an element.
+    Diverted,
+    /// A component failed.
+    Faulted,
+    /// A plan ended.
+    Ended,
+    /// Records could not be kept.
+    Lost,
+}
+
+/// A value with the names in it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Datum {
+    /// Nobody has written it yet.
+    Unset,
+    /// A truth value.
+    Truth(bool),
+    /// An integer.
+    Integer(i64),
+    /// A number, or a quantity in SI units.
+    Number(f64),
+    /// A text.
+    Text(String),
+    /// A value of an enum, `Side.left`; `#1` where its name is not known.
+    Choice(String),
+    /// An object: its type and the number of the commit that wrote it.
+    Object(String),
+}
+
+/// A missed deadline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Miss {
+    /// The time after the deadline.
+    pub lateness: Duration,
+    /// Why, where that is known.
+    pub cause: Option<Cause>,
+    /// Releases that passed without a poll.
+    pub skipped: u64,
+}
+
+/// How a plan ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EndingKind {
+    /// As it says itself.
+    Ok,
+    /// It was asked to stop.
+    Interrupted,
+    /// A component failed and nobody dealt with it.
+    Error,
+}
+
+/// What came from outside, and what became of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Requested {
+    /// The instant that it was meant for.
+    pub at: Instant,
+    /// What.
+    pub what: Stimulus,
+    /// What became of it.
+    pub done: Done,
+}
+
+/// What became of a request.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Done {
+    /// It was done.
+    Done,
+    /// It could not be done, for this reason.
+    Refused(String),
+    /// The run was over before.
+    NotReached,
+}
+
+impl EventKind {
+    /// The kind in a word, as JSON and Python have it.
+    pub fn word(self) -> &'static str {
+        match self {
+            EventKind::Unknown => "unknown",
+            EventKind::ClockWentBack => "clock_went_back",
+            EventKind::StopRequested => "stop_requested",
+            EventKind::Requested => "requested",
+            EventKind::Injected => "injected",
+            EventKind::Polled => "polled",
+            EventKind::Missed => "missed",
+            EventKind::Event => "event",
+            EventKind::AlreadyThere => "already_there",
+            EventKind::Interrupted => "interrupted",
+            EventKind::Finished => "finished",
+            EventKind::Committed => "committed",
+            EventKind::Input => "input",
+            EventKind::Started => "started",
+            EventKind::Diverted => "diverted",
+            EventKind::Faulted => "faulted",
+            EventKind::Ended => "ended",
+            EventKind::Lost => "lost",
+        }
+    }
+}
+
+impl EndingKind {
+    /// The ending in a word: `ok`, `interrupted`, `error`.
+    pub fn word(self) -> &'static str {
+        match self {
+            EndingKind::Ok => "ok",
+            EndingKind::Interrupted => "interrupted",
+            EndingKind::Error => "error",
+        }
+    }
+}
+
+impl Miss {
+    /// Why, in a word: `late_release`, `long_poll`; empty where that is not known.
+    pub fn word(&self) -> &'static str {
+        match self.cause {
+            Some(Cause::LateRelease) => "late_release",
+            Some(Cause::LongPoll) => "long_poll",
+            None => "",
+        }
+    }
+}
+
+impl Datum {
+    /// The value of an entry, or of nothing with a name.
+    pub fn new(
+        names: &(impl Names + ?Sized),
+        entry: Option<TraceEntryId>,
+        value: ValueRef<'_>,
+    ) -> Datum {
+        let ty = || entry.map_or("", |id| names.entry(id).ty);
+        match value {
+            ValueRef::Unset => Datum::Unset,
+            ValueRef::Bool(truth) => Datum::Truth(truth),
+            ValueRef::Int(integer) => Datum::Integer(integer),
+            ValueRef::Float(number) => Datum::Number(number),
+            ValueRef::Text(text) => Datum::Text(text.to_owned()),
+            ValueRef::Choice(choice) => Datum::Choice(match entry {
+                Some(id) => format!("{}.{}", ty(), names.choice(id, choice)),
+                None => format!("#{choice}"),
+            }),
+            ValueRef::Object(commit) => Datum::Object(format!("{}#{commit}", ty())),
+        }
+    }
+
+    /// The value as entries hold it; none where a name in it is not known or a text is too long.
+    pub fn value(
+        &self,
+        names: &(impl Names + ?Sized),
+        entry: Option<TraceEntryId>,
+    ) -> Option<Value> {
+        Some(match self {
+            Datum::Unset | Datum::Object(_) => return None,
+            Datum::Truth(truth) => Value::Bool(*truth),
+            Datum::Integer(integer) => Value::Int(*integer),
+            Datum::Number(number) => Value::Float(*number),
+            Datum::Text(text) => Value::Text(text.as_str().try_into().ok()?),
+            Datum::Choice(name) => Value::Choice(match (name.strip_prefix('#'), entry) {
+                (Some(number), _) => number.parse().ok()?,
+                (None, None) => return None,
+                (None, Some(id)) => {
+                    let name = name.rsplit_once('.').map_or(name.as_str(), |(_, name)| name);
+                    let named = |value| names.choice(id, value);
+                    (0..u16::MAX)
+                        .take_while(|value| !named(*value).is_empty())
+                        .find(|value| named(*value) == name)?
+                }
+            }),
+        })
+    }
+}
+
+/// The author of a commit: a path, or `outside`.
+pub fn author(names: &(impl Names + ?Sized), author: Author) -> String {
+    match author {
+        Author::Component(id) => names.component(id).path.to_owned(),
+        Author::Outside => "outside".to_owned(),
+    }
+}
+
+impl Default for RunEvent {
+    fn default() -> Self {
+        let (none, text) = (ComponentId(0), String::new);
+        RunEvent {
+            at: Instant::ZERO,
+            kind: EventKind::Unknown,
+            component: text(),
+            component_id: none,
+            outcome: text(),
+            outcome_id: 0,
+            target: text(),
+            supervisor: text(),
+            supervisor_id: none,
+            entry: text(),
+            entry_id: TraceEntryId(0),
+            port: text(),
+            old: None,
+            value: None,
+            unit: text(),
+            fault: text(),
+            fault_text: text(),
+            missed: None,
+            ending: None,
+            asked: None,
+            lost: 0,
+            request: None,
+        }
+    }
+}
+
+impl RunEvent {
+    /// A record with the names behind its ids.
+    pub fn new(at: Instant, record: &Record<'_>, names: &(impl Names + ?Sized)) -> RunEvent {
+        RunEvent { at, ..Namer { names }.describe(record) }
+    }
+
+    /// Something that came from outside.
+    pub fn requested(at: Instant, request: Requested) -> RunEvent {
+        RunEvent { at, kind: EventKind::Requested, request: Some(request), ..RunEvent::default() }
+    }
+
+    /// The record behind it, as far as counting matters: without values, and with one fault for all. `None` where
+    /// it says nothing about components.
+    pub fn record(&self) -> Option<Record<'static>> {
+        let (component, outcome, none) = (self.component_id, self.outcome_id, ValueRef::Unset);
+        Some(match self.kind {
+            EventKind::Started => Record::Started { component },
+            EventKind::Finished => Record::Finished { element: component, state: outcome },
+            EventKind::Interrupted => Record::Interrupted { element: component },
+            EventKind::Event => Record::Event { supervisor: component, event: outcome },
+            EventKind::Faulted => Record::Faulted { component, fault: Fault::INTERNAL },
+            EventKind::Polled => Record::Polled { supervisor: component, verdict: Verdict::Clear },
+            EventKind::Missed => {
+                let Miss { lateness, cause, skipped } = self.missed?;
+                let cause = cause.unwrap_or(Cause::LateRelease);
+                Record::Missed { supervisor: component, lateness, cause, skipped }
+            }
+            EventKind::Ended => Record::Ended {
+                plan: component,
+                ending: match self.ending? {
+                    EndingKind::Ok => Ending::Ok,
+                    EndingKind::Interrupted => Ending::Interrupted,
+                    EndingKind::Error => Ending::Error(Fault::INTERNAL),
+                },
+            },
+            EventKind::Committed => Record::Committed {
+                author: match component {
+                    OUTSIDE => Author::Outside,
+                    component => Author::Component(component),
+                },
+                entry: self.entry_id,
+                old: none,
+                new: none,
+            },
+            _ => return None,
+        })
+    }
+}
+
+struct Namer<'a, N: ?Sized> {
+    names: &'a N,
+}
+
+impl<N: Names + ?Sized> Namer<'_, N> {
+    fn describe(&self, record: &Record<'_>) -> RunEvent {
+        match *record {
+            Record::ClockWentBack { asked } => {
+                RunEvent { asked: Some(asked), ..self.plan(EventKind::ClockWentBack) }
+            }
+            Record::StopRequested => self.plan(EventKind::StopRequested),
+            Record::Injected { component, outcome } => RunEvent {
+                // Where it leads is known when it is taken.
+                target: String::new(),
+                ..self.outcome(EventKind::Injected, component, outcome)
+            },
+            Record::Polled { supervisor, verdict } => self.polled(supervisor, verdict),
+            Record::Missed { supervisor, lateness, cause, skipped } => RunEvent {
+                missed: Some(Miss { lateness, cause: Some(cause), skipped }),
+                ..self.about(EventKind::Missed, supervisor)
+            },
+            Record::Event { supervisor, event } => {
+                self.outcome(EventKind::Event, supervisor, event)
+            }
+            Record::AlreadyThere { supervisor, event } => {
+                self.outcome(EventKind::AlreadyThere, supervisor, event)
+            }
+            Record::Interrupted { element } => self.about(EventKind::Interrupted, element),
+            Record::Finished { element, state } => {
+                self.outcome(EventKind::Finished, element, state)
+            }
+            Record::Committed { author, entry, old, new } => {
+                self.committed(author, entry, old, new)
+            }
+            Record::Input { component, port, value } => RunEvent {
+                port: self.names.input(component, port).to_owned(),
+                value: Some(Datum::new(self.names, None, value)),
+                ..self.about(EventKind::Input, component)
+            },
+            Record::Started { component } => self.about(EventKind::Started, component),
+            Record::Diverted { element, supervisor, event } => RunEvent {
+                component: self.path(element),
+                component_id: element,
+                supervisor: self.path(supervisor),
+                supervisor_id: supervisor,
+                ..self.outcome(EventKind::Diverted, supervisor, event)
+            },
+            Record::Faulted { component, fault } => {
+                self.fault(EventKind::Faulted, component, fault)
+            }
+            Record::Ended { plan, ending } => self.ended(plan, ending),
+        }
+    }
+
+    fn path(&self, id: ComponentId) -> String {
+        self.names.component(id).path.to_owned()
+    }
+
+    /// What is about the whole plan.
+    fn plan(&self, kind: EventKind) -> RunEvent {
+        self.about(kind, ComponentId(0))
+    }
+
+    fn about(&self, kind: EventKind, id: ComponentId) -> RunEvent {
+        RunEvent { kind, component: self.path(id), component_id: id, ..RunEvent::default() }
+    }
+
+    fn outcome(&self, kind: EventKind, id: ComponentId, outcome: u16) -> RunEvent {
+        RunEvent {
+            outcome: self.names.outcome(id, outcome).to_owned(),
+            target: self.names.target(id, outcome).to_owned(),
+            outcome_id: outcome,
+            ..self.about(kind, id)
+        }
+    }
+
+    fn fault(&self, kind: EventKind, id: ComponentId, fault: Fault) -> RunEvent {
+        RunEvent {
+            fault: fault.code().to_owned(),
+            fault_text: fault.to_string(),
+            ..self.about(kind, id)
+        }
+    }
+
+    fn polled(&self, supervisor: ComponentId, verdict: Verdict) -> RunEvent {
+        let kind = EventKind::Polled;
+        match verdict {
+            Verdict::Clear => self.about(kind, supervisor),
+            Verdict::Event(event) => {
+                // Where the event leads is known when it is taken.
+                RunEvent { target: String::new(), ..self.outcome(kind, supervisor, event) }
+            }
+            Verdict::Fault(fault) => self.fault(kind, supervisor, fault),
+        }
+    }
+
+    fn committed(
+        &self,
+        by: Author,
+        entry: TraceEntryId,
+        old: ValueRef<'_>,
+        new: ValueRef<'_>,
+    ) -> RunEvent {
+        let EntryName { path, unit, .. } = self.names.entry(entry);
+        RunEvent {
+            kind: EventKind::Committed,
+            component: author(self.names, by),
+            component_id: match by {
+                Author::Component(id) => id,
+                Author::Outside => OUTSIDE,
+            },
+            entry: path.to_owned(),
+            entry_id: entry,
+            unit: unit.to_owned(),
+            old: Some(Datum::new(self.names, Some(entry), old)),
+            value: Some(Datum::new(self.names, Some(entry), new)),
+            ..RunEvent::default()
+        }
+    }
+
+    fn ended(&self, plan: ComponentId, ending: Ending) -> RunEvent {
+        let with = |ending| RunEvent { ending: Some(ending), ..self.about(EventKind::Ended, plan) };
+        match ending {
+            Ending::Ok => with(EndingKind::Ok),
+            Ending::Interrupted => with(EndingKind::Interrupted),
+            Ending::Error(fault) => RunEvent {
+                ending: Some(EndingKind::Error),
+                ..self.fault(EventKind::Ended, plan, fault)
+            },
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! Requests with names in place of ids, so that they outlive the program and the plan that they were made for.
+
+use std::fmt;
+
+#[cfg(feature = "load")]
+use afp::load::Injection;
+use afp_core::Duration;
+use afp_core::devices::{DeviceRow, controls, faults, find_control, find_fault};
+use afp_core::trace::{ComponentId, Names, TraceEntryId};
+#[cfg(feature = "load")]
+use afp_core::trace::{DEADLINE_MISSED, ERROR};
+
+use crate::event::Datum;
+use crate::request::{Request, RequestError};
+
+/// Something that comes from outside, by names.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Stimulus {
+    /// An entry of the plan itself is written.
+    Write {
+        /// Its name.
+        entry: String,
+        /// The value, quantities in SI units.
+        value: Datum,
+        /// The SI unit.
+        unit: String,
+    },
+    /// A control is held down or let go.
+    Press {
+        /// Device and control, `touch.touch`.
+        control: String,
+        /// Whether it is held down.
+        held: bool,
+    },
+    /// Something breaks.
+    Break {
+        /// Device and fault, `wheels.slip`.
+        fault: String,
+        /// By how much, in SI units; none for as much as the robot's devices declare.
+        amount: Option<f64>,
+        /// For how long; [`Duration::MAX`] is for good.
+        lasting: Duration,
+    },
+    /// A component reports an outcome at its next poll, whatever it sees.
+    Inject {
+        /// Its path.
+        component: String,
+        /// The state or event.
+        outcome: String,
+        /// The outputs that come with it, by position among the template's.
+        outputs: Vec<(u16, Datum)>,
+    },
+    /// An actor, those of a sub-plan, or all of them (none) do nothing from their next start on.
+    Idle {
+        /// The path.
+        element: Option<String>,
+    },
+    /// The plan ends as interrupted.
+    Stop,
+}
+
+impl Stimulus {
+    /// A request of a session with those devices and names.
+    pub fn new(
+        request: &Request,
+        devices: &[DeviceRow],
+        names: &(impl Names + ?Sized),
+    ) -> Stimulus {
+        let dotted = |device: &DeviceRow, name: &str| format!("{}.{name}", device.name);
+        match request {
+            Request::Write(entry, value) => {
+                let id = TraceEntryId((*entry).into());
+                Stimulus::Write {
+                    entry: names.entry(id).path.to_owned(),
+                    value: Datum::new(names, Some(id), value.borrow()),
+                    unit: names.entry(id).unit.to_owned(),
+                }
+            }
+            Request::Press(id, held) => {
+                let found = controls(devices).find(|(known, ..)| known == id);
+                let control = found.map(|(_, device, row)| dotted(device, row.name));
+                Stimulus::Press { control: control.unwrap_or_default(), held: *held }
+            }
+            Request::Break(id, amount, lasting) => {
+                let found = faults(devices).find(|(known, ..)| known == id);
+                let fault = found.map(|(_, device, row)| dotted(device, row.name));
+                let fault = fault.unwrap_or_default();
+                Stimulus::Break { fault, amount: *amount, lasting: *lasting }
+            }
+            #[cfg(feature = "load")]
+            Request::Inject(Injection { component, outcome, outputs }) => Stimulus::Inject {
+                component: names.component(*component).path.to_owned(),
+                outcome: names.outcome(*component, *outcome).to_owned(),
+                outputs: outputs
+                    .iter()
+                    .map(|(port, value)| (*port, Datum::new(names, None, value.borrow())))
+                    .collect(),
+            },
+            Request::Idle(element) => {
+                let path = |id: &ComponentId| names.component(*id).path.to_owned();
+                Stimulus::Idle { element: element.as_ref().map(path) }
+            }
+            Request::Stop => Stimulus::Stop,
+        }
+    }
+
+    /// The request of a session with those devices and names.
+    ///
+    /// # Errors
+    /// A name that is not known there.
+    pub fn request(
+        &self,
+        devices: &[DeviceRow],
+        names: &(impl Names + ?Sized),
+    ) -> Result<Request, RequestError> {
+        Ok(match self {
+            Stimulus::Write { entry, value, .. } => {
+                let mut ids = (0..names.entries()).map(TraceEntryId);
+                let unknown = || RequestError::NoEntry(entry.clone());
+                let id = ids.find(|id| names.entry(*id).path == entry).ok_or_else(unknown)?;
+                let number = u16::try_from(id.0).map_err(|_| unknown())?;
+                let value = value.value(names, Some(id)).ok_or_else(unknown)?;
+                Request::Write(number, value)
+            }
+            Stimulus::Press { control, held } => {
+                let id = find_control(devices, control).ok_or(RequestError::NoControl)?;
+                Request::Press(id, *held)
+            }
+            Stimulus::Break { fault, amount, lasting } => {
+                let found = fault.split_once('.').and_then(|(at, of)| find_fault(devices, at, of));
+                Request::Break(found.ok_or(RequestError::NoFault)?, *amount, *lasting)
+            }
+            Stimulus::Inject { component, outcome, outputs } => {
+                injection(names, component, outcome, outputs)?
+            }
+            Stimulus::Idle { element: None } => Request::Idle(None),
+            Stimulus::Idle { element: Some(path) } => {
+                Request::Idle(Some(find(names, path).ok_or(RequestError::NoElement)?))
+            }
+            Stimulus::Stop => Request::Stop,
+        })
+    }
+}
+
+fn find(names: &(impl Names + ?Sized), path: &str) -> Option<ComponentId> {
+    (0..names.components()).map(ComponentId).find(|id| names.component(*id).path == path)
+}
+
+#[cfg(feature = "load")]
+fn injection(
+    names: &(impl Names + ?Sized),
+    path: &str,
+    outcome: &str,
+    outputs: &[(u16, Datum)],
+) -> Result<Request, RequestError> {
+    let component = find(names, path).ok_or(RequestError::NoElement)?;
+    let named = |number| names.outcome(component, number);
+    let outcome = (0..ERROR)
+        .take_while(|number| !named(*number).is_empty())
+        .chain([ERROR, DEADLINE_MISSED])
+        .find(|number| named(*number) == outcome)
+        .ok_or_else(|| RequestError::NoOutcome(format!("{path}.{outcome}")))?;
+    let outputs =
+        outputs.iter().filter_map(|(port, value)| Some((*port, value.value(names, None)?)));
+    Ok(Request::Inject(Injection { component, outcome, outputs: outputs.collect() }))
+}
+
+#[cfg(not(feature = "load"))]
+fn injection(
+    _: &(impl Names + ?Sized),
+    _: &str,
+    _: &str,
+    _: &[(u16, Datum)],
+) -> Result<Request, RequestError> {
+    Err(RequestError::Compiled)
+}
+
+impl fmt::Display for Datum {
+    /// As in a plan, quantities in SI units without the unit.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Datum::Unset => f.write_str("unset"),
+            Datum::Truth(truth) => truth.fmt(f),
+            Datum::Integer(integer) => integer.fmt(f),
+            Datum::Number(number) => number.fmt(f),
+            Datum::Text(text) => write!(f, "{text:?}"),
+            Datum::Choice(text) | Datum::Object(text) => f.write_str(text),
+        }
+    }
+}
+
+impl fmt::Display for Stimulus {
+    /// In the words of scenarios, as far as they have such words.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Stimulus::Write { entry, value, unit } if unit.is_empty() => {
+                write!(f, "set {entry} = {value}")
+            }
+            Stimulus::Write { entry, value, unit } => write!(f, "set {entry} = {value} {unit}"),
+            Stimulus::Press { control, held: true } => write!(f, "press {control}"),
+            Stimulus::Press { control, held: false } => write!(f, "release {control}"),
+            Stimulus::Break { fault, amount, lasting } => {
+                write!(f, "fail {fault}")?;
+                if let Some(amount) = amount {
+                    write!(f, " {amount}")?;
+                }
+                match *lasting {
+                    Duration::MAX => Ok(()),
+                    lasting => write!(f, " for {} s", lasting.as_secs_f64()),
+                }
+            }
+            Stimulus::Inject { component, outcome, .. } => write!(f, "fire {component}.{outcome}"),
+            Stimulus::Idle { element: Some(path) } => write!(f, "idle {path}"),
+            Stimulus::Idle { element: None } => f.write_str("idle all"),
+            Stimulus::Stop => f.write_str("stop"),
+        }
+    }
+}

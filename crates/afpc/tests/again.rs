@@ -1,0 +1,78 @@
+//! `afpc run --again`: a log repeats its run.
+
+mod common;
+
+use common::Place;
+use serde_json::Value;
+
+const QUIET: &str = "--log none --svg none --json";
+
+/// A run in which everything comes from outside that can.
+const RUN: &str = "run wall_following.afp --seed 4 --until 12s --set walldist=35cm --set world.robot.charge=0.5 \
+                   --start 2m,1m,10deg --press touch@2s --fail wheels.slip=0.3@3s..5s --fail odometry.delayed=100ms@6s \
+                   --press escape@50s --measure wall --svg none";
+
+#[test]
+fn a_log_repeats_its_run_to_the_last_byte() {
+    let place = Place::with_plan();
+    let first = place.afpc(&format!("{RUN} --json --log a.mcap"));
+    first.succeeds();
+    // All that it takes is in the log.
+    place.write("wall_following.afp", "plan Broken {");
+    std::fs::remove_file(place.path("wall_following.afp")).unwrap();
+    let again = place.afpc(&format!("run --again a.mcap {QUIET}"));
+    assert_eq!((again.succeeds().out.as_str(), again.err.as_str()), (first.out.as_str(), ""));
+    // The log of the second run is as good as that of the first.
+    place.afpc("run --again a.mcap --log b.mcap --svg none").succeeds();
+    assert_eq!(place.afpc(&format!("run --again b.mcap {QUIET}")).out, first.out);
+}
+
+#[test]
+fn timeline_summary_and_log_have_what_came_from_outside() {
+    let place = Place::with_plan();
+    let said = place.afpc(&format!("{RUN} --log a.mcap"));
+    said.succeeds();
+    let logged = place.afpc("log a.mcap").out;
+    for line in [
+        "     0.000  ● set walldist = 35 cm  from outside",
+        "     2.000  ● press touch.touch  from outside",
+        "     2.200  ● release touch.touch  from outside",
+        "     3.000  ● fail wheels.slip 0.3 for 2 s  from outside",
+        "     6.000  ● fail odometry.delayed 0.1  from outside",
+    ] {
+        assert!(said.out.contains(line), "{line:?} in {}", said.out);
+        assert!(logged.contains(line), "{line:?} in {logged}");
+    }
+    assert!(logged.contains("! not reached: press buttons.escape at 50 s"), "{logged}");
+    let summary = "from outside  set walldist = 35 cm at 0 s\n";
+    assert!(said.out.contains(summary), "{}", said.out);
+    let late = "press buttons.escape at 50 s: the run was over before\n";
+    assert!(said.out.contains(late), "{}", said.out);
+    let requests = &said.last_json()["summary"]["requests"];
+    assert_eq!(requests[3]["request"], "fail wheels.slip 0.3 for 2 s");
+    assert_eq!((&requests[3]["at_s"], &requests[3]["done"]), (&3.0.into(), &true.into()));
+    assert_eq!(requests.as_array().unwrap().last().unwrap()["done"], Value::Bool(false));
+}
+
+#[test]
+fn another_plan_can_be_tried_in_the_run_of_a_log() {
+    let place = Place::with_plan();
+    place.afpc(&format!("{RUN} --log a.mcap")).succeeds();
+    let plan = place.read("wall_following.afp");
+    place.write("changed.afp", &plan.replace("10 cm/s", "15 cm/s"));
+    let said = place.afpc(&format!("run changed.afp --again a.mcap {QUIET}"));
+    said.succeeds();
+    assert!(said.err.contains("the log has another text of the plan"), "{}", said.err);
+}
+
+#[test]
+fn what_cannot_be_repeated_is_said() {
+    let place = Place::with_plan();
+    place.afpc(&format!("{RUN} --log a.mcap")).succeeds();
+    place.afpc("run --again a.mcap --seed 3").fails(2, &["--again", "--seed"]);
+    place.afpc("run --again gone.mcap").fails(1, &["cannot read the log 'gone.mcap'"]);
+    place.afpc("run").fails(2, &["FILE[:PLAN]"]);
+    place.write("small.afp", "use std\nplan Small {\n    start a\n    actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n");
+    let said = place.afpc(&format!("run small.afp --again a.mcap {QUIET}"));
+    said.fails(2, &["'set walldist = 0.35 m' at 0 s: the plan has no such entry 'walldist'"]);
+}
