@@ -5,6 +5,7 @@ use afp_carbot::devices::{Grid, Shift};
 use afp_core::{Duration, Fault, Job};
 
 /// Two pictures, and the flow between them once it has run.
+#[derive(Clone)]
 pub struct FlowJob<M> {
     pub(crate) before: Picture,
     pub(crate) after: Picture,

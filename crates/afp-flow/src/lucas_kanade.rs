@@ -39,6 +39,14 @@ impl LucasKanade {
     }
 }
 
+impl Clone for LucasKanade {
+    /// With buffers of its own: nothing goes over from one flow to the next.
+    fn clone(&self) -> Self {
+        let (width, height) = self.pictures[0].dimensions();
+        LucasKanade::new(width as usize, height as usize)
+    }
+}
+
 impl OpticalFlow for LucasKanade {
     fn flow(
         &mut self,

@@ -12,6 +12,7 @@ const APART: Duration = Duration::from_millis(250);
 const FROZEN: Duration = Duration::from_millis(200);
 
 /// Compares the pictures of a camera, each with the one before, on a worker.
+#[derive(Clone)]
 pub struct FlowSensor<M, W> {
     worker: W,
     /// The last two pictures that differ, the earlier one first.
@@ -22,7 +23,7 @@ pub struct FlowSensor<M, W> {
 }
 
 /// A picture with its number and time.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 struct Seen {
     picture: Picture,
     /// 0 when there is none yet.
@@ -39,7 +40,7 @@ struct UnderWay {
 }
 
 /// The latest flow.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Latest {
     /// The number of the picture that was compared last, whatever came of it.
     number: u64,

@@ -4,13 +4,13 @@
 //! `generated` compares them with the `.proto` files.
 
 /// AFP's own messages: events and configurations of plans.
-#[allow(missing_docs)]
+#[allow(missing_docs, clippy::enum_variant_names)]
 pub mod afp {
     include!("proto/afp.rs");
 }
 
 /// The public Foxglove messages in use.
-#[allow(missing_docs)]
+#[allow(missing_docs, clippy::enum_variant_names)]
 pub mod foxglove {
     include!("proto/foxglove.rs");
 }

@@ -2,7 +2,7 @@
 
 use afp::load::{LoadedPlan, Registry};
 use afp_carbot::table::{TABLE, signal};
-use afp_core::devices::find_fault;
+use afp_core::devices::{find_control, find_fault};
 use afp_core::{Duration, Instant};
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
@@ -15,18 +15,38 @@ use afp_sim::{Simulation, World};
 use afp_syntax::source::Source;
 
 const PLAN: &str = include_str!("../../../plans/wall_following.afp");
+/// Watches the flow of the camera's pictures while it turns about.
+const MOTION: &str = "use carbot
+plan Watch {
+    var bearing: angle = 0 deg
+    start drive
+    supervise touch: CheckTouchSensor { TouchSensorPressed -> back }
+    actor drive: Forward(distance = 20 cm) {
+        supervise motion: CheckMotion(speed = 1 deg/s, bearing => bearing) { MotionSeen -> turn }
+        ForwardSuccessful -> turn
+    }
+    actor back: Forward(distance = -10 cm) { ForwardSuccessful -> turn }
+    actor turn: Turn(angle = 70 deg) {
+        supervise motion: CheckMotion(speed = 1 deg/s, bearing => bearing) { MotionSeen -> drive }
+        TurnSuccessful -> drive
+    }
+}";
 const ROOM: &str = include_str!("../../../worlds/wall_following.toml");
 
 type Loaded = Session<LoadedPlan<Simulation>, Simulation>;
 
 fn session() -> Loaded {
+    session_of(PLAN, 3)
+}
+
+fn session_of(plan: &str, seed: u64) -> Loaded {
     let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
-    let compiled = compile(&Source::new("plan.afp", PLAN), &toolboxes, &Texts::default());
+    let compiled = compile(&Source::new("plan.afp", plan), &toolboxes, &Texts::default());
     let graph = compiled.graph.as_ref().unwrap_or_else(|| panic!("{}", compiled.render(false)));
     let mut registry = Registry::new();
     afp_carbot::templates::register(&mut registry);
     let plan = LoadedPlan::new(graph, &registry).unwrap();
-    let sim = <Simulation as Simulated>::new(&World::parse(ROOM).unwrap(), 3).unwrap();
+    let sim = <Simulation as Simulated>::new(&World::parse(ROOM).unwrap(), seed).unwrap();
     Session::loaded(plan, sim)
 }
 
@@ -69,6 +89,40 @@ fn looking_judging_logging_and_pausing_do_not_change_the_run() {
     assert!(parts.ending().is_some());
     assert_eq!((track.path.len(), log.finish(&parts).unwrap().lost), (1301, 0));
     assert!(parts.end().number("wall_error", "judged_s").unwrap() > 1.0);
+}
+
+#[test]
+fn a_keyframe_goes_on_as_its_run_does() {
+    // With noise, a fault that begins before and one that ends behind, a press under way, and a plan that watches the
+    // flow of pictures.
+    for (plan, seed) in [(PLAN, 3), (MOTION, 5)] {
+        let mut session = session_of(plan, seed);
+        let fault = |device, kind| find_fault(TABLE, device, kind).unwrap();
+        let (slip, delayed) = (fault("wheels", "slip"), fault("ultrasonic", "delayed"));
+        let touch = find_control(TABLE, "touch").unwrap();
+        session.at(at(2), Request::Break(slip, Some(0.6), Duration::from_secs(9))).unwrap();
+        session.at(at(8), Request::Break(delayed, Some(0.1), Duration::from_secs(2))).unwrap();
+        session.at(at(7), Request::Press(touch, true)).unwrap();
+        session.at(at(9), Request::Press(touch, false)).unwrap();
+        session.add_measure(Simulation::measure("wall").unwrap());
+        let middle = at(7) + Duration::from_millis(3);
+        session.run(middle, &mut Open, &mut []).unwrap();
+        let mut copy = AnySession::keyframe(&session).unwrap();
+        let mut track = Track::new(session.devices());
+        // One goes first, so that what they share would show.
+        copy.run(at(26), &mut Open, &mut [&mut track]).unwrap();
+        session.run(at(26), &mut Open, &mut []).unwrap();
+        assert_eq!((copy.trace(), copy.now()), (session.trace(), session.now()));
+        assert_eq!(copy.end(), session.end());
+        let mut whole = session_of(plan, seed);
+        for (at, request) in AnySession::requests(&session).to_vec() {
+            whole.at(at, request).unwrap();
+        }
+        whole.run(at(26), &mut Open, &mut []).unwrap();
+        assert_eq!(whole.trace(), session.trace());
+        let pose = |session: &Loaded| session.robot().truth().pose();
+        assert_eq!(pose(&whole), pose(&session));
+    }
 }
 
 #[test]

@@ -103,6 +103,10 @@ pub trait AnySession: Send {
     /// What was asked for so far, with the instants: asked for from the start on, the same run comes of it.
     fn requests(&self) -> &[(Instant, Request)];
 
+    /// The same run at the same instant, which goes on by itself and alike; none where the robot, a measure or a
+    /// component cannot be copied.
+    fn keyframe(&self) -> Option<Box<dyn AnySession>>;
+
     /// What was asked for and has not come yet, by time.
     fn pending(&self) -> Vec<(Instant, Stimulus)>;
 }

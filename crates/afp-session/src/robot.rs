@@ -49,6 +49,14 @@ pub trait Robot: Platform {
     /// Says what its signals are now. What is dear to compute is asked for with [`Samples::wants`].
     fn sample(&self, to: &mut Samples<'_, '_>);
 
+    /// The same robot at the same instant, with a clock of its own; none where there is no such thing.
+    fn keyframe(&self) -> Option<Self>
+    where
+        Self: Sized,
+    {
+        None
+    }
+
     /// What it came to so far, beyond what measures say.
     fn figures(&self) -> Vec<Figure> {
         Vec::new()
@@ -75,11 +83,6 @@ pub trait Simulated: Robot + Sized + Send + 'static {
     /// A measure of that name.
     fn measure(name: &str) -> Option<Box<dyn Measure<Self>>> {
         let _ = name;
-        None
-    }
-
-    /// The same robot at the same instant, with a clock of its own.
-    fn keyframe(&self) -> Option<Self> {
         None
     }
 }

@@ -119,6 +119,37 @@ where
         self.rest = rest;
     }
 
+    /// The same run at the same instant, which goes on by itself and alike; none where the robot, a measure or a
+    /// component cannot be copied.
+    pub fn keyframe(&self) -> Option<Self>
+    where
+        S: Clone,
+    {
+        let robot = self.robot.keyframe()?;
+        let measures = self.measures.iter().map(|measure| measure.keyframe());
+        Some(Session {
+            scheduler: self.scheduler.try_clone()?,
+            names: self.scheduler.plan().names(),
+            clock: robot.clock(),
+            robot,
+            sink: self.sink.clone(),
+            measures: measures.collect::<Option<_>>()?,
+            requests: self.requests.clone(),
+            asked: self.asked.clone(),
+            faults: self.faults.clone(),
+            line: String::new(),
+            started: self.started,
+            stepping: self.stepping,
+            stepped: self.stepped,
+            due: self.due,
+            last: self.last,
+            rest: self.rest,
+            samples: self.samples,
+            trace: self.trace,
+            testing: self.testing.as_ref().map(Testing::copy),
+        })
+    }
+
     /// The robot.
     pub fn robot(&self) -> &R {
         &self.robot

@@ -22,6 +22,11 @@ impl VirtualClock {
         Instant::from_nanos(self.free.load(Ordering::Relaxed))
     }
 
+    /// A clock that tells the same time and goes on by itself: a clone is the same clock.
+    pub(crate) fn split(&self) -> VirtualClock {
+        VirtualClock { free: Arc::new(AtomicU64::new(self.free().as_nanos())) }
+    }
+
     /// Takes `cost` of computing time, from `now` or from when it is free.
     pub fn spend(&self, now: Instant, cost: Duration) {
         let end = self.free().max(now) + cost;

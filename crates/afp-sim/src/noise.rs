@@ -27,7 +27,7 @@ pub(crate) enum Source {
 }
 
 /// A stream of random numbers.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Noise(Pcg32);
 
 impl Noise {

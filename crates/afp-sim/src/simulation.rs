@@ -5,6 +5,7 @@ mod build;
 mod bumper;
 mod devices;
 mod faults;
+mod keyframe;
 mod movers;
 mod ping;
 mod robot;

@@ -27,7 +27,7 @@ pub struct Collision {
 const APART: u64 = 300_000_000;
 
 /// The collisions so far, oldest first.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Collisions(Vec<Collision>);
 
 impl Collisions {

@@ -185,10 +185,13 @@ fn idle_actors_are_active_and_do_nothing() {
     let moving = run(&lines.replace("idle all", "release touch"));
     let said = |broken: &afp_test::Broken| format!("{}: {}", broken.text, broken.why);
     let whys: Vec<_> = moving.broken.iter().map(said).collect();
-    assert_eq!(whys[..2], [
-        "expect halted always after 1.1 s: it was not so",
-        "expect standing always after 1.5 s: it was not so",
-    ]);
+    assert_eq!(
+        whys[..2],
+        [
+            "expect halted always after 1.1 s: it was not so",
+            "expect standing always after 1.5 s: it was not so",
+        ]
+    );
 }
 
 #[test]

@@ -38,7 +38,7 @@ impl Slot {
 }
 
 /// The slots of a worker.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Slots(Vec<Slot>);
 
 impl Slots {

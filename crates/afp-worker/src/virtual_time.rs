@@ -29,7 +29,7 @@ use std::collections::VecDeque;
 /// assert!(matches!(worker.poll(ticket, at(120))?, Poll::Ready(job) if job.sum == 6));
 /// # Ok::<(), Fault>(())
 /// ```
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct VirtualWorker<J> {
     jobs: Vec<J>,
     slots: Slots,

@@ -59,7 +59,7 @@ fn another_plan_can_be_tried_in_the_run_of_a_log() {
     let place = Place::with_plan();
     place.afpc(&format!("{RUN} --log a.mcap")).succeeds();
     let plan = place.read("wall_following.afp");
-    place.write("changed.afp", &plan.replace("10 cm/s", "15 cm/s"));
+    place.write("changed.afp", &plan.replace("-60 deg", "-70 deg"));
     let said = place.afpc(&format!("run changed.afp --again a.mcap {QUIET}"));
     said.succeeds();
     assert!(said.err.contains("the log has another text of the plan"), "{}", said.err);

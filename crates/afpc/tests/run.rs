@@ -104,7 +104,10 @@ fn entries_are_set_with_their_units() {
         |set: &str| place.afpc(&format!("run wall_following.afp --until 1s {set} --json {QUIET}"));
     let said = run("--set walldist=35cm");
     said.succeeds();
-    let first: Value = serde_json::from_str(said.out.lines().next().unwrap()).unwrap();
+    let lines: Vec<Value> =
+        said.out.lines().take(2).map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(lines[0]["request"], "set walldist = 0.35 m");
+    let first = &lines[1];
     assert_eq!((&first["new"], &first["unit"]), (&0.35.into(), &"m".into()), "{first}");
     assert_eq!(run("--set walldist=0.35m").out, said.out);
     run("--set walldist=35").fails(2, &["not a length", "help: write the unit", "35cm"]);
@@ -269,10 +272,10 @@ mod signals {
 
     #[test]
     fn signals_end_a_run_cleanly() {
-        for name in ["INT", "TERM"] {
+        for (name, exit) in [("INT", 0), ("TERM", 143)] {
             let place = Place::with_plan();
             let (code, out) = interrupted(&place, |process| signal(name, process));
-            assert_eq!(code, Some(0), "{out}");
+            assert_eq!(code, Some(exit), "{out}");
             assert!(out.contains("\"kind\":\"stop_requested\""), "{out}");
             assert!(out.contains("\"component\":\"searchFirstWall\""), "{out}");
             let last: serde_json::Value =
@@ -280,6 +283,9 @@ mod signals {
             assert_eq!(last["summary"]["stopped_by"], "signal");
             assert_eq!(place.files(), ["a.mcap", "a.svg", "wall_following.afp"]);
             assert_eq!(place.afpc("log a.mcap doctor").succeeds().out, "sound\n");
+            // Where it was stopped it stops again.
+            let again = place.afpc("run --again a.mcap --json --log none --svg none");
+            assert_eq!(again.succeeds().last_json()["summary"]["trace"], last["summary"]["trace"]);
         }
     }
 }

@@ -119,9 +119,9 @@ fn instant(text: &str) -> Result<Instant, String> {
     Ok(Instant::ZERO + duration(text)?)
 }
 
-/// Reads `1m,50cm,90deg`.
+/// Reads `2m,1m,90deg`.
 pub(super) fn start(text: &str) -> Result<Pose2, String> {
-    let wrong = || "expected x, y and a heading, such as 1m,50cm,90deg".to_owned();
+    let wrong = || "expected x, y and a heading, such as 2m,1m,90deg".to_owned();
     let quantity = |text: &str, units: &[Unit<'static>]| {
         parse_quantity(text.trim(), units.iter().copied()).map_err(|_| wrong())
     };
@@ -192,7 +192,7 @@ mod tests {
         let pose = start("1m, -50cm,180deg").unwrap();
         assert_eq!((pose.x, pose.y, pose.heading), (1.0, -0.5, std::f64::consts::PI));
         for wrong in ["1,2,3", "1m,2m", "1m,2m,90deg,", "1m,2m,1m", "", "1m,2s,0deg"] {
-            assert!(start(wrong).is_err_and(|why| why.contains("1m,50cm,90deg")), "{wrong}");
+            assert!(start(wrong).is_err_and(|why| why.contains("2m,1m,90deg")), "{wrong}");
         }
     }
 

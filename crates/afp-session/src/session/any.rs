@@ -19,7 +19,9 @@ impl<P, R, S> AnySession for Session<P, R, S>
 where
     P: NamedPlan + Plan<R>,
     R: Robot,
-    S: Keep,
+    S: Keep + Clone + 'static,
+    P: 'static,
+    R: 'static,
     Session<P, R, S>: Send,
 {
     fn now(&self) -> Instant {
@@ -110,6 +112,10 @@ where
 
     fn requests(&self) -> &[(Instant, Request)] {
         self.requests()
+    }
+
+    fn keyframe(&self) -> Option<Box<dyn AnySession>> {
+        Some(Box::new(self.keyframe()?))
     }
 
     fn pending(&self) -> Vec<(Instant, Stimulus)> {

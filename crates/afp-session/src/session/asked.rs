@@ -24,6 +24,17 @@ pub(super) struct Testing<P> {
     idle: fn(&mut P, Option<ComponentId>) -> bool,
 }
 
+impl<P> Testing<P> {
+    /// The same functions.
+    pub(super) fn copy(&self) -> Self {
+        Testing {
+            #[cfg(feature = "load")]
+            inject: self.inject,
+            idle: self.idle,
+        }
+    }
+}
+
 #[cfg(feature = "load")]
 impl<R: Robot + 'static> Session<LoadedPlan<R>, R, Kept> {
     /// A loaded plan on a robot: its components can be made to report outcomes, or to do nothing.

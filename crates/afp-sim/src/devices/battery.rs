@@ -19,7 +19,7 @@ const FULL_SPEED: f64 = 6.6;
 const NO_SPEED: f64 = 5.4;
 
 /// The battery.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Battery {
     /// Joules that have been drawn.
     drawn: f64,

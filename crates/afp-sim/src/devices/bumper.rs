@@ -8,7 +8,7 @@ const BOUNCING: u32 = 2;
 const WRONG: f64 = 0.3;
 
 /// The switch behind the bumper.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Switch {
     noise: Noise,
     pressed: bool,

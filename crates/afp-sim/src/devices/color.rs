@@ -14,7 +14,7 @@ const FORWARD: f64 = 0.15;
 const NOISE: f64 = 0.01;
 
 /// The sensor.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct ColorSensor {
     noise: Noise,
 }

@@ -24,7 +24,7 @@ const BEARING_NOISE: f64 = 3.0 / 180.0 * core::f64::consts::PI;
 const STRENGTH_NOISE: f64 = 0.05;
 
 /// The sensor.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Infrared {
     noise: Noise,
 }

@@ -6,7 +6,7 @@ use afp_core::{Duration, Instant};
 use std::collections::VecDeque;
 
 /// What the plan reads of one sensor.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Line<T> {
     defect: Option<Defect>,
     /// What a broken line holds; none while it is sound.

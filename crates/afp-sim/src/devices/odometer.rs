@@ -15,7 +15,7 @@ const TRACK: f64 = 0.008;
 const COUNTS: f64 = 0.03;
 
 /// The counted motion.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Odometer {
     noise: Noise,
     scale: f64,

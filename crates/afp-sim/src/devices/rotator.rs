@@ -10,7 +10,7 @@ const RATE: f64 = 300.0 / 180.0 * core::f64::consts::PI;
 const RESOLUTION: f64 = 0.25 / 180.0 * core::f64::consts::PI;
 
 /// The rotator.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Rotator {
     servo: Servo,
     stuck: bool,

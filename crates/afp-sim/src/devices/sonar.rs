@@ -59,7 +59,7 @@ pub(crate) fn beam() -> Beam {
 }
 
 /// The sensor's electronics.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Sonar {
     noise: Noise,
     scale: f64,

@@ -12,7 +12,7 @@ use afp_session::Active;
 use std::sync::Arc;
 
 /// From each sensor to the plan.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Lines {
     pub(super) ultrasonic: Line<Echo>,
     pub(super) rotator: Line<Angle>,

@@ -12,6 +12,7 @@ use rapier2d::prelude::{RigidBody, RigidBodyBuilder, RigidBodyHandle};
 const FLOOR: f32 = 0.4 * 9.81;
 
 /// An obstacle that moves.
+#[derive(Clone)]
 pub(super) struct Mover {
     obstacle: usize,
     body: RigidBodyHandle,
@@ -21,6 +22,7 @@ pub(super) struct Mover {
 }
 
 /// How it moves.
+#[derive(Clone)]
 enum Way {
     /// By itself.
     Scripted(Path),

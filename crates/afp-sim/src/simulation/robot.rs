@@ -92,6 +92,10 @@ impl Robot for Simulation {
         }
     }
 
+    fn keyframe(&self) -> Option<Self> {
+        Some(self.split())
+    }
+
     fn figures(&self) -> Vec<Figure> {
         let spans = self.truth().collisions().iter().map(|collision| Span {
             name: self.obstacles.get(collision.obstacle).map_or("", |it| &it.name).to_owned(),

@@ -18,7 +18,7 @@ const TOP_SPEED: f64 = 0.31;
 const ROLLING: f64 = 0.02 * MASS * 9.81 / 4.0;
 
 /// The drive with its controller.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Drive {
     wheels: [Wheel; 2],
     /// Of the wheels, then of the castors.

@@ -32,7 +32,7 @@ pub(crate) struct Push {
 }
 
 /// A place of the body that touches the floor.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Contact {
     /// Ahead and to the left of the body's centre, metres.
     at: (f64, f64),
@@ -54,7 +54,7 @@ pub(super) struct Demand {
 }
 
 /// Where the body stands on the floor.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Footing<const N: usize> {
     contacts: [Contact; N],
     /// How the body moves after the step before unless something else pushed it.

@@ -1,7 +1,7 @@
 //! A servo that moves towards its target at a limited rate.
 
 /// A position servo.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Servo {
     position: f64,
     target: f64,

@@ -20,7 +20,7 @@ const STEER_RATE: f64 = 7.0;
 const FRICTION: f64 = 0.7 * MASS * 9.81 / 4.0;
 
 /// A wheel that steers and drives.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Wheel {
     pub(super) y: f64,
     steering: Servo,
