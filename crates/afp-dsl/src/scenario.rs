@@ -204,30 +204,20 @@ pub enum Claim {
     Happens(Cause),
     /// An element or sub-plan is active.
     Active(u32),
-    /// An entry compares so with a value of its type; an unset entry with none.
+    /// Something compares so with something of its type; an unset entry, or a signal that measured nothing, with
+    /// nothing.
     Compare {
-        /// The entry.
-        entry: u32,
+        /// What.
+        left: Subject,
         /// How.
         comparison: Comparison,
         /// With what.
-        value: Constant,
+        right: Operand,
     },
     /// The plan has not ended.
     Running,
     /// The plan ends.
     End(Option<EndCause>),
-    /// A signal of the robot, or a part of it, compares so with a value of its type.
-    Signal {
-        /// The signal.
-        signal: Part,
-        /// The part of it.
-        field: Option<Field>,
-        /// How.
-        comparison: Comparison,
-        /// With what.
-        value: Constant,
-    },
     /// An actor or sub-plan is interrupted.
     Interrupt(u32),
     /// An entry is written.
@@ -237,6 +227,24 @@ pub enum Claim {
         /// The element, supervisor or plan that writes it; anybody without one.
         by: Option<u32>,
     },
+}
+
+/// What changes while a plan runs and can be compared.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Subject {
+    /// An entry.
+    Entry(u32),
+    /// A signal of the robot, or a part of one.
+    Signal(Part, Option<Field>),
+}
+
+/// What something is compared with.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Operand {
+    /// A value.
+    Value(Constant),
+    /// What another one is at that time.
+    Subject(Subject),
 }
 
 /// Where an edge leads.

@@ -11,9 +11,13 @@ use afp_core::trace::{
     Author, ComponentId, DEADLINE_MISSED, ERROR, Ending, Names, Record, TraceEntryId,
 };
 use afp_core::{Instant, Value, ValueRef};
-use afp_dsl::scenario::{Cause, Claim, Destination, EndCause, Expectation, Outcome, Scenario};
+use afp_dsl::scenario::{
+    Cause, Claim, Destination, EndCause, Expectation, Outcome, Scenario, Subject,
+};
+use afp_dsl::toolbox::Constant;
 use afp_dsl::unfold::{Goal, Place, places};
 
+use afp_run::quantity;
 use afp_session::SampleRef;
 
 use crate::verdict::Broken;
@@ -303,6 +307,44 @@ impl<'a> Watch<'a> {
             look.happen(at.as_nanos(), happening);
         }
     }
+}
+
+impl State {
+    /// What an entry holds or a signal says; nothing inside for an unset entry, an object, or a signal that measured
+    /// nothing; none at all for a signal that said nothing yet.
+    fn held(&self, subject: &Subject) -> Option<Option<Constant>> {
+        match subject {
+            Subject::Entry(entry) => Some(self.entries.get(*entry as usize).and_then(constant)),
+            Subject::Signal(signal, field) => self.signals.said(signal, *field),
+        }
+    }
+
+    /// The same for people; none where there is nothing to tell.
+    fn shown(&self, subject: &Subject) -> Option<String> {
+        match subject {
+            Subject::Signal(signal, field) => self.signals.shown(signal, *field),
+            Subject::Entry(entry) => {
+                let unit = self.units.get(*entry as usize).map_or("", String::as_str);
+                match self.entries.get(*entry as usize)? {
+                    Value::Unset => None,
+                    Value::Float(number) => Some(quantity(*number, unit)),
+                    value => Some(value.borrow().to_string()),
+                }
+            }
+        }
+    }
+}
+
+/// A value as the compiler has it; `None` for an unset entry or an object.
+fn constant(value: &Value) -> Option<Constant> {
+    Some(match value {
+        Value::Bool(value) => Constant::Bool(*value),
+        Value::Int(value) => Constant::Int(*value),
+        Value::Float(value) => Constant::Float(*value),
+        Value::Text(text) => Constant::Text(text.as_str().to_owned()),
+        Value::Choice(value) => Constant::Choice(*value),
+        Value::Unset | Value::Object(_) => return None,
+    })
 }
 
 /// An outcome as the trace numbers it.

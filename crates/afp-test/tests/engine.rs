@@ -113,6 +113,8 @@ fn each_kind_of_claim_is_kept() {
         expect ultrasonic.echo.distance > 1 cm
         expect battery.left <= 1 always
         never battery.left < 0.5
+        expect gone < way
+        expect gone <= nested.way
         never back active
         until 30 s"
     ));
@@ -129,7 +131,7 @@ fn each_kind_of_claim_breaks() {
     breaks("at 1 s: set way = 2 m\n expect way == 1 m always\n until 2 s", "it is 2 m", 1.0);
     breaks("at 1 s: press escape\n expect end by OK", "as Interrupted", 2.0);
     breaks("expect end before 1 s\n until 1 s", "did not end", 0.999_999_999);
-    breaks("expect collision before 1 s", "it was never so", 0.999_999_999);
+    breaks("expect collision before 1 s", "it was not so", 0.999_999_999);
     breaks(
         "at 1 s: press touch\n expect interrupt of go 2 times\n until 2 s",
         "once, at 1.000",
@@ -137,8 +139,9 @@ fn each_kind_of_claim_breaks() {
     );
     breaks("at 1 s: press touch\n expect commit by go once\n until 2 s", "did not happen", 2.0);
     breaks("expect halted always\n until 2 s", "it was not so", 0.01);
-    breaks("expect standing after 1 s\n until 2 s", "it was never so", 2.0);
-    breaks("expect robot.pose.x > 90 m\n until 2 s", "it was never so; in the end it is", 2.0);
+    breaks("expect standing after 1 s\n until 2 s", "it was not so", 2.0);
+    breaks("expect robot.pose.x > 90 m\n until 2 s", "it was otherwise; in the end it is", 2.0);
+    breaks("expect way < gone\n until 1 s", "in the end it is 1 m, compared with ", 1.0);
     breaks("never robot.pose.x > -90 m after 1 s\n until 2 s", "it was so", 1.0);
     breaks("at 1 s: press escape\n expect running always\n until 5 s", "otherwise", 1.0);
 }

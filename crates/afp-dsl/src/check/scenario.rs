@@ -6,6 +6,7 @@
 mod actions;
 mod claims;
 mod commits;
+mod compare;
 mod devices;
 mod names;
 mod often;

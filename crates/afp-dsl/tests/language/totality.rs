@@ -45,6 +45,23 @@ fn examine(text: &str) {
     assert_eq!(compiled.diags.json_lines(&compiled.sources).lines().count(), compiled.diags.len());
 }
 
+#[test]
+fn every_beginning_of_a_toolbox_is_answered() {
+    let devices = support::read(
+        &support::files("tests/errors")
+            .into_iter()
+            .find(|path| path.ends_with("devices.afp"))
+            .unwrap(),
+    );
+    let carbot = afp_toolboxes::ALL.iter().find(|each| each.name == "carbot").unwrap().text;
+    // The devices stand first.
+    let end = carbot.find("actor Forward").unwrap();
+    for text in [&devices, &carbot[..end]] {
+        let places = text.char_indices().map(|(at, _)| at).filter(|at| at % 3 == 0);
+        places.for_each(|at| examine(&text[..at]));
+    }
+}
+
 proptest! {
     #[test]
     fn any_text_is_answered(text in any::<String>()) {

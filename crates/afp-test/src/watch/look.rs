@@ -1,10 +1,9 @@
 //! One expectation while a scenario runs.
 
 use afp_core::trace::{Author, ComponentId};
-use afp_core::{Ending, Instant, Value};
-use afp_dsl::scenario::{Claim, Expectation, Wanted};
+use afp_core::{Ending, Instant};
+use afp_dsl::scenario::{Claim, Expectation, Operand, Subject, Wanted};
 use afp_dsl::toolbox::Constant;
-use afp_run::quantity;
 
 use super::{Happening, State, ends, fits, leads};
 use crate::verdict::Broken;
@@ -74,12 +73,14 @@ impl<'a> Look<'a> {
         match &self.expectation.claim {
             Claim::Active(id) => Some(state.active.get(*id as usize) == Some(&true)),
             Claim::Running => Some(state.ending.is_none()),
-            Claim::Compare { entry, comparison, value } => {
-                let known = state.entries.get(*entry as usize).and_then(constant);
-                Some(known.is_some_and(|known| comparison.holds(&known, value)))
-            }
-            Claim::Signal { signal, field, comparison, value } => {
-                state.signals.holds(signal, *field, |said| comparison.holds(said, value))
+            Claim::Compare { left, comparison, right } => {
+                let left = state.held(left)?;
+                let right = match right {
+                    Operand::Value(value) => Some(value.clone()),
+                    Operand::Subject(other) => state.held(other)?,
+                };
+                let both = left.zip(right);
+                Some(both.is_some_and(|(left, right)| comparison.holds(&left, &right)))
             }
             Claim::Transition { .. }
             | Claim::Happens(_)
@@ -113,7 +114,7 @@ impl<'a> Look<'a> {
         // The last state holds to the end of the scenario, even if the run was cut short.
         self.pass(u64::MAX);
         let window = expectation.window;
-        let unsaid = matches!(expectation.claim, Claim::Signal { .. }) && self.now.is_none();
+        let unsaid = self.now.is_none() && is_about_signal(&expectation.claim);
         let (at, why) = match expectation.wanted {
             _ if unsaid => (window.to.min(end), self.missing(state)),
             Wanted::Once if self.held.is_some() => return None,
@@ -151,40 +152,47 @@ impl<'a> Look<'a> {
                 None => "the plan did not end".to_owned(),
                 Some(ending) => format!("the plan ended otherwise, as {}", word(ending)),
             },
-            (Claim::Compare { entry, .. }, None) => self.value(*entry, state),
-            (Claim::Signal { signal, field, .. }, None) => {
-                let shown = state.signals.shown(signal, *field);
-                shown.map_or("it was never so".to_owned(), |shown| {
-                    format!("it was never so; {shown}")
-                })
-            }
+            (Claim::Compare { left, right, .. }, None) => compared(left, right, state),
             _ => "it did not happen".to_owned(),
         }
     }
 
     fn otherwise(&self, state: &State) -> String {
         match &self.expectation.claim {
-            Claim::Compare { entry, .. } => self.value(*entry, state),
-            Claim::Signal { signal, field, .. } => {
-                let shown = state.signals.shown(signal, *field);
-                shown.map_or("it was not so".to_owned(), |shown| {
-                    format!("it was otherwise; {shown}")
-                })
-            }
+            Claim::Compare { left, right, .. } => compared(left, right, state),
             _ => "it was otherwise".to_owned(),
         }
     }
+}
 
-    /// What an entry holds in the end.
-    fn value(&self, entry: u32, state: &State) -> String {
-        match state.entries.get(entry as usize) {
-            Some(Value::Unset) | None => "it was never written".to_owned(),
-            Some(Value::Float(number)) => {
-                let unit = state.units.get(entry as usize).map_or("", String::as_str);
-                format!("it was otherwise; in the end it is {}", quantity(*number, unit))
-            }
-            Some(value) => format!("it was otherwise; in the end it is {}", value.borrow()),
+/// Why a comparison broke: what both sides are in the end.
+fn compared(left: &Subject, right: &Operand, state: &State) -> String {
+    let shown = match (left, state.shown(left)) {
+        (Subject::Entry(_), None) => return "it was never written".to_owned(),
+        (Subject::Signal(signal, _), None) => {
+            return format!("the robot never said what '{signal}' is");
         }
+        (_, Some(shown)) => shown,
+    };
+    match right {
+        // Of what is true or false, that it was not so says all.
+        Operand::Value(Constant::Bool(_)) => "it was not so".to_owned(),
+        Operand::Value(_) => format!("it was otherwise; in the end it is {shown}"),
+        Operand::Subject(other) => {
+            let other = state.shown(other).unwrap_or_else(|| "nothing".to_owned());
+            format!("it was otherwise; in the end it is {shown}, compared with {other}")
+        }
+    }
+}
+
+fn is_about_signal(claim: &Claim) -> bool {
+    let is_signal = |subject: &Subject| matches!(subject, Subject::Signal(..));
+    match claim {
+        Claim::Compare { left, right: Operand::Subject(right), .. } => {
+            is_signal(left) || is_signal(right)
+        }
+        Claim::Compare { left, .. } => is_signal(left),
+        _ => false,
     }
 }
 
@@ -194,16 +202,4 @@ fn word(ending: Ending) -> String {
         Ending::Interrupted => "Interrupted".to_owned(),
         Ending::Error(fault) => format!("Error ({fault})"),
     }
-}
-
-/// A value as the compiler has it; `None` for an unset entry or an object.
-fn constant(value: &Value) -> Option<Constant> {
-    Some(match value {
-        Value::Bool(value) => Constant::Bool(*value),
-        Value::Int(value) => Constant::Int(*value),
-        Value::Float(value) => Constant::Float(*value),
-        Value::Text(text) => Constant::Text(text.as_str().to_owned()),
-        Value::Choice(value) => Constant::Choice(*value),
-        Value::Unset | Value::Object(_) => return None,
-    })
 }

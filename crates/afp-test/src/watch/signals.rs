@@ -1,7 +1,7 @@
 //! What the robot signals, as far as expectations are about it.
 
 use afp_core::devices::{DeviceRow, SignalId, SignalType, find_signal, signals};
-use afp_dsl::scenario::{Claim, Field, Part, Scenario};
+use afp_dsl::scenario::{Claim, Field, Operand, Part, Scenario, Subject};
 use afp_dsl::toolbox::Constant;
 use afp_run::quantity;
 use afp_session::SampleRef;
@@ -35,22 +35,16 @@ impl Signals {
     /// The first one that the robot has not.
     pub(crate) fn new(scenario: &Scenario, table: &'static [DeviceRow]) -> Result<Signals, Part> {
         let mut all: Vec<Followed> = Vec::new();
-        for expectation in &scenario.expectations {
-            let Claim::Signal { signal, field, .. } = &expectation.claim else { continue };
-            let known = |each: &Followed| each.signal == *signal && each.field == *field;
+        for (signal, field) in scenario.expectations.iter().flat_map(|each| signals_of(&each.claim))
+        {
+            let known = |each: &Followed| each.signal == *signal && each.field == field;
             if all.iter().any(known) {
                 continue;
             }
             let id = find_signal(table, &signal.device, &signal.name);
             let id = id.ok_or_else(|| signal.clone())?;
-            let unit = unit(table, id, *field);
-            all.push(Followed {
-                signal: signal.clone(),
-                field: *field,
-                id,
-                unit,
-                said: Said::Nothing,
-            });
+            let unit = unit(table, id, field);
+            all.push(Followed { signal: signal.clone(), field, id, unit, said: Said::Nothing });
         }
         Ok(Signals(all))
     }
@@ -72,38 +66,46 @@ impl Signals {
         }
     }
 
-    /// Whether what a signal said last is so; `None` where it said nothing yet.
-    pub(super) fn holds(
-        &self,
-        signal: &Part,
-        field: Option<Field>,
-        is_so: impl FnOnce(&Constant) -> bool,
-    ) -> Option<bool> {
+    /// What a signal said last; nothing inside where it measured nothing, none at all where it said nothing yet.
+    pub(super) fn said(&self, signal: &Part, field: Option<Field>) -> Option<Option<Constant>> {
         match &self.find(signal, field)?.said {
             Said::Nothing => None,
-            Said::Empty => Some(false),
-            Said::Value(value) => Some(is_so(value)),
+            Said::Empty => Some(None),
+            Said::Value(value) => Some(Some(value.clone())),
         }
     }
 
-    /// What a signal says in the end, for people; `None` for what is true or false and needs no more words.
+    /// What a signal says in the end, for people; `None` where it never said anything.
     pub(super) fn shown(&self, signal: &Part, field: Option<Field>) -> Option<String> {
         let each = self.find(signal, field)?;
-        match &each.said {
-            Said::Nothing => Some("the robot never said".to_owned()),
-            Said::Empty => Some("there was nothing in the end".to_owned()),
-            Said::Value(Constant::Bool(_) | Constant::Choice(_)) => None,
-            Said::Value(Constant::Int(number)) => Some(format!("in the end it is {number}")),
-            Said::Value(Constant::Float(number)) => {
-                Some(format!("in the end it is {}", quantity(*number, each.unit)))
-            }
-            Said::Value(Constant::Text(text)) => Some(format!("in the end it is \"{text}\"")),
-        }
+        Some(match &each.said {
+            Said::Nothing => return None,
+            Said::Empty => "nothing".to_owned(),
+            Said::Value(Constant::Bool(value)) => value.to_string(),
+            Said::Value(Constant::Int(number)) => number.to_string(),
+            Said::Value(Constant::Float(number)) => quantity(*number, each.unit),
+            Said::Value(Constant::Text(text)) => format!("\"{text}\""),
+            // No signal has values of an enum.
+            Said::Value(Constant::Choice(_)) => return None,
+        })
     }
 
     fn find(&self, signal: &Part, field: Option<Field>) -> Option<&Followed> {
         self.0.iter().find(|each| each.signal == *signal && each.field == field)
     }
+}
+
+/// The signals that a claim is about.
+fn signals_of(claim: &Claim) -> impl Iterator<Item = (&Part, Option<Field>)> {
+    let both = match claim {
+        Claim::Compare { left, right: Operand::Subject(right), .. } => [Some(left), Some(right)],
+        Claim::Compare { left, .. } => [Some(left), None],
+        _ => [None, None],
+    };
+    both.into_iter().flatten().filter_map(|subject| match subject {
+        Subject::Signal(signal, field) => Some((signal, *field)),
+        Subject::Entry(_) => None,
+    })
 }
 
 fn said(value: SampleRef<'_>, field: Option<Field>) -> Said {

@@ -6,9 +6,8 @@ use super::paths::{Found, Part};
 use super::resolve;
 use crate::check::names::unknown;
 use crate::graph::{Component, Target};
-use crate::scenario::{Cause, Claim, Comparison, Destination, EndCause, Expectation, Outcome};
-use crate::types::Type;
-use afp_syntax::ast::{self, Bound, ClaimKind, Formula, Line, Name, Path};
+use crate::scenario::{Cause, Claim, Destination, EndCause, Expectation, Outcome};
+use afp_syntax::ast::{self, Bound, ClaimKind, Line, Name, Path};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
 
 impl Checker<'_> {
@@ -309,47 +308,6 @@ impl Checker<'_> {
         None
     }
 
-    fn compare(
-        &self,
-        path: &Path,
-        sign: &Name,
-        value: &Formula,
-        diags: &mut Diagnostics,
-    ) -> Option<Claim> {
-        let comparison = Comparison::parse(&sign.text)?;
-        let (entry, plan, id) = match self.paths.entry(&path.names()) {
-            Ok(found) => found,
-            Err(_) if self.is_of_robot(path) => {
-                return self.compare_signal(path, sign, value, diags);
-            }
-            Err(error) => {
-                diags.push(*error);
-                return None;
-            }
-        };
-        let declared = &self.paths.graph.plan(plan).entries[id.index()];
-        if let Type::Object(_) = declared.ty {
-            let message = format!("'{}' is an object, which only components can read", path.text());
-            diags.push(
-                Diagnostic::new(Code::E0604, path.span(), message)
-                    .note(declared.span, "declared here")
-                    .help("expect what the plan makes of it"),
-            );
-            return None;
-        }
-        if comparison.is_order() && !declared.ty.is_numeric() {
-            let message = format!("values of '{}' have no order", declared.ty);
-            diags.push(
-                Diagnostic::new(Code::E0604, sign.span, message)
-                    .note(declared.span, "declared here")
-                    .help("write '==' or '!='"),
-            );
-            return None;
-        }
-        let (_, value) = self.constant(value, &declared.ty, diags)?;
-        Some(Claim::Compare { entry, comparison, value })
-    }
-
     /// Reports that there is nothing of a name, neither in the plan nor of the robot.
     fn no_fact(&self, path: &Path, error: Diagnostic) -> Diagnostic {
         let (written, facts) = (path.text(), self.facts());
@@ -364,7 +322,7 @@ impl Checker<'_> {
         let names = path.names();
         let (found, rest) = match self.paths.find(self.paths.main(), &names) {
             Ok(found) => found,
-            Err(_) if self.is_of_robot(path) => return self.fact_of_robot(path, diags),
+            Err(_) if self.is_of_robot(&names) => return self.fact_of_robot(path, diags),
             Err(error) => {
                 diags.push(self.no_fact(path, *error));
                 return None;

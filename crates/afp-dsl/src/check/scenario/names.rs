@@ -1,5 +1,6 @@
 //! Records what the names in a scenario mean, of a sound plan or a broken one, line by line.
 
+use super::compare::Named;
 use super::resolve::{Cause, Part, Resolver, Walk};
 use super::robot::{Found, Robot};
 use crate::check::Context;
@@ -8,7 +9,7 @@ use crate::check::names::Places;
 use crate::index::{Recorder, Word};
 use crate::scenario::Field;
 use crate::toolbox::{Control, Fault, Signal};
-use afp_syntax::ast::{self, Bind, ClaimKind, Formula, Line, LineKind, Name, Path};
+use afp_syntax::ast::{self, Bind, ClaimKind, Formula, FormulaKind, Line, LineKind, Name, Path};
 
 /// Records what the names in lines mean; `plan` is that of the scenario, where there is one.
 pub(super) fn record(
@@ -96,11 +97,8 @@ impl Names<'_> {
             }
             ClaimKind::Active(path) | ClaimKind::Interrupt(path) => self.component(&path),
             ClaimKind::Compare(path, _, value) => {
-                match self.is_entry(&path) {
-                    true => self.entry(&path),
-                    false => self.of_robot(&path, |path| self.entry(path)),
-                }
-                value.iter().for_each(|value| self.formula(value));
+                self.compared(&path.names());
+                value.iter().for_each(|value| self.operand(value));
             }
             ClaimKind::End(Some(path)) => match (path.names().as_slice(), ending(&path)) {
                 ([name], Some(word)) if !self.is_component(name) => {
@@ -114,7 +112,8 @@ impl Names<'_> {
             }
             ClaimKind::Fact(path) => match path.names().as_slice() {
                 [name, ..] if self.is_component(name) => self.component(&path),
-                _ => self.of_robot(&path, |path| self.component(path)),
+                names if self.is_of_robot(names) => self.signal(names),
+                _ => self.component(&path),
             },
             ClaimKind::Hole => claim.paths().iter().for_each(|path| self.component(path)),
             ClaimKind::Running | ClaimKind::End(None) => {}
@@ -178,10 +177,13 @@ impl Names<'_> {
     }
 
     fn entry(&self, path: &Path) {
-        let names = path.names();
+        self.entry_named(&path.names());
+    }
+
+    fn entry_named(&self, names: &[Name]) {
         let rest = match self.plan {
-            Some(plan) => self.trail(&self.resolver.entry(plan, &names), &names),
-            None => &names,
+            Some(plan) => self.trail(&self.resolver.entry(plan, names), names),
+            None => names,
         };
         self.unknown(rest);
     }
@@ -217,14 +219,36 @@ impl Names<'_> {
         }
     }
 
-    /// A signal of the robot; something else where the robot has nothing of that name.
-    fn of_robot(&self, path: &Path, otherwise: impl Fn(&Path)) {
-        let names = path.names();
-        let found = self.robot.find::<Signal>(&names);
-        if let Found::Nothing = found {
-            return otherwise(path);
+    /// An entry, or a signal.
+    fn compared(&self, names: &[Name]) {
+        match !self.is_entry(names) && self.is_of_robot(names) {
+            true => self.signal(names),
+            false => self.entry_named(names),
         }
-        let rest = self.robot.record::<Signal>(&names, self.record);
+    }
+
+    /// What something is compared with: an entry, a signal, or a value.
+    fn operand(&self, formula: &Formula) {
+        let named = match formula.kind() {
+            FormulaKind::Ref(reference) => Named::of_ref(&reference).names,
+            _ => Vec::new(),
+        };
+        let is_signal = matches!(self.robot.find::<Signal>(&named), Found::Row(..));
+        match self.is_entry(&named) || is_signal {
+            true => self.compared(&named),
+            false => self.formula(formula),
+        }
+    }
+
+    /// Whether the robot has something of that name.
+    fn is_of_robot(&self, names: &[Name]) -> bool {
+        !matches!(self.robot.find::<Signal>(names), Found::Nothing)
+    }
+
+    /// A signal of the robot.
+    fn signal(&self, names: &[Name]) {
+        let found = self.robot.find::<Signal>(names);
+        let rest = self.robot.record::<Signal>(names, self.record);
         match (found, rest) {
             (Found::Row(_, signal, _), [name, more @ ..])
                 if Field::of(signal.ty).iter().any(|field| field.word() == name.text) =>
@@ -236,8 +260,8 @@ impl Names<'_> {
         }
     }
 
-    fn is_entry(&self, path: &Path) -> bool {
-        let found = |plan| self.resolver.entry(plan, &path.names()).end.is_ok();
+    fn is_entry(&self, names: &[Name]) -> bool {
+        let found = |plan| self.resolver.entry(plan, names).end.is_ok();
         self.plan.is_some_and(found)
     }
 

@@ -1,27 +1,25 @@
 //! What is expected of the robot's signals.
 
 use super::Checker;
+use super::compare::{Compared, Named};
 use super::robot::{Found, with_devices};
 use crate::check::names::unknown;
-use crate::scenario::{Claim, Comparison, Field, Part};
+use crate::scenario::{Claim, Comparison, Field, Operand, Part, Subject};
 use crate::toolbox::{Constant, Signal, SignalType};
 use crate::types::{Dimension, Type};
-use afp_syntax::ast::{Formula, Name, Path};
+use afp_syntax::ast::{Name, Path};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
 
-/// A signal, or a part of one, and the type of its values.
-struct Measured {
-    signal: Part,
-    field: Option<Field>,
-    ty: Type,
-}
-
 impl Checker<'_> {
-    /// Whether a path can only mean something of the robot.
-    pub(super) fn is_of_robot(&self, path: &Path) -> bool {
-        let names = path.names();
+    /// Whether names can only mean something of the robot.
+    pub(super) fn is_of_robot(&self, names: &[Name]) -> bool {
         let known = names.first().is_some_and(|name| self.robot.device(&name.text).is_some());
-        known || !matches!(self.robot.find::<Signal>(&names), Found::Nothing)
+        known || !matches!(self.robot.find::<Signal>(names), Found::Nothing)
+    }
+
+    /// Whether names mean one signal.
+    pub(super) fn is_signal(&self, names: &[Name]) -> bool {
+        matches!(self.robot.find::<Signal>(names), Found::Row(..))
     }
 
     /// How the signals can be named that are true or false.
@@ -31,7 +29,7 @@ impl Checker<'_> {
 
     /// A signal that is true.
     pub(super) fn fact_of_robot(&self, path: &Path, diags: &mut Diagnostics) -> Option<Claim> {
-        let Measured { signal, field, ty } = self.measured(path, diags)?;
+        let Compared { subject, ty, .. } = self.measured(&Named::of_path(path), diags)?;
         if ty != Type::Bool {
             let message = format!("'{}' is neither true nor false", path.text());
             let sign = if ty.is_numeric() { ">" } else { "==" };
@@ -41,43 +39,33 @@ impl Checker<'_> {
             );
             return None;
         }
-        let (comparison, value) = (Comparison::Equal, Constant::Bool(true));
-        Some(Claim::Signal { signal, field, comparison, value })
+        let (comparison, right) = (Comparison::Equal, Operand::Value(Constant::Bool(true)));
+        Some(Claim::Compare { left: subject, comparison, right })
     }
 
-    /// A signal that compares so with a value.
-    pub(super) fn compare_signal(
-        &self,
-        path: &Path,
-        sign: &Name,
-        value: &Formula,
-        diags: &mut Diagnostics,
-    ) -> Option<Claim> {
-        let comparison = Comparison::parse(&sign.text)?;
-        let Measured { signal, field, ty } = self.measured(path, diags)?;
-        if comparison.is_order() && !ty.is_numeric() {
-            let message = format!("values of '{}' have no order", path.text());
-            diags.push(Diagnostic::new(Code::E0604, sign.span, message).help("write '==' or '!='"));
-            return None;
-        }
-        let (_, value) = self.constant(value, &ty, diags)?;
-        Some(Claim::Signal { signal, field, comparison, value })
-    }
-
-    fn measured(&self, path: &Path, diags: &mut Diagnostics) -> Option<Measured> {
-        let (names, written) = (path.names(), path.text());
-        let error = match self.robot.find::<Signal>(&names) {
+    /// A signal, or a part of one.
+    pub(super) fn measured(&self, named: &Named, diags: &mut Diagnostics) -> Option<Compared> {
+        let Named { names, text: written, span } = named;
+        let error = match self.robot.find::<Signal>(names) {
             Found::Row(device, signal, used) => {
                 let part = Part::new(&device.name, &signal.name);
-                let field = field(path, signal, names.get(used..).unwrap_or_default());
-                let found = field.map(|(field, ty)| Measured { signal: part, field, ty });
-                return found.map_err(|error| diags.push(*error)).ok();
+                return match field(named, signal, names.get(used..).unwrap_or_default()) {
+                    Ok((field, ty)) => Some(Compared {
+                        subject: Subject::Signal(part, field),
+                        ty,
+                        declared: Some(signal.span),
+                    }),
+                    Err(error) => {
+                        diags.push(*error);
+                        None
+                    }
+                };
             }
             Found::Several(devices) => {
                 let first = names.first().map_or(written.as_str(), |name| &name.text);
                 let message = format!("several devices have a signal '{first}'");
                 let help = format!("write {}", with_devices(&devices, first));
-                Diagnostic::new(Code::E0604, path.span(), message).help(help)
+                Diagnostic::new(Code::E0604, *span, message).help(help)
             }
             Found::Device(device) => {
                 let none = "expect something else; this device signals nothing";
@@ -91,7 +79,7 @@ impl Checker<'_> {
                         let message = format!("what is expected of '{written}' is not said");
                         let full: Vec<_> = own.map(|own| format!("{written}.{own}")).collect();
                         let full = full.iter().map(String::as_str);
-                        unknown(Code::E0604, path.span(), message, &written, full, none)
+                        unknown(Code::E0604, *span, message, written, full, none)
                     }
                 }
             }
@@ -99,7 +87,7 @@ impl Checker<'_> {
                 let message = format!("the robot has no signal '{written}'");
                 let known = self.robot.words::<Signal>();
                 let known = known.iter().map(String::as_str);
-                unknown(Code::E0604, path.span(), message, &written, known, "remove the line")
+                unknown(Code::E0604, *span, message, written, known, "remove the line")
             }
         };
         diags.push(error);
@@ -109,7 +97,7 @@ impl Checker<'_> {
 
 /// The part of a signal that names behind it mean, and the type of its values.
 fn field(
-    path: &Path,
+    named: &Named,
     signal: &Signal,
     names: &[Name],
 ) -> Result<(Option<Field>, Type), Box<Diagnostic>> {
@@ -131,11 +119,11 @@ fn field(
         _ => {}
     }
     let message = match (names, fields) {
-        ([], []) => format!("'{}' is for logs and pictures and cannot be compared", path.text()),
-        ([], _) => format!("what of '{}' is expected is not said", path.text()),
+        ([], []) => format!("'{}' is for logs and pictures and cannot be compared", named.text),
+        ([], _) => format!("what of '{}' is expected is not said", named.text),
         ([name, ..], _) => format!("'{}' has no part '{}'", signal.name, name.text),
     };
-    let own = path.names();
+    let own = &named.names;
     let stem: Vec<_> = own[..own.len() - names.len()].iter().map(|it| it.text.as_str()).collect();
     let stem = stem.join(".");
     let known: Vec<_> = fields.iter().map(|field| format!("{stem}.{}", field.word())).collect();
@@ -144,7 +132,7 @@ fn field(
         ([], _) => format!("write '{stem}'"),
         (known, _) => format!("write {}", words::list(known.iter().map(String::as_str), "or")),
     };
-    Err(Box::new(Diagnostic::new(Code::E0604, path.span(), message).help(help)))
+    Err(Box::new(Diagnostic::new(Code::E0604, named.span, message).help(help)))
 }
 
 impl Field {

@@ -1,0 +1,120 @@
+//! What is compared in a scenario: entries and signals, with values and with one another.
+
+use super::Checker;
+use crate::graph::EntryKind;
+use crate::scenario::{Claim, Comparison, Operand, Subject};
+use crate::types::Type;
+use afp_syntax::ast::{Formula, FormulaKind, Name, Path, Ref};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
+
+/// Names that stand together.
+pub(super) struct Named {
+    pub names: Vec<Name>,
+    pub text: String,
+    pub span: Span,
+}
+
+/// What names mean that can be compared.
+pub(super) struct Compared {
+    pub subject: Subject,
+    /// The type of its values.
+    pub ty: Type,
+    /// Where it is declared.
+    pub declared: Option<Span>,
+}
+
+impl Named {
+    pub fn of_path(path: &Path) -> Named {
+        Named { names: path.names(), text: path.text(), span: path.span() }
+    }
+
+    pub fn of_ref(reference: &Ref) -> Named {
+        let names: Vec<_> = reference.home().into_iter().chain(reference.name()).collect();
+        let words: Vec<_> = names.iter().map(|name| name.text.as_str()).collect();
+        Named { text: words.join("."), names, span: reference.span() }
+    }
+}
+
+impl Checker<'_> {
+    pub(super) fn compare(
+        &self,
+        path: &Path,
+        sign: &Name,
+        value: &Formula,
+        diags: &mut Diagnostics,
+    ) -> Option<Claim> {
+        let comparison = Comparison::parse(&sign.text)?;
+        let named = Named::of_path(path);
+        let left = match self.entry(&named) {
+            Ok((entry, _)) => entry,
+            Err(_) if self.is_of_robot(&named.names) => self.measured(&named, diags)?,
+            Err(error) => {
+                diags.push(*error);
+                return None;
+            }
+        };
+        let at = |error: Diagnostic| match left.declared {
+            Some(declared) => error.note(declared, "declared here"),
+            None => error,
+        };
+        if let Type::Object(_) = left.ty {
+            let message = format!("'{}' is an object, which only components can read", named.text);
+            let error = Diagnostic::new(Code::E0604, named.span, message);
+            diags.push(at(error).help("expect what the plan makes of it"));
+            return None;
+        }
+        if comparison.is_order() && !left.ty.is_numeric() {
+            let message = format!("values of '{}' have no order", left.ty);
+            let error = Diagnostic::new(Code::E0604, sign.span, message);
+            diags.push(at(error).help("write '==' or '!='"));
+            return None;
+        }
+        let right = self.operand(&named, &left.ty, value, diags)?;
+        Some(Claim::Compare { left: left.subject, comparison, right })
+    }
+
+    /// A value of a type, or something else that has one while the plan runs.
+    fn operand(
+        &self,
+        left: &Named,
+        ty: &Type,
+        formula: &Formula,
+        diags: &mut Diagnostics,
+    ) -> Option<Operand> {
+        let named = match formula.kind() {
+            FormulaKind::Ref(reference) => Some(Named::of_ref(&reference)),
+            _ => None,
+        };
+        let other = match named.as_ref().map(|named| (named, self.entry(named))) {
+            Some((_, Ok((entry, kind)))) if kind != EntryKind::Const => Some(entry),
+            Some((named, Err(_))) if self.is_signal(&named.names) => {
+                Some(self.measured(named, diags)?)
+            }
+            _ => None,
+        };
+        let Some(other) = other else {
+            return self.constant(formula, ty, diags).map(|(_, value)| Operand::Value(value));
+        };
+        if other.ty == *ty {
+            return Some(Operand::Subject(other.subject));
+        }
+        let message = format!("'{}' is of type '{ty}', and this of type '{}'", left.text, other.ty);
+        let error = Diagnostic::new(Code::E0604, formula.span(), message);
+        let error = match other.declared {
+            Some(declared) => error.note(declared, "declared here"),
+            None => error,
+        };
+        diags.push(error.help(format!("compare it with something of type '{ty}'")));
+        None
+    }
+
+    /// # Errors
+    /// There is no such entry.
+    fn entry(&self, named: &Named) -> Result<(Compared, EntryKind), Box<Diagnostic>> {
+        let (number, plan, id) = self.paths.entry(&named.names)?;
+        let entry = &self.paths.graph.plan(plan).entries[id.index()];
+        let (ty, declared) = (entry.ty.clone(), Some(entry.span));
+        Ok((Compared { subject: Subject::Entry(number), ty, declared }, entry.kind))
+    }
+}
