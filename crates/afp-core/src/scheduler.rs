@@ -315,7 +315,7 @@ impl<P: PlanState> Scheduler<P> {
         E: Environment + ?Sized,
         S: Sink,
     {
-        self.fatal(self.step.panicked.unwrap_or(ComponentId(0)), Fault::PANIC, env, sink)
+        self.fatal(self.step.called, Fault::PANIC, env, sink)
     }
 
     /// The platform stops, the run ends in `Error`.

@@ -15,7 +15,7 @@ pub use hash::TraceHash;
 
 /// A component of a running plan, sub-plans unfolded: 0 is the outermost plan itself, then its
 /// elements and supervisors, then those of its sub-plans.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ComponentId(pub u32);
 
 /// An entry of a running plan, sub-plans unfolded.

@@ -176,6 +176,7 @@ impl<P: PlanState> Level<P> {
         self.plan.discard();
         cx.trace(&Record::Faulted { component: component(cx, element), fault });
         if row.kind == ElementKind::Actor {
+            cx.step.called = cx.place.plan;
             cx.env.stop(cx.now);
         }
         self.error_edge(element, row, fault)

@@ -192,7 +192,7 @@ impl<P: PlanState> Level<P> {
         if late {
             trace_miss(t, (supervisor, row), &release, poll.begin, poll.end, cx);
         }
-        if let Some(event) = poll.fired.event {
+        if let Some(event) = poll.fired.position() {
             let target = t.table().edge(row.events, event);
             if takes(t, supervisor, event, target, moment, cx) {
                 return Err(poll.fired.fault.map_or(What::Event(event, target), What::Fault));
@@ -273,11 +273,11 @@ impl<P: PlanState> Level<P> {
 impl Fired {
     #[inline]
     fn is_nothing(self) -> bool {
-        self.event.is_none() && self.fault.is_none()
+        self.position().is_none() && self.fault.is_none()
     }
 
     fn verdict(self) -> Verdict {
-        match (self.event, self.fault) {
+        match (self.position(), self.fault) {
             (Some(event), _) => Verdict::Event(event),
             (None, Some(fault)) => Verdict::Fault(fault),
             (None, None) => Verdict::Clear,

@@ -1,5 +1,7 @@
 //! What the scheduler asks of a plan, and what it lends it meanwhile.
 
+use core::num::NonZeroU32;
+
 use crate::clock::Clock;
 use crate::component::Environment;
 use crate::fault::Fault;
@@ -135,7 +137,8 @@ pub struct Slot {
 /// What a poll of a supervisor brought. A fault beside an event is one of its outputs.
 #[derive(Clone, Copy, Debug)]
 pub struct Fired {
-    pub(crate) event: Option<u16>,
+    /// One more than the event's position: two plain words come back in registers.
+    event: Option<NonZeroU32>,
     pub(crate) fault: Option<Fault>,
 }
 
@@ -222,22 +225,9 @@ pub(crate) struct StepState {
     pub commits: u32,
     /// Deadlines missed so far in the run, skipped releases included.
     pub misses: u64,
-    /// The innermost component whose call panicked.
-    pub panicked: Option<ComponentId>,
-}
-
-/// Stands around a call that may panic: dropped by the unwinding, it notes who was called.
-///
-/// A call that returns forgets it, so that it costs nothing there.
-struct Unwinding<'g, 'c, E: ?Sized, S, C> {
-    cx: &'g mut Cx<'c, E, S, C>,
-    component: ComponentId,
-}
-
-impl<E: ?Sized, S, C> Drop for Unwinding<'_, '_, E, S, C> {
-    fn drop(&mut self) {
-        self.cx.step.panicked.get_or_insert(self.component);
-    }
+    /// The component that was called last, the innermost one of those that are being called: whose a
+    /// panic is.
+    pub called: ComponentId,
 }
 
 /// Where a level's ids begin.
@@ -266,7 +256,15 @@ impl Fired {
     /// An event, by position in the template, and how staging its outputs went.
     #[inline]
     pub fn event(event: u16, staged: Result<(), Fault>) -> Self {
+        let event = NonZeroU32::MIN.saturating_add(u32::from(event));
         Fired { event: Some(event), fault: staged.err() }
+    }
+
+    /// The event, by position in the template.
+    #[inline]
+    pub(crate) fn position(&self) -> Option<u16> {
+        // Made from 16 bits.
+        self.event.map(|event| (event.get() - 1) as u16)
     }
 
     /// The supervisor failed.
@@ -343,17 +341,19 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
 }
 
 impl<E: ?Sized, S, C> Cx<'_, E, S, C> {
-    /// Calls a component; one that panics is noted.
+    /// Calls a component, so that a panic in it is known to be its own.
+    ///
+    /// A guard that the unwinding drops would say so, too, and take back after the call what it says,
+    /// but each poll would pay for it. Outside of components nothing of a step panics but a sink or a
+    /// clock, whose panic counts as one of the component called last.
     #[inline(always)]
     pub(crate) fn call<R>(
         &mut self,
         component: ComponentId,
         run: impl FnOnce(&mut Self) -> R,
     ) -> R {
-        let unwinding = Unwinding { cx: self, component };
-        let result = run(&mut *unwinding.cx);
-        core::mem::forget(unwinding);
-        result
+        self.step.called = component;
+        run(self)
     }
 }
 

@@ -135,7 +135,16 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
     }
 
     /// Reaches a state that was put there; the scheduler then interrupts what runs.
-    pub fn finish(&self, injected: &Injection, config: &mut Config) -> Polled {
+    #[cold]
+    #[inline(never)]
+    pub fn finish<S: Sink, C: Clock>(
+        &mut self,
+        element: u16,
+        config: &mut Config,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Polled {
+        let Some(injected) = self.injected.take() else { return Polled::Pending };
+        cx.show_injected(element.into(), injected.outcome);
         let mut stage = Stage::new(&self.outputs, &mut config.staged);
         injected.stage(&mut stage);
         match stage.result() {

@@ -66,12 +66,20 @@ impl Inputs {
     /// Computes the texts that stand nowhere, then lends the formulas.
     #[inline]
     pub fn pull<'a>(&'a mut self, values: &'a Values) -> Pull<'a> {
+        if !self.texts.is_empty() {
+            self.make_texts(values);
+        }
+        Pull { inputs: self, values }
+    }
+
+    /// Apart from what every poll does: few formulas make texts.
+    #[inline(never)]
+    fn make_texts(&mut self, values: &Values) {
         for (port, text) in &mut self.texts {
             if let Some(formula) = self.formulas.get(usize::from(*port)) {
                 *text = formula.text(values);
             }
         }
-        Pull { inputs: self, values }
     }
 }
 

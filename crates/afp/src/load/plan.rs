@@ -201,6 +201,28 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
         outs.filter(|(_, entry)| self.config.values.is_set(*entry))
     }
 
+    /// A supervisor reports what was put there. Apart from the poll, which is done in every step.
+    #[cold]
+    #[inline(never)]
+    fn report_injected<S: Sink, C: Clock>(
+        &mut self,
+        supervisor: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Fired {
+        let part = self.elements.len() as u32 + u32::from(supervisor);
+        let watch = self.supervisors.get_mut(usize::from(supervisor));
+        let Some((watch, injected)) = watch.and_then(|watch| {
+            let injected = watch.injected.take()?;
+            Some((watch, injected))
+        }) else {
+            return Fired::NOTHING;
+        };
+        let mut stage = Stage::new(&watch.outputs, &mut self.config.staged);
+        injected.stage(&mut stage);
+        cx.show_injected(part, injected.outcome);
+        Fired::event(injected.outcome, stage.result())
+    }
+
     /// The cell of an object entry.
     pub(super) fn cell(&self, entry: u16) -> Option<&dyn ObjectCell> {
         self.config.values.cell(entry)
@@ -358,12 +380,8 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
         let Some(watch) = self.supervisors.get_mut(usize::from(supervisor)) else {
             return Fired::fault(Fault::INTERNAL);
         };
-        if let Some(injected) = watch.injected.take() {
-            let mut stage = Stage::new(&watch.outputs, &mut self.config.staged);
-            injected.stage(&mut stage);
-            let part = self.elements.len() as u32 + u32::from(supervisor);
-            cx.show_injected(part, injected.outcome);
-            return Fired::event(injected.outcome, stage.result());
+        if watch.injected.is_some() {
+            return self.report_injected(supervisor, cx);
         }
         let mut stage = Stage::new(&watch.outputs, &mut self.config.staged);
         let args = watch.inputs.pull(&self.config.values);
@@ -393,12 +411,9 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
         let Some(slot) = self.elements.get_mut(usize::from(element)) else {
             return Polled::Failed(Fault::INTERNAL);
         };
-        match slot.injected.take() {
+        match slot.injected {
             None => slot.poll(&mut self.config, cx),
-            Some(injected) => {
-                cx.show_injected(element.into(), injected.outcome);
-                slot.finish(&injected, &mut self.config)
-            }
+            Some(_) => slot.finish(element, &mut self.config, cx),
         }
     }
 
