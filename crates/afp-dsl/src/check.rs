@@ -134,7 +134,8 @@ pub(crate) fn check(
         imports::check_order(&file.tree, diags);
         imports::check_no_templates(&file.tree, diags);
     }
-    let record = Recorder::default();
+    let bytes: usize = files.iter().map(|file| file.source.text.len()).sum();
+    let record = Recorder::for_text(bytes);
     let program = scope::program(files, toolboxes, &record, diags);
     let order = recursion::order(&program, diags);
     let (mut plans, mut users, mut members) = (Vec::new(), Vec::new(), Vec::new());

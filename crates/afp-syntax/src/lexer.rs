@@ -24,7 +24,9 @@ pub(super) struct Token<'t> {
 
 /// Cuts `text` into tokens, trivia included.
 pub(super) fn lex<'t>(text: &'t str, file: u16, diags: &mut Diagnostics) -> Vec<Token<'t>> {
-    let mut lexer = Lexer { text, at: 0, file, tokens: Vec::new(), diags };
+    // Texts have about that many; growing would copy all of them again and again.
+    let tokens = Vec::with_capacity(text.len() / 3);
+    let mut lexer = Lexer { text, at: 0, file, tokens, diags };
     while lexer.at < text.len() {
         lexer.token();
     }

@@ -49,7 +49,8 @@ struct Parser<'t, 'd> {
 
 impl<'t, 'd> Parser<'t, 'd> {
     fn new(tokens: &'t [Token<'t>], file: u16, diags: &'d mut Diagnostics) -> Parser<'t, 'd> {
-        let solid = (0..tokens.len()).filter(|place| !tokens[*place].kind.is_trivia()).collect();
+        let mut solid = Vec::with_capacity(tokens.len());
+        solid.extend((0..tokens.len()).filter(|place| !tokens[*place].kind.is_trivia()));
         let builder = GreenNodeBuilder::new();
         Parser {
             tokens,

@@ -118,8 +118,8 @@ fn find_ports<'a>(
     let mut seen: Vec<&Name> = Vec::new();
     for bind in binds {
         let (Bind::In { port, sign, .. } | Bind::Out { port, sign, .. }) = bind;
-        let input = signature.inputs.iter().position(|input| input.name == port.text);
-        let output = signature.outputs.iter().position(|output| output.name == port.text);
+        let input = signature.inputs.iter().position(|input| *input.name == *port.text);
+        let output = signature.outputs.iter().position(|output| *output.name == *port.text);
         let declared = match (input, output) {
             (Some(place), _) => Some(signature.inputs[place].span),
             (None, place) => place.map(|place| signature.outputs[place].span),
@@ -174,8 +174,8 @@ fn mixed_up(sign: Span, port: &Name, is: &str, right: &str) -> Diagnostic {
 
 fn unknown_port(signature: &Signature, bind: &Bind, port: &Name) -> Diagnostic {
     let message = format!("'{}' has no port '{}'", signature.name, port.text);
-    let inputs = signature.inputs.iter().map(|input| input.name.as_str());
-    let outputs = signature.outputs.iter().map(|output| output.name.as_str());
+    let inputs = signature.inputs.iter().map(|input| &*input.name);
+    let outputs = signature.outputs.iter().map(|output| &*output.name);
     let known: Vec<_> = match bind {
         Bind::In { .. } => inputs.collect(),
         Bind::Out { .. } => outputs.collect(),
@@ -218,7 +218,7 @@ fn inputs(
 }
 
 fn without_value(signature: &Signature, missing: &[&Input], site: &Site) -> Diagnostic {
-    let names = words::list(missing.iter().map(|input| input.name.as_str()), "and");
+    let names = words::list(missing.iter().map(|input| &*input.name), "and");
     let verb = if missing.len() == 1 { "has" } else { "have" };
     let examples: Vec<_> = missing
         .iter()

@@ -116,7 +116,7 @@ pub(crate) fn check(
     let extra = if origin.supervisor { DEADLINE_MISSED } else { ERROR };
     for edge in edges {
         let name = &edge.name;
-        let place = signature.outcomes.iter().position(|outcome| *outcome == name.text);
+        let place = signature.outcomes.iter().position(|outcome| **outcome == *name.text);
         outcome(signature, place, name, origin.supervisor, elements.record);
         if let Some(first) = seen.iter().find(|known| known.text == name.text) {
             diags.push(
@@ -217,7 +217,7 @@ pub(crate) fn word(name: &str) -> Option<Word> {
 fn unknown_outcome(origin: &Origin<'_>, name: &Name, extra: &str) -> Diagnostic {
     let word = if origin.supervisor { "event" } else { "state" };
     let message = format!("'{}' has no {word} '{}'", origin.signature.name, name.text);
-    let known = origin.signature.outcomes.iter().map(String::as_str).chain([extra]);
+    let known = origin.signature.outcomes.iter().map(|outcome| &**outcome).chain([extra]);
     unknown(Code::E0210, name.span, message, &name.text, known, "remove the edge")
 }
 
@@ -266,7 +266,7 @@ pub(crate) fn find(
 fn report_missing(origin: &Origin<'_>, seen: &[&Name], diags: &mut Diagnostics) {
     let signature = origin.signature;
     let is_plan = matches!(signature.kind, SignatureKind::Plan(_));
-    let missing = signature.outcomes.iter().map(String::as_str).filter(|outcome| {
+    let missing = signature.outcomes.iter().map(|outcome| &**outcome).filter(|outcome| {
         let allowed = is_plan && *outcome == "Interrupted";
         !allowed && !seen.iter().any(|name| name.text == *outcome)
     });

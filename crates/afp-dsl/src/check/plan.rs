@@ -80,7 +80,9 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
     let components = Components { context, scope: &scope, elements: &names };
     let mut users = Users::default();
     let mut members = Members::default();
-    let mut supervisors = Vec::new();
+    members.elements.reserve(elements.len());
+    // Most elements have one.
+    let mut supervisors = Vec::with_capacity(elements.len());
     for guard in head.node.guards() {
         let checked = components.supervisor(&guard, None, diags);
         supervisors.push(checked.built);
@@ -88,7 +90,8 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
         members.globals.push(Member::supervisor(&guard, checked.made, checked.written));
     }
     let globals = supervisors.len();
-    let mut drawn = Vec::new();
+    let mut drawn = Vec::with_capacity(elements.len());
+    users.elements.reserve(elements.len());
     for (at, node) in elements.iter().enumerate() {
         let Checked { built, user, made, written } = components.element(node, diags);
         let first = supervisors.len();

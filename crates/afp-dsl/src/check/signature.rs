@@ -21,7 +21,7 @@ pub(crate) struct Signature {
     /// Output ports in order.
     pub outputs: Vec<OutputPort>,
     /// States or events in order.
-    pub outcomes: Vec<String>,
+    pub outcomes: Vec<Arc<str>>,
     /// The template, unless it is a plan.
     pub template: Option<(TemplateId, Arc<Toolbox>)>,
     /// The edge of a plan that can end it as `Interrupted`.
@@ -39,8 +39,8 @@ pub(crate) enum SignatureKind {
 
 /// An input port.
 pub(crate) struct Input {
-    /// Its name.
-    pub name: String,
+    /// Its name, which the outline has at each of its uses.
+    pub name: Arc<str>,
     /// Its type; `None` when its declaration is broken.
     pub ty: Option<Type>,
     /// Whether it may be left unbound.
@@ -56,7 +56,7 @@ pub(crate) struct Input {
 /// An output port.
 pub(crate) struct OutputPort {
     /// Its name.
-    pub name: String,
+    pub name: Arc<str>,
     /// Its type; `None` when its declaration is broken.
     pub ty: Option<Type>,
     /// Its declaration.
@@ -112,12 +112,16 @@ impl Signature {
                 .outputs
                 .iter()
                 .map(|port| OutputPort {
-                    name: port.name.clone(),
+                    name: port.name.as_str().into(),
                     ty: Some(port.ty.clone()),
                     span: port.span,
                 })
                 .collect(),
-            outcomes: template.outcomes.iter().map(|outcome| outcome.name.clone()).collect(),
+            outcomes: template
+                .outcomes
+                .iter()
+                .map(|outcome| outcome.name.as_str().into())
+                .collect(),
             interrupting: None,
             template: Some((id, toolbox)),
         }
@@ -131,7 +135,7 @@ impl Signature {
             kind: SignatureKind::Plan(place),
             inputs: of_kind(EntryKind::In)
                 .map(|entry| Input {
-                    name: entry.name.text.clone(),
+                    name: entry.name.text.as_str().into(),
                     ty: entry.ty.clone(),
                     optional: entry.has_init,
                     default: entry.value.clone(),
@@ -141,12 +145,12 @@ impl Signature {
                 .collect(),
             outputs: of_kind(EntryKind::Out)
                 .map(|entry| OutputPort {
-                    name: entry.name.text.clone(),
+                    name: entry.name.text.as_str().into(),
                     ty: entry.ty.clone(),
                     span: entry.name.span,
                 })
                 .collect(),
-            outcomes: vec!["OK".to_owned(), "Interrupted".to_owned()],
+            outcomes: vec!["OK".into(), "Interrupted".into()],
             template: None,
             interrupting: head.interrupting,
         }
@@ -205,7 +209,7 @@ impl SignatureKind {
 
 fn inputs(template: &Template) -> Vec<Input> {
     let input = |port: &crate::toolbox::InPort| Input {
-        name: port.name.clone(),
+        name: port.name.as_str().into(),
         ty: Some(port.ty.clone()),
         optional: port.default.is_some(),
         default: port.default.clone(),

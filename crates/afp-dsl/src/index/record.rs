@@ -42,6 +42,12 @@ pub(crate) struct Records {
 pub(crate) struct Recorder(RefCell<Records>);
 
 impl Recorder {
+    /// A recorder for a text of so many bytes, which has a name in a dozen of them.
+    pub fn for_text(bytes: usize) -> Recorder {
+        let names = Vec::with_capacity(bytes / 12);
+        Recorder(RefCell::new(Records { names, several: Vec::new() }))
+    }
+
     /// A name means the definition whose own name stands at `definition`.
     pub fn definition(&self, name: Span, definition: Span) {
         self.record(name, Found::Definition(definition));

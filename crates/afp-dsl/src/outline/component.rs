@@ -104,7 +104,7 @@ pub struct Times {
 #[derive(Clone, Debug)]
 pub struct Input {
     /// The port's name.
-    pub name: String,
+    pub name: Arc<str>,
     /// Which binding of that port it is: 1, unless it is bound several times.
     pub nth: u16,
     /// Its declaration; `None` where the template has no such input, or is unknown.
@@ -127,7 +127,7 @@ pub struct Input {
 #[derive(Clone, Debug)]
 pub struct Output {
     /// The port's name.
-    pub name: String,
+    pub name: Arc<str>,
     /// Which binding of that port it is: 1, unless it is bound several times.
     pub nth: u16,
     /// Its declaration; `None` where the template has no such output, or is unknown.
@@ -166,7 +166,7 @@ pub struct Value {
 #[derive(Clone, Debug)]
 pub struct Exit {
     /// The state or event.
-    pub name: String,
+    pub name: Arc<str>,
     /// Which edge of that name it is: 1, unless it is connected several times.
     pub nth: u16,
     /// What it is.

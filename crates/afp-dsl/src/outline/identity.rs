@@ -112,17 +112,17 @@ impl Plan {
 fn part_at(component: &Component, covers: impl Fn(Span) -> bool) -> Part {
     for input in &component.inputs {
         if input.binding.as_ref().is_some_and(|binding| covers(binding.span)) {
-            return Part::Input { name: input.name.clone(), nth: input.nth };
+            return Part::Input { name: input.name.to_string(), nth: input.nth };
         }
     }
     for output in &component.outputs {
         if output.binding.as_ref().is_some_and(|binding| covers(binding.span)) {
-            return Part::Output { name: output.name.clone(), nth: output.nth };
+            return Part::Output { name: output.name.to_string(), nth: output.nth };
         }
     }
     for exit in &component.exits {
         if exit.edge.as_ref().is_some_and(|edge| covers(edge.span)) {
-            return Part::Exit { name: exit.name.clone(), nth: exit.nth };
+            return Part::Exit { name: exit.name.to_string(), nth: exit.nth };
         }
     }
     Part::Whole
@@ -132,17 +132,17 @@ fn part_span(component: &Component, part: &Part) -> Option<Span> {
     match part {
         Part::Input { name, nth } => {
             let mut inputs = component.inputs.iter();
-            let found = inputs.find(|input| input.name == *name && input.nth == *nth)?;
+            let found = inputs.find(|input| *input.name == **name && input.nth == *nth)?;
             found.binding.as_ref().map(|binding| binding.span)
         }
         Part::Output { name, nth } => {
             let mut outputs = component.outputs.iter();
-            let found = outputs.find(|output| output.name == *name && output.nth == *nth)?;
+            let found = outputs.find(|output| *output.name == **name && output.nth == *nth)?;
             found.binding.as_ref().map(|binding| binding.span)
         }
         Part::Exit { name, nth } => {
             let mut exits = component.exits.iter();
-            let found = exits.find(|exit| exit.name == *name && exit.nth == *nth)?;
+            let found = exits.find(|exit| *exit.name == **name && exit.nth == *nth)?;
             found.edge.as_ref().map(|edge| edge.span)
         }
         Part::Whole | Part::Start(_) => None,

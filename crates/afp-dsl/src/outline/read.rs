@@ -1,6 +1,7 @@
 //! Elements and supervisors: their ports and their exits.
 
 use std::rc::Rc;
+use std::sync::Arc;
 
 use super::build::Places;
 use super::{
@@ -91,24 +92,28 @@ impl Reader<'_> {
             let binding = Some(self.binding(bind));
             match bind {
                 Bind::In { port, .. } => {
-                    let mut same = inputs.iter_mut().filter(|known| known.name == port.text);
+                    let mut same = inputs.iter_mut().filter(|known| *known.name == *port.text);
                     match same.find(|known| known.binding.is_none()) {
                         Some(input) => input.binding = binding,
                         None => {
-                            let known = inputs.iter().filter(|known| known.name == port.text);
+                            let known = inputs.iter().filter(|known| *known.name == *port.text);
                             let nth = following(known.count());
-                            inputs.push(Input { nth, binding, ..input(&port.text) });
+                            inputs.push(Input { nth, binding, ..input(port.text.as_str().into()) });
                         }
                     }
                 }
                 Bind::Out { port, .. } => {
-                    let mut same = outputs.iter_mut().filter(|known| known.name == port.text);
+                    let mut same = outputs.iter_mut().filter(|known| *known.name == *port.text);
                     match same.find(|known| known.binding.is_none()) {
                         Some(output) => output.binding = binding,
                         None => {
-                            let known = outputs.iter().filter(|known| known.name == port.text);
+                            let known = outputs.iter().filter(|known| *known.name == *port.text);
                             let nth = following(known.count());
-                            outputs.push(Output { nth, binding, ..output(&port.text) });
+                            outputs.push(Output {
+                                nth,
+                                binding,
+                                ..output(port.text.as_str().into())
+                            });
                         }
                     }
                 }
@@ -155,9 +160,10 @@ impl Reader<'_> {
             for (at, name) in signature.outcomes.iter().enumerate() {
                 let declared = signature.outcome_span(at);
                 // Whether a plan can be interrupted decides whether its user must say what then.
-                let required =
-                    declared.is_some() || name != "Interrupted" || signature.interrupting.is_some();
-                exits.push(Exit { declared, required, known: true, ..exit(name, usual) });
+                let required = declared.is_some()
+                    || **name != *"Interrupted"
+                    || signature.interrupting.is_some();
+                exits.push(Exit { declared, required, known: true, ..exit(name.clone(), usual) });
             }
         }
         let mut others = Vec::new();
@@ -167,13 +173,18 @@ impl Reader<'_> {
             let known = !matches!(meaning, None | Some(Found::Unknown));
             let target = target.map(|target| self.places.target(target));
             let new = Edge { span, name_span: name.span, target };
-            let first = exits.iter_mut().find(|known| known.name == name.text);
+            let first = exits.iter_mut().find(|known| *known.name == *name.text);
             match first {
                 Some(first) if first.edge.is_none() => first.edge = Some(new),
                 _ => {
                     let all = exits.iter().chain(&others);
-                    let nth = following(all.filter(|known| known.name == name.text).count());
-                    others.push(Exit { nth, known, edge: Some(new), ..exit(&name.text, kind) });
+                    let nth = following(all.filter(|known| *known.name == *name.text).count());
+                    others.push(Exit {
+                        nth,
+                        known,
+                        edge: Some(new),
+                        ..exit(name.text.as_str().into(), kind)
+                    });
                 }
             }
         }
@@ -210,19 +221,19 @@ fn declared(signature: &Signature, generic: Option<&Type>) -> (Vec<Input>, Vec<O
         required: !port.optional,
         default: port.default.clone(),
         range: port.range,
-        ..input(&port.name)
+        ..input(port.name.clone())
     });
     let outputs = signature.outputs.iter().map(|port| Output {
         declared: Some(port.span),
         ty: actual(&port.ty),
-        ..output(&port.name)
+        ..output(port.name.clone())
     });
     (inputs.collect(), outputs.collect())
 }
 
-fn input(name: &str) -> Input {
+fn input(name: Arc<str>) -> Input {
     Input {
-        name: name.to_owned(),
+        name,
         nth: 1,
         declared: None,
         ty: None,
@@ -234,20 +245,13 @@ fn input(name: &str) -> Input {
     }
 }
 
-fn output(name: &str) -> Output {
-    Output {
-        name: name.to_owned(),
-        nth: 1,
-        declared: None,
-        ty: None,
-        binding: None,
-        findings: Findings::default(),
-    }
+fn output(name: Arc<str>) -> Output {
+    Output { name, nth: 1, declared: None, ty: None, binding: None, findings: Findings::default() }
 }
 
-fn exit(name: &str, kind: ExitKind) -> Exit {
+fn exit(name: Arc<str>, kind: ExitKind) -> Exit {
     Exit {
-        name: name.to_owned(),
+        name,
         nth: 1,
         kind,
         known: false,

@@ -216,13 +216,13 @@ fn identities(outline: &Outline) -> Vec<Identity> {
             let item = &component.item;
             add(file, item, Part::Whole);
             for input in component.inputs.iter().filter(|input| input.binding.is_some()) {
-                add(file, item, Part::Input { name: input.name.clone(), nth: input.nth });
+                add(file, item, Part::Input { name: input.name.to_string(), nth: input.nth });
             }
             for output in component.outputs.iter().filter(|output| output.binding.is_some()) {
-                add(file, item, Part::Output { name: output.name.clone(), nth: output.nth });
+                add(file, item, Part::Output { name: output.name.to_string(), nth: output.nth });
             }
             for exit in component.exits.iter().filter(|exit| exit.edge.is_some()) {
-                add(file, item, Part::Exit { name: exit.name.clone(), nth: exit.nth });
+                add(file, item, Part::Exit { name: exit.name.to_string(), nth: exit.nth });
             }
         }
     }

@@ -76,7 +76,7 @@ fn of_component(text: &str, component: &Component) -> usize {
         let Some(target) = edge.filter(|target| target.text != "terminate") else { continue };
         let to = |to: &str| Change::Connect {
             from: item.clone(),
-            outcome: exit.name.clone(),
+            outcome: exit.name.to_string(),
             to: to.to_owned(),
         };
         there_and_back(text, &to("terminate"), &to(&target.text));
@@ -89,7 +89,7 @@ fn of_component(text: &str, component: &Component) -> usize {
         let written = &text[value.span.start as usize..value.span.end as usize];
         let bind = |formula: String| Change::Bind {
             component: item.clone(),
-            port: input.name.clone(),
+            port: input.name.to_string(),
             to: Binding::In(formula),
         };
         there_and_back(text, &bind(format!("2 * ({written})")), &bind(written.to_owned()));

@@ -198,7 +198,7 @@ impl Names<'_> {
         };
         for bind in binds {
             let (Bind::In { port, .. } | Bind::Out { port, .. }) = bind;
-            let declared = signature.outputs.iter().find(|output| output.name == port.text);
+            let declared = signature.outputs.iter().find(|output| *output.name == *port.text);
             if let Some(declared) = declared {
                 self.record.definition(port.span, declared.span);
             }

@@ -178,7 +178,7 @@ impl<'a> Resolver<'a> {
     pub fn outcomes(&self, plan: usize, part: Part) -> Vec<&'a str> {
         let signature = self.signature(plan, part);
         let outcomes = signature.map_or(&[][..], |signature| &signature.outcomes);
-        outcomes.iter().map(String::as_str).collect()
+        outcomes.iter().map(|outcome| &**outcome).collect()
     }
 
     /// What its undeclared outcome is called.
