@@ -25,6 +25,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("workspace", workspace),
     ("random plans", random_plans),
     ("random worlds", random_worlds),
+    ("single faults", single_faults),
     ("arm", arm::run),
     ("engine", engine::run),
     ("python", python::run),
@@ -51,6 +52,9 @@ const RANDOM_PLANS: &str = "400";
 
 /// Random worlds that the nightly run drives through.
 const RANDOM_WORLDS: &str = "10000";
+
+/// Rooms in which the nightly run breaks each device in each way.
+const FAULTY_ROOMS: &str = "20";
 
 /// Steps that the nightly run takes without an allocation.
 const STEPS: &str = "10000000";
@@ -116,6 +120,9 @@ fn again(name: &str) -> String {
         "random worlds" => {
             format!("    AFP_WORLDS={RANDOM_WORLDS} cargo test --release -p afp-worlds")
         }
+        "single faults" => format!(
+            "    AFP_ROOMS={FAULTY_ROOMS} cargo test --release -p afp-worlds --test single_faults"
+        ),
         "python long" => "    cargo xtask nightly 'python long'".to_owned(),
         "arm" | "engine" | "opencv" => format!("    cargo xtask nightly {name}"),
         "long run" => {
@@ -146,6 +153,12 @@ fn random_plans() -> Result<(), Failure> {
 fn random_worlds() -> Result<(), Failure> {
     let test = ["test", "--release", "--package", "afp-worlds", "--", "--nocapture"];
     run_command(cargo().args(test).env("AFP_WORLDS", RANDOM_WORLDS))
+}
+
+/// Every fault of every device, alone, in every shipped plan.
+fn single_faults() -> Result<(), Failure> {
+    let test = ["test", "--release", "--package", "afp-worlds", "--test", "single_faults"];
+    run_command(cargo().args(test).args(["--", "--nocapture"]).env("AFP_ROOMS", FAULTY_ROOMS))
 }
 
 /// Ten million steps of a plan, without an allocation, equal in both back ends.

@@ -6,7 +6,7 @@ use crate::history::{History, Pose};
 use crate::motion::{Ramp, wrap};
 use crate::templates;
 use crate::templates::approach_infrared::{Inputs, Live, State};
-use afp_core::quantity::{AngularSpeed, Speed};
+use crate::tracking::Tracking;
 use afp_core::{Actor, Fault, Instant, Poll};
 
 /// Speed is gained and lost at this many metres a second squared.
@@ -26,6 +26,7 @@ pub struct ApproachInfrared {
     strength: f64,
     speed: f64,
     ramp: Ramp,
+    tracking: Tracking,
     infrared: Guard,
     odometry: Guard,
     history: History,
@@ -59,6 +60,7 @@ where
             strength: inputs.strength,
             speed: inputs.speed.si(),
             ramp: Ramp::new(ACCELERATION, now),
+            tracking: Tracking::new(now),
             infrared: Guard::new(NO_INFRARED, now),
             odometry: Guard::new(NO_ODOMETRY, now),
             history,
@@ -77,20 +79,21 @@ where
         let light = self.light.zip(motion).map(|(light, motion)| (light, Pose::from(motion)));
         self.ending = self.ending.or_else(|| self.end(light));
         if let Some(state) = self.ending {
-            env.halt(now);
+            self.tracking.halt(env, now);
             let stands = motion.is_some_and(|motion| motion.stands());
             return Ok(if stands { Poll::Ready(state) } else { Poll::Pending });
         }
         // In the dark it waits: what was ahead may have gone anywhere.
-        let Some((light, here)) = light.filter(|_| self.seen == self.last_look) else {
-            env.halt(now);
+        let lit = light.filter(|_| self.seen == self.last_look).zip(motion);
+        let Some(((light, here), motion)) = lit else {
+            self.tracking.halt(env, now);
             self.ramp = Ramp::new(ACCELERATION, now);
             return Ok(Poll::Pending);
         };
         let bearing = wrap(light.heading - here.heading);
         let cruise = self.speed * libm::cos(bearing).max(0.0);
         let speed = self.ramp.rate(light.way_from(here), cruise, now);
-        env.drive(Speed::from_si(speed), AngularSpeed::from_si(STEER * bearing), now);
+        self.tracking.drive(env, &motion, (speed, STEER * bearing), now)?;
         Ok(Poll::Pending)
     }
 
@@ -160,6 +163,7 @@ impl Light {
 mod tests {
     use super::*;
     use crate::fake::Fake;
+    use afp_core::quantity::Speed;
 
     fn approach(robot: &mut Fake) -> Result<Option<State>, Fault> {
         let inputs = Inputs { strength: 4.0, speed: Speed::from_si(0.2) };

@@ -65,7 +65,7 @@ impl<E: Navigator + Ultrasonic + Rotator + ?Sized> Supervisor<templates::CheckDr
             env.point(Angle::from_si(self.target), now);
             self.arrival = Arrival::new(now);
         } else {
-            self.arrival.check(now)?;
+            self.arrival.elsewhere(&echo, now)?;
         }
         Ok((self.wanted && self.blocks(&echo, reach)).then_some(Event::LaneNotFree))
     }
@@ -84,7 +84,7 @@ impl CheckDrivingLane {
 mod tests {
     use super::*;
     use crate::fake::{Fake, Plane, plane};
-    use crate::guard::{NO_RANGE, STUCK_ROTATOR};
+    use crate::guard::{FROZEN_RANGE, NO_RANGE, STUCK_ROTATOR};
     use afp_core::quantity::Length;
 
     type Template = templates::CheckDrivingLane;
@@ -138,10 +138,13 @@ mod tests {
     }
 
     #[test]
-    fn a_dead_sensor_and_a_stuck_rotator_are_faults_and_not_free_space() {
+    fn a_dead_or_frozen_sensor_and_a_stuck_rotator_are_faults_and_not_free_space() {
         let mut robot = Fake::new(&[]);
         robot.range_dies = 0;
         assert_eq!(watch(&mut robot, 1), Err(NO_RANGE));
+        let mut robot = Fake::new(&[plane(0.0, 2.0)]);
+        robot.range_freezes = 500;
+        assert_eq!(watch(&mut robot, 1), Err(FROZEN_RANGE));
         let mut robot = Fake::new(&[]);
         robot.rotator = 0.5;
         robot.stuck_rotator = true;

@@ -4,8 +4,8 @@ use crate::devices::{Navigator, Odometry};
 use crate::motion::Ramp;
 use crate::templates;
 use crate::templates::curve::{Inputs, Live, State};
+use crate::tracking::Tracking;
 use crate::turning::{Progress, Turning};
-use afp_core::quantity::{AngularSpeed, Speed};
 use afp_core::{Actor, Fault, Instant, Poll};
 
 /// Speed is gained and lost at this many metres a second squared.
@@ -18,6 +18,7 @@ pub struct Curve {
     radius: f64,
     speed: f64,
     ramp: Ramp,
+    tracking: Tracking,
 }
 
 impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
@@ -27,19 +28,20 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
             radius: inputs.radius.si(),
             speed: inputs.speed.si(),
             ramp: Ramp::new(ACCELERATION, now),
+            tracking: Tracking::new(now),
         })
     }
 
     fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
         match self.turning.progress(env, now)? {
-            Progress::Unknown => env.halt(now),
-            Progress::Left(left) => {
+            Progress::Unknown => self.tracking.halt(env, now),
+            Progress::Left(left, motion) => {
                 let speed = self.ramp.rate(left.abs() * self.radius, self.speed, now);
                 let rate = speed.copysign(left) / self.radius;
-                env.drive(Speed::from_si(speed), AngularSpeed::from_si(rate), now);
+                self.tracking.drive(env, &motion, (speed, rate), now)?;
             }
             Progress::Turned { by, stands } => {
-                env.halt(now);
+                self.tracking.halt(env, now);
                 if stands {
                     return Ok(Poll::Ready(State::CurveSuccessful { turned: by }));
                 }
@@ -59,7 +61,7 @@ mod tests {
     use super::*;
     use crate::fake::Fake;
     use crate::guard::NO_ODOMETRY;
-    use afp_core::quantity::{Angle, Length};
+    use afp_core::quantity::{Angle, Length, Speed};
 
     fn curve(robot: &mut Fake, degrees: f64) -> Result<Option<State>, Fault> {
         let (radius, speed) = (Length::from_si(0.5), Speed::from_si(0.2));

@@ -53,8 +53,15 @@ pub(crate) struct Fake {
     pub(crate) dead_battery: bool,
     /// Pings sent from this many milliseconds on hear nothing, for so many pings.
     pub(crate) lost_pings: (u64, u64),
+    /// From this many milliseconds on every ping says what the one before said.
+    pub(crate) range_freezes: u64,
     /// Echoes are told so many milliseconds after they were heard.
     pub(crate) late_echoes: u64,
+    /// The shares of the commanded speed and turn rate that the wheels follow.
+    pub(crate) follows: (f64, f64),
+    /// It turns by so much more than commanded, radians a second.
+    pub(crate) drifts: f64,
+    pub(crate) top_speed: f64,
     target: f64,
     command: (f64, f64),
     commanded: Instant,
@@ -87,7 +94,11 @@ impl Fake {
             charge: 1.0,
             dead_battery: false,
             lost_pings: (u64::MAX, 0),
+            range_freezes: u64::MAX,
             late_echoes: 0,
+            follows: (1.0, 1.0),
+            drifts: 0.0,
+            top_speed: f64::INFINITY,
             target: 0.0,
             command: (0.0, 0.0),
             commanded: Instant::ZERO,
@@ -112,6 +123,8 @@ impl Fake {
             self.command = (0.0, 0.0);
         }
         let (speed, turn) = self.command;
+        let speed = speed.clamp(-self.top_speed, self.top_speed) * self.follows.0;
+        let turn = turn * self.follows.1 + self.drifts;
         let heading = self.motion.heading.si() + turn * 0.01;
         self.motion = Motion {
             x: self.motion.x + Length::from_si(speed * 0.01 * heading.cos()),
@@ -127,7 +140,9 @@ impl Fake {
             let (from, count) = self.lost_pings;
             let lost = self.millis() >= from && self.millis() < from.saturating_add(count * 50);
             let distance = if lost { None } else { self.hear() };
-            let echo = Echo { distance, bearing: Angle::from_si(self.rotator) };
+            let now = Echo { distance, bearing: Angle::from_si(self.rotator) };
+            let frozen = self.echo.value.ok().filter(|_| self.millis() >= self.range_freezes);
+            let echo = frozen.unwrap_or(now);
             self.heard.push_back(Reading::valid(echo, self.now));
         }
         let late = Duration::from_millis(self.late_echoes);
@@ -146,7 +161,12 @@ impl Fake {
             let beyond = (slant - HALF_BEAM).max(0.0);
             (slant < 0.75 && square > 0.0).then(|| square / beyond.cos())
         });
-        ranges.filter(|range| *range < 4.0).reduce(f64::min).map(Length::from_si)
+        // Even this robot hears with a little noise: two echoes are never quite the same.
+        let noise = if (self.millis() / 50).is_multiple_of(2) { 1e-6 } else { 0.0 };
+        ranges
+            .filter(|range| *range < 4.0)
+            .reduce(f64::min)
+            .map(|range| Length::from_si(range + noise))
     }
 
     /// Runs an actor until it is ready, at most `seconds`; checks that it then stands.
@@ -208,6 +228,10 @@ impl Navigator for Fake {
     fn drive(&mut self, speed: Speed, turn: AngularSpeed, now: Instant) {
         self.command = (speed.si(), turn.si());
         self.commanded = now;
+    }
+
+    fn reduced(&self, speed: Speed, turn: AngularSpeed) -> (Speed, AngularSpeed) {
+        (Speed::from_si(speed.si().clamp(-self.top_speed, self.top_speed)), turn)
     }
 
     fn body(&self) -> Body {

@@ -5,7 +5,8 @@ use crate::guard::{Guard, NO_ODOMETRY};
 use crate::motion::Ramp;
 use crate::templates;
 use crate::templates::forward::{Inputs, Live, State};
-use afp_core::quantity::{AngularSpeed, Length, Speed};
+use crate::tracking::Tracking;
+use afp_core::quantity::Length;
 use afp_core::{Actor, Fault, Instant, Poll};
 
 /// Speed is gained and lost at this many metres a second squared.
@@ -21,6 +22,7 @@ pub struct Forward {
     distance: f64,
     speed: f64,
     ramp: Ramp,
+    tracking: Tracking,
     odometry: Guard,
     /// Where the drive began; none until the first reading.
     from: Option<Motion>,
@@ -34,6 +36,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Forward, E> for Forward 
             distance: inputs.distance.si(),
             speed: inputs.speed.si(),
             ramp: Ramp::new(ACCELERATION, now),
+            tracking: Tracking::new(now),
             odometry,
             from,
         })
@@ -41,7 +44,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Forward, E> for Forward 
 
     fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
         let Some(motion) = self.odometry.current(env.motion(), now)? else {
-            env.halt(now);
+            self.tracking.halt(env, now);
             return Ok(Poll::Pending);
         };
         let from = *self.from.get_or_insert(motion);
@@ -49,7 +52,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Forward, E> for Forward 
         let ahead = if self.distance < 0.0 { -1.0 } else { 1.0 };
         let rest = ahead * (self.distance - driven);
         if rest < CLOSE {
-            env.halt(now);
+            self.tracking.halt(env, now);
             return Ok(if motion.stands() {
                 Poll::Ready(State::ForwardSuccessful { driven: Length::from_si(driven) })
             } else {
@@ -58,7 +61,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Forward, E> for Forward 
         }
         let rate = self.ramp.rate(rest, self.speed, now);
         let turn = HOLD * (from.heading - motion.heading).si();
-        env.drive(Speed::from_si(ahead * rate), AngularSpeed::from_si(turn), now);
+        self.tracking.drive(env, &motion, (ahead * rate, turn), now)?;
         Ok(Poll::Pending)
     }
 
@@ -78,6 +81,8 @@ fn along(from: &Motion, to: &Motion) -> f64 {
 mod tests {
     use super::*;
     use crate::fake::Fake;
+    use crate::tracking::{DRIVE_BLOCKED, DRIVE_STALLED};
+    use afp_core::quantity::Speed;
 
     fn drive(robot: &mut Fake, distance: f64, seconds: u64) -> Result<Option<State>, Fault> {
         let inputs = Inputs { distance: Length::from_si(distance), speed: Speed::from_si(0.2) };
@@ -100,6 +105,16 @@ mod tests {
         let mut robot = Fake::new(&[]);
         assert_eq!(drive(&mut robot, 5.0, 2), Ok(None));
         assert!(robot.motion.x.si() > 0.2);
+    }
+
+    #[test]
+    fn a_blocked_robot_and_one_that_drives_in_circles_are_faults() {
+        let mut robot = Fake::new(&[]);
+        robot.follows = (0.0, 0.0);
+        assert_eq!(drive(&mut robot, 1.0, 5), Err(DRIVE_BLOCKED));
+        let mut robot = Fake::new(&[]);
+        (robot.follows, robot.drifts) = ((0.5, 0.5), 0.4);
+        assert_eq!(drive(&mut robot, 1.0, 30), Err(DRIVE_STALLED));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What a template does about sensors that fall silent.
 
-use crate::devices::Reading;
+use crate::devices::{Echo, Reading};
 use afp_core::{Duration, Fault, Instant, Reason};
 
 /// How long a template waits for a usable reading before it faults.
@@ -44,10 +44,15 @@ pub const NO_FLOW: Fault = Fault::new(&Reason {
     code: "no-flow",
     text: "the camera gave no new picture in which motion could be seen for 500 ms",
 });
+/// The range sensor repeats itself.
+pub const FROZEN_RANGE: Fault = Fault::new(&Reason {
+    code: "frozen-range",
+    text: "the range sensor gave exactly the same echo for 1 s while it was to be turned",
+});
 /// The rotator does not get where it should.
 pub const STUCK_ROTATOR: Fault = Fault::new(&Reason {
     code: "stuck-rotator",
-    text: "the rotator did not reach its bearing within 1 s",
+    text: "pings did not come from where the rotator was sent within 1 s: it is stuck, or the range sensor repeats itself",
 });
 
 /// The age up to which an echo tells a robot that drives what is ahead: 6 cm at full speed.
@@ -120,18 +125,29 @@ impl Guard {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Arrival {
     since: Instant,
+    /// The last echo from elsewhere, and whether all since the rotator was sent away were the same.
+    echo: Option<Echo>,
+    same: bool,
 }
 
 impl Arrival {
     /// The rotator has just been sent somewhere.
     pub(crate) fn new(now: Instant) -> Self {
-        Arrival { since: now }
+        Arrival { since: now, echo: None, same: true }
     }
 
+    /// Takes an echo that comes from elsewhere than it should.
+    ///
     /// # Errors
-    /// [`STUCK_ROTATOR`] when this has been going on for more than a second.
-    pub(crate) fn check(&self, now: Instant) -> Result<(), Fault> {
-        if now.since(self.since) > Duration::from_secs(1) { Err(STUCK_ROTATOR) } else { Ok(()) }
+    /// When this has been going on for more than a second: [`FROZEN_RANGE`] if every echo was the same, which
+    /// noise does not let happen, else [`STUCK_ROTATOR`].
+    pub(crate) fn elsewhere(&mut self, echo: &Echo, now: Instant) -> Result<(), Fault> {
+        let before = self.echo.replace(*echo);
+        self.same &= before.is_none_or(|before| before == *echo) && echo.distance.is_some();
+        if now.since(self.since) <= Duration::from_secs(1) {
+            return Ok(());
+        }
+        Err(if self.same { FROZEN_RANGE } else { STUCK_ROTATOR })
     }
 }
 

@@ -10,8 +10,8 @@ use afp_core::{Duration, Instant};
 /// longer than a template waits for a reading.
 const KEPT: usize = 32;
 const APART: Duration = Duration::from_millis(20);
-/// Motion is not guessed farther than this beyond what is known.
-const GUESSED: Duration = Duration::from_millis(30);
+/// So far beyond what is known motion goes on as it was: as far as the odometry counts as current.
+const GUESSED: Duration = Duration::from_millis(100);
 
 /// A place and a heading in the frame of the odometry, metres and radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,13 +70,26 @@ impl History {
         }
         let (time, from) = before?;
         let since = when.since(time);
-        let Some((later, to)) = after else { return (since <= GUESSED).then_some(from) };
+        let Some((later, to)) = after else { return self.guessed(since) };
         let share = since.as_secs_f64() / later.since(time).as_secs_f64();
         let mix = |from: f64, to: f64| from + (to - from) * share;
         Some(Pose {
             x: mix(from.x, to.x),
             y: mix(from.y, to.y),
             heading: mix(from.heading, to.heading),
+        })
+    }
+
+    /// Where the robot is so long after the latest that is known.
+    fn guessed(&self, since: Duration) -> Option<Pose> {
+        let (time, to) = self.latest(1).filter(|_| since <= GUESSED)?;
+        let Some((before, from)) = self.latest(2) else { return Some(to) };
+        let share = since.as_secs_f64() / time.since(before).as_secs_f64();
+        let on = |from: f64, to: f64| to + (to - from) * share;
+        Some(Pose {
+            x: on(from.x, to.x),
+            y: on(from.y, to.y),
+            heading: on(from.heading, to.heading),
         })
     }
 
@@ -132,8 +145,9 @@ mod tests {
         assert_eq!(History::new().at(at(0)), None);
         let history = turning(5);
         assert_eq!(history.at(at(1000)), None, "forgotten");
-        assert_eq!(history.at(at(2030)).map(|pose| pose.heading), Some(2.0));
-        assert_eq!(history.at(at(2031)), None, "to come");
+        let guessed = history.at(at(2100)).expect("it goes on");
+        assert!((guessed.heading - 2.1).abs() < 1e-9, "{guessed:?}");
+        assert_eq!(history.at(at(2101)), None, "to come");
         let reading = Reading::valid(7, at(1000));
         assert_eq!(history.placed(reading).value, Err(Invalid::NoAnswer));
     }
@@ -144,6 +158,7 @@ mod tests {
         let elsewhere = Motion { heading: Angle::from_si(9.0), ..Motion::default() };
         history.note(Reading::valid(elsewhere, at(2000)));
         history.note(Reading::invalid(Invalid::NoAnswer, at(2010)));
-        assert_eq!(history.at(at(2020)).map(|pose| pose.heading), Some(2.0));
+        let guessed = history.at(at(2020)).expect("it goes on");
+        assert!((guessed.heading - 2.02).abs() < 1e-9, "{guessed:?}");
     }
 }

@@ -25,6 +25,7 @@ mod check_driving_lane;
 mod check_escape_button;
 mod check_infrared;
 mod check_motion;
+mod check_progress;
 mod check_touch_sensor;
 mod curve;
 pub mod devices;
@@ -41,6 +42,7 @@ pub mod templates {
     //! The templates of the toolbox as types: ports, states and events.
     afp_macros::toolbox!("carbot.afp");
 }
+pub mod tracking;
 mod turn;
 mod turn_to_infrared;
 mod turning;
@@ -56,6 +58,7 @@ pub use check_driving_lane::CheckDrivingLane;
 pub use check_escape_button::CheckEscapeButton;
 pub use check_infrared::CheckInfrared;
 pub use check_motion::CheckMotion;
+pub use check_progress::CheckProgress;
 pub use check_touch_sensor::CheckTouchSensor;
 pub use curve::Curve;
 pub use forward::Forward;

@@ -72,7 +72,7 @@ where
         };
         self.last_ping = reading.time;
         if (echo.bearing.si() - self.target).abs() > ARRIVED {
-            self.arrival.check(now)?;
+            self.arrival.elsewhere(&echo, now)?;
             return Ok(Poll::Pending);
         }
         let range = echo.distance.map_or(f64::INFINITY, |distance| distance.si());

@@ -4,8 +4,8 @@ use crate::devices::{Navigator, Odometry};
 use crate::motion::Ramp;
 use crate::templates;
 use crate::templates::turn::{Inputs, Live, State};
+use crate::tracking::Tracking;
 use crate::turning::{Progress, Turning};
-use afp_core::quantity::{AngularSpeed, Speed};
 use afp_core::{Actor, Fault, Instant, Poll};
 
 /// Turn rate is gained and lost at this many radians a second squared.
@@ -17,6 +17,7 @@ pub struct Turn {
     turning: Turning,
     speed: f64,
     ramp: Ramp,
+    tracking: Tracking,
 }
 
 impl<E: Navigator + Odometry + ?Sized> Actor<templates::Turn, E> for Turn {
@@ -25,18 +26,19 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Turn, E> for Turn {
             turning: Turning::new(inputs.angle, env, now)?,
             speed: inputs.speed.si(),
             ramp: Ramp::new(ACCELERATION, now),
+            tracking: Tracking::new(now),
         })
     }
 
     fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
         match self.turning.progress(env, now)? {
-            Progress::Unknown => env.halt(now),
-            Progress::Left(left) => {
+            Progress::Unknown => self.tracking.halt(env, now),
+            Progress::Left(left, motion) => {
                 let rate = self.ramp.rate(left.abs(), self.speed, now).copysign(left);
-                env.drive(Speed::from_si(0.0), AngularSpeed::from_si(rate), now);
+                self.tracking.drive(env, &motion, (0.0, rate), now)?;
             }
             Progress::Turned { by, stands } => {
-                env.halt(now);
+                self.tracking.halt(env, now);
                 if stands {
                     return Ok(Poll::Ready(State::TurnSuccessful { turned: by }));
                 }
@@ -56,7 +58,7 @@ mod tests {
     use super::*;
     use crate::fake::Fake;
     use crate::guard::NO_ODOMETRY;
-    use afp_core::quantity::Angle;
+    use afp_core::quantity::{Angle, AngularSpeed};
 
     fn turn(robot: &mut Fake, degrees: f64) -> Result<Option<State>, Fault> {
         let speed = AngularSpeed::from_si(0.8);

@@ -6,7 +6,7 @@ use crate::history::History;
 use crate::motion::Ramp;
 use crate::templates;
 use crate::templates::turn_to_infrared::{Inputs, Live, State};
-use afp_core::quantity::{AngularSpeed, Speed};
+use crate::tracking::Tracking;
 use afp_core::{Actor, Fault, Instant, Poll};
 
 /// Turn rate is gained and lost at this many radians a second squared.
@@ -27,6 +27,7 @@ pub struct TurnToInfrared {
     tolerance: f64,
     speed: f64,
     ramp: Ramp,
+    tracking: Tracking,
     infrared: Guard,
     odometry: Guard,
     history: History,
@@ -52,6 +53,7 @@ where
             tolerance: inputs.tolerance.si(),
             speed: inputs.speed.si(),
             ramp: Ramp::new(ACCELERATION, now),
+            tracking: Tracking::new(now),
             infrared: Guard::new(NO_INFRARED, now),
             odometry: Guard::new(NO_ODOMETRY, now),
             history,
@@ -66,7 +68,7 @@ where
         let counted = env.motion();
         self.history.note(counted);
         let Some(motion) = self.odometry.current(counted, now)? else {
-            env.halt(now);
+            self.tracking.halt(env, now);
             return Ok(Poll::Pending);
         };
         let heading = motion.heading.si();
@@ -85,11 +87,11 @@ where
             }
         };
         if let Some(state) = ending {
-            env.halt(now);
+            self.tracking.halt(env, now);
             return Ok(if motion.stands() { Poll::Ready(state) } else { Poll::Pending });
         }
         let rate = self.ramp.rate(rest.abs(), self.speed, now).copysign(rest);
-        env.drive(Speed::from_si(0.0), AngularSpeed::from_si(rate), now);
+        self.tracking.drive(env, &motion, (0.0, rate), now)?;
         Ok(Poll::Pending)
     }
 
@@ -127,7 +129,7 @@ impl TurnToInfrared {
 mod tests {
     use super::*;
     use crate::fake::Fake;
-    use afp_core::quantity::Angle;
+    use afp_core::quantity::{Angle, AngularSpeed};
 
     fn turn(robot: &mut Fake) -> Result<Option<State>, Fault> {
         let inputs =

@@ -1,6 +1,6 @@
 //! Turning by an angle: how much of it is left, whether the robot turns in place or drives an arc.
 
-use crate::devices::Odometry;
+use crate::devices::{Motion, Odometry};
 use crate::guard::{Guard, NO_ODOMETRY};
 use afp_core::quantity::Angle;
 use afp_core::{Fault, Instant};
@@ -22,8 +22,8 @@ pub(crate) struct Turning {
 pub(crate) enum Progress {
     /// The odometry says nothing: the robot has to wait.
     Unknown,
-    /// Radians left, negative to the right.
-    Left(f64),
+    /// Radians left, negative to the right, and how the robot moves.
+    Left(f64, Motion),
     /// The angle has been turned; whether the robot stands already.
     Turned { by: Angle, stands: bool },
 }
@@ -59,6 +59,6 @@ impl Turning {
         if side * left < CLOSE {
             return Ok(Progress::Turned { by, stands: motion.stands() });
         }
-        Ok(Progress::Left(left))
+        Ok(Progress::Left(left, motion))
     }
 }

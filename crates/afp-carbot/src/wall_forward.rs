@@ -16,7 +16,8 @@ use crate::guard::{Arrival, Guard, LATE_ECHO, NO_ODOMETRY};
 use crate::motion::{Ramp, wrap};
 use crate::templates;
 use crate::templates::wall_forward::{Inputs, Live, State};
-use afp_core::quantity::{Angle, AngularSpeed, Speed};
+use crate::tracking::Tracking;
+use afp_core::quantity::Angle;
 use afp_core::{Actor, Fault, Instant, Poll};
 use glance::Glance;
 use track::Track;
@@ -45,6 +46,7 @@ const CLOSE: f64 = 0.004;
 pub struct WallForward {
     inputs: Inputs,
     ramp: Ramp,
+    tracking: Tracking,
     odometry: Guard,
     range: Guard,
     arrival: Arrival,
@@ -75,6 +77,7 @@ where
         Ok(WallForward {
             inputs,
             ramp: Ramp::new(ACCELERATION, now),
+            tracking: Tracking::new(now),
             odometry: Guard::new(NO_ODOMETRY, now),
             range: Guard::of_echoes(now),
             arrival: Arrival::new(now),
@@ -86,11 +89,11 @@ where
 
     fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
         let Some(motion) = self.odometry.current(env.motion(), now)? else {
-            env.halt(now);
+            self.tracking.halt(env, now);
             return Ok(Poll::Pending);
         };
         if let Some(ending) = self.ending {
-            env.halt(now);
+            self.tracking.halt(env, now);
             return Ok(if motion.stands() { Poll::Ready(ending) } else { Poll::Pending });
         }
         let course = self.course.get_or_insert_with(|| Course::new(motion));
@@ -99,14 +102,17 @@ where
         if let Some(echo) = self.range.next(reading, self.last_ping, now)? {
             self.last_ping = reading.time;
             course.hear(&echo, &self.inputs, env);
+            if course.glance.looking() {
+                self.arrival.elsewhere(&echo, now)?;
+            }
         }
         self.ending = course.ending(&self.inputs);
         if self.ending.is_some() {
-            env.halt(now);
+            self.tracking.halt(env, now);
             return Ok(Poll::Pending);
         }
-        self.aim(env, now)?;
-        self.steer(env, now);
+        self.aim(env, now);
+        self.steer(env, now)?;
         Ok(Poll::Pending)
     }
 
@@ -118,27 +124,26 @@ where
 
 impl WallForward {
     /// Points the sensor at the wall or ahead.
-    fn aim<E: Rotator + ?Sized>(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
-        let Some(course) = &mut self.course else { return Ok(()) };
+    fn aim<E: Rotator + ?Sized>(&mut self, env: &mut E, now: Instant) {
+        let Some(course) = &mut self.course else { return };
         let speed = self.inputs.speed.si();
         if course.glance.turns(course.driven, speed, self.inputs.lanedist.si()) {
             self.arrival = Arrival::new(now);
         }
-        if course.glance.looking() {
-            self.arrival.check(now)?;
-        }
         env.point(Angle::from_si(course.bearing()), now);
-        Ok(())
     }
 
     /// Commands the speed and the turn rate that lead to the wall's distance.
-    fn steer<E: Navigator + ?Sized>(&mut self, env: &mut E, now: Instant) {
-        let Some(course) = &self.course else { return };
+    ///
+    /// # Errors
+    /// As [`Tracking::drive`].
+    fn steer<E: Navigator + ?Sized>(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        let Some(course) = &self.course else { return Ok(()) };
         // Nothing moves before the first glance ahead, nor blindly, long before the guard's patience ends.
-        if course.glance.free().is_none() || now.since(self.last_ping) > LATE_ECHO {
-            env.halt(now);
+        if course.glance.free(course.driven).is_none() || now.since(self.last_ping) > LATE_ECHO {
+            self.tracking.halt(env, now);
             self.ramp = Ramp::new(ACCELERATION, now);
-            return;
+            return Ok(());
         }
         let side = env.body().half_width.si();
         let away = course.track.distance(&course.last);
@@ -150,7 +155,7 @@ impl WallForward {
         let rest = self.inputs.step.si() - course.driven;
         let slowed = self.inputs.speed.si() / (1.0 + (off / SLOWING) * (off / SLOWING));
         let speed = self.ramp.rate(rest, slowed, now);
-        env.drive(Speed::from_si(speed), AngularSpeed::from_si(turn), now);
+        self.tracking.drive(env, &course.last, (speed, turn), now)
     }
 }
 

@@ -56,6 +56,7 @@ icons! {
     "check_escape_button",
     "check_infrared",
     "check_motion",
+    "check_progress",
     "check_timeout",
     "check_touch_sensor",
     "check_value",

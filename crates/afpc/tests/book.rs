@@ -64,7 +64,7 @@ impl Page {
         }
     }
 
-    /// A complete plan runs, and no fault ends it.
+    /// A complete plan runs, and no fault ends it unless the block says so.
     fn plan(&mut self, block: &Block) -> Result<(), String> {
         self.own_toolbox |= block.text.lines().any(|line| line.starts_with("toolbox "));
         if self.own_toolbox || block.has("fragment") || block.value("error").is_some() {
@@ -73,7 +73,12 @@ impl Page {
         let name = block.value("file").unwrap_or("block.afp");
         fs::write(self.folder.path().join(name), &block.text).unwrap();
         let set = block.value("set").map(|set| format!("--set {set}")).unwrap_or_default();
-        self.shell(&format!("afpc run {name} {TRIAL} {set}"))
+        let tried = self.shell(&format!("afpc run {name} {TRIAL} {set}"));
+        match block.value("ends") {
+            Some(code) if code == self.code.to_string() => Ok(()),
+            Some(code) => Err(format!("'{name}' ends with {}, not with {code}", self.code)),
+            None => tried,
+        }
     }
 
     /// Commands behind `$ `, each with what it prints.

@@ -8,7 +8,7 @@ use afp::load::{LoadedPlan, Registry};
 use afp_core::rt::NamedPlan;
 use afp_core::trace::{Ending, Line, Observe, Record, TraceHash, Verdict};
 use afp_core::{Duration, Instant, Scheduler, Wake};
-use afp_sim::Simulation;
+use afp_sim::{STEP, Simulation};
 
 use crate::case::Case;
 use crate::watch::Watch;
@@ -30,6 +30,10 @@ pub struct Outcome {
     pub broken: Vec<(Instant, String)>,
     /// What happened, line by line.
     pub timeline: String,
+    /// How often the robot came to touch something.
+    pub contacts: usize,
+    /// For how long it touched something while its drive was told to move.
+    pub pushing: Duration,
 }
 
 /// Drives a case to its end.
@@ -63,6 +67,7 @@ pub fn run(case: &Case) -> Outcome {
     let start = scheduler.start(&mut robot, &mut sink, &clock, Instant::ZERO);
     let mut wake = start.expect("every entry has a value");
     let (mut end, mut look, mut next) = (case.until, Instant::ZERO, 0);
+    let mut pushing = Duration::ZERO;
     while robot.sim.now() < end {
         let due = match wake {
             Wake::At(due) => due.max(clock.free()),
@@ -73,6 +78,9 @@ pub fn run(case: &Case) -> Outcome {
         let now = robot.sim.now();
         if now == look {
             watch.borrow_mut().look(&robot.sim);
+            if is_pushing(&robot.sim) {
+                pushing = pushing + LOOK;
+            }
             look = look + LOOK;
         }
         case.chance.happen(&mut next, &mut robot.sim);
@@ -86,10 +94,19 @@ pub fn run(case: &Case) -> Outcome {
             }
         }
     }
-    let ending = scheduler.ending();
+    let (ending, contacts) = (scheduler.ending(), robot.sim.truth().collisions().len());
     drop((robot, scheduler));
     let watch = Rc::into_inner(watch).expect("nobody else holds it any more");
-    Outcome { trace, ending, broken: watch.into_inner().broken(), timeline }
+    let broken = watch.into_inner().broken();
+    Outcome { trace, ending, broken, timeline, contacts, pushing }
+}
+
+/// Whether the robot touches something while its drive is told to move.
+fn is_pushing(sim: &Simulation) -> bool {
+    let truth = sim.truth();
+    // A touch lasts to the end of the physics step that found it.
+    let touches = truth.collisions().iter().any(|touch| sim.now().since(touch.end) < STEP);
+    touches && !truth.is_halted()
 }
 
 /// The longest stop time that a template of the plan's toolboxes declares.

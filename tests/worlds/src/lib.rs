@@ -9,6 +9,7 @@ mod case;
 mod chance;
 mod drive;
 mod plans;
+mod single;
 mod watch;
 mod witness;
 
@@ -16,4 +17,5 @@ pub use case::Case;
 pub use chance::{Chance, Deed};
 pub use drive::{Outcome, run};
 pub use plans::{Plan, plan, plans};
+pub use single::{Account, Single};
 pub use watch::Watch;

@@ -10,14 +10,17 @@ use afp_dsl::graph::Graph;
 use afp_dsl::toolbox::Toolboxes;
 use afp_syntax::source::Source;
 
-/// Where plans are, seen from the root of the checkout.
-const FOLDERS: [&str; 2] = ["plans", "tests/worlds/plans"];
+/// Where plans are, seen from the root of the checkout; first those that AFP ships.
+const SHIPPED: &str = "plans";
+const FOLDERS: [&str; 2] = [SHIPPED, "tests/worlds/plans"];
 
 /// A plan that can be driven in any room.
 #[derive(Debug)]
 pub struct Plan {
     /// The name of its file, without `.afp`.
     pub name: String,
+    /// Whether it is one of those that AFP ships.
+    pub shipped: bool,
     /// What it compiles to.
     pub graph: Graph,
 }
@@ -46,21 +49,22 @@ pub fn plan(name: &str) -> &'static Plan {
 
 /// The plans of a folder.
 fn of(folder: &str) -> Vec<Plan> {
+    let shipped = folder == SHIPPED;
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
     let files = fs::read_dir(&folder).unwrap_or_else(|why| panic!("{}: {why}", folder.display()));
     let paths = files.flatten().map(|file| file.path());
     paths
         .filter(|path| path.extension().is_some_and(|end| end == "afp"))
-        .map(|p| read(&p))
+        .map(|path| read(&path, shipped))
         .collect()
 }
 
-fn read(path: &Path) -> Plan {
+fn read(path: &Path, shipped: bool) -> Plan {
     let text = fs::read_to_string(path).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
     let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let source = Source::new(format!("{name}.afp"), text);
     let compiled = compile(&source, &toolboxes, &Texts::default());
     let said = compiled.render(false);
-    Plan { name, graph: compiled.graph.unwrap_or_else(|| panic!("{said}")) }
+    Plan { name, shipped, graph: compiled.graph.unwrap_or_else(|| panic!("{said}")) }
 }

@@ -54,6 +54,10 @@ impl Navigator for Witness {
         self.sim.drive(speed, turn, now);
     }
 
+    fn reduced(&self, speed: Speed, turn: AngularSpeed) -> (Speed, AngularSpeed) {
+        self.sim.reduced(speed, turn)
+    }
+
     fn body(&self) -> Body {
         self.sim.body()
     }

@@ -25,6 +25,12 @@ pub trait Navigator {
     /// stop time that the templates declare.
     fn drive(&mut self, speed: Speed, turn: AngularSpeed, now: Instant);
 
+    /// What of a command the robot can do, by default all of it: what it will do when told so. Templates compare the
+    /// odometry with this, so a robot that reduces commands says how.
+    fn reduced(&self, speed: Speed, turn: AngularSpeed) -> (Speed, AngularSpeed) {
+        (speed, turn)
+    }
+
     /// Asks for a standstill.
     fn halt(&mut self, now: Instant) {
         self.drive(Speed::from_si(0.0), AngularSpeed::from_si(0.0), now);

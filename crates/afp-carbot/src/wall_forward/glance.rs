@@ -22,17 +22,40 @@ const LAG: f64 = 0.08;
 #[derive(Clone, Debug)]
 pub(super) struct Glance {
     looking: bool,
-    side: f64,
-    /// Free space before the front at the last glance, and the way driven by then.
-    seen: Option<(f64, f64)>,
+    /// What is known of the right and of the left half of the lane.
+    halves: [Half; 2],
+    /// Which of them is looked at, or was last.
+    side: usize,
     /// Pings of this glance that found silence.
     silences: u8,
 }
 
+/// What is known of one half of the lane.
+#[derive(Clone, Copy, Debug)]
+struct Half {
+    /// Where the sensor looks for it, against the heading.
+    bearing: f64,
+    /// Free space before the front when it was seen last, and the way driven by then.
+    seen: Option<(f64, f64)>,
+}
+
+impl Half {
+    /// Free space before the front after `driven`, if it has ever been seen.
+    fn free(&self, driven: f64) -> Option<f64> {
+        self.seen.map(|(free, at)| free - (driven - at))
+    }
+
+    /// The way driven without a look at it.
+    fn unseen(&self, driven: f64) -> f64 {
+        self.seen.map_or(f64::INFINITY, |(_, at)| driven - at)
+    }
+}
+
 impl Glance {
-    /// Begins with a look.
+    /// Begins with a look to the left, then one to the right.
     pub(super) fn new() -> Self {
-        Glance { looking: true, side: ASIDE, seen: None, silences: 0 }
+        let half = |bearing| Half { bearing, seen: None };
+        Glance { looking: true, halves: [half(-ASIDE), half(ASIDE)], side: 1, silences: 0 }
     }
 
     pub(super) fn looking(&self) -> bool {
@@ -41,46 +64,87 @@ impl Glance {
 
     /// Where to point for the glance that is under way.
     pub(super) fn bearing(&self) -> Option<f64> {
-        self.looking.then_some(self.side)
+        self.halves.get(self.side).filter(|_| self.looking).map(|half| half.bearing)
     }
 
-    /// Free space before the front at the last glance.
-    pub(super) fn free(&self) -> Option<f64> {
-        self.seen.map(|(free, _)| free)
+    /// Free space before the front, in the half that has less; none before both were seen.
+    pub(super) fn free(&self, driven: f64) -> Option<f64> {
+        let [right, left] = &self.halves;
+        Some(right.free(driven)?.min(left.free(driven)?))
     }
 
     /// Begins a glance if it is time; says whether it began now.
     pub(super) fn turns(&mut self, driven: f64, speed: f64, lanedist: f64) -> bool {
-        let due = match self.seen {
-            None => true,
-            Some((free, at)) => {
-                let since = driven - at;
-                since > OFTEN || free - since < lanedist + STARE + speed * TURN
-            }
+        if self.looking {
+            return false;
+        }
+        let near = lanedist + STARE + speed * TURN;
+        let due = |half: &Half| {
+            half.unseen(driven) > OFTEN || half.free(driven).is_none_or(|free| free < near)
         };
-        let begins = due && !self.looking;
-        self.looking |= due;
-        begins
+        // The half that was looked at last has its turn after the other one.
+        let next = 1 - self.side;
+        let sides = [next, self.side];
+        let side = sides.into_iter().find(|side| self.halves.get(*side).is_some_and(due));
+        self.looking = side.is_some();
+        self.side = side.unwrap_or(self.side);
+        self.looking
     }
 
     /// Takes an echo that came from `bearing`, `free` metres before the front; none is silence.
     pub(super) fn hear(&mut self, bearing: f64, free: Option<f64>, driven: f64) {
-        if !self.looking || (bearing - self.side).abs() >= ARRIVED {
+        let Some(half) = self.halves.get_mut(self.side).filter(|_| self.looking) else { return };
+        if (bearing - half.bearing).abs() >= ARRIVED {
             return;
         }
         self.silences = if free.is_none() { self.silences + 1 } else { 0 };
         if free.is_none() && self.silences < SILENCES {
             return;
         }
-        self.seen = Some((free.map_or(FAR, |free| free.min(FAR)), driven));
+        half.seen = Some((free.map_or(FAR, |free| free.min(FAR)), driven));
         self.silences = 0;
         self.looking = false;
-        self.side = -self.side;
     }
 
     /// Whether braking must begin now to stand before `lanedist`.
     pub(super) fn blocked(&self, driven: f64, lanedist: f64, speed: f64) -> bool {
         let braking = speed * LAG + speed * speed / (2.0 * BRAKING);
-        self.seen.is_some_and(|(free, at)| free - (driven - at) <= lanedist + braking)
+        let near = |half: &Half| half.free(driven).is_some_and(|free| free <= lanedist + braking);
+        self.halves.iter().any(near)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Looks to where it points and finds so much free.
+    fn look(glance: &mut Glance, free: f64, driven: f64) {
+        let bearing = glance.bearing().expect("it looks");
+        glance.hear(bearing, Some(free), driven);
+    }
+
+    #[test]
+    fn nothing_is_free_before_both_halves_were_seen() {
+        let mut glance = Glance::new();
+        look(&mut glance, 1.0, 0.0);
+        assert_eq!(glance.free(0.0), None);
+        assert!(glance.turns(0.0, 0.2, 0.3));
+        look(&mut glance, 1.0, 0.0);
+        assert_eq!(glance.free(0.1), Some(0.9));
+    }
+
+    #[test]
+    fn what_stands_on_one_side_is_not_forgotten_when_the_other_is_free() {
+        let mut glance = Glance::new();
+        look(&mut glance, 1.0, 0.0);
+        assert!(glance.turns(0.0, 0.2, 0.3));
+        look(&mut glance, 0.7, 0.0);
+        // The left half is looked at again, and is free; the right one is as near as it was.
+        assert!(glance.turns(0.26, 0.2, 0.3));
+        assert_eq!(glance.bearing(), Some(ASIDE));
+        look(&mut glance, 1.0, 0.26);
+        assert!((glance.free(0.26).expect("both were seen") - 0.44).abs() < 1e-9);
+        assert!(glance.blocked(0.38, 0.3, 0.2));
     }
 }

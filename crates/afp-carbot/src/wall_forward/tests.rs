@@ -4,7 +4,7 @@ use super::*;
 use crate::fake::{Fake, Plane, plane};
 use crate::guard::NO_RANGE;
 use crate::guard::STUCK_ROTATOR;
-use afp_core::quantity::Length;
+use afp_core::quantity::{Length, Speed};
 
 fn inputs(step: f64) -> Inputs {
     Inputs {

@@ -3,6 +3,7 @@
 use super::Simulation;
 use crate::devices::line::Line;
 use crate::devices::{camera, infrared, sonar};
+use crate::vehicle::drive::reduced;
 use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
 use afp_carbot::devices::{
     Battery, Beam, Body, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo, Flow,
@@ -81,6 +82,11 @@ impl Navigator for Simulation {
         if !self.stopped {
             self.drive.command(speed.si(), turn.si(), now);
         }
+    }
+
+    fn reduced(&self, speed: Speed, turn: AngularSpeed) -> (Speed, AngularSpeed) {
+        let (speed, turn) = reduced(speed.si(), turn.si());
+        (Speed::from_si(speed), AngularSpeed::from_si(turn))
     }
 
     fn body(&self) -> Body {

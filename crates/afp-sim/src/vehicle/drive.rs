@@ -124,13 +124,19 @@ impl Drive {
             wheel.step(power, dt);
         }
         let [left, right] = self.wheels.each_ref().map(|wheel| wheel.demand(self.health.grip));
-        let castor = Demand { rim: (0.0, 0.0), most: ROLLING };
-        self.footing.push([left, right, castor, castor], body, dt)
+        let castor = Demand { rim: (0.0, 0.0), most: ROLLING, motor: None };
+        let push = self.footing.push([left, right, castor, castor], body, dt);
+        for (at, wheel) in self.wheels.iter_mut().enumerate() {
+            if let Some(speed) = self.footing.yielding(at, wheel.direction()) {
+                wheel.give_way(speed);
+            }
+        }
+        push
     }
 }
 
 /// A command in which no wheel is faster than the top speed, on the same curve.
-fn reduced(speed: f64, turn: f64) -> (f64, f64) {
+pub(crate) fn reduced(speed: f64, turn: f64) -> (f64, f64) {
     // In quarters the sum of any two finite values is finite.
     let (ahead, across) = (speed.abs() / 4.0 + turn.abs() / 4.0 * WHEEL_Y, turn / 4.0 * WHEEL_X);
     let outer = libm::hypot(ahead, across);

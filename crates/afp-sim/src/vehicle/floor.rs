@@ -1,6 +1,7 @@
 //! What the floor does to the body where wheels and castors stand on it.
 //!
-//! Each contact stops its slip as far as friction can hold, in every direction alike (the friction circle). All
+//! Each contact stops its slip as far as friction can hold, in every direction alike (the friction circle), and a
+//! driven wheel along its way no further than its motor can: then the wheel turns as the floor lets it. All
 //! push the same body, so what they do is found together: by projected Gauss-Seidel iteration that begins
 //! with the step before (E. Catto, Iterative Dynamics with Temporal Coherence, GDC 2005). What else pushes the
 //! body, boxes and walls, shows only afterwards in how it moves; the wheels hold against what it was last.
@@ -42,6 +43,8 @@ struct Contact {
     impulse: (f64, f64),
     /// Whether that was all that friction holds.
     slides: bool,
+    /// Whether its motor could not do what it should.
+    yields: bool,
 }
 
 /// What a contact wants and what it can do in a step.
@@ -51,6 +54,17 @@ pub(super) struct Demand {
     pub(super) rim: (f64, f64),
     /// The most that friction holds, newtons.
     pub(super) most: f64,
+    /// What drives it; none for what rolls along or is blocked.
+    pub(super) motor: Option<Motor>,
+}
+
+/// What drives a wheel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Motor {
+    /// The direction in which the wheel rolls, in the body's frame.
+    pub(super) direction: (f64, f64),
+    /// The most that it pushes, forwards and backwards, newtons at the rim.
+    pub(super) force: f64,
 }
 
 /// Where the body stands on the floor.
@@ -59,12 +73,23 @@ pub(super) struct Footing<const N: usize> {
     contacts: [Contact; N],
     /// How the body moves after the step before unless something else pushed it.
     expected: Twist,
+    /// How it moves if what else pushed it goes on.
+    motion: Twist,
 }
 
 impl<const N: usize> Footing<N> {
     /// On those places, ahead and to the left of the body's centre, metres.
     pub(super) fn new(places: [(f64, f64); N]) -> Self {
-        Footing { contacts: places.map(Contact::new), expected: Twist::default() }
+        let still = Twist::default();
+        Footing { contacts: places.map(Contact::new), expected: still, motion: still }
+    }
+
+    /// How fast the floor passes below a contact along a direction, where a motor could not do what it should in
+    /// the last step: so fast its wheel turns.
+    pub(super) fn yielding(&self, contact: usize, (x, y): (f64, f64)) -> Option<f64> {
+        let contact = self.contacts.get(contact).filter(|contact| contact.yields)?;
+        let (across, along) = contact.velocity(&self.motion);
+        Some(across * x + along * y)
     }
 
     /// What the contacts do together to a body that moves like this, within a step of `dt` seconds.
@@ -87,6 +112,7 @@ impl<const N: usize> Footing<N> {
                 break;
             }
         }
+        self.motion = after;
         self.expected = after.less(others);
         let gained = self.expected.less(body);
         Push { x: gained.x * MASS / dt, y: gained.y * MASS / dt, turn: gained.turn * INERTIA / dt }
@@ -103,18 +129,26 @@ impl Twist {
 impl Contact {
     fn new((x, y): (f64, f64)) -> Self {
         let mass = 1.0 / (PER_MASS + (x * x + y * y) * PER_INERTIA);
-        Contact { at: (x, y), mass, impulse: (0.0, 0.0), slides: false }
+        Contact { at: (x, y), mass, impulse: (0.0, 0.0), slides: false, yields: false }
+    }
+
+    /// How the body moves there.
+    fn velocity(&self, body: &Twist) -> (f64, f64) {
+        let (x, y) = self.at;
+        (body.x - body.turn * y, body.y + body.turn * x)
     }
 
     /// Changes the impulse so that less slips, and the body's motion by it; by how much.
     fn settle(&mut self, demand: Demand, body: &mut Twist, dt: f64) -> f64 {
-        let (x, y) = self.at;
-        let slip_x = body.x - body.turn * y - demand.rim.0;
-        let slip_y = body.y + body.turn * x - demand.rim.1;
+        let (vx, vy) = self.velocity(body);
         let (px, py) = self.impulse;
         // The same share in every direction: so what slips is braked against the way it slips.
-        let (wx, wy) = (px - slip_x * self.mass, py - slip_y * self.mass);
-        (self.impulse, self.slides) = limited((wx, wy), demand.most * dt);
+        let wanted = (px - (vx - demand.rim.0) * self.mass, py - (vy - demand.rim.1) * self.mass);
+        // Where the floor holds less than the motor gives, the wheel spins.
+        let motor = demand.motor.filter(|motor| motor.force < demand.most);
+        let (wanted, yields) = motor.map_or((wanted, false), |motor| motor.held(wanted, dt));
+        self.yields = yields;
+        (self.impulse, self.slides) = limited(wanted, demand.most * dt);
         let (dx, dy) = (self.impulse.0 - px, self.impulse.1 - py);
         self.act((dx, dy), body);
         dx.abs().max(dy.abs())
@@ -126,6 +160,21 @@ impl Contact {
         body.x += px * PER_MASS;
         body.y += py * PER_MASS;
         body.turn += (x * py - y * px) * PER_INERTIA;
+    }
+}
+
+impl Motor {
+    /// An impulse of a step of `dt` seconds with no more along the wheel's way than the motor gives, and whether
+    /// it would have been more.
+    fn held(&self, (x, y): (f64, f64), dt: f64) -> ((f64, f64), bool) {
+        let (dx, dy) = self.direction;
+        let along = x * dx + y * dy;
+        let most = self.force * dt;
+        if along.abs() <= most {
+            return ((x, y), false);
+        }
+        let less = most.copysign(along) - along;
+        ((x + less * dx, y + less * dy), true)
     }
 }
 
@@ -166,7 +215,7 @@ mod tests {
     #[test]
     fn what_friction_can_hold_stands_after_a_step() {
         let body = Twist { x: 0.02, y: -0.01, turn: 0.05 };
-        let hold = Demand { rim: (0.0, 0.0), most: 50.0 };
+        let hold = Demand { rim: (0.0, 0.0), most: 50.0, motor: None };
         let end = after(body, push(body, hold));
         assert!(end.x.abs().max(end.y.abs()).max(end.turn.abs()) < 1e-6, "{end:?}");
     }
@@ -174,7 +223,7 @@ mod tests {
     #[test]
     fn what_slides_is_braked_with_all_friction_against_its_way() {
         let body = Twist { x: 0.3, y: 0.4, turn: 0.0 };
-        let slide = Demand { rim: (0.0, 0.0), most: 1.5 };
+        let slide = Demand { rim: (0.0, 0.0), most: 1.5, motor: None };
         let push = push(body, slide);
         assert!((push.x + 6.0 * 0.6).abs() < 1e-3 && (push.y + 6.0 * 0.8).abs() < 1e-3, "{push:?}");
         assert!(push.turn.abs() < 1e-3, "{push:?}");
@@ -183,7 +232,7 @@ mod tests {
     #[test]
     fn a_body_that_spins_is_braked_by_all_friction_at_its_corners() {
         let body = Twist { turn: 9.0, ..Twist::default() };
-        let slide = Demand { rim: (0.0, 0.0), most: 1.5 };
+        let slide = Demand { rim: (0.0, 0.0), most: 1.5, motor: None };
         let push = push(body, slide);
         let lever = libm::hypot(0.13, 0.14);
         assert!((push.turn + 6.0 * lever).abs() < 1e-3, "{push:?}");
@@ -192,8 +241,11 @@ mod tests {
     #[test]
     fn wheels_that_agree_carry_the_body_with_them() {
         let (x, turn) = (0.2, 0.4);
-        let demands = CORNERS
-            .map(|(ahead, left)| Demand { rim: (x - turn * left, turn * ahead), most: 50.0 });
+        let demands = CORNERS.map(|(ahead, left)| Demand {
+            rim: (x - turn * left, turn * ahead),
+            most: 50.0,
+            motor: None,
+        });
         let mut footing = Footing::new(CORNERS);
         let mut body = Twist::default();
         for _ in 0..4 {
@@ -205,7 +257,7 @@ mod tests {
 
     #[test]
     fn wheels_that_hold_do_not_give_way_to_a_steady_push() {
-        let hold = Demand { rim: (0.0, 0.0), most: 5.0 };
+        let hold = Demand { rim: (0.0, 0.0), most: 5.0, motor: None };
         let mut footing = Footing::new(CORNERS);
         let (mut body, mut way) = (Twist::default(), 0.0);
         for _ in 0..200 {

@@ -3,7 +3,7 @@
 //! It pushes the body where it touches the floor, see [`super::floor`].
 
 use super::MASS;
-use super::floor::Demand;
+use super::floor::{Demand, Motor};
 use super::servo::Servo;
 
 /// The wheels stand this far before the turning centre and to its sides, metres.
@@ -18,6 +18,8 @@ const STEER_REACH: f64 = 1.75;
 const STEER_RATE: f64 = 7.0;
 /// The most that a wheel's friction holds, newtons.
 const FRICTION: f64 = 0.7 * MASS * 9.81 / 4.0;
+/// The most that a motor pushes, newtons at the rim: less than friction holds, so a blocked wheel stands.
+const MOTOR_FORCE: f64 = 6.5;
 
 /// A wheel that steers and drives.
 #[derive(Clone, Debug)]
@@ -99,6 +101,20 @@ impl Wheel {
 
     /// That its patch slips nowhere, with this share of the grip.
     pub(super) fn demand(&self, grip: f64) -> Demand {
-        Demand { rim: self.velocity(), most: FRICTION * grip }
+        let motor = Motor { direction: self.direction, force: MOTOR_FORCE };
+        // A wheel that is to stand and does is held by its gear.
+        let held = self.stalled || (self.speed == 0.0 && self.wanted == (0.0, 0.0));
+        let motor = (!held).then_some(motor);
+        Demand { rim: self.velocity(), most: FRICTION * grip, motor }
+    }
+
+    /// The direction in which it rolls, in the body's frame.
+    pub(super) fn direction(&self) -> (f64, f64) {
+        self.direction
+    }
+
+    /// Turns as the floor lets it, where the motor is too weak.
+    pub(super) fn give_way(&mut self, speed: f64) {
+        self.speed = speed;
     }
 }

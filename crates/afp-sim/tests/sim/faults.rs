@@ -179,13 +179,17 @@ fn a_dead_controller_stops_the_robot_within_its_dead_man_time() {
 #[test]
 fn a_low_battery_says_so_and_makes_slow() {
     let mut sim = among("");
-    sim.inject(Fault::LowBattery(0.02), at(0), Duration::MAX);
+    sim.inject(Fault::LowBattery(0.04), at(0), Duration::MAX);
     drive(&mut sim, 0.3, 0.0, 3000);
     let charge = sim.charge().value.unwrap();
-    assert_eq!(charge.left, 0.02);
-    assert!(charge.voltage.si() < 6.0, "{charge:?}");
+    assert_eq!(charge.left, 0.04);
+    assert!(charge.voltage.si() < 6.3, "{charge:?}");
     let speed = sim.motion().value.unwrap().speed;
     assert!(speed < Speed::from_si(0.2) && speed > Speed::from_si(0.05), "{speed:?}");
+    sim.inject(Fault::LowBattery(0.02), at(3000), Duration::MAX);
+    drive(&mut sim, 0.3, 0.0, 2000);
+    assert!(sim.charge().value.unwrap().voltage.si() < 6.0);
+    assert!(sim.motion().value.unwrap().stands(), "below 6 V the motors are cut off");
 }
 
 #[test]
@@ -216,4 +220,18 @@ fn faults_that_are_over_leave_the_run_of_the_sound_robot() {
         drive(sim, 0.2, 0.2, 2000);
     }
     assert_eq!(whole.snapshot(), mended.snapshot());
+}
+
+#[test]
+fn wheels_that_something_blocks_stand_and_on_slippery_floor_they_spin() {
+    // A cupboard of eighty kilograms, ten centimetres ahead of the front.
+    let cupboard = "\n[[box]]\nname = \"cupboard\"\npose_m_deg = [0.6, 0.0, 0.0]\nsize_m = [0.6, 0.6]\nheight_m = 1.8\nmass_kg = 80.0\n";
+    let mut sim = among(cupboard);
+    drive(&mut sim, 0.2, 0.0, 2000);
+    let counted = sim.motion().value.expect("the odometry answers");
+    assert!(counted.speed.si().abs() < 0.01, "{counted:?}");
+    break_now(&mut sim, Fault::Slip(0.1));
+    drive(&mut sim, 0.2, 0.0, 500);
+    let counted = sim.motion().value.expect("the odometry answers");
+    assert!(counted.speed.si() > 0.15, "{counted:?}");
 }

@@ -1,0 +1,223 @@
+//! Whether the robot does what it is told: the tracking error of its drive.
+
+use crate::devices::{Motion, Navigator};
+use afp_core::quantity::{AngularSpeed, Speed};
+use afp_core::{Duration, Fault, Instant, Reason};
+
+/// The wheels stand though they should turn.
+pub const DRIVE_BLOCKED: Fault = Fault::new(&Reason {
+    code: "drive-blocked",
+    text: "the wheels stood still for 300 ms though they were to turn: something blocks them, or the battery is empty",
+});
+/// The robot moves otherwise than it should.
+pub const DRIVE_STALLED: Fault = Fault::new(&Reason {
+    code: "drive-stalled",
+    text: "the robot moved otherwise than it was told for 300 ms: a wheel does not follow, or the battery is low",
+});
+/// The odometry counts no way.
+pub const NO_PROGRESS: Fault = Fault::new(&Reason {
+    code: "no-progress",
+    text: "the robot was told to go 10 cm, and the odometry counted less than a quarter of it",
+});
+
+/// For so long the robot may move otherwise than told: motors lag and wheels have to be steered.
+pub const TOLERATED: Duration = Duration::from_millis(300);
+
+/// The drive follows its commands with about this time constant, seconds.
+const LAG: f64 = 0.15;
+/// How far a turn carries the wheels: metres a radian.
+const LEVER: f64 = 0.19;
+/// Commands below this are not judged: metres a second at the wheels.
+const SLOWEST: f64 = 0.008;
+/// An error above this share of what is expected is one.
+const ERROR: f64 = 0.5;
+/// Less than this share of what is expected is a standstill.
+const STANDSTILL: f64 = 0.25;
+/// After so much of a commanded way, metres at the wheels, the odometry must have counted some.
+const WAY: f64 = 0.1;
+/// After a longer gap between polls nothing is known of what the drive did.
+const LONGEST_GAP: Duration = Duration::from_millis(100);
+
+/// Commands a drive and compares what the odometry says with what was commanded.
+#[derive(Clone, Debug)]
+pub(crate) struct Tracking {
+    last: Option<(Instant, Motion)>,
+    command: (f64, f64),
+    /// What the command lets expect by now: metres and radians a second.
+    expected: (f64, f64),
+    /// When the robot last moved as expected.
+    followed: Instant,
+    /// The way expected and the way counted since the last comparison, metres at the wheels.
+    ways: (f64, f64),
+}
+
+impl Tracking {
+    /// Of a drive that stands.
+    pub(crate) fn new(now: Instant) -> Self {
+        Tracking {
+            last: None,
+            command: (0.0, 0.0),
+            expected: (0.0, 0.0),
+            followed: now,
+            ways: (0.0, 0.0),
+        }
+    }
+
+    /// Commands a motion: metres a second ahead, radians a second to the left; `motion` is the odometry's latest.
+    ///
+    /// # Errors
+    /// [`DRIVE_BLOCKED`], [`DRIVE_STALLED`] or [`NO_PROGRESS`] when the robot has not done what it was told before;
+    /// then nothing is commanded.
+    pub(crate) fn drive<E: Navigator + ?Sized>(
+        &mut self,
+        env: &mut E,
+        motion: &Motion,
+        (speed, turn): (f64, f64),
+        now: Instant,
+    ) -> Result<(), Fault> {
+        self.compare(motion, now)?;
+        let (speed, turn) = (Speed::from_si(speed), AngularSpeed::from_si(turn));
+        let (able, ably) = env.reduced(speed, turn);
+        self.command = (able.si(), ably.si());
+        env.drive(speed, turn, now);
+        Ok(())
+    }
+
+    /// Commands a standstill, which is not judged: only what stops is safe to wait for.
+    pub(crate) fn halt<E: Navigator + ?Sized>(&mut self, env: &mut E, now: Instant) {
+        *self = Tracking::new(now);
+        env.halt(now);
+    }
+
+    fn compare(&mut self, motion: &Motion, now: Instant) -> Result<(), Fault> {
+        let before = self.last.replace((now, *motion));
+        let Some((last, before)) = before.filter(|(at, _)| now.since(*at) <= LONGEST_GAP) else {
+            (self.followed, self.ways) = (now, (0.0, 0.0));
+            self.expected = (motion.speed.si(), motion.turn.si());
+            return Ok(());
+        };
+        let gap = now.since(last).as_secs_f64();
+        let share = (gap / LAG).min(1.0);
+        self.expected.0 += share * (self.command.0 - self.expected.0);
+        self.expected.1 += share * (self.command.1 - self.expected.1);
+        self.check_speed(motion, now)?;
+        self.check_way(&before, motion, gap)
+    }
+
+    fn check_speed(&mut self, motion: &Motion, now: Instant) -> Result<(), Fault> {
+        let (speed, turn) = (motion.speed.si(), motion.turn.si());
+        let expected = rim(self.expected.0, self.expected.1);
+        let error = self.error(speed, turn);
+        if expected < SLOWEST || error <= ERROR * expected {
+            self.followed = now;
+        }
+        if now.since(self.followed) <= TOLERATED {
+            return Ok(());
+        }
+        let stands = rim(speed, turn) < STANDSTILL * expected;
+        Err(if stands { DRIVE_BLOCKED } else { DRIVE_STALLED })
+    }
+
+    /// How far a motion is off everything between what a slow drive does by now and what it was told, metres a
+    /// second at the wheels: a drive without any lag errs as little.
+    fn error(&self, speed: f64, turn: f64) -> f64 {
+        let (slow, command) = (self.expected, self.command);
+        let (along, across) = (command.0 - slow.0, (command.1 - slow.1) * LEVER);
+        let length = along * along + across * across;
+        let (ahead, aside) = (speed - slow.0, (turn - slow.1) * LEVER);
+        let share = if length > 0.0 { (ahead * along + aside * across) / length } else { 0.0 };
+        let share = share.clamp(0.0, 1.0);
+        libm::hypot(ahead - share * along, aside - share * across)
+    }
+
+    fn check_way(&mut self, before: &Motion, motion: &Motion, gap: f64) -> Result<(), Fault> {
+        let way = libm::hypot((motion.x - before.x).si(), (motion.y - before.y).si());
+        let (expected, counted) = &mut self.ways;
+        *expected += gap * rim(self.expected.0, self.expected.1);
+        *counted += rim(way, (motion.heading - before.heading).si());
+        if *expected < WAY {
+            return Ok(());
+        }
+        let enough = *counted >= STANDSTILL * *expected;
+        self.ways = (0.0, 0.0);
+        if enough { Ok(()) } else { Err(NO_PROGRESS) }
+    }
+}
+
+/// How fast, or how far, a motion carries the wheels.
+fn rim(ahead: f64, turn: f64) -> f64 {
+    libm::hypot(ahead, turn * LEVER)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::devices::Odometry;
+    use crate::fake::Fake;
+
+    /// Commands the same for some seconds; the time in milliseconds of the fault that ends it.
+    fn drive(robot: &mut Fake, command: (f64, f64), seconds: u64) -> Result<(), (u64, Fault)> {
+        let mut tracking = Tracking::new(robot.now);
+        for _ in 0..seconds * 100 {
+            robot.tick();
+            let (now, motion) = (robot.now, robot.motion().value.expect("it is alive"));
+            tracking
+                .drive(robot, &motion, command, now)
+                .map_err(|fault| (robot.millis(), fault))?;
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn a_robot_that_obeys_is_let_go_on() {
+        for command in [(0.3, 0.0), (-0.05, 0.0), (0.0, 1.5), (0.2, -0.7), (0.01, 0.0)] {
+            assert_eq!(drive(&mut Fake::new(&[]), command, 5), Ok(()), "{command:?}");
+        }
+    }
+
+    #[test]
+    fn wheels_that_stand_are_noticed_within_half_a_second() {
+        for command in [(0.3, 0.0), (-0.05, 0.0), (0.0, 1.5), (0.01, 0.0)] {
+            let mut robot = Fake::new(&[]);
+            robot.follows = (0.0, 0.0);
+            let (millis, fault) = drive(&mut robot, command, 5).expect_err("it stands");
+            assert_eq!(fault, DRIVE_BLOCKED);
+            assert!(millis < 650, "{command:?}: {millis}");
+        }
+    }
+
+    #[test]
+    fn a_robot_that_turns_instead_of_driving_is_noticed() {
+        let mut robot = Fake::new(&[]);
+        robot.follows = (0.5, 1.0);
+        robot.drifts = 0.5;
+        let (millis, fault) = drive(&mut robot, (0.2, 0.0), 5).expect_err("it turns");
+        assert_eq!(fault, DRIVE_STALLED);
+        assert!(millis < 650, "{millis}");
+    }
+
+    #[test]
+    fn an_odometry_that_repeats_itself_is_noticed_after_ten_centimetres() {
+        let mut robot = Fake::new(&[]);
+        assert_eq!(drive(&mut robot, (0.2, 0.0), 1), Ok(()));
+        let (mut tracking, frozen) = (Tracking::new(robot.now), robot.motion);
+        let mut way = 0.0;
+        let fault = loop {
+            robot.tick();
+            way += 0.002;
+            let now = robot.now;
+            if let Err(fault) = tracking.drive(&mut robot, &frozen, (0.2, 0.0), now) {
+                break fault;
+            }
+        };
+        assert_eq!(fault, NO_PROGRESS);
+        assert!(way < 0.12, "{way}");
+    }
+
+    #[test]
+    fn what_a_robot_cannot_do_is_not_expected_of_it() {
+        let mut robot = Fake::new(&[]);
+        robot.top_speed = 0.1;
+        assert_eq!(drive(&mut robot, (0.4, 0.0), 5), Ok(()));
+    }
+}

@@ -1,0 +1,164 @@
+//! One fault at a time, for good: every fault of every device, in every shipped plan and many rooms.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use afp_carbot::table::{Carbot, TABLE};
+use afp_core::devices::{Devices, faults};
+use afp_core::trace::Ending;
+use afp_core::{Duration, Instant};
+use afp_sim::{Fault, World};
+
+use crate::case::Case;
+use crate::chance::{Chance, Deed};
+use crate::drive::Outcome;
+use crate::plans::{Plan, plans};
+
+/// When the fault begins.
+const FROM: Instant = Instant::from_nanos(5_000_000_000);
+/// When a run is over.
+const UNTIL: Instant = Instant::from_nanos(60_000_000_000);
+/// Longer than this a robot should not push against anything in a run, and for much longer it must not.
+const LONG: Duration = Duration::from_secs(1);
+const TOO_LONG: Duration = Duration::from_secs(3);
+
+/// What says that the robot did not get on, whatever the fault: something stood in its way.
+const BLOCKED: [&str; 3] = ["drive-blocked", "drive-stalled", "no-progress"];
+
+/// A shipped plan in a room, in which one thing breaks for good, or none.
+#[derive(Clone, Debug)]
+pub struct Single {
+    /// The plan, in the room, with the fault.
+    pub case: Case,
+    /// The device, and what becomes of it; empty for a run without a fault.
+    pub fault: (&'static str, &'static str),
+}
+
+impl Single {
+    /// Every fault in every shipped plan, and none, in rooms `0..rooms`.
+    pub fn all(rooms: u64) -> Vec<Single> {
+        let mut all = Vec::new();
+        for plan in plans().iter().filter(|plan| plan.shipped) {
+            for room in 0..rooms {
+                let world = World::random(room);
+                all.push(Single::new(plan, &world, room, ("", ""), None));
+                for (id, device, row) in faults(TABLE) {
+                    let fault = Carbot::fault(id, None);
+                    all.push(Single::new(plan, &world, room, (device.name, row.name), fault));
+                }
+            }
+        }
+        all
+    }
+
+    fn new(
+        plan: &'static Plan,
+        world: &World,
+        room: u64,
+        name: (&'static str, &'static str),
+        fault: Option<Fault>,
+    ) -> Single {
+        let breaks = fault.map(|fault| (FROM, Deed::Break(fault, Duration::MAX)));
+        let chance = Chance(breaks.into_iter().collect());
+        let case = Case { chance, until: UNTIL, ..Case::quiet(plan, world.clone(), room) };
+        Single { case, fault: name }
+    }
+
+    /// What is wrong with how it ended; nothing mostly.
+    pub fn objections(&self, outcome: &Outcome) -> Vec<String> {
+        let mut wrong: Vec<String> =
+            outcome.broken.iter().map(|(at, why)| format!("{at}: {why}")).collect();
+        if outcome.pushing > TOO_LONG {
+            wrong.push(format!("it pushed for {}", outcome.pushing));
+        }
+        if let Some(Ending::Error(fault)) = outcome.ending
+            && !self.explains(fault.code())
+        {
+            wrong.push(format!("it ended with '{}'", fault.code()));
+        }
+        wrong
+    }
+
+    /// Whether the robot pushed against something for longer than it should: it slides along something low beside it
+    /// that no sensor of its shows.
+    pub fn pushes_long(outcome: &Outcome) -> bool {
+        outcome.pushing > LONG
+    }
+
+    /// Whether a reason is one that this fault may have.
+    fn explains(&self, code: &str) -> bool {
+        let (device, kind) = self.fault;
+        let silent = match (device, kind) {
+            // Silence that is repeated looks like a rotator that does not move.
+            ("ultrasonic", "frozen") if code == "stuck-rotator" => code,
+            ("ultrasonic", "frozen") => "frozen-range",
+            ("ultrasonic", _) => "no-range",
+            ("rotator", _) => "stuck-rotator",
+            ("odometry" | "controller", _) => "no-odometry",
+            ("touch", _) => "no-touch",
+            ("buttons", _) => "no-button",
+            ("infrared", _) => "no-infrared",
+            ("color", _) => "no-color",
+            ("battery", _) => "no-battery",
+            ("camera", _) => "no-flow",
+            _ => "",
+        };
+        code == silent || BLOCKED.contains(&code)
+    }
+}
+
+/// How the runs with each fault ended, by plan.
+#[derive(Debug, Default)]
+pub struct Account(BTreeMap<(String, String), Row>);
+
+/// The runs of one plan with one fault.
+#[derive(Debug, Default)]
+struct Row {
+    endings: BTreeMap<String, usize>,
+    contacts: usize,
+    pushing: Duration,
+    longest: Duration,
+}
+
+impl Account {
+    /// Takes a run into account.
+    pub fn add(&mut self, single: &Single, outcome: &Outcome) {
+        let (device, kind) = single.fault;
+        let fault = if device.is_empty() { "none".to_owned() } else { format!("{device}.{kind}") };
+        let row = self.0.entry((single.case.plan.name.clone(), fault)).or_default();
+        let ending = match outcome.ending {
+            None => "still running",
+            Some(Ending::Ok) => "ok",
+            Some(Ending::Interrupted) => "interrupted",
+            Some(Ending::Error(fault)) => fault.code(),
+        };
+        *row.endings.entry(ending.to_owned()).or_default() += 1;
+        row.contacts += outcome.contacts;
+        row.pushing = row.pushing + outcome.pushing;
+        row.longest = row.longest.max(outcome.pushing);
+    }
+
+    /// The account as tables in Markdown, one for each plan.
+    pub fn markdown(&self) -> String {
+        let mut text = String::new();
+        let mut last = "";
+        for ((plan, fault), row) in &self.0 {
+            if plan != last {
+                let _ = write!(text, "\n## `{plan}`\n\n");
+                text +=
+                    "| fault | endings | contacts | pushing | longest |\n|---|---|--:|--:|--:|\n";
+                last = plan;
+            }
+            let endings: Vec<_> =
+                row.endings.iter().map(|(ending, count)| format!("{count} {ending}")).collect();
+            let (all, longest) = (row.pushing.as_secs_f64(), row.longest.as_secs_f64());
+            let endings = endings.join(", ");
+            let _ = writeln!(
+                text,
+                "| `{fault}` | {endings} | {} | {all:.1} s | {longest:.1} s |",
+                row.contacts
+            );
+        }
+        text
+    }
+}

@@ -1,0 +1,84 @@
+//! Every single fault in every shipped plan: the robot stops for the right reason, or gets where it should, and pushes
+//! against nothing for long. By default in a few rooms; `AFP_ROOMS` says in how many, and `AFP_BLESS=1` then writes the
+//! page of the book; `AFP_SINGLE` says which one to show.
+
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::{env, fs, thread};
+
+use afp_worlds::{Account, Single, run};
+
+/// Rooms unless told otherwise.
+const ROOMS: u64 = 2;
+const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/single-faults.md");
+/// One run of so many may push against something for more than a second.
+const LONG_OF: usize = 500;
+/// The tables of the page begin here.
+const TABLES: &str = "<!-- tables: made by a test -->\n";
+
+/// The name of a case, by which [`shown`] finds it again.
+fn name(single: &Single) -> String {
+    let (device, kind) = single.fault;
+    format!("{} {} {device}.{kind}", single.case.plan.name, single.case.seed)
+}
+
+/// Drives the case of a name and tells everything about it.
+fn shown(name_of: &str, all: &[Single]) {
+    let single = all.iter().find(|single| name(single) == name_of);
+    let single = single.unwrap_or_else(|| panic!("no case '{name_of}'"));
+    let outcome = run(&single.case);
+    println!("{}{}{:?}", single.case, outcome.timeline, outcome.ending);
+    println!("{} contacts, pushing for {}", outcome.contacts, outcome.pushing);
+    assert_eq!(single.objections(&outcome), [""; 0]);
+}
+
+#[test]
+fn any_single_fault_ends_well() {
+    let rooms = env::var("AFP_ROOMS").map_or(ROOMS, |text| text.parse().expect("a number"));
+    let all = Single::all(rooms);
+    if let Ok(name) = env::var("AFP_SINGLE") {
+        return shown(&name, &all);
+    }
+    let (next, findings) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    let (account, long) = (Mutex::new(Account::default()), AtomicUsize::new(0));
+    let work = || {
+        while let Some(single) = all.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let outcome = run(&single.case);
+            account.lock().expect("nobody panics here").add(single, &outcome);
+            long.fetch_add(usize::from(Single::pushes_long(&outcome)), Ordering::Relaxed);
+            let wrong = single.objections(&outcome);
+            if let Some(first) = wrong.first() {
+                let finding = format!("AFP_SINGLE='{}': {first}", name(single));
+                findings.lock().expect("nobody panics here").push(finding);
+            }
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(work);
+        }
+    });
+    let tables = account.into_inner().expect("nobody panics here").markdown();
+    println!("{tables}");
+    if env::var_os("AFP_BLESS").is_some() && rooms > ROOMS {
+        bless(&tables);
+    }
+    let mut findings = findings.into_inner().expect("nobody panics here");
+    findings.sort();
+    assert!(findings.is_empty(), "{} of {}:\n{}", findings.len(), all.len(), findings.join("\n"));
+    let long = long.into_inner();
+    println!("{long} of {} runs pushed for more than a second", all.len());
+    assert!(
+        long * LONG_OF <= all.len(),
+        "{long} of {} runs pushed for more than a second",
+        all.len()
+    );
+}
+
+/// Writes the tables into the page.
+fn bless(tables: &str) {
+    let page = fs::read_to_string(Path::new(PAGE)).expect("the page is there");
+    let (head, _) = page.split_once(TABLES).expect("the page says where tables begin");
+    fs::write(PAGE, format!("{head}{TABLES}{tables}")).expect("the page can be written");
+}
