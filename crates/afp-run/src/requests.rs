@@ -83,18 +83,24 @@ fn find_fault(table: &[DeviceRow], failure: &Failure) -> Result<(FaultId, Option
     };
     let wrong = |why: String| RunError::usage(why, such());
     let (id, _, row) = found.ok_or_else(|| wrong(no_fault(table, device, kind)))?;
-    let amount = failure.amount.as_deref().map(|text| amount(text, row.amount));
-    Ok((id, amount.transpose().map_err(wrong)?))
+    let amount = failure.amount.as_deref().map(|text| amount(text, row.amount)).transpose();
+    let amount = amount.map_err(|why| {
+        let usual = row.amount.map(|of| format!("={}{}", of.default, of.unit));
+        let usual = usual.unwrap_or_default();
+        RunError::usage(why, format!("such as --fail {device}.{kind}{usual}@5s..7s"))
+    })?;
+    Ok((id, amount))
 }
 
 /// How much of a fault, in SI units.
 fn amount(text: &str, of: Option<AmountRow>) -> Result<f64, String> {
     let of = of.ok_or_else(|| format!("there is no more or less of it: leave '={text}' out"))?;
-    let AmountRow { name, from, to, .. } = of;
-    let wrong = || format!("'{text}' is no {name} from {from} to {to}");
+    let AmountRow { name, unit, from, to, .. } = of;
+    let wrong =
+        || format!("'{text}' is no {name} from {from} to {to} {unit}").trim_end().to_owned();
     let amount = match of.unit {
         "s" => duration(text)?.as_secs_f64(),
-        _ => text.parse().map_err(|_| wrong())?,
+        unit => text.strip_suffix(unit).unwrap_or(text).parse().map_err(|_| wrong())?,
     };
     of.checked(Some(amount)).ok_or_else(wrong)
 }
@@ -143,6 +149,9 @@ mod tests {
             ("touch.slow=3@1s", "20s or 500ms"),
         ] {
             let error = find_fault(TABLE, &failure(text).unwrap()).unwrap_err().to_string();
+            // Whoever does as the help says is understood.
+            let such = error.rsplit("--fail ").next().unwrap_or_default().trim();
+            assert!(find_fault(TABLE, &failure(such).unwrap()).is_ok(), "{error}");
             assert!(error.contains(says), "{text}: {error}");
         }
         assert!(
