@@ -264,7 +264,7 @@ impl Fired {
     #[inline]
     pub(crate) fn position(&self) -> Option<u16> {
         // Made from 16 bits.
-        self.event.map(|event| (event.get() - 1) as u16)
+        self.event.map(|event| event.get().saturating_sub(1) as u16)
     }
 
     /// The supervisor failed.

@@ -74,7 +74,7 @@ impl<'a> Elements<'a> {
     }
 
     /// The names that are there, as written.
-    pub fn names(&self) -> impl Iterator<Item = &str> {
+    pub fn names(&self) -> impl Iterator<Item = &str> + Clone {
         self.names.iter().flatten().map(|name| name.text.as_str())
     }
 }

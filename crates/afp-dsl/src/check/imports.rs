@@ -107,7 +107,7 @@ fn one(
         }
         // A toolbox with errors of its own has been reported with them.
         if toolboxes.broken(&name.text).is_none() {
-            let known = toolboxes.iter().map(|toolbox| toolbox.name.as_str());
+            let known: Vec<_> = toolboxes.iter().map(|toolbox| toolbox.name.as_str()).collect();
             let message = format!("there is no toolbox '{}'", name.text);
             diags.push(unknown(
                 Code::E0238,

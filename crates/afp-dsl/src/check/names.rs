@@ -3,9 +3,12 @@
 use std::collections::HashMap;
 
 use afp_syntax::ast::Name;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
 use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
+
+/// How many names a help lists at most.
+const MOST_LISTED: usize = 12;
 
 /// Names that Rust has no raw spelling for, or that mean something else wherever they stand.
 const REFUSED: &[&str] = &["self", "Self", "super", "crate", "true", "false"];
@@ -94,7 +97,7 @@ pub(crate) fn ambiguous(
 ) -> Diagnostic {
     let full = found.iter().filter_map(|(home, _)| home.map(|home| format!("{home}.{name}")));
     let full: Vec<_> = full.collect();
-    let write = afp_syntax::diagnostics::words::list(full.iter().map(String::as_str), "or");
+    let write = words::list(full.iter().map(String::as_str), "or");
     let files = found.iter().filter(|(home, _)| home.is_none());
     let (who, help) = match (full.len(), found.len() - full.len()) {
         (_, 0) => ("toolboxes", format!("write {write}")),
@@ -126,20 +129,21 @@ pub(crate) fn unknown<'a>(
     span: Span,
     message: String,
     name: &str,
-    known: impl IntoIterator<Item = &'a str>,
+    known: impl IntoIterator<Item = &'a str, IntoIter: Clone>,
     none: &str,
 ) -> Diagnostic {
-    let known: Vec<&str> = known.into_iter().collect();
+    let known = known.into_iter();
     let diagnostic = Diagnostic::new(code, span, message);
-    match afp_syntax::diagnostics::words::nearest(name, known.iter().copied()) {
-        Some(meant) => diagnostic.help(format!("write '{meant}'")).replace(meant),
-        None if known.is_empty() => diagnostic.help(none),
-        None if known.len() > 12 => {
-            let some = afp_syntax::diagnostics::words::list(known.into_iter().take(12), "or");
-            diagnostic.help(format!("write one of {some}, among others"))
+    if let Some(meant) = words::nearest(name, known.clone()) {
+        return diagnostic.help(format!("write '{meant}'")).replace(meant);
+    }
+    let mut some: Vec<&str> = known.take(MOST_LISTED + 1).collect();
+    match some.len() {
+        0 => diagnostic.help(none),
+        count if count > MOST_LISTED => {
+            some.truncate(MOST_LISTED);
+            diagnostic.help(format!("write one of {}, among others", words::list(some, "or")))
         }
-        None => {
-            diagnostic.help(format!("write {}", afp_syntax::diagnostics::words::list(known, "or")))
-        }
+        _ => diagnostic.help(format!("write {}", words::list(some, "or"))),
     }
 }

@@ -17,8 +17,16 @@ pub fn list<'a>(names: impl IntoIterator<Item = &'a str>, joint: &str) -> String
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let limit = (name.chars().count() / 3).clamp(1, 3);
     let alike = candidates.into_iter().filter(|candidate| look_alike(name, candidate, limit));
-    let scored = alike.take(MOST_ALIKE).map(|candidate| (distance(name, candidate), candidate));
-    scored.filter(|(score, _)| *score <= limit).min_by_key(|(score, _)| *score).map(|(_, c)| c)
+    let (name, mut other, mut rows) = (letters(name, Vec::new()), Vec::new(), Rows::default());
+    let mut nearest = None;
+    for candidate in alike.take(MOST_ALIKE) {
+        other = letters(candidate, other);
+        let score = distance(&name, &other, &mut rows);
+        if score <= limit && nearest.is_none_or(|(least, _)| score < least) {
+            nearest = Some((score, candidate));
+        }
+    }
+    nearest.map(|(_, candidate)| candidate)
 }
 
 /// Whether two words are about as long and begin or end with the same letter; short ones and those
@@ -39,14 +47,34 @@ fn look_alike(left: &str, right: &str, limit: usize) -> bool {
 /// How many candidates are compared letter by letter.
 const MOST_ALIKE: usize = 200;
 
-/// How many letters have to be changed, added, removed or swapped with their neighbour; case
-/// counts for nothing.
-fn distance(left: &str, right: &str) -> usize {
-    let letters = |word: &str| word.chars().flat_map(char::to_lowercase).collect::<Vec<char>>();
-    let (left, right) = (letters(left), letters(right));
-    let mut before = vec![0; right.len() + 1];
-    let mut row: Vec<usize> = (0..=right.len()).collect();
-    let mut next = before.clone();
+/// The letters of a word, all of them small, in the room of another one.
+fn letters(word: &str, mut room: Vec<char>) -> Vec<char> {
+    room.clear();
+    match word.is_ascii() {
+        true => room.extend(word.chars().map(|letter| letter.to_ascii_lowercase())),
+        false => room.extend(word.chars().flat_map(char::to_lowercase)),
+    }
+    room
+}
+
+/// Room for the rows of a table of distances: the one before the last, the last, the next.
+type Rows = [Vec<usize>; 3];
+
+/// How many letters have to be changed, added, removed or swapped with their neighbour.
+fn distance(left: &[char], right: &[char], rows: &mut Rows) -> usize {
+    // What both begin and end with costs nothing, and is most of what looks alike.
+    let same = left.iter().zip(right).take_while(|(a, b)| a == b).count();
+    let (left, right) = (&left[same..], &right[same..]);
+    let same = left.iter().rev().zip(right.iter().rev()).take_while(|(a, b)| a == b).count();
+    let (left, right) = (&left[..left.len() - same], &right[..right.len() - same]);
+    if left.is_empty() || right.is_empty() {
+        return left.len().max(right.len());
+    }
+    let [before, row, next] = rows;
+    for room in [&mut *before, row, next] {
+        room.clear();
+        room.extend(0..=right.len());
+    }
     for (i, a) in left.iter().enumerate() {
         next[0] = i + 1;
         for (j, b) in right.iter().enumerate() {
@@ -59,15 +87,15 @@ fn distance(left: &str, right: &str) -> usize {
             next[j + 1] = best;
         }
         // The oldest row is written over next.
-        std::mem::swap(&mut before, &mut row);
-        std::mem::swap(&mut row, &mut next);
+        std::mem::swap(before, row);
+        std::mem::swap(row, next);
     }
     row[right.len()]
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{list, nearest};
+    use super::{Rows, distance, list, nearest};
 
     #[test]
     fn slips_find_the_name_that_was_meant() {
@@ -78,6 +106,30 @@ mod tests {
         assert_eq!(nearest("Curve", names), None);
         assert_eq!(nearest("oFrward", names), Some("Forward"));
         assert_eq!(nearest("ba", ["ab", "cd"]), Some("ab"));
+        assert_eq!(nearest("WÄNDE", ["Turn", "wände"]), Some("wände"));
+    }
+
+    #[test]
+    fn slips_are_counted_by_letters() {
+        let count = |a: &str, b: &str| {
+            let letters = |word: &str| word.chars().collect::<Vec<_>>();
+            distance(&letters(a), &letters(b), &mut Rows::default())
+        };
+        for (a, b, slips) in [
+            ("", "", 0),
+            ("drive", "", 5),
+            ("drive", "drive", 0),
+            ("drive12", "drove12", 1),
+            ("drive12", "drve12", 1),
+            ("drive12", "drivve12", 1),
+            ("drive12", "drvie12", 1),
+            ("aab", "ab", 1),
+            ("abcabc", "abc", 3),
+            ("kitten", "sitting", 3),
+            ("ca", "abc", 3),
+        ] {
+            assert_eq!((count(a, b), count(b, a)), (slips, slips), "{a} {b}");
+        }
     }
 
     #[test]
