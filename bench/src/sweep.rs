@@ -52,6 +52,8 @@ pub fn run(rounds: u32, report: &mut Report) {
     let compiled = afp_dsl::compile(&source, &toolboxes, &Texts::default());
     let Some(graph) = &compiled.graph else { panic!("{}", compiled.render(false)) };
     let mut sweep = Sweep {
+        presses: Vec::new(),
+        failures: Vec::new(),
         plan: source.name.clone(),
         worlds: vec![None],
         axes: Vec::new(),

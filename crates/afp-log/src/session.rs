@@ -75,7 +75,7 @@ impl SessionLog {
     /// The first failure of the writer.
     pub fn finish(mut self, session: &dyn AnySession) -> Result<Written, LogError> {
         let now = session.now();
-        for (at, what) in session.pending() {
+        for (at, _, what) in session.pending() {
             let request = Requested { at, what, done: Done::NotReached };
             self.recorder.event(RunEvent::requested(now, request));
         }

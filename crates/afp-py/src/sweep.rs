@@ -78,6 +78,8 @@ impl Sweeper {
         }
         let (file, toolboxes) = (plan.file(), plan.python_toolboxes(py));
         let mut sweep = Sweep {
+            presses: Vec::new(),
+            failures: Vec::new(),
             plan: file.display().to_string(),
             worlds,
             axes: Vec::new(),

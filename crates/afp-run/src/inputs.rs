@@ -16,10 +16,10 @@ pub fn change_world(
     set: &[(String, String)],
     robot: &dyn AnyRobot,
 ) -> Result<(), RunError> {
-    for (name, text) in set {
-        if let Some(key) = change::key(name) {
-            *world = world.with(key, text, robot)?;
-        }
+    let changes = set.iter().filter_map(|(name, text)| Some((change::key(name)?, text.as_str())));
+    let changes: Vec<_> = changes.collect();
+    if !changes.is_empty() {
+        *world = world.with(&changes, robot)?;
     }
     Ok(())
 }

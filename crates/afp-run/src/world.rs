@@ -83,11 +83,15 @@ fn tidy(path: &Path) -> PathBuf {
 }
 
 fn load(path: &Path, robot: &dyn AnyRobot) -> Result<LoadedWorld, RunError> {
-    let seed = path.to_str().and_then(|name| name.strip_prefix(RANDOM));
-    let made_up =
-        seed.and_then(|seed| seed.parse().ok()).and_then(|seed| robot.made_up_world(seed));
-    if let Some(text) = made_up {
-        return parse(text, Some(path.to_owned()), robot);
+    if let Some(seed) = path.to_str().and_then(|name| name.strip_prefix(RANDOM)) {
+        let wrong =
+            |why: &str, help: &str| RunError::usage(format!("'{RANDOM}{seed}': {why}"), help);
+        let number = seed.parse().map_err(|_| {
+            wrong("the seed of a world is a whole number from 0 on", "such as 'random:7'")
+        })?;
+        let text = robot.made_up_world(number);
+        let none = || wrong("there are no made-up worlds for this robot", "name a file");
+        return parse(text.ok_or_else(none)?, Some(path.to_owned()), robot);
     }
     let text = fs::read_to_string(path).map_err(RunError::file("cannot read the world", path))?;
     if path.extension().is_some_and(|extension| extension == "yaml" || extension == "yml") {
@@ -140,6 +144,15 @@ mod tests {
 
     fn typed(loaded: &LoadedWorld) -> World {
         loaded.world.as_any().downcast_ref::<World>().unwrap().clone()
+    }
+
+    #[test]
+    fn a_seed_that_is_none_is_no_file() {
+        let plan = Path::new("plan.afp");
+        for wrong in ["random:-1", "random:", "random:1.5"] {
+            let error = find(Some(Path::new(wrong)), plan, &kind::<Simulation>()).unwrap_err();
+            assert!(error.to_string().contains("a whole number from 0 on"), "{error}");
+        }
     }
 
     #[test]

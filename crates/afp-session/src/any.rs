@@ -108,7 +108,7 @@ pub trait AnySession: Send {
     fn keyframe(&self) -> Option<Box<dyn AnySession>>;
 
     /// What was asked for and has not come yet, by time.
-    fn pending(&self) -> Vec<(Instant, Stimulus)>;
+    fn pending(&self) -> Vec<(Instant, RequestId, Stimulus)>;
 }
 
 /// Why an entry cannot be set.

@@ -112,8 +112,8 @@ impl Requests {
     }
 
     /// What is still to come, in order.
-    pub(crate) fn pending(&self) -> impl Iterator<Item = (Instant, &Request)> {
-        self.waiting.iter().map(|((at, _), waiting)| (*at, &waiting.request))
+    pub(crate) fn pending(&self) -> impl Iterator<Item = (Instant, RequestId, &Request)> {
+        self.waiting.iter().map(|((at, id), waiting)| (*at, *id, &waiting.request))
     }
 
     #[inline]

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use afp_core::Duration;
 use afp_dsl::types::text::duration;
+use afp_run::options::{Failure, Press};
 
 use crate::ranges::Seeds;
 
@@ -18,6 +19,10 @@ pub struct Sweep {
     pub axes: Vec<Axis>,
     /// The seeds.
     pub seeds: Seeds,
+    /// What is pressed in each run.
+    pub presses: Vec<Press>,
+    /// What fails in each run.
+    pub failures: Vec<Failure>,
     /// When each run is stopped.
     pub until: Duration,
 }
@@ -98,6 +103,12 @@ impl Sweep {
         for (name, point) in &row.values {
             let _ = write!(command, " --set {}", quoted(&format!("{name}={}", point.text)));
         }
+        for press in &self.presses {
+            let _ = write!(command, " --press {}", quoted(&press.to_string()));
+        }
+        for failure in &self.failures {
+            let _ = write!(command, " --fail {}", quoted(&failure.to_string()));
+        }
         let _ = write!(command, " --until {}", spelled(self.until));
         command
     }
@@ -111,6 +122,12 @@ impl Sweep {
         for axis in &self.axes {
             let points = axis.points.iter().map(|point| point.text.as_str());
             let _ = write!(text, ", {} = {}", axis.name, points.collect::<Vec<_>>().join(" "));
+        }
+        for press in &self.presses {
+            let _ = write!(text, ", press {press}");
+        }
+        for failure in &self.failures {
+            let _ = write!(text, ", fail {failure}");
         }
         text
     }
@@ -135,6 +152,8 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
+    use afp_run::options::{failure, press};
+
     use crate::ranges::{axis, seeds};
 
     fn sweep() -> Sweep {
@@ -143,6 +162,8 @@ mod tests {
             worlds: vec![None, Some("random:7".to_owned())],
             axes: vec![axis("a=1,2,3").unwrap(), axis("b=20cm..30cm:5cm").unwrap()],
             seeds: seeds("5..9").unwrap(),
+            presses: vec![press("touch@2s").unwrap()],
+            failures: vec![failure("wheels.slip=0.2@3s..5s").unwrap()],
             until: Duration::from_millis(1500),
         }
     }
@@ -161,8 +182,7 @@ mod tests {
     #[test]
     fn a_run_is_a_command() {
         let sweep = sweep();
-        let wanted =
-            "afpc run 'my plan.afp' --world random:7 --seed 8 --set a=3 --set b=30cm --until 1.5s";
+        let wanted = "afpc run 'my plan.afp' --world random:7 --seed 8 --set a=3 --set b=30cm --press touch@2s --fail wheels.slip=0.2@3s..5s --until 1.5s";
         assert_eq!(sweep.command(&sweep.row(71)), wanted);
     }
 }

@@ -4,20 +4,25 @@ use std::path::Path;
 
 use afp_core::Value;
 use afp_dsl::graph::Graph;
+use afp_run::options::{Failure, Press};
 use afp_run::world::{self, LoadedWorld, change};
-use afp_run::{RunError, hash, inputs};
+use afp_run::{RunError, hash, inputs, requests};
 use afp_session::{AnySession, Loader};
 
-use crate::grid::{Point, Row, Sweep};
+use crate::grid::{Axis, Point, Row, Sweep};
 
 /// More runs than this are a mistake, and no list could hold them.
 const MOST: u64 = 10_000_000;
+/// So many combinations of values of a world are tried before anything runs.
+const TRIED: usize = 1000;
 
 /// A plan and the worlds that it runs in.
 pub struct Setting<'a> {
     graph: &'a Graph,
     robot: &'a dyn Loader,
     worlds: Vec<LoadedWorld>,
+    presses: Vec<Press>,
+    failures: Vec<Failure>,
 }
 
 impl<'a> Setting<'a> {
@@ -43,7 +48,8 @@ impl<'a> Setting<'a> {
         let worlds = sweep.worlds.iter();
         let worlds = worlds.map(|asked| world::find(asked.as_deref().map(Path::new), file, robot));
         let worlds = worlds.collect::<Result<Vec<_>, _>>()?;
-        let setting = Setting { graph, robot, worlds };
+        let (presses, failures) = (sweep.presses.clone(), sweep.failures.clone());
+        let setting = Setting { graph, robot, worlds, presses, failures };
         setting.check(sweep)?;
         Ok(setting)
     }
@@ -51,6 +57,7 @@ impl<'a> Setting<'a> {
     fn check(&self, sweep: &mut Sweep) -> Result<(), RunError> {
         let Some(world) = self.worlds.first() else { return Ok(()) };
         let mut session = self.robot.session(self.graph, &*world.world, 0, &[])?;
+        requests::make(&mut *session, &sweep.presses, &sweep.failures)?;
         for number in 0..sweep.axes.len() {
             let (before, rest) = sweep.axes.split_at_mut(number);
             let Some(axis) = rest.first_mut() else { continue };
@@ -71,20 +78,47 @@ impl<'a> Setting<'a> {
                 }
             }
         }
-        Ok(())
+        self.check_together(&sweep.axes)
     }
 
-    /// Values of a world's file: a world may make no sense with some of them, but not with all.
+    /// Values of a world's file, each for itself.
     fn check_worlds(&self, key: &str, points: &mut [Point]) -> Result<(), RunError> {
         for world in &self.worlds {
             for point in &mut *points {
                 point.si = world.si(key, &point.text)?;
             }
-            let tried = points.iter().map(|point| world.with(key, &point.text, self.robot));
+        }
+        Ok(())
+    }
+
+    /// Values of a world's file, together: a world may make no sense with some of them, but not with all.
+    fn check_together(&self, axes: &[Axis]) -> Result<(), RunError> {
+        let of_world = axes.iter().filter_map(|axis| Some((change::key(&axis.name)?, axis)));
+        let of_world: Vec<_> = of_world.collect();
+        let lengths = of_world.iter().map(|(_, axis)| axis.points.len());
+        let all = lengths.fold(1_usize, usize::saturating_mul).min(TRIED);
+        for world in self.worlds.iter().filter(|_| !of_world.is_empty()) {
+            let tried = (0..all).map(|number| {
+                let mut rest = number;
+                let changes = of_world.iter().filter_map(|(key, axis)| {
+                    let point = axis.points.get(rest % axis.points.len().max(1))?;
+                    rest /= axis.points.len().max(1);
+                    Some((*key, point.text.as_str()))
+                });
+                world.with(&changes.collect::<Vec<_>>(), self.robot)
+            });
             // The first one that works is enough.
-            if let Some(Err(error)) = tried.reduce(|tried, next| tried.or(next)) {
-                return Err(error);
+            let mut first = None;
+            for tried in tried {
+                match tried {
+                    Ok(_) => {
+                        first = None;
+                        break;
+                    }
+                    Err(error) => first = first.or(Some(error)),
+                }
             }
+            first.map_or(Ok(()), Err)?;
         }
         Ok(())
     }
@@ -96,19 +130,22 @@ impl<'a> Setting<'a> {
     pub fn make(&self, row: &Row<'_>) -> Result<Box<dyn AnySession>, RunError> {
         let world = self.worlds.get(row.world_number);
         let world = world.ok_or_else(|| RunError::usage("there is no such world", "name one"))?;
-        let mut changed: Option<LoadedWorld> = None;
-        for (name, point) in &row.values {
-            if let Some(key) = change::key(name) {
-                let world = changed.as_ref().unwrap_or(world);
-                changed = Some(world.with(key, &point.text, self.robot)?);
-            }
-        }
+        let changes = row
+            .values
+            .iter()
+            .filter_map(|(name, point)| Some((change::key(name)?, point.text.as_str())));
+        let changes: Vec<_> = changes.collect();
+        let changed = match changes.is_empty() {
+            true => None,
+            false => Some(world.with(&changes, self.robot)?),
+        };
         let world = &changed.as_ref().unwrap_or(world).world;
         let measures = self.robot.measures();
         let mut session = self.robot.session(self.graph, &**world, row.seed, measures)?;
         for (name, point) in row.values.iter().filter(|(name, _)| change::key(name).is_none()) {
             inputs::set(&mut *session, name, &point.text)?;
         }
+        requests::make(&mut *session, &self.presses, &self.failures)?;
         Ok(session)
     }
 

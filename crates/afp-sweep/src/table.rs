@@ -37,6 +37,8 @@ mod tests {
 
     pub(super) fn sweep() -> Sweep {
         Sweep {
+            presses: Vec::new(),
+            failures: Vec::new(),
             plan: "a.afp".to_owned(),
             worlds: vec![None],
             axes: vec![axis("d=20cm,30cm").unwrap()],

@@ -63,6 +63,8 @@ fn compiled() -> Compiled {
 
 fn sweep() -> Sweep {
     Sweep {
+        presses: Vec::new(),
+        failures: Vec::new(),
         plan: "either.afp".to_owned(),
         worlds: vec![Some("random:4".to_owned())],
         axes: vec![axis("way=5cm,5m").unwrap()],

@@ -10,7 +10,7 @@ use afp_log::{About, NameTable, SessionLog};
 use afp_run::RunError;
 use afp_session::{
     AnySession, Applied, Build, Go, Loader, NamedRecord, Observer, Recipe, RequestId, SampleRef,
-    Sampling, TextFile, View,
+    Sampling, Stimulus, TextFile, View,
 };
 
 use crate::setting::Setting;
@@ -72,6 +72,7 @@ pub(crate) fn run(
         return Ok(None);
     }
     let end = session.now();
+    judge.note_not_reached(&*session);
     let Judge { mut watch, broken: refused, timeline, .. } = judge;
     let mut broken = watch.finish(end);
     broken.extend(refused);
@@ -158,6 +159,21 @@ impl Observer for Judge<'_> {
 }
 
 impl Judge<'_> {
+    /// What was to happen and did not: the run was over before.
+    fn note_not_reached(&mut self, session: &dyn AnySession) {
+        let end = session.now();
+        let mut pending = session.pending();
+        // What was begun in time is allowed to end later.
+        pending.retain(|(_, _, what)| !matches!(what, Stimulus::Press { held: false, .. }));
+        for (_, id, _) in pending {
+            let line = self.lines.get(&id).and_then(|line| self.scenario.stimuli.get(*line));
+            let Some(stimulus) = line else { continue };
+            let (text, span) = (stimulus.text.clone(), stimulus.span);
+            let why = format!("this was not done: the run was over at {:.3} s", end.as_secs_f64());
+            self.broken.push(Broken { text, span, at: end, why });
+        }
+    }
+
     /// Whatever the plan holds has been committed: half a commit would be seen here.
     fn compare(&mut self, view: &View<'_>) {
         let entries = &self.scenario.graph.main().entries;

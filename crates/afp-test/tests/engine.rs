@@ -78,6 +78,16 @@ fn breaks(lines: &str, why: &str, at: f64) {
 const FREE: &str = "robot at (3.5 m, 2.4 m) heading 0 deg\n";
 
 #[test]
+fn what_the_run_did_not_come_to_is_no_success() {
+    let short = format!("{FREE} at 1 s: press escape\n expect end\n until 40 s\n");
+    // The robot rests for a second when its plan has ended.
+    breaks(&format!("{short} at 30 s: press touch"), "not done: the run was over at 2.000 s", 2.0);
+    breaks(&format!("{short} at 30 s: fail wheels.slip"), "not done: the run was over", 2.0);
+    breaks(&format!("{short} never collision after 15 s"), "that time never came", 2.0);
+    passes(&format!("{short} never running after 15 s\n never collision after 500 ms"));
+}
+
+#[test]
 fn each_kind_of_claim_is_kept() {
     passes(&format!(
         "{FREE} set way = 20 cm

@@ -48,6 +48,34 @@ fn every_row_can_be_done_again() {
 }
 
 #[test]
+fn a_sweep_presses_and_breaks_as_a_run_does() {
+    let place = Place::with_plan();
+    let asked = "--press touch@2s --fail wheels.slip=0.3@3s..5s";
+    let said =
+        place.afpc(&format!("sweep wall_following.afp --seeds 2..4 {asked} --until 6s --json"));
+    let runs = objects(said.succeeds());
+    let command = runs[1]["command"].as_str().unwrap().strip_prefix("afpc ").unwrap();
+    assert!(command.contains(asked), "{command}");
+    let again = place.afpc(&format!("{command} --json --log none --svg none")).last_json();
+    assert_eq!(again["summary"]["trace"], runs[1]["trace"]);
+    assert_eq!(again["summary"]["requests"][0]["request"], "press touch.touch");
+    place
+        .afpc("sweep wall_following.afp --fail wheels.gone@1s")
+        .fails(2, &["'wheels' cannot be 'gone'; it can be slip"]);
+}
+
+#[test]
+fn values_of_the_world_count_together() {
+    let place = Place::with_plan();
+    // The second alone puts the robot into the sofa.
+    let vary = "--vary world.robot.pose_m_deg.1=4.5m --vary world.robot.pose_m_deg.0=5m";
+    place.afpc(&format!("sweep wall_following.afp {vary} --until 1s")).succeeds();
+    let alone = "--vary world.robot.pose_m_deg.1=4.5m";
+    let said = place.afpc(&format!("sweep wall_following.afp {alone} --until 1s"));
+    said.fails(1, &["the robot starts inside of 'sofa'"]);
+}
+
+#[test]
 fn a_sweep_that_is_killed_goes_on() {
     let place = Place::with_plan();
     let sweep = "sweep wall_following.afp --seeds 0..40 --vary walldist=20cm,30cm --until 10s -o";

@@ -97,7 +97,7 @@ impl Requests {
     /// All of it, and what did not come before the end.
     pub(crate) fn finish(mut self, session: &dyn AnySession) -> Vec<Requested> {
         let late = session.pending().into_iter();
-        self.0.extend(late.map(|(at, what)| Requested { at, what, done: Done::NotReached }));
+        self.0.extend(late.map(|(at, _, what)| Requested { at, what, done: Done::NotReached }));
         self.0
     }
 }

@@ -54,23 +54,26 @@ fn units(key: &str, place: Option<usize>) -> &'static [Unit<'static>] {
 }
 
 impl LoadedWorld {
-    /// This world with one value of its file changed. `key` is the way to it: names of tables, in a
+    /// This world with values of its file changed, all at once: `key` is the way to one: names of tables, in a
     /// list the name or the number from 0 of what is meant, a key, in a list of numbers a number from
     /// 0: `robot.charge`, `box.sofa.height_m`, `robot.pose_m_deg.0`.
     ///
     /// # Errors
-    /// There is no such thing, the unit does not fit, or the world makes no sense with that value.
+    /// There is no such thing, a unit does not fit, or the world makes no sense with those values.
     pub fn with(
         &self,
-        key: &str,
-        text: &str,
+        changes: &[(&str, &str)],
         robot: &dyn AnyRobot,
     ) -> Result<LoadedWorld, RunError> {
-        let world = super::parse(self.changed(key, text)?.0, self.path.clone(), robot)?;
-        match self.start {
-            None => Ok(world),
-            Some(start) => world.started_at(start).map_err(|why| refused(key, text, &why)),
+        let mut changed = self.text.clone();
+        for (key, text) in changes {
+            changed = self::changed(&changed, key, text)?.0;
         }
+        let world = super::parse(changed, self.path.clone(), robot);
+        let world = world.map_err(|error| with_changes(error, changes))?;
+        let world = LoadedWorld { path: self.path.clone(), ..world };
+        let Some(start) = self.start else { return Ok(world) };
+        world.started_at(start).map_err(|why| RunError::usage(why, "choose another start"))
     }
 
     /// What a value for a key is in SI units; `None` for what is no number.
@@ -78,33 +81,40 @@ impl LoadedWorld {
     /// # Errors
     /// As [`LoadedWorld::with`], but for worlds that make no sense.
     pub fn si(&self, key: &str, text: &str) -> Result<Option<f64>, RunError> {
-        Ok(self.changed(key, text)?.1)
+        Ok(changed(&self.text, key, text)?.1)
     }
+}
 
-    /// The text with the value changed, and the value in SI units.
-    fn changed(&self, key: &str, text: &str) -> Result<(String, Option<f64>), RunError> {
-        let refused = |why: &str| refused(key, text, why);
-        let mut document: DocumentMut =
-            self.text.parse().map_err(|error| refused(&format!("{error}")))?;
-        let mut parts: Vec<&str> = key.split('.').collect();
-        let index = parts.last().and_then(|last| last.parse::<usize>().ok());
-        if index.is_some() {
-            parts.pop();
-        }
-        let (name, tables) = parts.split_last().ok_or_else(|| refused("there is no such key"))?;
-        let units = units(name, index);
-        let to = read(text, units).map_err(|why| refused(&why))?;
-        let si = to.as_float().map(|number| match units.first() {
-            Some(unit) if unit.name == "deg" => number.to_radians(),
-            _ => number,
-        });
-        let mut item = document.as_item_mut();
-        for part in tables {
-            item = inside(item, part).map_err(|why| refused(&why))?;
-        }
-        set(item, name, index, to).map_err(|why| refused(&why))?;
-        Ok((document.to_string(), si))
+/// The text with a value changed, and the value in SI units.
+fn changed(world: &str, key: &str, text: &str) -> Result<(String, Option<f64>), RunError> {
+    let refused = |why: &str| refused(key, text, why);
+    let mut document: DocumentMut = world.parse().map_err(|error| refused(&format!("{error}")))?;
+    let mut parts: Vec<&str> = key.split('.').collect();
+    let index = parts.last().and_then(|last| last.parse::<usize>().ok());
+    if index.is_some() {
+        parts.pop();
     }
+    let (name, tables) = parts.split_last().ok_or_else(|| refused("there is no such key"))?;
+    let units = units(name, index);
+    let to = read(text, units).map_err(|why| refused(&why))?;
+    let si = to.as_float().map(|number| match units.first() {
+        Some(unit) if unit.name == "deg" => number.to_radians(),
+        _ => number,
+    });
+    let mut item = document.as_item_mut();
+    for part in tables {
+        item = inside(item, part).map_err(|why| refused(&why))?;
+    }
+    set(item, name, index, to).map_err(|why| refused(&why))?;
+    Ok((document.to_string(), si))
+}
+
+/// An error in a world that was changed: the excerpt is of a text that no file has.
+fn with_changes(error: RunError, changes: &[(&str, &str)]) -> RunError {
+    let RunError::Content { path, span, text, message } = error else { return error };
+    let list = changes.iter().map(|(key, value)| format!("{PREFIX}{key}={value}"));
+    let path = format!("{} with {}", path.display(), list.collect::<Vec<_>>().join(", "));
+    RunError::Content { path: path.into(), span, text, message }
 }
 
 fn refused(key: &str, text: &str, why: &str) -> RunError {
@@ -178,7 +188,7 @@ mod tests {
     }
 
     fn with(world: &LoadedWorld, key: &str, text: &str) -> (LoadedWorld, World) {
-        let changed = world.with(key, text, &ROBOT).unwrap();
+        let changed = world.with(&[(key, text)], &ROBOT).unwrap();
         let typed = changed.world.as_any().downcast_ref::<World>().unwrap().clone();
         (changed, typed)
     }
@@ -195,6 +205,16 @@ mod tests {
     }
 
     #[test]
+    fn values_count_together() {
+        // The second alone puts the robot into the sofa.
+        let (x, y) = (("robot.pose_m_deg.0", "5m"), ("robot.pose_m_deg.1", "4.5m"));
+        let tried = |changes: &[(&str, &str)]| room().with(changes, &ROBOT).map(|it| it.world);
+        let refused = tried(&[y]).unwrap_err().to_string();
+        assert!(refused.contains("built-in room with world.robot.pose_m_deg.1=4.5m"), "{refused}");
+        assert!(tried(&[x, y]).is_ok() && tried(&[y, x]).is_ok());
+    }
+
+    #[test]
     fn what_is_not_there_or_does_not_fit_is_refused() {
         for (key, text, why) in [
             ("box.clost.height_m", "1m", "no 'clost' among 'closet'"),
@@ -205,7 +225,7 @@ mod tests {
             ("robot.charge", "2", "charge"),
             ("box.height_m", "1m", "name one of them first"),
         ] {
-            let refused = room().with(key, text, &ROBOT).err().map(|error| error.to_string());
+            let refused = room().with(&[(key, text)], &ROBOT).err().map(|error| error.to_string());
             let error = refused.unwrap_or_default();
             assert!(error.contains(why), "{key}: {error}");
         }

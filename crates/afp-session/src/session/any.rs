@@ -118,7 +118,7 @@ where
         Some(Box::new(self.keyframe()?))
     }
 
-    fn pending(&self) -> Vec<(Instant, Stimulus)> {
+    fn pending(&self) -> Vec<(Instant, RequestId, Stimulus)> {
         self.pending()
     }
 }

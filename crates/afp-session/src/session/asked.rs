@@ -78,9 +78,9 @@ where
     }
 
     /// What was asked for and has not come yet, by time.
-    pub fn pending(&self) -> Vec<(Instant, Stimulus)> {
+    pub fn pending(&self) -> Vec<(Instant, RequestId, Stimulus)> {
         let named = |request| Stimulus::new(request, self.table(), &self.names);
-        self.requests.pending().map(|(at, request)| (at, named(request))).collect()
+        self.requests.pending().map(|(at, id, request)| (at, id, named(request))).collect()
     }
 
     /// What was asked for so far, with the instants.

@@ -9,6 +9,7 @@ mod settings;
 
 use super::{FARTHEST, HALF_LENGTH, HALF_WIDTH, World, WorldError};
 use boxes::{Cells, Rectangle};
+use picture::Grey;
 use settings::Settings;
 use std::fmt::Write;
 
@@ -27,12 +28,12 @@ impl World {
     }
 
     /// The text of a world file for a map: `yaml` is the text of its `.yaml` file, `picture` the
-    /// bytes of its PGM or PNG. What is occupied is 2.5 m high; the robot starts at the free place
-    /// nearest to the origin of the map's frame and looks along x.
+    /// bytes of its PGM or PNG. What is occupied is 2.5 m high; the robot starts inside of the
+    /// walls, at the free place nearest to the origin of the map's frame, and looks along x.
     ///
     /// # Errors
-    /// The text or the picture is none, the map is in mode `raw`, it has too many cells or no
-    /// place for the robot.
+    /// The text or the picture is none, the map is in a mode that is not known, nothing of it is occupied, it has too many
+    /// cells or no place for the robot.
     pub fn map_text(name: &str, yaml: &str, picture: &[u8]) -> Result<String, WorldError> {
         let settings = Settings::read(yaml)?;
         let grey = picture::read(picture).map_err(|message| WorldError { span: None, message })?;
@@ -41,8 +42,11 @@ impl World {
             return Err(WorldError { span: None, message });
         }
         let cells = Cells::new(&grey, |value| settings.occupied(value));
-        let radius = libm::hypot(HALF_LENGTH, HALF_WIDTH) + ROOM;
-        let start = start(&settings, &cells, radius).ok_or_else(|| WorldError {
+        if cells.is_empty() {
+            let message = "no cell of the map is occupied: look at 'negate' and 'occupied_thresh'";
+            return Err(WorldError { span: None, message: message.to_owned() });
+        }
+        let start = start(&settings, &cells, &grey).ok_or_else(|| WorldError {
             span: None,
             message: "the map has no free place that is large enough for the robot".to_owned(),
         })?;
@@ -63,16 +67,28 @@ fn is_near(settings: &Settings, [width, height]: [f64; 2]) -> bool {
     places.as_flattened().iter().chain(&sizes).all(|value| value.abs() <= FARTHEST)
 }
 
-/// The middle of the free cell nearest to the origin whose surroundings are free as well.
-fn start(settings: &Settings, cells: &Cells, radius: f64) -> Option<[f64; 2]> {
+/// The middle of the cell nearest to the origin whose surroundings are not occupied: of one that is known to be free and
+/// cannot be reached from beyond the map, else of one that is known to be free, else of any.
+fn start(settings: &Settings, cells: &Cells, grey: &Grey) -> Option<[f64; 2]> {
+    let radius = libm::hypot(HALF_LENGTH, HALF_WIDTH) + ROOM;
     let reach = libm::ceil(radius / settings.resolution) as usize;
     let far = |at: [f64; 2]| at[0] * at[0] + at[1] * at[1];
-    let free = (0..cells.height).flat_map(|row| (0..cells.width).map(move |column| (row, column)));
-    let free = free.filter(|(row, column)| cells.free_around(*row, *column, reach));
-    let places = free.map(|(row, column)| {
-        settings.place(column as f64 + 0.5, (cells.height - row) as f64 - 0.5)
+    let outside = cells.outside();
+    let rank = |row: usize, column: usize| {
+        let at = row * cells.width + column;
+        let free = grey.values.get(at).is_some_and(|value| settings.free(*value));
+        let inside = outside.get(at) == Some(&false);
+        u8::from(!free) + u8::from(!(free && inside))
+    };
+    let all = (0..cells.height).flat_map(|row| (0..cells.width).map(move |column| (row, column)));
+    let roomy = all.filter(|(row, column)| cells.free_around(*row, *column, reach));
+    let places = roomy.map(|(row, column)| {
+        let place = settings.place(column as f64 + 0.5, (cells.height - row) as f64 - 0.5);
+        (rank(row, column), place)
     });
-    places.min_by(|a, b| far(*a).total_cmp(&far(*b)))
+    let order =
+        |a: &(u8, [f64; 2]), b: &(u8, [f64; 2])| a.0.cmp(&b.0).then(far(a.1).total_cmp(&far(b.1)));
+    places.min_by(order).map(|(_, place)| place)
 }
 
 fn text(

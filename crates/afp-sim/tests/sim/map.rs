@@ -50,6 +50,23 @@ fn a_map_has_its_walls_where_they_are_and_the_robot_near_the_origin() {
 }
 
 #[test]
+fn the_robot_starts_inside_of_the_walls() {
+    // A closed room far from the origin; around it is free floor, nearer to the origin.
+    let mut picture = b"P5\n60 30\n255\n".to_vec();
+    for row in 0..30 {
+        for column in 0..60 {
+            let room = (5..25).contains(&row) && (30..55).contains(&column);
+            let inner = (6..24).contains(&row) && (31..54).contains(&column);
+            picture.push(if room && !inner { 0 } else { 254 });
+        }
+    }
+    let yaml = YAML.replace("[-1.0, -2.0, 0]", "[0.0, 0.0, 0]");
+    let world = World::parse(&World::map_text("m", &yaml, &picture).unwrap()).unwrap();
+    assert!((3.1..5.4).contains(&world.start.x), "{:?}", world.start);
+    assert!((0.6..2.4).contains(&world.start.y), "{:?}", world.start);
+}
+
+#[test]
 fn a_turned_map_is_turned_about_its_corner() {
     let yaml = YAML.replace("[-1.0, -2.0, 0]", "[0.0, 0.0, 1.5707963267948966]");
     let world = World::parse(&World::map_text("m", &yaml, &room()).unwrap()).unwrap();
@@ -68,6 +85,10 @@ fn what_is_wrong_with_a_map_is_said() {
             "line 4, column 1: origin: is to be three",
         ),
         (YAML.replace("trinary", "raw"), "line 2, column 1: mode: 'raw'"),
+        (YAML.replace("trinary", "foo"), "line 2, column 1: mode: 'foo' is not known"),
+        (YAML.replace("0.65", "1.5"), "occupied_thresh: is not within 0 and 1"),
+        (YAML.replace("0.196", "0.7"), "free_thresh: is more than 'occupied_thresh'"),
+        (YAML.replace("0.65", "1.0"), "no cell of the map is occupied"),
         (YAML.replace("image: room.pgm\n", ""), "image: is to name a picture"),
         (YAML.replace("resolution: 0.1", "resolution: 0.01"), "no free place"),
         (YAML.replace("[-1.0", "[998"), "the map reaches farther than 1000 m"),

@@ -117,6 +117,10 @@ impl<'a> Look<'a> {
         let unsaid = self.now.is_none() && is_about_signal(&expectation.claim);
         let (at, why) = match expectation.wanted {
             _ if unsaid => (window.to.min(end), self.missing(state)),
+            Wanted::Never if window.from > end && !self.outlives_the_run() => {
+                let over = end as f64 / 1e9;
+                (end, format!("that time never came: the run was over at {over:.3} s"))
+            }
             Wanted::Once if self.held.is_some() => return None,
             Wanted::Once => (window.to.min(end), self.missing(state)),
             Wanted::Never => (self.held?, "it was so".to_owned()),
@@ -130,6 +134,15 @@ impl<'a> Look<'a> {
         };
         let (text, span) = (expectation.text.clone(), expectation.span);
         Some(Broken { text, span, at: Instant::from_nanos(at), why })
+    }
+
+    /// Whether the claim says something of the time when the run is over: how the plan was left stays so.
+    fn outlives_the_run(&self) -> bool {
+        match &self.expectation.claim {
+            Claim::Active(_) | Claim::Running => true,
+            claim @ Claim::Compare { .. } => !is_about_signal(claim),
+            _ => false,
+        }
     }
 
     /// How often it happened.

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use std::thread;
 
 use afp_core::Duration;
+use afp_run::options::{Failure, Press, failure, press};
 use afp_run::{EXIT_OK, EXIT_PLAN_ERROR, RunError, StopFlag, hash};
 use afp_sweep::{Axis, Engine, Findings, Header, Journal, Outcome, Place, Seeds, Setting, Sweep};
 use clap::Args;
@@ -34,6 +35,14 @@ pub struct Arguments {
     /// World file, map (.yaml) or random:SEED; several times for several, or random:7..99
     #[arg(long, value_name = "WORLD", value_parser = worlds)]
     world: Vec<Worlds>,
+
+    /// Presses a control of the robot in each run, as in 'afpc run'
+    #[arg(long, value_name = "CONTROL@TIME", value_parser = press)]
+    press: Vec<Press>,
+
+    /// Breaks something in each run, as in 'afpc run'
+    #[arg(long, value_name = "DEVICE.FAULT[=AMOUNT]@TIME[..TIME]", value_parser = failure)]
+    fail: Vec<Failure>,
 
     /// Stops each run at this time
     #[arg(long, value_name = "TIME", default_value = "60s", value_parser = afp_project::duration)]
@@ -130,6 +139,8 @@ impl Arguments {
             worlds: if worlds.is_empty() { vec![None] } else { worlds },
             axes: self.vary.clone(),
             seeds: self.seeds.clone(),
+            presses: self.press.clone(),
+            failures: self.fail.clone(),
             until: self.until,
         };
         match sweep.len() {

@@ -48,6 +48,34 @@ impl Cells {
             && sum(bottom, right) + sum(top, left) == sum(top, right) + sum(bottom, left)
     }
 
+    /// Whether nothing is occupied.
+    pub(super) fn is_empty(&self) -> bool {
+        self.sums.last() == Some(&0)
+    }
+
+    /// Which cells can be reached from beyond the map, row by row.
+    pub(super) fn outside(&self) -> Vec<bool> {
+        let (width, height) = (self.width, self.height);
+        let mut outside = vec![false; self.occupied.len()];
+        let on_border = |at: usize| {
+            let (row, column) = (at / width, at % width);
+            row == 0 || column == 0 || row + 1 == height || column + 1 == width
+        };
+        let free = |at: &usize| self.occupied.get(*at) == Some(&false);
+        let mut next: Vec<usize> =
+            (0..self.occupied.len()).filter(|at| on_border(*at)).filter(free).collect();
+        while let Some(at) = next.pop() {
+            let Some(known) = outside.get_mut(at).filter(|known| !**known) else { continue };
+            *known = true;
+            let column = at % width;
+            let left = (column > 0).then(|| at - 1);
+            let right = (column + 1 < width).then_some(at + 1);
+            let beside = [left, right, at.checked_sub(width), Some(at + width)];
+            next.extend(beside.into_iter().flatten().filter(free));
+        }
+        outside
+    }
+
     /// The occupied cells as boxes: each as wide as can be, then as high.
     pub(super) fn boxes(&self) -> Vec<Rectangle> {
         let mut left_over = self.occupied.clone();

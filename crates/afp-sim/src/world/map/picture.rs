@@ -28,13 +28,16 @@ fn pgm(bytes: &[u8], binary: bool) -> Result<Grey, String> {
     let (width, height, most) = (next()?, next()?, next()?);
     let cells = width.checked_mul(height).filter(|cells| *cells <= MOST);
     let cells = cells.ok_or("the map's PGM is too large")?;
-    if !(1..=255).contains(&most) || cells == 0 {
+    if !(1..=65535).contains(&most) || cells == 0 {
         return Err(format!("a PGM of {width} by {height} with values up to {most} is no map"));
     }
     let scale = |value: usize| (value.min(most) * 255 / most) as u8;
     let values: Vec<u8> = if binary {
         let data = bytes.get(numbers.at + 1..).unwrap_or_default();
-        data.iter().take(cells).map(|value| scale(usize::from(*value))).collect()
+        // Above 255 a value has two bytes, the higher one first.
+        let size = if most > 255 { 2 } else { 1 };
+        let value = |bytes: &[u8]| bytes.iter().fold(0, |sum, byte| sum << 8 | usize::from(*byte));
+        data.chunks_exact(size).take(cells).map(|bytes| scale(value(bytes))).collect()
     } else {
         std::iter::from_fn(|| numbers.next()).take(cells).map(scale).collect()
     };
@@ -101,6 +104,8 @@ mod tests {
         assert_eq!(plain.values, [0, 127, 255, 255, 127, 0]);
         assert_eq!((plain.width, plain.height), (3, 2));
         assert_eq!(plain.values, binary.values);
+        let wide = read(b"P5\n2 1\n65535\n\xff\xff\x7f\xff").unwrap();
+        assert_eq!(wide.values, [255, 127]);
     }
 
     #[test]
@@ -120,13 +125,14 @@ mod tests {
     #[test]
     fn broken_pictures_are_refused() {
         let huge = b"P5\n99999999999 99999999999\n255\n";
-        let cases: [&[u8]; 8] = [
+        let cases: [&[u8]; 9] = [
             b"",
             b"P6\n1 1\n255\n...",
             b"P5\n2 2\n255\nabc",
             b"P5\n0 2\n255\n",
             b"P2\n2 1\n255\n1 x",
-            b"P5\n2 2\n65535\nabcdefgh",
+            b"P5\n2 2\n65535\nabcdefg",
+            b"P5\n2 2\n65536\nabcdefghijkl",
             b"\x89PNG\r\n\x1a\n...",
             huge,
         ];

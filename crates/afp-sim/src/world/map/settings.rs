@@ -5,6 +5,9 @@ use std::ops::Range;
 use crate::world::WorldError;
 use saphyr::{LoadableYamlNode, Yaml};
 
+/// What is free where a map does not say from where on, as `map_server` has it.
+const FREE: f64 = 0.196;
+
 /// Where and how large the cells are, and which of them are occupied.
 #[derive(Debug, PartialEq)]
 pub(super) struct Settings {
@@ -19,6 +22,8 @@ pub(super) struct Settings {
     negate: bool,
     /// More than this is occupied: 0 white, 1 black.
     threshold: f64,
+    /// Less than this is known to be free.
+    free: f64,
 }
 
 impl Settings {
@@ -30,8 +35,13 @@ impl Settings {
         let keys = Keys { text: yaml, map: documents.first() };
         let image = keys.get("image").and_then(Yaml::as_str);
         let image = image.ok_or_else(|| keys.error("image", "is to name a picture"))?.to_owned();
-        if keys.get("mode").and_then(Yaml::as_str).is_some_and(|mode| mode == "raw") {
-            return Err(keys.error("mode", "'raw' is not known; 'trinary' and 'scale' are"));
+        match keys.get("mode").map(Yaml::as_str) {
+            None | Some(Some("trinary" | "scale")) => {}
+            Some(mode) => {
+                let mode = mode.unwrap_or_default();
+                let what = format!("'{mode}' is not known; 'trinary' and 'scale' are");
+                return Err(keys.error("mode", &what));
+            }
         }
         let resolution = keys.number("resolution")?;
         if !(0.001..=10.0).contains(&resolution) {
@@ -45,14 +55,29 @@ impl Settings {
                 .or_else(|| value.as_integer().map(|n| n != 0))
                 .ok_or_else(|| keys.error("negate", "is to be 0 or 1"))?,
         };
-        let threshold = keys.number("occupied_thresh")?;
-        Ok(Settings { image, resolution, origin: [x, y], yaw, negate, threshold })
+        let threshold = keys.share("occupied_thresh")?;
+        let free = match keys.get("free_thresh") {
+            Some(_) => keys.share("free_thresh")?,
+            None => FREE.min(threshold),
+        };
+        if free > threshold {
+            return Err(keys.error("free_thresh", "is more than 'occupied_thresh'"));
+        }
+        Ok(Settings { image, resolution, origin: [x, y], yaw, negate, threshold, free })
     }
 
     /// Whether a cell of this grey is occupied.
     pub(super) fn occupied(&self, grey: u8) -> bool {
-        let dark = if self.negate { grey } else { 255 - grey };
-        f64::from(dark) / 255.0 > self.threshold
+        self.dark(grey) > self.threshold
+    }
+
+    /// Whether a cell of this grey is known to be free.
+    pub(super) fn free(&self, grey: u8) -> bool {
+        self.dark(grey) < self.free
+    }
+
+    fn dark(&self, grey: u8) -> f64 {
+        f64::from(if self.negate { grey } else { 255 - grey }) / 255.0
     }
 
     /// A place of the picture, counted in cells from its lower left corner, in metres.
@@ -76,6 +101,15 @@ impl<'a, 'b> Keys<'a, 'b> {
 
     fn number(&self, key: &str) -> Result<f64, WorldError> {
         self.get(key).and_then(number).ok_or_else(|| self.error(key, "is to be a number"))
+    }
+
+    /// A number from 0 to 1.
+    fn share(&self, key: &str) -> Result<f64, WorldError> {
+        let share = self.number(key)?;
+        match (0.0..=1.0).contains(&share) {
+            true => Ok(share),
+            false => Err(self.error(key, "is not within 0 and 1")),
+        }
     }
 
     fn origin(&self) -> Result<[f64; 3], WorldError> {
