@@ -107,7 +107,8 @@ impl Call {
         let first = first.ok_or_else(|| Refused::new("the sub-plan's plan starts nowhere"))?;
         let leads = |outcome: &str| {
             let target = tree::edge(&node, outcome).and_then(|edge| target(&edge))?;
-            Some(if target.text() == element { first.clone() } else { target.text().to_owned() })
+            let leads_back = project.item(home, &target).is_some_and(|(_, item)| item == node);
+            Some(if leads_back { first.clone() } else { target.text().to_owned() })
         };
         let ok = leads("OK")
             .ok_or_else(|| Refused::new(format!("'OK' of '{element}' leads nowhere")))?;

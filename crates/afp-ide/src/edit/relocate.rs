@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::draft::Draft;
 use super::list::{Page, Place};
 use super::project::Project;
-use super::tree::{self, Scope, below, binds, children, is_named, name_of, target};
+use super::tree::{self, Scope, below, binds, children, name_of, target};
 use super::{Item, Refused, add, name, port, refer, remove};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
@@ -73,19 +73,10 @@ pub(super) fn shift(
     name::check_free(&scope, item.name(), None)?;
     match node.kind() {
         Kind::Entry => check_unused(&root, item)?,
-        _ if !same_plan => check_entries(&node, &there, plan)?,
+        _ if !same_plan => check_entries(&root, &node, &there, plan)?,
         _ => {}
     }
-    let own = item.name().to_owned();
-    let moves_along = |name: &str| node.kind() == Kind::Element && name == own;
-    remove::cut_edges_from(
-        draft,
-        |root| tree::find(root, item).ok(),
-        |target| {
-            moves_along(target)
-                || children(&there, Kind::Element).any(|element| is_named(&element, target))
-        },
-    );
+    remove::cut_edges_from(draft, item, &there);
     if node.kind() == Kind::Element {
         remove::cut_edges_to(draft, item);
     }
@@ -134,14 +125,13 @@ fn check_unused(root: &Node, item: &Item) -> Result<(), Refused> {
 }
 
 /// Checks that a plan has the entries that a component reads and writes.
-fn check_entries(component: &Node, plan: &Node, name: &str) -> Result<(), Refused> {
+fn check_entries(root: &Node, component: &Node, plan: &Node, name: &str) -> Result<(), Refused> {
+    let project = Project::alone(root);
     let known: BTreeSet<_> = children(plan, Kind::Entry).filter_map(|e| name_of(&e)).collect();
-    let mut used: BTreeSet<String> = BTreeSet::new();
     let components = below(component, Kind::Element).chain(below(component, Kind::Guard));
-    for bind in components.flat_map(|component| binds(&component)) {
-        used.extend(port::reads(&bind).iter().map(|token| token.text().to_owned()));
-        used.extend(target(&bind).map(|token| token.text().to_owned()));
-    }
+    let binds = components.flat_map(|component| binds(&component));
+    let names = binds.flat_map(|bind| port::reads(&bind).into_iter().chain(target(&bind)));
+    let used: BTreeSet<_> = names.filter_map(|token| project.entry(0, &token)).collect();
     let missing: Vec<_> = used.difference(&known).map(String::as_str).collect();
     if missing.is_empty() {
         return Ok(());

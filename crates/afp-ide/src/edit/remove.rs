@@ -4,7 +4,7 @@ use super::draft::{Draft, Splice};
 use super::list::Page;
 use super::project::Project;
 use super::refer;
-use super::tree::{self, below, name_of, name_token, target};
+use super::tree::{self, below, children, name_of, name_token, target};
 use super::{Item, Refused, port};
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};
@@ -122,25 +122,23 @@ fn backwards(
     }
 }
 
-/// Removes the edges of a component that lead out of what `stays` says.
-pub(super) fn cut_edges_from(
-    draft: &mut Draft,
-    component: impl Fn(&Node) -> Option<Node>,
-    stays: impl Fn(&str) -> bool,
-) {
-    cut(draft, |root| {
-        let component = component(root)?;
-        below(&component, Kind::Edge).find(|edge| {
-            target(edge).is_some_and(|target| {
-                !matches!(target.text(), "terminate" | "ignore") && !stays(target.text())
-            })
+/// Removes the edges of a component that lead neither to itself nor to an element that the plan
+/// `there` has, too.
+pub(super) fn cut_edges_from(draft: &mut Draft, component: &Item, there: &Node) {
+    let project = Project::alone(&draft.root());
+    let Ok(own) = tree::find(&project.roots[0], component) else { return };
+    let is_there = |name: &str| {
+        matches!(name, "terminate" | "ignore")
+            || children(there, Kind::Element).any(|element| tree::is_named(&element, name))
+    };
+    let leads_away = |edge: &Node| {
+        target(edge).is_some_and(|target| {
+            let meant = project.item(0, &target).map(|(_, node)| node);
+            meant.as_ref() != Some(&own) && !is_there(target.text())
         })
+    };
+    let edges = below(&own, Kind::Edge).filter(leads_away);
+    backwards(draft, edges, &[Kind::Edge], |draft, edge| {
+        Some(Page { text: draft.text(), root: draft.root() }.remove(edge))
     });
-}
-
-/// Takes out what is found until nothing is found.
-fn cut(draft: &mut Draft, find: impl Fn(&Node) -> Option<Node>) {
-    while let Some(node) = find(&draft.root()) {
-        take_out(draft, &node);
-    }
 }
