@@ -28,7 +28,7 @@ mod tree;
 use std::fmt;
 
 use draft::Draft;
-use project::Desk;
+use project::Workspace;
 
 use afp_syntax::item::Item;
 use afp_syntax::source::Source;
@@ -245,13 +245,13 @@ pub fn edit(files: &[Source], home: usize, change: &Change) -> Result<Vec<TextEd
     if home >= files.len() {
         return Err(Refused::new("there is no such file"));
     }
-    let mut desk = Desk::new(files, home);
-    let errors = desk.syntax_errors();
-    make(&mut desk, change)?;
-    if desk.syntax_errors() > errors {
+    let mut workspace = Workspace::new(files, home);
+    let errors = workspace.syntax_errors();
+    make(&mut workspace, change)?;
+    if workspace.syntax_errors() > errors {
         return Err(Refused::new("the text could not be read any more"));
     }
-    let drafts = (0..=u16::MAX).zip(files).zip(desk.drafts);
+    let drafts = (0..=u16::MAX).zip(files).zip(workspace.drafts);
     Ok(drafts.flat_map(|((file, source), draft)| draft.edits(source.text.len(), file)).collect())
 }
 
@@ -274,19 +274,19 @@ pub fn apply(text: &str, edits: &[TextEdit]) -> String {
     result + text.get(at..).unwrap_or_default()
 }
 
-fn make(desk: &mut Desk, change: &Change) -> Result<(), Refused> {
+fn make(workspace: &mut Workspace, change: &Change) -> Result<(), Refused> {
     match change {
-        Change::Rename { item, to } => return rename::item(desk, item, to),
-        Change::Inline { plan, element } => return inline::run(desk, plan, element),
-        Change::Remove { item } | Change::Move { item, .. } => desk.check_inside(item)?,
+        Change::Rename { item, to } => return rename::item(workspace, item, to),
+        Change::Inline { plan, element } => return inline::run(workspace, plan, element),
+        Change::Remove { item } | Change::Move { item, .. } => workspace.check_inside(item)?,
         Change::Extract { plan, elements, .. } => {
             for element in elements {
-                desk.check_inside(&Item::inner(plan, element))?;
+                workspace.check_inside(&Item::inner(plan, element))?;
             }
         }
         _ => {}
     }
-    inside(desk.draft(), change)
+    inside(workspace.draft(), change)
 }
 
 /// Makes a change that edits one file.

@@ -7,7 +7,7 @@ mod data;
 mod sight;
 mod text;
 
-use super::project::{Desk, Project};
+use super::project::{Project, Workspace};
 use super::tree::{self, Scope, children, name_of, name_token, range, target};
 use super::{Item, Refused, add, connect, name, refer, remove};
 use afp_syntax::Node;
@@ -40,17 +40,17 @@ struct Call {
 }
 
 /// Puts the elements of a sub-plan in its place.
-pub(super) fn run(desk: &mut Desk, plan: &str, element: &str) -> Result<(), Refused> {
-    desk.check_inside(&Item::inner(plan, element))?;
-    let call = Call::of(desk.project(), desk.home, plan, element)?;
+pub(super) fn run(workspace: &mut Workspace, plan: &str, element: &str) -> Result<(), Refused> {
+    workspace.check_inside(&Item::inner(plan, element))?;
+    let call = Call::of(workspace.project(), workspace.home, plan, element)?;
     let from = call.from;
     let data = Data::of(&call)?;
-    let lines = text::elements(&call, &data, desk.drafts[from].text())?;
-    redirect(desk, &call, &data, plan, element)?;
-    if from != desk.home {
-        sight::bring(desk, &call.inner, from)?;
+    let lines = text::elements(&call, &data, workspace.drafts[from].text())?;
+    redirect(workspace, &call, &data, plan, element)?;
+    if from != workspace.home {
+        sight::bring(workspace, &call.inner, from)?;
     }
-    let draft = desk.draft();
+    let draft = workspace.draft();
     let list = tree::plan(&draft.root(), plan)?;
     add::place(draft, &list, &lines, Kind::Element, Some(element))?;
     let inner = name_of(&call.inner).unwrap_or_default();
@@ -143,19 +143,19 @@ fn new_names(outer: &Node, inner: &Node, element: &str) -> Vec<(String, String)>
 
 /// Leads edges and scenarios to the elements in place of the sub-plan.
 fn redirect(
-    desk: &mut Desk,
+    workspace: &mut Workspace,
     call: &Call,
     data: &Data,
     plan: &str,
     element: &str,
 ) -> Result<(), Refused> {
     let wanted = Item::inner(plan, element);
-    let mut splices: Vec<_> = refer::to_element(&call.project, desk.home, &wanted)
+    let mut splices: Vec<_> = refer::to_element(&call.project, workspace.home, &wanted)
         .iter()
         .map(|token| (range(token), call.first.clone()))
         .collect();
     let mut seen = Vec::new();
-    for token in refer::in_scenarios(&call.project, desk.home, &[wanted]) {
+    for token in refer::in_scenarios(&call.project, workspace.home, &[wanted]) {
         let names: Vec<_> = token
             .parent()
             .iter()
@@ -178,6 +178,6 @@ fn redirect(
             }
         });
     }
-    desk.draft().splice(splices);
+    workspace.draft().splice(splices);
     Ok(())
 }

@@ -10,7 +10,7 @@ use afp_syntax::source::{Source, Span};
 use afp_syntax::{Node, Token};
 
 /// The files that a change may edit.
-pub(super) struct Desk {
+pub(super) struct Workspace {
     /// Their normalised paths.
     pub paths: Vec<String>,
     /// Their texts in the making.
@@ -19,12 +19,12 @@ pub(super) struct Desk {
     pub home: usize,
 }
 
-impl Desk {
+impl Workspace {
     /// Begins with files, of which `home` must be one.
-    pub fn new(files: &[Source], home: usize) -> Desk {
+    pub fn new(files: &[Source], home: usize) -> Workspace {
         let paths = files.iter().map(|file| normalised(&file.name)).collect();
         let drafts = files.iter().map(|file| Draft::new(&file.text)).collect();
-        Desk { paths, drafts, home }
+        Workspace { paths, drafts, home }
     }
 
     /// The draft of the file that the change is about.

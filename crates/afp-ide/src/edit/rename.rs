@@ -1,6 +1,6 @@
 //! Another name for an item, wherever the files refer to it.
 
-use super::project::Desk;
+use super::project::Workspace;
 use super::tree::{self, range, scope_of};
 use super::{Item, Refused, name, refer};
 use afp_dsl::types::is_built_in;
@@ -8,8 +8,8 @@ use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
 /// Renames an item.
-pub(super) fn item(desk: &mut Desk, item: &Item, to: &str) -> Result<(), Refused> {
-    let root = desk.draft().root();
+pub(super) fn item(workspace: &mut Workspace, item: &Item, to: &str) -> Result<(), Refused> {
+    let root = workspace.draft().root();
     let node = tree::find(&root, item)?;
     match node.kind() {
         Kind::Element => name::check_element(to)?,
@@ -23,14 +23,14 @@ pub(super) fn item(desk: &mut Desk, item: &Item, to: &str) -> Result<(), Refused
         return Ok(());
     }
     if matches!(node.kind(), Kind::Plan | Kind::Enum) {
-        check_free_elsewhere(desk, node.kind(), to)?;
+        check_free_elsewhere(workspace, node.kind(), to)?;
     }
-    let project = desk.project();
-    let tokens = refer::to(&project, desk.home, item);
+    let project = workspace.project();
+    let tokens = refer::to(&project, workspace.home, item);
     if tokens.is_empty() {
         return Err(Refused::new("it has no name yet"));
     }
-    for (file, draft) in desk.drafts.iter_mut().enumerate() {
+    for (file, draft) in workspace.drafts.iter_mut().enumerate() {
         let own = tokens.iter().filter(|(home, _)| *home == file);
         let splices: Vec<_> = own.map(|(_, token)| (range(token), to.to_owned())).collect();
         if splices.is_empty() {
@@ -46,14 +46,14 @@ pub(super) fn item(desk: &mut Desk, item: &Item, to: &str) -> Result<(), Refused
 }
 
 /// Checks that no file that sees the item's file sees something else of the new name.
-fn check_free_elsewhere(desk: &Desk, kind: Kind, to: &str) -> Result<(), Refused> {
-    let project = desk.project();
-    let seeing = project.sees.iter().enumerate().filter(|(_, seen)| seen.contains(&desk.home));
+fn check_free_elsewhere(workspace: &Workspace, kind: Kind, to: &str) -> Result<(), Refused> {
+    let project = workspace.project();
+    let seeing = project.sees.iter().enumerate().filter(|(_, seen)| seen.contains(&workspace.home));
     let found = seeing.into_iter().find_map(|(file, _)| project.find(file, kind, to));
     match found {
         None => Ok(()),
         Some((file, _)) => {
-            Err(Refused::new(format!("'{to}' is already there in '{}'", desk.paths[file])))
+            Err(Refused::new(format!("'{to}' is already there in '{}'", workspace.paths[file])))
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Brings what the elements of another file name into view of the file that they are put into.
 
-use crate::edit::project::{Desk, Project};
+use crate::edit::project::{Project, Workspace};
 use crate::edit::tree::{self, below, children, single};
 use crate::edit::{Refused, add};
 use afp_dsl::files::relative;
@@ -8,24 +8,24 @@ use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
 /// Adds the `use` lines that the elements of `plan`, a plan of the file `from`, need at home.
-pub(super) fn bring(desk: &mut Desk, plan: &Node, from: usize) -> Result<(), Refused> {
-    let project = desk.project();
+pub(super) fn bring(workspace: &mut Workspace, plan: &Node, from: usize) -> Result<(), Refused> {
+    let project = workspace.project();
     for (toolbox, alias) in toolboxes(&project.roots[from]) {
-        toolbox_line(desk, plan, &toolbox, alias.as_deref())?;
+        toolbox_line(workspace, plan, &toolbox, alias.as_deref())?;
     }
     for (kind, name, meant) in named(&project, plan, from) {
-        match project.find(desk.home, kind, &name) {
+        match project.find(workspace.home, kind, &name) {
             Some((seen, _)) if seen == meant => {}
             Some(_) => return Err(Refused::new(format!("'{name}' means something else there"))),
             None => {
-                let path = relative(&desk.paths[desk.home], &desk.paths[meant]);
+                let path = relative(&workspace.paths[workspace.home], &workspace.paths[meant]);
                 let path =
                     path.ok_or_else(|| Refused::new(format!("no path leads to '{name}'")))?;
-                add::line(desk.draft(), &format!("use \"{path}\""))?;
+                add::line(workspace.draft(), &format!("use \"{path}\""))?;
             }
         }
     }
-    check(&desk.project(), desk.home, plan, &project, from)
+    check(&workspace.project(), workspace.home, plan, &project, from)
 }
 
 /// Checks that everything means the same in both places now.
@@ -56,7 +56,7 @@ fn toolboxes(root: &Node) -> Vec<(String, Option<String>)> {
 }
 
 fn toolbox_line(
-    desk: &mut Desk,
+    workspace: &mut Workspace,
     plan: &Node,
     toolbox: &str,
     alias: Option<&str>,
@@ -70,7 +70,7 @@ fn toolbox_line(
         });
         firsts.any(|first| first.text() == qualifier)
     };
-    for (known, short) in toolboxes(&desk.draft().root()) {
+    for (known, short) in toolboxes(&workspace.draft().root()) {
         let other = short.unwrap_or_else(|| known.clone());
         match (known == toolbox, other == qualifier) {
             (true, true) => return Ok(()),
@@ -84,7 +84,7 @@ fn toolbox_line(
             (false, false) => {}
         }
     }
-    add::line_of_use(desk.draft(), toolbox, alias)
+    add::line_of_use(workspace.draft(), toolbox, alias)
 }
 
 /// The plans and enums that a plan of the file `from` names, each with the file that declares it.
