@@ -7,9 +7,9 @@
 //! edits of several files.
 
 mod add;
+mod buffer;
 mod connect;
 mod doc;
-mod draft;
 mod entry;
 mod extract;
 mod fragment;
@@ -27,7 +27,7 @@ mod tree;
 
 use std::fmt;
 
-use draft::Draft;
+use buffer::TextBuffer;
 use project::Workspace;
 
 use afp_syntax::item::Item;
@@ -251,8 +251,8 @@ pub fn edit(files: &[Source], home: usize, change: &Change) -> Result<Vec<TextEd
     if workspace.syntax_errors() > errors {
         return Err(Refused::new("the text could not be read any more"));
     }
-    let drafts = (0..=u16::MAX).zip(files).zip(workspace.drafts);
-    Ok(drafts.flat_map(|((file, source), draft)| draft.edits(source.text.len(), file)).collect())
+    let buffers = (0..=u16::MAX).zip(files).zip(workspace.buffers);
+    Ok(buffers.flat_map(|((file, source), buffer)| buffer.edits(source.text.len(), file)).collect())
 }
 
 /// The text after the edits of its file, which must be in order and without overlaps, as [`edit`]
@@ -286,37 +286,37 @@ fn make(workspace: &mut Workspace, change: &Change) -> Result<(), Refused> {
         }
         _ => {}
     }
-    inside(workspace.draft(), change)
+    inside(workspace.buffer(), change)
 }
 
 /// Makes a change that edits one file.
-fn inside(draft: &mut Draft, change: &Change) -> Result<(), Refused> {
+fn inside(buffer: &mut TextBuffer, change: &Change) -> Result<(), Refused> {
     match change {
-        Change::AddUse { toolbox, alias } => add::line_of_use(draft, toolbox, alias.as_deref()),
-        Change::AddPlan { text } => add::plans(draft, text),
+        Change::AddUse { toolbox, alias } => add::line_of_use(buffer, toolbox, alias.as_deref()),
+        Change::AddPlan { text } => add::plans(buffer, text),
         Change::Add { plan, owner, text, before } => {
-            add::items(draft, plan, owner.as_deref(), text, before.as_deref())
+            add::items(buffer, plan, owner.as_deref(), text, before.as_deref())
         }
-        Change::Remove { item } => remove::item(draft, item),
-        Change::Connect { from, outcome, to } => connect::connect(draft, from, outcome, to),
-        Change::Disconnect { from, outcome } => connect::disconnect(draft, from, outcome),
-        Change::SetStart { plan, to } => connect::start(draft, plan, to),
-        Change::Reorder { item, before } => relocate::reorder(draft, item, before.as_deref()),
-        Change::Bind { component, port, to } => port::bind(draft, component, port, to),
-        Change::Unbind { component, port } => port::unbind(draft, component, port),
+        Change::Remove { item } => remove::item(buffer, item),
+        Change::Connect { from, outcome, to } => connect::connect(buffer, from, outcome, to),
+        Change::Disconnect { from, outcome } => connect::disconnect(buffer, from, outcome),
+        Change::SetStart { plan, to } => connect::start(buffer, plan, to),
+        Change::Reorder { item, before } => relocate::reorder(buffer, item, before.as_deref()),
+        Change::Bind { component, port, to } => port::bind(buffer, component, port, to),
+        Change::Unbind { component, port } => port::unbind(buffer, component, port),
         Change::SetTemplate { component, template } => {
-            port::set_template(draft, component, template)
+            port::set_template(buffer, component, template)
         }
         Change::SetTiming { supervisor, keyword, value } => {
-            port::set_timing(draft, supervisor, keyword, value.as_deref())
+            port::set_timing(buffer, supervisor, keyword, value.as_deref())
         }
-        Change::SetEntryKind { entry, keyword } => entry::set_kind(draft, entry, keyword),
-        Change::SetEntryType { entry, ty } => entry::set_type(draft, entry, ty.as_deref()),
-        Change::SetEntryValue { entry, value } => entry::set_value(draft, entry, value.as_deref()),
-        Change::SetDoc { item, text } => doc::set(draft, item, text),
-        Change::Move { item, plan, owner } => relocate::shift(draft, item, plan, owner.as_deref()),
+        Change::SetEntryKind { entry, keyword } => entry::set_kind(buffer, entry, keyword),
+        Change::SetEntryType { entry, ty } => entry::set_type(buffer, entry, ty.as_deref()),
+        Change::SetEntryValue { entry, value } => entry::set_value(buffer, entry, value.as_deref()),
+        Change::SetDoc { item, text } => doc::set(buffer, item, text),
+        Change::Move { item, plan, owner } => relocate::shift(buffer, item, plan, owner.as_deref()),
         Change::Extract { plan, elements, new_plan, element } => {
-            extract::run(draft, plan, elements, new_plan, element)
+            extract::run(buffer, plan, elements, new_plan, element)
         }
         Change::Rename { .. } | Change::Inline { .. } => Ok(()),
     }

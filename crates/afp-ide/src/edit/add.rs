@@ -1,6 +1,6 @@
 //! Adding: `use` lines, plans, and the items of a plan.
 
-use super::draft::Draft;
+use super::buffer::TextBuffer;
 use super::list::{Page, Place};
 use super::name;
 use super::tree::{self, Scope, children, name_of};
@@ -10,23 +10,23 @@ use afp_syntax::kind::Kind;
 
 /// Adds a `use` line below the others.
 pub(super) fn line_of_use(
-    draft: &mut Draft,
+    buffer: &mut TextBuffer,
     toolbox: &str,
     alias: Option<&str>,
 ) -> Result<(), Refused> {
     name::check(toolbox)?;
     alias.map_or(Ok(()), name::check)?;
     let alias = alias.map(|alias| format!(" as {alias}")).unwrap_or_default();
-    line(draft, &format!("use {toolbox}{alias}"))
+    line(buffer, &format!("use {toolbox}{alias}"))
 }
 
 /// Adds a `use` line below the others, unless it is there.
-pub(super) fn line(draft: &mut Draft, line: &str) -> Result<(), Refused> {
-    let root = draft.root();
+pub(super) fn line(buffer: &mut TextBuffer, line: &str) -> Result<(), Refused> {
+    let root = buffer.root();
     let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
     let same = |node: &Node| {
         let range = tree::solid_range(node).unwrap_or_default();
-        words(draft.text()[range].trim_end_matches(',')) == words(line)
+        words(buffer.text()[range].trim_end_matches(',')) == words(line)
     };
     if children(&root, Kind::Use).any(|node| same(&node)) {
         return Ok(());
@@ -38,45 +38,45 @@ pub(super) fn line(draft: &mut Draft, line: &str) -> Result<(), Refused> {
         (None, Some(first)) => (Place::Before(first), true),
         (None, None) => (Place::Top, true),
     };
-    let page = Page { text: draft.text(), root: root.clone() };
+    let page = Page { text: buffer.text(), root: root.clone() };
     let splice = page.insert_lines(&root, place, line, apart)?;
-    draft.splice(vec![splice]);
+    buffer.splice(vec![splice]);
     Ok(())
 }
 
 /// Adds plans below the last one.
-pub(super) fn plans(draft: &mut Draft, text: &str) -> Result<(), Refused> {
+pub(super) fn plans(buffer: &mut TextBuffer, text: &str) -> Result<(), Refused> {
     let (lines, nodes) = fragment::plans(text)?;
-    let root = draft.root();
+    let root = buffer.root();
     let scope = Scope::File(root.clone());
     new_names(&nodes, &scope)?;
     let last = children(&root, Kind::Plan).last();
-    below_plan(draft, last.or_else(|| root.children().last()), &lines)
+    below_plan(buffer, last.or_else(|| root.children().last()), &lines)
 }
 
 /// Puts a plan below an item of the file, or at the top.
 pub(super) fn below_plan(
-    draft: &mut Draft,
+    buffer: &mut TextBuffer,
     item: Option<Node>,
     lines: &str,
 ) -> Result<(), Refused> {
-    let root = draft.root();
-    let page = Page { text: draft.text(), root: root.clone() };
+    let root = buffer.root();
+    let page = Page { text: buffer.text(), root: root.clone() };
     let place = item.map_or(Place::Top, Place::After);
     let splice = page.insert_lines(&root, place, lines, true)?;
-    draft.splice(vec![splice]);
+    buffer.splice(vec![splice]);
     Ok(())
 }
 
 /// Adds items to a plan or supervisors to an element.
 pub(super) fn items(
-    draft: &mut Draft,
+    buffer: &mut TextBuffer,
     plan: &str,
     owner: Option<&str>,
     text: &str,
     before: Option<&str>,
 ) -> Result<(), Refused> {
-    let root = draft.root();
+    let root = buffer.root();
     let (lines, nodes) = fragment::items(text, owner.is_some())?;
     let (list, scope) = match owner {
         None => {
@@ -90,7 +90,7 @@ pub(super) fn items(
         }
     };
     new_names(&nodes, &scope)?;
-    place(draft, &list, &lines, nodes[0].kind(), before)
+    place(buffer, &list, &lines, nodes[0].kind(), before)
 }
 
 /// Refuses supervisors on computations.
@@ -124,13 +124,13 @@ fn new_names(nodes: &[Node], scope: &Scope) -> Result<(), Refused> {
 
 /// Puts lines into a plan or element: above the item `before`, else below their like.
 pub(super) fn place(
-    draft: &mut Draft,
+    buffer: &mut TextBuffer,
     list: &Node,
     lines: &str,
     kind: Kind,
     before: Option<&str>,
 ) -> Result<(), Refused> {
-    let page = Page { text: draft.text(), root: draft.root() };
+    let page = Page { text: buffer.text(), root: buffer.root() };
     let neighbour = match before {
         Some(before) => Place::Before(sibling(list, before)?),
         None => usual_place(list, kind),
@@ -147,7 +147,7 @@ pub(super) fn place(
         }
     };
     let splice = page.insert_lines(list, neighbour, lines, apart)?;
-    draft.splice(vec![splice]);
+    buffer.splice(vec![splice]);
     Ok(())
 }
 

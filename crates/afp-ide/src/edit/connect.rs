@@ -1,6 +1,6 @@
 //! Edges and the start of a plan.
 
-use super::draft::Draft;
+use super::buffer::TextBuffer;
 use super::list::Page;
 use super::tree::{self, children, edges, name_token, range};
 use super::{Item, Refused, add, name};
@@ -9,32 +9,32 @@ use afp_syntax::kind::Kind;
 
 /// Connects a state or event, or leads its edge elsewhere.
 pub(super) fn connect(
-    draft: &mut Draft,
+    buffer: &mut TextBuffer,
     from: &Item,
     outcome: &str,
     to: &str,
 ) -> Result<(), Refused> {
     name::check(outcome)?;
-    let root = draft.root();
+    let root = buffer.root();
     let component = tree::component(&root, from)?;
     check_target(&tree::plan(&root, from.plan_name())?, &component, to)?;
     let Some(edge) = tree::edge(&component, outcome) else {
-        let text = format!("{} -> {to}", padded(&component, outcome, draft.text()));
+        let text = format!("{} -> {to}", padded(&component, outcome, buffer.text()));
         let all: Vec<_> = edges(&component).collect();
-        let page = Page { text: draft.text(), root };
+        let page = Page { text: buffer.text(), root };
         let splice = page.append(&component, &all, &text)?;
-        draft.splice(vec![splice]);
+        buffer.splice(vec![splice]);
         return Ok(());
     };
     match tree::target(&edge) {
         Some(target) if target.text() == to => {}
-        Some(target) => draft.splice(vec![(range(&target), to.to_owned())]),
+        Some(target) => buffer.splice(vec![(range(&target), to.to_owned())]),
         None => {
             let arrow = tree::tokens(&edge, Kind::Arrow).next();
             let end = arrow.or_else(|| name_token(&edge)).map(|token| (range(&token).end, token));
             let Some((end, token)) = end else { return Err(Refused::new("the edge is not whole")) };
             let sign = if token.kind() == Kind::Arrow { "" } else { " ->" };
-            draft.splice(vec![(end..end, format!("{sign} {to}"))]);
+            buffer.splice(vec![(end..end, format!("{sign} {to}"))]);
         }
     }
     Ok(())
@@ -65,32 +65,36 @@ fn check_target(plan: &Node, component: &Node, to: &str) -> Result<(), Refused> 
 }
 
 /// Removes the edge of a state or event.
-pub(super) fn disconnect(draft: &mut Draft, from: &Item, outcome: &str) -> Result<(), Refused> {
-    let root = draft.root();
+pub(super) fn disconnect(
+    buffer: &mut TextBuffer,
+    from: &Item,
+    outcome: &str,
+) -> Result<(), Refused> {
+    let root = buffer.root();
     let component = tree::component(&root, from)?;
     let edge = tree::edge(&component, outcome).ok_or_else(|| {
         Refused::new(format!("'{outcome}' of '{}' is not connected", from.name()))
     })?;
-    let page = Page { text: draft.text(), root };
+    let page = Page { text: buffer.text(), root };
     let splice = page.remove(&edge);
-    draft.splice(vec![splice]);
+    buffer.splice(vec![splice]);
     Ok(())
 }
 
 /// Lets a plan start with an element.
-pub(super) fn start(draft: &mut Draft, plan: &str, to: &str) -> Result<(), Refused> {
-    let root = draft.root();
+pub(super) fn start(buffer: &mut TextBuffer, plan: &str, to: &str) -> Result<(), Refused> {
+    let root = buffer.root();
     tree::element(&root, plan, to)?;
     let node = tree::plan(&root, plan)?;
     let Some(start) = children(&node, Kind::Start).next() else {
-        return add::place(draft, &node, &format!("start {to}"), Kind::Start, None);
+        return add::place(buffer, &node, &format!("start {to}"), Kind::Start, None);
     };
     match (name_token(&start), tree::keyword(&start)) {
         (Some(name), _) if name.text() == to => {}
-        (Some(name), _) => draft.splice(vec![(range(&name), to.to_owned())]),
+        (Some(name), _) => buffer.splice(vec![(range(&name), to.to_owned())]),
         (None, Some(keyword)) => {
             let end = range(&keyword).end;
-            draft.splice(vec![(end..end, format!(" {to}"))]);
+            buffer.splice(vec![(end..end, format!(" {to}"))]);
         }
         (None, None) => return Err(Refused::new("the 'start' of the plan is not whole")),
     }

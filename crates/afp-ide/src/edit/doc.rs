@@ -1,18 +1,18 @@
 //! Help text above an item.
 
-use super::draft::{Draft, Splice};
+use super::buffer::{Splice, TextBuffer};
 use super::list::Page;
 use super::tree::{self, range, solid_range, tokens};
 use super::{Item, Refused};
 use afp_syntax::kind::Kind;
 
 /// Sets or removes the `///` lines of an item.
-pub(super) fn set(draft: &mut Draft, item: &Item, text: &str) -> Result<(), Refused> {
-    let root = draft.root();
+pub(super) fn set(buffer: &mut TextBuffer, item: &Item, text: &str) -> Result<(), Refused> {
+    let root = buffer.root();
     let node = tree::find(&root, item)?;
     let start = solid_range(&node).map(|range| range.start);
     let start = start.ok_or_else(|| Refused::new("the item is empty"))?;
-    let page = Page { text: draft.text(), root };
+    let page = Page { text: buffer.text(), root };
     let indent = page.indent(start).to_owned();
     let lines: Vec<_> =
         text.lines().map(|line| format!("/// {line}").trim_end().to_owned()).collect();
@@ -35,6 +35,6 @@ pub(super) fn set(draft: &mut Draft, item: &Item, text: &str) -> Result<(), Refu
     } else if !new.is_empty() {
         splices.push((start..start, format!("\n{indent}{new}")));
     }
-    draft.splice(splices);
+    buffer.splice(splices);
     Ok(())
 }

@@ -1,13 +1,13 @@
 //! The parts of an entry: keyword, type, initial value.
 
-use super::draft::Draft;
+use super::buffer::TextBuffer;
 use super::tree::{self, children, name_token, range, solid_range};
 use super::{Item, Refused, fragment};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
-fn find(draft: &Draft, entry: &Item) -> Result<Node, Refused> {
-    let node = tree::find(&draft.root(), entry)?;
+fn find(buffer: &TextBuffer, entry: &Item) -> Result<Node, Refused> {
+    let node = tree::find(&buffer.root(), entry)?;
     match node.kind() {
         Kind::Entry => Ok(node),
         _ => Err(Refused::new(format!("'{}' is no entry", entry.name()))),
@@ -15,69 +15,77 @@ fn find(draft: &Draft, entry: &Item) -> Result<Node, Refused> {
 }
 
 /// Sets the keyword.
-pub(super) fn set_kind(draft: &mut Draft, entry: &Item, keyword: &str) -> Result<(), Refused> {
+pub(super) fn set_kind(
+    buffer: &mut TextBuffer,
+    entry: &Item,
+    keyword: &str,
+) -> Result<(), Refused> {
     if !matches!(keyword, "in" | "out" | "var" | "const") {
         return Err(Refused::new(format!(
             "an entry is 'in', 'out', 'var' or 'const', not '{keyword}'"
         )));
     }
-    let node = find(draft, entry)?;
+    let node = find(buffer, entry)?;
     let old = tree::keyword(&node).ok_or_else(|| Refused::new("the entry has no keyword"))?;
     if old.text() == keyword {
         return Ok(());
     }
     // A padded 'in' keeps its column.
-    let (place, text) = (range(&old), draft.text());
+    let (place, text) = (range(&old), buffer.text());
     let blanks = text[place.end..].len() - text[place.end..].trim_start_matches(' ').len();
     let column = place.len() + blanks;
     let end = place.end + blanks;
     let width = if blanks > 1 { column.max(keyword.len() + 1) } else { keyword.len() + 1 };
     let splice = (place.start..end, format!("{keyword:width$}"));
-    draft.splice(vec![splice]);
+    buffer.splice(vec![splice]);
     Ok(())
 }
 
 /// Sets or removes the type.
-pub(super) fn set_type(draft: &mut Draft, entry: &Item, ty: Option<&str>) -> Result<(), Refused> {
+pub(super) fn set_type(
+    buffer: &mut TextBuffer,
+    entry: &Item,
+    ty: Option<&str>,
+) -> Result<(), Refused> {
     ty.map_or(Ok(()), fragment::ty)?;
-    let node = find(draft, entry)?;
+    let node = find(buffer, entry)?;
     let name = name_token(&node).ok_or_else(|| Refused::new("the entry has no name"))?;
     let name = range(&name);
     let old = children(&node, Kind::Type).next();
-    set_part(draft, old, name.end, ":", " ", ty)
+    set_part(buffer, old, name.end, ":", " ", ty)
 }
 
 /// Sets or removes the initial value.
 pub(super) fn set_value(
-    draft: &mut Draft,
+    buffer: &mut TextBuffer,
     entry: &Item,
     value: Option<&str>,
 ) -> Result<(), Refused> {
     value.map_or(Ok(()), fragment::formula)?;
-    let node = find(draft, entry)?;
+    let node = find(buffer, entry)?;
     let name = name_token(&node).ok_or_else(|| Refused::new("the entry has no name"))?;
     let ty = children(&node, Kind::Type).next().and_then(|ty| solid_range(&ty));
     let end = ty.map_or(range(&name).end, |ty| ty.end);
     let old = node.children().find(|child| !matches!(child.kind(), Kind::Type | Kind::Error));
-    set_part(draft, old, end, " =", " ", value)
+    set_part(buffer, old, end, " =", " ", value)
 }
 
 /// Replaces, adds or removes what stands behind a sign.
 fn set_part(
-    draft: &mut Draft,
+    buffer: &mut TextBuffer,
     old: Option<Node>,
     behind: usize,
     sign: &str,
     gap: &str,
     new: Option<&str>,
 ) -> Result<(), Refused> {
-    let text = draft.text();
+    let text = buffer.text();
     let place = old.as_ref().and_then(solid_range);
     if let Some(place) = &place {
         let is_comment = |token: afp_syntax::Token| {
             tree::is_comment(&token) && (behind..place.end).contains(&range(&token).start)
         };
-        let root = draft.root();
+        let root = buffer.root();
         let mut tokens = root.descendants_with_tokens().filter_map(|each| each.into_token());
         if tokens.any(is_comment) {
             return Err(Refused::new("a comment stands in it"));
@@ -90,6 +98,6 @@ fn set_part(
         (Some(place), None) => (behind..place.end, String::new()),
         (None, Some(new)) => (behind..behind, format!("{sign}{gap}{new}")),
     };
-    draft.splice(vec![splice]);
+    buffer.splice(vec![splice]);
     Ok(())
 }

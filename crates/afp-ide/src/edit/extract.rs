@@ -6,7 +6,7 @@
 mod data;
 mod flow;
 
-use super::draft::Draft;
+use super::buffer::TextBuffer;
 use super::list::{Page, indented};
 use super::project::Project;
 use super::tree::{self, Scope, children, is_named, name_of, range};
@@ -61,28 +61,28 @@ impl Selection {
 
 /// Extracts elements of a plan into a plan of their own.
 pub(super) fn run(
-    draft: &mut Draft,
+    buffer: &mut TextBuffer,
     plan: &str,
     elements: &[String],
     new_plan: &str,
     element: &str,
 ) -> Result<(), Refused> {
-    let root = draft.root();
+    let root = buffer.root();
     let selection = Selection::new(&root, plan, elements)?;
     check_names(&root, &selection, new_plan, element)?;
     let flow = Flow::of(&selection)?;
     let data = Data::of(&selection, &flow.first)?;
-    lead_through(draft, plan, &selection, &flow, element);
-    let text = plan_text(draft, plan, &selection, &flow, &data, new_plan)?;
+    lead_through(buffer, plan, &selection, &flow, element);
+    let text = plan_text(buffer, plan, &selection, &flow, &data, new_plan)?;
     let call = call_text(&flow, &data, new_plan, element);
     let first = name_of(&selection.elements[0]).unwrap_or_default();
-    let list = tree::plan(&draft.root(), plan)?;
-    add::place(draft, &list, &call, Kind::Element, Some(&first))?;
-    while let Some(node) = chosen(&draft.root(), plan, &selection, new_plan).into_iter().next() {
-        remove::take_out(draft, &node);
+    let list = tree::plan(&buffer.root(), plan)?;
+    add::place(buffer, &list, &call, Kind::Element, Some(&first))?;
+    while let Some(node) = chosen(&buffer.root(), plan, &selection, new_plan).into_iter().next() {
+        remove::take_out(buffer, &node);
     }
-    let below = tree::plan(&draft.root(), plan)?;
-    add::below_plan(draft, Some(below), &text)
+    let below = tree::plan(&buffer.root(), plan)?;
+    add::below_plan(buffer, Some(below), &text)
 }
 
 fn check_names(
@@ -116,7 +116,13 @@ fn chosen(root: &Node, plan: &str, selection: &Selection, new_plan: &str) -> Vec
 
 /// Leads edges into the selection to the sub-plan, edges out of it to `terminate`, and paths of
 /// scenarios through the sub-plan.
-fn lead_through(draft: &mut Draft, plan: &str, selection: &Selection, flow: &Flow, element: &str) {
+fn lead_through(
+    buffer: &mut TextBuffer,
+    plan: &str,
+    selection: &Selection,
+    flow: &Flow,
+    element: &str,
+) {
     let mut splices: Vec<_> =
         flow.ways_in.iter().map(|token| (range(token), element.to_owned())).collect();
     splices.extend(flow.ways_out.iter().map(|token| (range(token), "terminate".to_owned())));
@@ -126,19 +132,19 @@ fn lead_through(draft: &mut Draft, plan: &str, selection: &Selection, flow: &Flo
         let start = range(&token).start;
         splices.push((start..start, format!("{element}.")));
     }
-    draft.splice(splices);
+    buffer.splice(splices);
 }
 
 fn plan_text(
-    draft: &Draft,
+    buffer: &TextBuffer,
     plan: &str,
     selection: &Selection,
     flow: &Flow,
     data: &Data,
     new_plan: &str,
 ) -> Result<String, Refused> {
-    let root = draft.root();
-    let page = Page { text: draft.text(), root: root.clone() };
+    let root = buffer.root();
+    let page = Page { text: buffer.text(), root: root.clone() };
     let texts: Vec<_> =
         chosen(&root, plan, selection, new_plan).iter().map(|node| page.lines_of(node)).collect();
     let gap = if texts.iter().any(|text| text.contains('\n')) { "\n\n" } else { "\n" };

@@ -4,8 +4,8 @@
 //! and its plan must begin without values of its own and have no supervisors of the whole.
 
 mod data;
-mod sight;
 mod text;
+mod visibility;
 
 use super::project::{Project, Workspace};
 use super::tree::{self, Scope, children, name_of, name_token, range, target};
@@ -45,31 +45,31 @@ pub(super) fn run(workspace: &mut Workspace, plan: &str, element: &str) -> Resul
     let call = Call::of(workspace.project(), workspace.home, plan, element)?;
     let from = call.from;
     let data = Data::of(&call)?;
-    let lines = text::elements(&call, &data, workspace.drafts[from].text())?;
+    let lines = text::elements(&call, &data, workspace.buffers[from].text())?;
     redirect(workspace, &call, &data, plan, element)?;
     if from != workspace.home {
-        sight::bring(workspace, &call.inner, from)?;
+        visibility::bring(workspace, &call.inner, from)?;
     }
-    let draft = workspace.draft();
-    let list = tree::plan(&draft.root(), plan)?;
-    add::place(draft, &list, &lines, Kind::Element, Some(element))?;
+    let buffer = workspace.buffer();
+    let list = tree::plan(&buffer.root(), plan)?;
+    add::place(buffer, &list, &lines, Kind::Element, Some(element))?;
     let inner = name_of(&call.inner).unwrap_or_default();
-    let list = tree::plan(&draft.root(), plan)?;
+    let list = tree::plan(&buffer.root(), plan)?;
     let is_call = |node: &Node| {
         tree::is_named(node, element) && tree::template(node).as_deref() == Some(&inner)
     };
     if let Some(node) = children(&list, Kind::Element).find(is_call) {
-        remove::take_out(draft, &node);
+        remove::take_out(buffer, &node);
     }
     for entry in &data.new_entries {
-        let list = tree::plan(&draft.root(), plan)?;
-        add::place(draft, &list, entry, Kind::Entry, None)?;
+        let list = tree::plan(&buffer.root(), plan)?;
+        add::place(buffer, &list, entry, Kind::Entry, None)?;
     }
     let Some(error) = &call.error else { return Ok(()) };
     for (_, new) in &call.names {
         let item = Item::inner(plan, new);
-        if tree::edge(&tree::find(&draft.root(), &item)?, "Error").is_none() {
-            connect::connect(draft, &item, "Error", error)?;
+        if tree::edge(&tree::find(&buffer.root(), &item)?, "Error").is_none() {
+            connect::connect(buffer, &item, "Error", error)?;
         }
     }
     Ok(())
@@ -178,6 +178,6 @@ fn redirect(
             }
         });
     }
-    workspace.draft().splice(splices);
+    workspace.buffer().splice(splices);
     Ok(())
 }

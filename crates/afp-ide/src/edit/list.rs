@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Refused;
-use super::draft::Splice;
+use super::buffer::Splice;
 use super::tree::{is_comment, own_range, range, solid_after, solid_before, tokens};
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};

@@ -1,6 +1,6 @@
 //! What stands in the head of an element or supervisor: template, bindings, times.
 
-use super::draft::{Draft, Splice};
+use super::buffer::{Splice, TextBuffer};
 use super::list::Page;
 use super::tree::{self, binds, children, name_of, name_token, range, solid_range};
 use super::{Binding, Item, Refused, fragment, name};
@@ -9,13 +9,13 @@ use afp_syntax::{Node, Token};
 
 /// Binds a port, or changes what it is bound to.
 pub(super) fn bind(
-    draft: &mut Draft,
+    buffer: &mut TextBuffer,
     component: &Item,
     port: &str,
     to: &Binding,
 ) -> Result<(), Refused> {
     name::check(port)?;
-    let root = draft.root();
+    let root = buffer.root();
     let node = tree::component(&root, component)?;
     let (sign, value) = match to {
         Binding::In(formula) => {
@@ -29,10 +29,10 @@ pub(super) fn bind(
     };
     let bound = binds(&node).into_iter().find(|bind| tree::is_named(bind, port));
     let splice = match bound {
-        Some(bound) => rebound(draft.text(), &bound, sign, value)?,
-        None => new_binding(draft, &node, &format!("{port} {sign} {value}"))?,
+        Some(bound) => rebound(buffer.text(), &bound, sign, value)?,
+        None => new_binding(buffer, &node, &format!("{port} {sign} {value}"))?,
     };
-    draft.splice(splice.into_iter().collect());
+    buffer.splice(splice.into_iter().collect());
     Ok(())
 }
 
@@ -68,8 +68,8 @@ fn rebound(text: &str, bind: &Node, sign: &str, new: &str) -> Result<Option<Spli
     Ok((text[place.clone()] != *new).then(|| (place, new.to_owned())))
 }
 
-fn new_binding(draft: &Draft, node: &Node, text: &str) -> Result<Option<Splice>, Refused> {
-    let page = Page { text: draft.text(), root: draft.root() };
+fn new_binding(buffer: &TextBuffer, node: &Node, text: &str) -> Result<Option<Splice>, Refused> {
+    let page = Page { text: buffer.text(), root: buffer.root() };
     if let Some(args) = children(node, Kind::Args).next() {
         return page.append(&args, &binds(node), text).map(Some);
     }
@@ -85,25 +85,25 @@ fn head_end(node: &Node) -> Result<usize, Refused> {
 }
 
 /// Removes the binding of a port, and brackets that would be empty.
-pub(super) fn unbind(draft: &mut Draft, component: &Item, port: &str) -> Result<(), Refused> {
-    let root = draft.root();
+pub(super) fn unbind(buffer: &mut TextBuffer, component: &Item, port: &str) -> Result<(), Refused> {
+    let root = buffer.root();
     let node = tree::component(&root, component)?;
     let bound = binds(&node).into_iter().find(|bind| tree::is_named(bind, port));
     let bound = bound
         .ok_or_else(|| Refused::new(format!("'{port}' of '{}' is not bound", component.name())))?;
-    let splice = removal(draft, &node, &bound);
-    draft.splice(vec![splice]);
+    let splice = removal(buffer, &node, &bound);
+    buffer.splice(vec![splice]);
     Ok(())
 }
 
 /// How a binding is taken out of its component.
-pub(super) fn removal(draft: &Draft, component: &Node, bind: &Node) -> Splice {
-    let page = Page { text: draft.text(), root: draft.root() };
+pub(super) fn removal(buffer: &TextBuffer, component: &Node, bind: &Node) -> Splice {
+    let page = Page { text: buffer.text(), root: buffer.root() };
     if let Some(args) =
         children(component, Kind::Args).next().filter(|_| binds(component).len() == 1)
         && let (Some(all), Some(one)) = (solid_range(&args), solid_range(bind))
-        && draft.text()[all.start + 1..one.start].trim().is_empty()
-        && draft.text()[one.end..all.end].trim_end_matches(')').trim().is_empty()
+        && buffer.text()[all.start + 1..one.start].trim().is_empty()
+        && buffer.text()[one.end..all.end].trim_end_matches(')').trim().is_empty()
     {
         return (all, String::new());
     }
@@ -112,14 +112,14 @@ pub(super) fn removal(draft: &Draft, component: &Node, bind: &Node) -> Splice {
 
 /// Makes a component from another template.
 pub(super) fn set_template(
-    draft: &mut Draft,
+    buffer: &mut TextBuffer,
     component: &Item,
     template: &str,
 ) -> Result<(), Refused> {
     fragment::reference(template)?;
-    let node = tree::component(&draft.root(), component)?;
+    let node = tree::component(&buffer.root(), component)?;
     let splice = match children(&node, Kind::Ref).next().and_then(|node| solid_range(&node)) {
-        Some(old) if draft.text()[old.clone()] == *template.trim() => return Ok(()),
+        Some(old) if buffer.text()[old.clone()] == *template.trim() => return Ok(()),
         Some(old) => (old, template.trim().to_owned()),
         None => {
             let colon = tree::tokens(&node, Kind::Colon).next();
@@ -129,13 +129,13 @@ pub(super) fn set_template(
             (end..end, format!("{sign} {}", template.trim()))
         }
     };
-    draft.splice(vec![splice]);
+    buffer.splice(vec![splice]);
     Ok(())
 }
 
 /// Sets or removes `every` or `deadline` of a supervisor.
 pub(super) fn set_timing(
-    draft: &mut Draft,
+    buffer: &mut TextBuffer,
     supervisor: &Item,
     keyword: &str,
     value: Option<&str>,
@@ -144,7 +144,7 @@ pub(super) fn set_timing(
         return Err(Refused::new(format!("a supervisor has no '{keyword}'")));
     }
     value.map_or(Ok(()), fragment::time)?;
-    let node = tree::find(&draft.root(), supervisor)?;
+    let node = tree::find(&buffer.root(), supervisor)?;
     if node.kind() != Kind::Guard {
         return Err(Refused::new(format!("'{}' is no supervisor", supervisor.name())));
     }
@@ -155,13 +155,13 @@ pub(super) fn set_timing(
         (None, None) => return Ok(()),
         (Some(old), Some(value)) => {
             let text = format!("{keyword} {value}");
-            if draft.text()[old.clone()] == text {
+            if buffer.text()[old.clone()] == text {
                 return Ok(());
             }
             (old, text)
         }
         (Some(old), None) => {
-            let before = draft.text()[..old.start].trim_end_matches([' ', '\t']).len();
+            let before = buffer.text()[..old.start].trim_end_matches([' ', '\t']).len();
             (before..old.end, String::new())
         }
         (None, Some(value)) => {
@@ -179,7 +179,7 @@ pub(super) fn set_timing(
             }
         }
     };
-    draft.splice(vec![splice]);
+    buffer.splice(vec![splice]);
     Ok(())
 }
 

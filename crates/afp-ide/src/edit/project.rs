@@ -1,6 +1,6 @@
-//! The files of a project: which of them sees what of the others, and a draft of each.
+//! The files of a project: which of them sees what of the others, and a buffer of each.
 
-use super::draft::Draft;
+use super::buffer::TextBuffer;
 use super::{Item, Refused, refer, tree};
 use afp_dsl::files::{joined, normalised};
 use afp_dsl::index::Index;
@@ -14,7 +14,7 @@ pub(super) struct Workspace {
     /// Their normalised paths.
     pub paths: Vec<String>,
     /// Their texts in the making.
-    pub drafts: Vec<Draft>,
+    pub buffers: Vec<TextBuffer>,
     /// The file that the change names its items in.
     pub home: usize,
 }
@@ -23,23 +23,23 @@ impl Workspace {
     /// Begins with files, of which `home` must be one.
     pub fn new(files: &[Source], home: usize) -> Workspace {
         let paths = files.iter().map(|file| normalised(&file.name)).collect();
-        let drafts = files.iter().map(|file| Draft::new(&file.text)).collect();
-        Workspace { paths, drafts, home }
+        let buffers = files.iter().map(|file| TextBuffer::new(&file.text)).collect();
+        Workspace { paths, buffers, home }
     }
 
-    /// The draft of the file that the change is about.
-    pub fn draft(&mut self) -> &mut Draft {
-        &mut self.drafts[self.home]
+    /// The buffer of the file that the change is about.
+    pub fn buffer(&mut self) -> &mut TextBuffer {
+        &mut self.buffers[self.home]
     }
 
     /// How many syntax errors the files have.
     pub fn syntax_errors(&self) -> usize {
-        self.drafts.iter().map(Draft::syntax_errors).sum()
+        self.buffers.iter().map(TextBuffer::syntax_errors).sum()
     }
 
     /// What the files say now.
     pub fn project(&self) -> Project {
-        let roots: Vec<_> = self.drafts.iter().map(Draft::root).collect();
+        let roots: Vec<_> = self.buffers.iter().map(TextBuffer::root).collect();
         let sees = roots.iter().enumerate().map(|(place, root)| {
             let used = paths_of_uses(root).filter_map(|written| {
                 let path = joined(&self.paths[place], &written);
@@ -47,8 +47,8 @@ impl Workspace {
             });
             std::iter::once(place).chain(used.filter(|used| *used != place)).collect()
         });
-        let sources = self.paths.iter().zip(&self.drafts);
-        let sources = sources.map(|(path, draft)| Source::new(path, draft.text())).collect();
+        let sources = self.paths.iter().zip(&self.buffers);
+        let sources = sources.map(|(path, buffer)| Source::new(path, buffer.text())).collect();
         Project::new(sees.collect(), roots, sources)
     }
 

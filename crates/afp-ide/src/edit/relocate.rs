@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::draft::Draft;
+use super::buffer::TextBuffer;
 use super::list::{Page, Place};
 use super::project::Project;
 use super::tree::{self, Scope, below, binds, children, name_of, target};
@@ -11,8 +11,12 @@ use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
 /// Moves an item above another one of its list, or below its like.
-pub(super) fn reorder(draft: &mut Draft, item: &Item, before: Option<&str>) -> Result<(), Refused> {
-    let root = draft.root();
+pub(super) fn reorder(
+    buffer: &mut TextBuffer,
+    item: &Item,
+    before: Option<&str>,
+) -> Result<(), Refused> {
+    let root = buffer.root();
     let node = tree::find(&root, item)?;
     let list_of = |root: &Node| match item {
         Item::Plan { .. } => Ok(root.clone()),
@@ -24,20 +28,20 @@ pub(super) fn reorder(draft: &mut Draft, item: &Item, before: Option<&str>) -> R
     if before == Some(item.name()) || is_there(&list, &node, before)? {
         return Ok(());
     }
-    let lines = Page { text: draft.text(), root }.lines_of(&node);
+    let lines = Page { text: buffer.text(), root }.lines_of(&node);
     let kind = node.kind();
-    remove::take_out(draft, &node);
-    let root = draft.root();
+    remove::take_out(buffer, &node);
+    let root = buffer.root();
     if kind != Kind::Plan {
-        return add::place(draft, &list_of(&root)?, &lines, kind, before);
+        return add::place(buffer, &list_of(&root)?, &lines, kind, before);
     }
     let place = match before {
         Some(before) => Place::Before(add::sibling(&root, before)?),
         None => children(&root, Kind::Plan).last().map_or(Place::Top, Place::After),
     };
-    let splice =
-        Page { text: draft.text(), root: root.clone() }.insert_lines(&root, place, &lines, true)?;
-    draft.splice(vec![splice]);
+    let splice = Page { text: buffer.text(), root: root.clone() }
+        .insert_lines(&root, place, &lines, true)?;
+    buffer.splice(vec![splice]);
     Ok(())
 }
 
@@ -52,12 +56,12 @@ fn is_there(list: &Node, node: &Node, before: Option<&str>) -> Result<bool, Refu
 
 /// Moves an item to another plan or owner.
 pub(super) fn shift(
-    draft: &mut Draft,
+    buffer: &mut TextBuffer,
     item: &Item,
     plan: &str,
     owner: Option<&str>,
 ) -> Result<(), Refused> {
-    let root = draft.root();
+    let root = buffer.root();
     let node = tree::find(&root, item)?;
     let there = tree::plan(&root, plan)?;
     let same_plan = item.plan_name() == plan;
@@ -76,22 +80,22 @@ pub(super) fn shift(
         _ if !same_plan => check_entries(&root, &node, &there, plan)?,
         _ => {}
     }
-    remove::cut_edges_from(draft, item, &there);
+    remove::cut_edges_from(buffer, item, &there);
     if node.kind() == Kind::Element {
-        remove::cut_edges_to(draft, item);
+        remove::cut_edges_to(buffer, item);
     }
     let lines = {
-        let root = draft.root();
-        Page { text: draft.text(), root: root.clone() }.lines_of(&tree::find(&root, item)?)
+        let root = buffer.root();
+        Page { text: buffer.text(), root: root.clone() }.lines_of(&tree::find(&root, item)?)
     };
-    let moved = tree::find(&draft.root(), item)?;
-    remove::take_out(draft, &moved);
-    let root = draft.root();
+    let moved = tree::find(&buffer.root(), item)?;
+    remove::take_out(buffer, &moved);
+    let root = buffer.root();
     let list = match owner {
         None => tree::plan(&root, plan)?,
         Some(owner) => tree::element(&root, plan, owner)?,
     };
-    add::place(draft, &list, &lines, node.kind(), None)
+    add::place(buffer, &list, &lines, node.kind(), None)
 }
 
 fn check_kind(

@@ -1,6 +1,6 @@
 //! Removing items, and what would be left hanging.
 
-use super::draft::{Draft, Splice};
+use super::buffer::{Splice, TextBuffer};
 use super::list::Page;
 use super::project::Project;
 use super::refer;
@@ -10,8 +10,8 @@ use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};
 
 /// Removes an item.
-pub(super) fn item(draft: &mut Draft, item: &Item) -> Result<(), Refused> {
-    let root = draft.root();
+pub(super) fn item(buffer: &mut TextBuffer, item: &Item) -> Result<(), Refused> {
+    let root = buffer.root();
     let node = tree::find(&root, item)?;
     let project = Project::alone(&root);
     match node.kind() {
@@ -21,21 +21,21 @@ pub(super) fn item(draft: &mut Draft, item: &Item) -> Result<(), Refused> {
         }
         Kind::Entry => {
             check_unread(&project, item)?;
-            unbind_all(draft, &project, item);
+            unbind_all(buffer, &project, item);
         }
-        Kind::Element => cut_edges_to(draft, item),
+        Kind::Element => cut_edges_to(buffer, item),
         _ => {}
     }
-    let node = tree::find(&draft.root(), item)?;
-    take_out(draft, &node);
+    let node = tree::find(&buffer.root(), item)?;
+    take_out(buffer, &node);
     Ok(())
 }
 
 /// Takes a node out of its list.
-pub(super) fn take_out(draft: &mut Draft, node: &Node) {
-    let page = Page { text: draft.text(), root: draft.root() };
+pub(super) fn take_out(buffer: &mut TextBuffer, node: &Node) {
+    let page = Page { text: buffer.text(), root: buffer.root() };
     let splice = page.remove(node);
-    draft.splice(vec![splice]);
+    buffer.splice(vec![splice]);
 }
 
 fn check_unused_plan(project: &Project, item: &Item) -> Result<(), Refused> {
@@ -74,26 +74,26 @@ fn check_unread(project: &Project, item: &Item) -> Result<(), Refused> {
 }
 
 /// Removes the outputs that write an entry, and the bindings of sub-plans to it.
-fn unbind_all(draft: &mut Draft, project: &Project, item: &Item) {
+fn unbind_all(buffer: &mut TextBuffer, project: &Project, item: &Item) {
     let kinds = [Kind::BindIn, Kind::BindOut];
     let uses = refer::to(project, 0, item).into_iter().skip(1);
     let binds = uses.filter_map(|(_, token)| around(&token, &kinds));
-    backwards(draft, binds, &kinds, |draft, bind| {
+    backwards(buffer, binds, &kinds, |buffer, bind| {
         let component = bind.parent()?.parent()?;
-        Some(port::removal(draft, &component, bind))
+        Some(port::removal(buffer, &component, bind))
     });
 }
 
 /// Removes the edges of others that lead to an element, and the `start` that names it.
-pub(super) fn cut_edges_to(draft: &mut Draft, element: &Item) {
-    let project = Project::alone(&draft.root());
+pub(super) fn cut_edges_to(buffer: &mut TextBuffer, element: &Item) {
+    let project = Project::alone(&buffer.root());
     let own = tree::find(&project.roots[0], element).ok();
     let tokens = refer::to_element(&project, 0, element).into_iter();
     let others = tokens.filter(|token| token.parent_ancestors().all(|node| Some(node) != own));
     let kinds = [Kind::Edge, Kind::Start];
     let nodes = others.filter_map(|token| around(&token, &kinds));
-    backwards(draft, nodes, &kinds, |draft, node| {
-        Some(Page { text: draft.text(), root: draft.root() }.remove(node))
+    backwards(buffer, nodes, &kinds, |buffer, node| {
+        Some(Page { text: buffer.text(), root: buffer.root() }.remove(node))
     });
 }
 
@@ -104,28 +104,28 @@ fn around(token: &Token, kinds: &[Kind]) -> Option<Node> {
 
 /// Changes nodes from the last one to the first, so that those before stay where they are.
 fn backwards(
-    draft: &mut Draft,
+    buffer: &mut TextBuffer,
     nodes: impl Iterator<Item = Node>,
     kinds: &[Kind],
-    change: impl Fn(&Draft, &Node) -> Option<Splice>,
+    change: impl Fn(&TextBuffer, &Node) -> Option<Splice>,
 ) {
     let mut places: Vec<_> =
         nodes.filter_map(|node| Some(name_token(&node)?.text_range().start())).collect();
     places.sort_unstable();
     places.dedup();
     for place in places.into_iter().rev() {
-        let token = draft.root().token_at_offset(place).right_biased();
+        let token = buffer.root().token_at_offset(place).right_biased();
         let node = token.and_then(|token| around(&token, kinds));
-        if let Some(splice) = node.and_then(|node| change(draft, &node)) {
-            draft.splice(vec![splice]);
+        if let Some(splice) = node.and_then(|node| change(buffer, &node)) {
+            buffer.splice(vec![splice]);
         }
     }
 }
 
 /// Removes the edges of a component that lead neither to itself nor to an element that the plan
 /// `there` has, too.
-pub(super) fn cut_edges_from(draft: &mut Draft, component: &Item, there: &Node) {
-    let project = Project::alone(&draft.root());
+pub(super) fn cut_edges_from(buffer: &mut TextBuffer, component: &Item, there: &Node) {
+    let project = Project::alone(&buffer.root());
     let Ok(own) = tree::find(&project.roots[0], component) else { return };
     let is_there = |name: &str| {
         matches!(name, "terminate" | "ignore")
@@ -138,7 +138,7 @@ pub(super) fn cut_edges_from(draft: &mut Draft, component: &Item, there: &Node) 
         })
     };
     let edges = below(&own, Kind::Edge).filter(leads_away);
-    backwards(draft, edges, &[Kind::Edge], |draft, edge| {
-        Some(Page { text: draft.text(), root: draft.root() }.remove(edge))
+    backwards(buffer, edges, &[Kind::Edge], |buffer, edge| {
+        Some(Page { text: buffer.text(), root: buffer.root() }.remove(edge))
     });
 }

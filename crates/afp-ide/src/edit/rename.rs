@@ -9,7 +9,7 @@ use afp_syntax::kind::Kind;
 
 /// Renames an item.
 pub(super) fn item(workspace: &mut Workspace, item: &Item, to: &str) -> Result<(), Refused> {
-    let root = workspace.draft().root();
+    let root = workspace.buffer().root();
     let node = tree::find(&root, item)?;
     match node.kind() {
         Kind::Element => name::check_element(to)?,
@@ -30,15 +30,15 @@ pub(super) fn item(workspace: &mut Workspace, item: &Item, to: &str) -> Result<(
     if tokens.is_empty() {
         return Err(Refused::new("it has no name yet"));
     }
-    for (file, draft) in workspace.drafts.iter_mut().enumerate() {
+    for (file, buffer) in workspace.buffers.iter_mut().enumerate() {
         let own = tokens.iter().filter(|(home, _)| *home == file);
         let splices: Vec<_> = own.map(|(_, token)| (range(token), to.to_owned())).collect();
         if splices.is_empty() {
             continue;
         }
-        let before = shape(&draft.root());
-        draft.splice(splices);
-        if shape(&draft.root()) != before {
+        let before = shape(&buffer.root());
+        buffer.splice(splices);
+        if shape(&buffer.root()) != before {
             return Err(Refused::new(format!("'{to}' would be read as a word of the grammar")));
         }
     }

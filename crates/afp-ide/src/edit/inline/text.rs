@@ -2,7 +2,7 @@
 
 use super::Call;
 use super::data::Data;
-use crate::edit::draft::Splice;
+use crate::edit::buffer::Splice;
 use crate::edit::list::{Page, dedented};
 use crate::edit::tree::{
     self, below, children, is_comment, name_of, name_token, own_range, range, target,

@@ -13,7 +13,7 @@ use afp_syntax::{Node, parse};
 pub(super) type Splice = (Range<usize>, String);
 
 /// A text in the making.
-pub(super) struct Draft {
+pub(super) struct TextBuffer {
     text: String,
     root: Node,
     syntax_errors: usize,
@@ -45,12 +45,12 @@ impl Piece {
     }
 }
 
-impl Draft {
+impl TextBuffer {
     /// Begins with a text.
-    pub fn new(text: &str) -> Draft {
+    pub fn new(text: &str) -> TextBuffer {
         let (root, syntax_errors) = tree(text);
         let pieces = vec![Piece::Kept(0..text.len())];
-        Draft { text: text.to_owned(), root, syntax_errors, pieces }
+        TextBuffer { text: text.to_owned(), root, syntax_errors, pieces }
     }
 
     /// The text so far.
@@ -138,27 +138,27 @@ fn tree(text: &str) -> (Node, usize) {
 
 #[cfg(test)]
 mod tests {
-    use super::Draft;
+    use super::TextBuffer;
     use crate::edit::apply;
 
     #[test]
     fn steps_come_to_one_list_of_edits() {
         let text = "plan P { start a }";
-        let mut draft = Draft::new(text);
-        draft.splice(vec![(5..6, "Q".into()), (15..16, "long".into())]);
-        draft.splice(vec![(15..17, "lo".into()), (0..0, "use x ".into())]);
-        let after = draft.text().to_owned();
-        let edits = draft.edits(text.len(), 0);
+        let mut buffer = TextBuffer::new(text);
+        buffer.splice(vec![(5..6, "Q".into()), (15..16, "long".into())]);
+        buffer.splice(vec![(15..17, "lo".into()), (0..0, "use x ".into())]);
+        let after = buffer.text().to_owned();
+        let edits = buffer.edits(text.len(), 0);
         assert_eq!(edits.len(), 3);
         assert_eq!(apply(text, &edits), after);
     }
 
     #[test]
     fn what_is_cut_leaves_an_edit() {
-        let mut draft = Draft::new("abc");
-        draft.splice(vec![(1..3, String::new())]);
-        draft.splice(vec![(0..1, String::new())]);
-        let edits = draft.edits(3, 0);
+        let mut buffer = TextBuffer::new("abc");
+        buffer.splice(vec![(1..3, String::new())]);
+        buffer.splice(vec![(0..1, String::new())]);
+        let edits = buffer.edits(3, 0);
         assert_eq!(edits.len(), 1);
         assert_eq!(apply("abc", &edits), "");
     }

@@ -21,7 +21,7 @@ pub(super) fn bring(workspace: &mut Workspace, plan: &Node, from: usize) -> Resu
                 let path = relative(&workspace.paths[workspace.home], &workspace.paths[meant]);
                 let path =
                     path.ok_or_else(|| Refused::new(format!("no path leads to '{name}'")))?;
-                add::line(workspace.draft(), &format!("use \"{path}\""))?;
+                add::line(workspace.buffer(), &format!("use \"{path}\""))?;
             }
         }
     }
@@ -70,7 +70,7 @@ fn toolbox_line(
         });
         firsts.any(|first| first.text() == qualifier)
     };
-    for (known, short) in toolboxes(&workspace.draft().root()) {
+    for (known, short) in toolboxes(&workspace.buffer().root()) {
         let other = short.unwrap_or_else(|| known.clone());
         match (known == toolbox, other == qualifier) {
             (true, true) => return Ok(()),
@@ -84,7 +84,7 @@ fn toolbox_line(
             (false, false) => {}
         }
     }
-    add::line_of_use(workspace.draft(), toolbox, alias)
+    add::line_of_use(workspace.buffer(), toolbox, alias)
 }
 
 /// The plans and enums that a plan of the file `from` names, each with the file that declares it.
