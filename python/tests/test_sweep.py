@@ -152,7 +152,7 @@ def test_tables(tmp_path: Path) -> None:
     assert table.num_rows == 3 and str(table.schema.field("seed").type) == "uint64"
     assert parquet.read_table(out).to_pydict() == table.to_pydict()
     frame = runs.to_pandas()
-    assert list(frame["run"]) == [0, 1, 2] and frame["wall_error_mean_m"].dtype == "float64"
+    assert list(frame["run"]) == [0, 1, 2] and frame["contacts_s"].dtype == "float64"
     assert "<table>" in runs._repr_html_() and "3 ok" in repr(runs)
     pytest.importorskip("matplotlib").use("agg")
     assert runs.plot("seed", "distance_m").get_ylabel() == "distance [m]"

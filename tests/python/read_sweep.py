@@ -14,7 +14,8 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 COUNTS = ["run", "seed", "collisions", "interruptions", "deadline_misses"]
-NUMBERS = ["walldist_si", "time_s", "distance_m", "wall_error_mean_m", "wall_error_max_m", "took_s"]
+WALL = ["wall_error_judged_s", "wall_error_max_m", "wall_error_mean_m"]
+NUMBERS = ["walldist_si", "time_s", "distance_m", "contacts_s", *WALL, "took_s"]
 TEXTS = ["world", "walldist", "ending", "where", "why", "trace", "command"]
 TYPES = (
     dict.fromkeys(COUNTS, pa.uint64())

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use afp_core::Instant;
 use afp_session::{AnySession, Counts, Go, Observer, Track};
 
-use crate::outcome::{Ending, Outcome};
+use crate::outcome::{Ending, Outcome, numbers};
 
 /// Runs a plan as `afpc run` does; `None` when it was called off.
 pub(crate) fn drive(
@@ -65,8 +65,7 @@ fn outcome(
         collisions: figures.spans("contacts").len() as u64,
         interruptions: counts.interruptions,
         deadline_misses: session.misses(),
-        wall_error_mean_m: figures.number("wall_error", "mean_m"),
-        wall_error_max_m: figures.number("wall_error", "max_m"),
+        figures: numbers(&figures),
         trace: session.trace().to_string(),
         took_s: 0.0,
     }

@@ -40,7 +40,7 @@ pub fn columns(sweep: &Sweep, outcomes: &[Outcome]) -> Vec<Column> {
     let counts = |name: &str, count: fn(&Outcome) -> u64| {
         column(name, Cells::Counts(outcomes.iter().map(count).collect()))
     };
-    let numbers = |measure: Measure| {
+    let numbers = |measure: &Measure| {
         let cells = outcomes.iter().map(|outcome| measure.of(outcome)).collect();
         column(measure.name(), Cells::Numbers(cells))
     };
@@ -65,13 +65,14 @@ pub fn columns(sweep: &Sweep, outcomes: &[Outcome]) -> Vec<Column> {
         texts("ending", |it| it.ending.name()),
         texts("where", |it| &it.place),
         texts("why", |it| &it.why),
-        numbers(Measure::Time),
-        numbers(Measure::Distance),
+        numbers(&Measure::Time),
+        numbers(&Measure::Distance),
         counts("collisions", |it| it.collisions),
         counts("interruptions", |it| it.interruptions),
         counts("deadline_misses", |it| it.deadline_misses),
-        numbers(Measure::WallErrorMean),
-        numbers(Measure::WallErrorMax),
+    ]);
+    all.extend(Measure::of_figures(outcomes).iter().map(numbers));
+    all.extend([
         texts("trace", |it| &it.trace),
         column("command", of_rows(&rows, |row| sweep.command(row))),
         column("took_s", Cells::Numbers(outcomes.iter().map(|it| Some(it.took_s)).collect())),

@@ -1,6 +1,6 @@
 //! What a sweep came to: endings counted, measures, failures by where and why.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::outcome::{Ending, Outcome};
 
@@ -32,7 +32,7 @@ pub struct Group {
 }
 
 /// Something that is measured in each run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// Simulated time, seconds.
     Time,
@@ -44,10 +44,8 @@ pub enum Measure {
     Interruptions,
     /// Missed deadlines.
     Misses,
-    /// The mean error of following a wall, metres.
-    WallErrorMean,
-    /// The greatest.
-    WallErrorMax,
+    /// A figure of the robot or of one of its measures, by the name of its column.
+    Figure(String),
 }
 
 /// The middle and the ends of what was measured.
@@ -62,40 +60,42 @@ pub struct Spread {
 }
 
 impl Measure {
-    /// Every measure.
-    pub const ALL: [Measure; 7] = [
+    /// What is measured in every run, whatever the robot.
+    pub const ALL: [Measure; 5] = [
         Measure::Time,
         Measure::Distance,
         Measure::Collisions,
         Measure::Interruptions,
         Measure::Misses,
-        Measure::WallErrorMean,
-        Measure::WallErrorMax,
     ];
 
+    /// The figures that some of the outcomes have, by their names.
+    pub fn of_figures(outcomes: &[Outcome]) -> Vec<Measure> {
+        let names: BTreeSet<&String> = outcomes.iter().flat_map(|it| it.figures.keys()).collect();
+        names.into_iter().cloned().map(Measure::Figure).collect()
+    }
+
     /// Its name in tables, with its unit.
-    pub fn name(self) -> &'static str {
+    pub fn name(&self) -> &str {
         match self {
             Measure::Time => "time_s",
             Measure::Distance => "distance_m",
             Measure::Collisions => "collisions",
             Measure::Interruptions => "interruptions",
             Measure::Misses => "deadline_misses",
-            Measure::WallErrorMean => "wall_error_mean_m",
-            Measure::WallErrorMax => "wall_error_max_m",
+            Measure::Figure(name) => name,
         }
     }
 
     /// What it was in a run.
-    pub fn of(self, outcome: &Outcome) -> Option<f64> {
+    pub fn of(&self, outcome: &Outcome) -> Option<f64> {
         Some(match self {
             Measure::Time => outcome.time_s,
             Measure::Distance => outcome.distance_m,
             Measure::Collisions => outcome.collisions as f64,
             Measure::Interruptions => outcome.interruptions as f64,
             Measure::Misses => outcome.deadline_misses as f64,
-            Measure::WallErrorMean => return outcome.wall_error_mean_m,
-            Measure::WallErrorMax => return outcome.wall_error_max_m,
+            Measure::Figure(name) => return outcome.figures.get(name).copied(),
         })
     }
 }
@@ -118,12 +118,14 @@ impl Findings {
         let started: Vec<_> = outcomes.iter().filter(|it| !it.trace.is_empty()).collect();
         let spread = |measure: Measure| {
             let values = started.iter().filter_map(|outcome| measure.of(outcome));
-            Some((measure, Spread::new(values.collect())?))
+            let spread = Spread::new(values.collect())?;
+            Some((measure, spread))
         };
+        let all = Measure::ALL.into_iter().chain(Measure::of_figures(outcomes));
         Findings {
             endings: endings.filter(|(_, count)| *count > 0).collect(),
             groups: groups(outcomes),
-            measures: Measure::ALL.into_iter().filter_map(spread).collect(),
+            measures: all.filter_map(spread).collect(),
         }
     }
 

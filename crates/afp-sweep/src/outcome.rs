@@ -1,5 +1,8 @@
 //! What a run came to.
 
+use std::collections::BTreeMap;
+
+use afp_session::{FigureValue, Figures};
 use serde::{Deserialize, Serialize};
 
 /// How a run ended.
@@ -71,14 +74,35 @@ pub struct Outcome {
     pub interruptions: u64,
     /// Deadlines that were missed.
     pub deadline_misses: u64,
-    /// The mean error of following a wall, metres, where one was followed.
-    pub wall_error_mean_m: Option<f64>,
-    /// The greatest.
-    pub wall_error_max_m: Option<f64>,
+    /// What else the robot and its measures say the run came to, by the names of columns: `contacts_s`,
+    /// `wall_error_mean_m`.
+    #[serde(flatten)]
+    pub figures: BTreeMap<String, f64>,
     /// The hash of the trace, 16 hexadecimal digits; empty for a run without one.
     pub trace: String,
     /// How long it took by the wall clock, seconds.
     pub took_s: f64,
+}
+
+/// Figures as numbers with names: a count by the figure's own, each of its numbers with that before it, stretches of time
+/// by their sum in seconds.
+pub(crate) fn numbers(figures: &Figures) -> BTreeMap<String, f64> {
+    let mut all = BTreeMap::new();
+    for figure in &figures.0 {
+        match &figure.value {
+            FigureValue::Count(count) => {
+                all.insert(figure.name.to_owned(), *count as f64);
+            }
+            FigureValue::Numbers(parts) => all.extend(
+                parts.iter().map(|(part, number)| (format!("{}_{part}", figure.name), *number)),
+            ),
+            FigureValue::Spans { spans, .. } => {
+                let lasted = spans.iter().map(|span| span.end.since(span.begin).as_secs_f64());
+                all.insert(format!("{}_s", figure.name), lasted.sum());
+            }
+        }
+    }
+    all
 }
 
 impl Outcome {
@@ -94,10 +118,37 @@ impl Outcome {
             collisions: 0,
             interruptions: 0,
             deadline_misses: 0,
-            wall_error_mean_m: None,
-            wall_error_max_m: None,
+            figures: BTreeMap::new(),
             trace: String::new(),
             took_s: 0.0,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use afp_core::Instant;
+    use afp_session::{Figure, Span};
+
+    use super::*;
+
+    #[test]
+    fn figures_become_numbers_that_a_journal_keeps() {
+        let at = |seconds: u64| Instant::from_nanos(seconds * 1_000_000_000);
+        let span = |begin, end| Span { name: "crate".to_owned(), begin: at(begin), end: at(end) };
+        let figure = |name, value| Figure { name, value, text: String::new() };
+        let spans = vec![span(1, 3), span(5, 6)];
+        let figures = Figures(vec![
+            figure("drops", FigureValue::Count(2)),
+            figure("contacts", FigureValue::Spans { of: "obstacle", spans }),
+            figure("dirt", FigureValue::Numbers(vec![("left_m2", 0.5)])),
+        ]);
+        let figures = numbers(&figures);
+        let pairs: Vec<_> = figures.iter().map(|(name, number)| (name.as_str(), *number)).collect();
+        assert_eq!(pairs, [("contacts_s", 3.0), ("dirt_left_m2", 0.5), ("drops", 2.0)]);
+        let outcome = Outcome { figures, ..Outcome::failed(3, Ending::Ok, String::new()) };
+        let line = serde_json::to_string(&outcome).unwrap();
+        assert!(line.contains("\"dirt_left_m2\":0.5"), "{line}");
+        assert_eq!(serde_json::from_str::<Outcome>(&line).unwrap(), outcome);
     }
 }

@@ -49,7 +49,14 @@ mod tests {
 
     pub(super) fn outcomes() -> [Outcome; 2] {
         let failed = |run| Outcome::failed(run, Ending::Error, "a, \"b\"".to_owned());
-        [failed(1), Outcome { wall_error_mean_m: Some(0.1), run: u64::MAX / 4 * 4, ..failed(2) }]
+        [
+            failed(1),
+            Outcome {
+                figures: [("wall_error_mean_m".to_owned(), 0.1)].into(),
+                run: u64::MAX / 4 * 4,
+                ..failed(2)
+            },
+        ]
     }
 
     #[test]
@@ -58,7 +65,7 @@ mod tests {
         let mut lines = text.lines();
         assert!(lines.next().unwrap().starts_with("run,world,seed,d,ending,where,why,time_s,"));
         let first = lines.next().unwrap();
-        assert!(first.starts_with("1,,4,20cm,error,,\"a, \"\"b\"\"\",0,0,0,0,0,,,,"), "{first}");
+        assert!(first.starts_with("1,,4,20cm,error,,\"a, \"\"b\"\"\",0,0,0,0,0,,,"), "{first}");
         assert!(first.ends_with("afpc run a.afp --seed 4 --set d=20cm --until 60s,0"), "{first}");
     }
 }

@@ -133,13 +133,13 @@ impl<'a> Teller<'a> {
         }
         if !findings.measures.is_empty() {
             let _ =
-                writeln!(text, "\n{QUIET}{:>25} {:>10} {:>10}{QUIET:#}", "min", "median", "max");
+                writeln!(text, "\n{QUIET}{:>31} {:>10} {:>10}{QUIET:#}", "min", "median", "max");
         }
         for (measure, Spread { min, median, max }) in &findings.measures {
-            let (name, digits, scale) = shown(*measure);
-            let values = [min, median, max].map(|value| format!("{:.digits$}", value * scale));
+            let (name, digits) = shown(measure);
+            let values = [min, median, max].map(|value| format!("{value:.digits$}"));
             let [min, median, max] = values;
-            let _ = writeln!(text, "{name:>14} {min:>10} {median:>10} {max:>10}");
+            let _ = writeln!(text, "{name:>20} {min:>10} {median:>10} {max:>10}");
         }
         let _ = writeln!(text, "\n{}", self.last_line(outcomes, findings));
         for (path, _) in &place.tables {
@@ -199,15 +199,18 @@ fn line(group: &Group) -> String {
     format!("{count:>7} {style}{how}{style:#}{place}{why}")
 }
 
-/// How a measure is shown: its name, digits, and what it is multiplied with.
-fn shown(measure: Measure) -> (&'static str, usize, f64) {
+/// How a measure is shown: its name, and how many digits.
+fn shown(measure: &Measure) -> (String, usize) {
     match measure {
-        Measure::Time => ("time, s", 2, 1.0),
-        Measure::Distance => ("distance, m", 2, 1.0),
-        Measure::Collisions => ("collisions", 1, 1.0),
-        Measure::Interruptions => ("interruptions", 1, 1.0),
-        Measure::Misses => ("missed", 1, 1.0),
-        Measure::WallErrorMean => ("wall error, cm", 2, 100.0),
-        Measure::WallErrorMax => ("at most, cm", 2, 100.0),
+        Measure::Time => ("time, s".to_owned(), 2),
+        Measure::Distance => ("distance, m".to_owned(), 2),
+        Measure::Collisions => ("collisions".to_owned(), 1),
+        Measure::Interruptions => ("interruptions".to_owned(), 1),
+        Measure::Misses => ("missed".to_owned(), 1),
+        // The last part of a column's name is the unit.
+        Measure::Figure(name) => match name.rsplit_once('_') {
+            Some((name, unit @ ("m" | "s"))) => (format!("{}, {unit}", name.replace('_', " ")), 3),
+            _ => (name.replace('_', " "), 3),
+        },
     }
 }
