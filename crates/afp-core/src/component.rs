@@ -43,6 +43,10 @@ pub enum Poll<S> {
 }
 
 /// The ports and states of an actor, as its toolbox file declares them.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is declared in the toolbox, but not as an actor",
+    note = "an actor implements `afp::Actor`, a supervisor `afp::Supervisor`, a computation `afp::Computation`"
+)]
 pub trait ActorTemplate {
     /// Inputs read once, before the start.
     type Inputs<'a>;
@@ -53,6 +57,10 @@ pub trait ActorTemplate {
 }
 
 /// The ports and events of a supervisor, as its toolbox file declares them.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is declared in the toolbox, but not as a supervisor",
+    note = "an actor implements `afp::Actor`, a supervisor `afp::Supervisor`, a computation `afp::Computation`"
+)]
 pub trait SupervisorTemplate {
     /// Inputs read once, before the start.
     type Inputs<'a>;
@@ -63,6 +71,10 @@ pub trait SupervisorTemplate {
 }
 
 /// The ports and states of a computation, as its toolbox file declares them.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is declared in the toolbox, but not as a computation",
+    note = "an actor implements `afp::Actor`, a supervisor `afp::Supervisor`, a computation `afp::Computation`"
+)]
 pub trait ComputationTemplate {
     /// Its inputs.
     type Inputs<'a>;
@@ -77,6 +89,10 @@ pub trait ComputationTemplate {
 ///     |              |  \---poll: Err----> interrupt, then gone
 ///    Err: gone       \------interrupted--> interrupt, then gone
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not implement the actor `{T}` on the platform `{E}`",
+    note = "either the platform lacks what the implementation asks for, or there is no `impl Actor<{T}, _> for {Self}`"
+)]
 pub trait Actor<T: ActorTemplate, E: ?Sized>: Sized {
     /// Begins to act. The first poll comes one period later.
     ///
@@ -106,6 +122,10 @@ pub trait Actor<T: ActorTemplate, E: ?Sized>: Sized {
 }
 
 /// A watching supervisor of template `T` on platform `E`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not implement the supervisor `{T}` on the platform `{E}`",
+    note = "either the platform lacks what the implementation asks for, or there is no `impl Supervisor<{T}, _> for {Self}`"
+)]
 pub trait Supervisor<T: SupervisorTemplate, E: ?Sized>: Sized {
     /// Begins to watch for the `wanted` events.
     ///
@@ -132,6 +152,7 @@ pub trait Supervisor<T: SupervisorTemplate, E: ?Sized>: Sized {
 }
 
 /// A computation of template `T`: no environment, so no side effect.
+#[diagnostic::on_unimplemented(message = "`{Self}` does not implement the computation `{T}`")]
 pub trait Computation<T: ComputationTemplate> {
     /// Computes at once.
     ///

@@ -1,6 +1,6 @@
 //! What stands between the brackets.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, quote};
 use syn::parse::{Parse, ParseStream};
 use syn::{Ident, LitStr, Path, Token, braced};
@@ -11,6 +11,8 @@ pub struct Input {
     pub core: TokenStream,
     /// The file, as written.
     pub path: String,
+    /// Where that stands.
+    pub span: Span,
     /// Toolboxes that are not built in: the file and the path of the module that implements it.
     pub toolboxes: Vec<(String, String)>,
 }
@@ -22,7 +24,8 @@ impl Parse for Input {
             core = input.call(Path::parse_mod_style)?.into_token_stream();
             input.parse::<Token![,]>()?;
         }
-        let path = input.parse::<LitStr>()?.value();
+        let path = input.parse::<LitStr>()?;
+        let (path, span) = (path.value(), path.span());
         let mut toolboxes = Vec::new();
         if input.parse::<Option<Token![,]>>()?.is_some() && !input.is_empty() {
             let word: Ident = input.parse()?;
@@ -36,7 +39,7 @@ impl Parse for Input {
             toolboxes.extend(list);
             input.parse::<Option<Token![,]>>()?;
         }
-        Ok(Input { core, path, toolboxes })
+        Ok(Input { core, path, span, toolboxes })
     }
 }
 

@@ -9,10 +9,13 @@ mod sources;
 #[cfg(test)]
 mod tests;
 
+use std::collections::HashSet;
+
 use afp_codegen::Options;
+use afp_dsl::toolbox::Toolbox;
 use afp_syntax::diagnostics::{Diagnostics, Severity};
 use afp_syntax::source::Sources;
-use proc_macro2::TokenStream;
+use proc_macro2::{Group, Span, TokenStream, TokenTree};
 use quote::quote;
 
 use input::Input;
@@ -49,18 +52,45 @@ pub fn scenarios(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
 }
 
 fn expand(input: TokenStream, make: fn(&Input) -> Result<TokenStream, TokenStream>) -> TokenStream {
-    let input = syn::parse2(input).map_err(|error| error.into_compile_error());
-    input.and_then(|input| make(&input)).unwrap_or_else(|error| error)
+    match syn::parse2::<Input>(input) {
+        Err(error) => error.into_compile_error(),
+        Ok(input) => {
+            let made = make(&input).unwrap_or_else(|error| error);
+            // Else what is wrong with the Rust beside the macro would be shown inside of `afp`.
+            located(made, Span::call_site().located_at(input.span))
+        }
+    }
+}
+
+/// The tokens as if they stood at a place; `$crate` means what it meant.
+fn located(tokens: TokenStream, at: Span) -> TokenStream {
+    let each = tokens.into_iter().map(|mut token| {
+        match &mut token {
+            TokenTree::Group(group) => {
+                let mut inner = Group::new(group.delimiter(), located(group.stream(), at));
+                inner.set_span(at);
+                *group = inner;
+            }
+            TokenTree::Ident(ident) if ident == "$crate" => {}
+            token => token.set_span(at),
+        }
+        token
+    });
+    each.collect()
 }
 
 fn toolbox_code(input: &Input) -> Result<TokenStream, TokenStream> {
     let file = sources::toolbox(&input.path).map_err(|text| error(&text))?;
     let mut sources = Sources::default();
     let index = sources.add(std::sync::Arc::new(file.source.clone())).unwrap_or(0);
-    let (toolbox, diags) = afp_dsl::toolbox::Toolbox::parse(&file.source, index, "crate");
-    let toolbox = toolbox.ok_or_else(|| errors(&diags, &sources))?;
+    let (toolbox, diags) = Toolbox::parse_broken(&file.source, index, "crate");
+    let errors = errors(&diags, &sources);
+    let mut toolbox = toolbox.ok_or_else(|| errors.clone())?;
+    let mut names = HashSet::new();
+    toolbox.templates.retain(|template| names.insert(template.name.clone()));
     let options = Options { core: input.core.clone(), source: file.text };
-    Ok(afp_codegen::code(afp_codegen::toolbox(&toolbox, &options)))
+    let code = afp_codegen::code(afp_codegen::toolbox(&toolbox, &options));
+    Ok(quote!(#errors #code))
 }
 
 fn plan_code(input: &Input) -> Result<TokenStream, TokenStream> {

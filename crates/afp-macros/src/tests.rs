@@ -29,6 +29,12 @@ fn every_error_of_a_toolbox_is_a_compile_error_with_its_place() {
 }
 
 #[test]
+fn the_templates_of_a_broken_toolbox_are_there_all_the_same() {
+    let text = expand(quote!("tests/wrong/toolbox.afp"), toolbox_code).to_string();
+    assert!(text.contains("pub struct Drive") && text.contains("pub mod drive"), "{text}");
+}
+
+#[test]
 fn a_missing_file_is_named() {
     let errors = errors(&expand(quote!("no/such.afp"), plan_code));
     assert!(errors[0].contains("cannot read") && errors[0].contains("no/such.afp"), "{errors:?}");

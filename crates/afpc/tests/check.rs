@@ -27,6 +27,26 @@ fn all_errors_of_all_files_come_at_once() {
 }
 
 #[test]
+fn a_toolbox_is_checked_by_itself() {
+    let place = Place::new();
+    let toolbox =
+        "/// A lamp.\ntoolbox lamp version \"1.0\"\nactor Blink { in often: int = 3 state Done }\n";
+    place.write("lamp.afp", toolbox);
+    let said = place.afpc("check lamp.afp");
+    said.succeeds();
+    assert_eq!((&*said.out, &*said.err), ("lamp.afp: no errors\n", ""));
+
+    place.write("wrong.afp", &toolbox.replace("often: int", "often: lenght").replace("= 3", ""));
+    let said = place.afpc("check wrong.afp");
+    said.fails(1, &["error[E0232]", "lenght", "--> wrong.afp:3:"]);
+    assert!(!said.err.contains("E0503"), "it needs no plan: {}", said.err);
+    let said = place.afpc("check wrong.afp --json");
+    said.fails(1, &[]);
+    let line: serde_json::Value = serde_json::from_str(said.out.lines().next().unwrap()).unwrap();
+    assert_eq!(line["code"], "E0232", "{line}");
+}
+
+#[test]
 fn diagnostics_are_json_when_asked() {
     let place = Place::new();
     place.write("a.afp", &WALL_FOLLOWING.replace("start searchFirstWall", "start searchFirst"));

@@ -31,6 +31,20 @@ impl Toolbox {
         let read = read_file(source, file, rust_path);
         (read.toolbox, read.diags)
     }
+
+    /// As [`Toolbox::parse`], with what could be read of a toolbox that has errors: so that whoever names its templates
+    /// is not told that they are missing.
+    pub fn parse_broken(
+        source: &Source,
+        file: u16,
+        rust_path: &str,
+    ) -> (Option<Toolbox>, Diagnostics) {
+        let mut diags = Diagnostics::default();
+        let tree = parse(&source.text, file, &mut diags).file();
+        let read = read(&tree, source, file, rust_path, &Recorder::default(), &mut diags);
+        diags.sort();
+        (read, diags)
+    }
 }
 
 /// What a toolbox file comes to.

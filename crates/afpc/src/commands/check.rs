@@ -1,21 +1,23 @@
 //! `afpc check`: everything that is wrong with plans and toolboxes.
 
 mod targets;
+mod toolbox;
 
 use std::collections::HashSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use afp_dsl::Compiled;
 use afp_dsl::files::normalised;
 use afp_dsl::timing::{Target, check_target, timing};
 use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_USAGE, say};
-use afp_syntax::diagnostics::Code;
-use afp_syntax::source::Span;
+use afp_syntax::diagnostics::{Code, Diagnostics};
+use afp_syntax::source::{Sources, Span};
 use clap::Args;
 use serde_json::json;
 
 use super::print;
 use crate::plan_file::{NoPlan, PlanFile};
+use toolbox::ToolboxFile;
 
 /// Arguments of `afpc check`.
 #[derive(Args, Debug)]
@@ -62,6 +64,11 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
 type Told = HashSet<(PathBuf, Span, Code, String)>;
 
 fn check(name: &str, arguments: &Arguments, told: &mut Told) -> Result<u8, NoPlan> {
+    if let Some(file) = ToolboxFile::read(name) {
+        let (diags, sources) = (file.toolboxes.diagnostics(), file.toolboxes.sources());
+        show(diags, sources, arguments.json)?;
+        return conclude(diags.has_errors(), &file.path, arguments.json);
+    }
     let mut file = match PlanFile::read(name) {
         Ok(file) => file,
         // The other files are still worth checking.
@@ -78,21 +85,32 @@ fn check(name: &str, arguments: &Arguments, told: &mut Told) -> Result<u8, NoPla
     }
     let wrong = compiled.diags.has_errors();
     leave_out_told(compiled, told);
-    match arguments.json {
-        true => {
-            print(&compiled.diags.json_lines(&compiled.sources))?;
-        }
-        false if compiled.diags.is_empty() => {}
-        false => say(compiled.render(true)),
-    }
+    show(&compiled.diags, &compiled.sources, arguments.json)?;
     if arguments.timing {
         show_timing(&file, &targets, arguments.json)?;
     }
+    conclude(wrong, &file.path, arguments.json)
+}
+
+/// Prints what is wrong.
+fn show(diags: &Diagnostics, sources: &Sources, json: bool) -> Result<(), NoPlan> {
+    match json {
+        true => {
+            print(&diags.json_lines(sources))?;
+        }
+        false if diags.is_empty() => {}
+        false => say(diags.render(sources, true)),
+    }
+    Ok(())
+}
+
+/// The exit code of one file, which people read in words, too.
+fn conclude(wrong: bool, path: &Path, json: bool) -> Result<u8, NoPlan> {
     if wrong {
         return Ok(EXIT_FAILED);
     }
-    if !arguments.json {
-        print(&format!("{}: no errors\n", file.path.display()))?;
+    if !json {
+        print(&format!("{}: no errors\n", path.display()))?;
     }
     Ok(EXIT_OK)
 }
