@@ -270,6 +270,63 @@ def test_ctrl_c_in_a_component_ends_the_run() -> None:
     assert simulation.ending == "error"
 
 
+def test_no_component_is_called_after_ctrl_c() -> None:
+    tools = afp.Toolbox("tools")
+    calls: list[str] = []
+
+    @tools.actor(states=["Done"])
+    class Blocks:
+        def __init__(self) -> None:
+            calls.append("start")
+            if len(calls) > 1:
+                raise KeyboardInterrupt
+
+        def poll(self) -> str:
+            calls.append("poll")
+            raise RuntimeError("an ordinary one, which takes the edge")
+
+        def interrupt(self) -> None:
+            calls.append("interrupt")
+
+    plan = afp.Plan("use tools\nplan P { start go actor go: Blocks { Done -> terminate Error -> go } }", toolboxes=[tools])
+    with pytest.raises(KeyboardInterrupt):
+        afp.Simulation(plan).run(until=5.0)
+    assert calls == ["start", "poll", "interrupt", "start"]
+
+
+def test_a_cell_can_be_run_twice() -> None:
+    tools = afp.Toolbox("tools")
+    for limit in (3, 4):
+
+        @tools.computation(states=["Small", "Big"])
+        def Size(value: int = limit) -> str:
+            return "Small" if value < 4 else "Big"
+
+        assert tools.templates == ["Size"] and f"value: int = {limit}" in tools.text
+    plan = afp.Plan("use tools\nplan P { start s computation s: Size { Small -> terminate Big -> s } }", toolboxes=[tools])
+    assert afp.Simulation(plan).run().fault == "livelock", "the later one counts"
+    read = afp.Toolbox.parse("toolbox read\ncomputation Size { state Done }")
+    with pytest.raises(afp.AfpError, match="E0212"):
+        read.computation(states=["Done"], name="Size")(lambda: "Done")
+
+
+def test_an_exception_names_its_element_and_its_time() -> None:
+    tools = afp.Toolbox("tools")
+
+    @tools.computation(states=["Done"])
+    def Fails() -> str:
+        raise ValueError("no")
+
+    inner = "plan Inner { start c computation c: Fails { Done -> terminate } }"
+    text = f"use std\nuse tools\nplan P {{ start w actor w: Wait(duration = 1 s) {{ Elapsed -> s }} subplan s: Inner {{ OK -> terminate Error -> c }} computation c: Fails {{ Done -> terminate }} }}\n{inner}"
+    result = afp.Simulation(afp.Plan(text, toolboxes=[tools])).run()
+    assert [(each.time, each.element, each.template) for each in result.errors] == [(1.0, "s.c", "Fails"), (1.0, "c", "Fails")]
+    with pytest.raises(ValueError, match="no"):
+        result.check()
+    again = pickle.loads(pickle.dumps(result.errors[0]))
+    assert (again.element, str(again.error), again.traceback) == ("s.c", "no", result.errors[0].traceback)
+
+
 def test_a_toolbox_is_pickled_with_its_components() -> None:
     again = pickle.loads(pickle.dumps(PICKLED))
     assert again.text == PICKLED.text and again.implemented == ["Greater"] and again.sources == PICKLED.sources

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 import afp
@@ -26,6 +27,10 @@ SAID: list[tuple[str, type[Exception], str]] = [
     ("afp.Log('nowhere.mcap')", FileNotFoundError, "cannot read the log: No such file or directory: 'nowhere.mcap'"),
     ("afp.World.load('hall.toml')", FileNotFoundError, "cannot read the world: No such file or directory: 'hall.toml'"),
     ("plan.save('nowhere/plan.afp')", FileNotFoundError, "cannot write the plan: No such file or directory"),
+    ("simulate(log='.')", IsADirectoryError, "cannot write the log: it is a folder: '.'"),
+    ("afp.sweep(plan, vary=[1])", TypeError, "vary gives entries lists of values, such as {'walldist': [afp.cm(30), afp.cm(40)]}"),
+    ("afp.cm(afp.deg(90))", TypeError, "cm() takes a number, not a quantity in rad"),
+    ("simulate(set={'walldist': 2 * afp.deg(10)})", TypeError, "'walldist' is a length in m, not a quantity in rad"),
     ("afp.cm('30')", TypeError, "cm() takes a number, not '30'"),
     ("plan.set_every('searchFirstWall.touch', [5])", TypeError, "a time is a time in seconds"),
     ("plan.bind('backupCollision', 'distance', None)", TypeError, "expected a text, a number or a quantity, not None"),
@@ -61,3 +66,34 @@ def test_times_and_values_are_taken_as_people_have_them(wall_following: afp.Plan
 
     assert "every 0.02 s deadline 0.01 s" in tools.text
     assert afp.new_plan("P", use="carbot").text.startswith("use carbot\n")
+
+
+def test_a_default_has_the_unit_of_its_type() -> None:
+    tools = afp.Toolbox("tools")
+    with pytest.raises(TypeError, match="the parameter 'far' of '.*Far' is length in m, its default a quantity in rad"):
+
+        @tools.computation(states=["Done"])
+        def Far(far: afp.Length = afp.deg(30)) -> str:
+            return "Done"
+
+
+def test_numbers_of_numpy_are_numbers(wall_following: afp.Plan) -> None:
+    plan = afp.Plan("plan P { in g: float = 1.0 in n: int = 1 in b: bool = false }\n")
+    for value, text in ((np.float64(2.0), "2.0"), (np.float32(0.5), "0.5"), (np.int64(3), "3")):
+        plan.set_entry_value("g", value)
+        assert f"g: float = {text}" in plan.text
+    text = "use std\nplan P { in n: int = 1 in f: float = 1.0 in b: bool = false in t: duration = 1 s start w actor w: Wait(duration = t) { Elapsed -> terminate } }"
+    values = {"n": np.int64(3), "f": np.float32(0.5), "b": np.bool_(True), "t": np.float64(0.5)}
+    simulation = afp.Simulation(afp.Plan(text), set=values)
+    assert simulation.entries == {"n": 3, "f": 0.5, "b": True, "t": 0.5}
+    simulation.step()
+    simulation["n"] = np.int32(7)
+    simulation.step()
+    assert simulation["n"] == 7
+    tools = afp.Toolbox("tools")
+
+    @tools.computation(states=["Done"])
+    def Scale(by: float = np.float64(0.5), times: int = np.int64(2)) -> str:
+        return "Done"
+
+    assert "by: float = 0.5" in tools.text and "times: int = 2" in tools.text

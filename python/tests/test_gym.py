@@ -79,3 +79,17 @@ def test_what_makes_no_sense_is_refused() -> None:
         afp.gym.CarbotEnv().step(np.zeros(2))
     with pytest.raises(ValueError, match="finite"):
         afp.Carbot(afp.World.random(1)).drive(math.nan, 0.0, 1.0)
+
+
+def test_echoes_at_the_range_of_the_sensor_do_not_end_an_episode() -> None:
+    env = afp.gym.CarbotEnv()
+    env.reset(seed=4)
+    actions = np.random.default_rng(4)
+    unknown = 0
+    for _ in range(120):
+        seen, _, ended, _, _ = env.step(actions.uniform(-1, 1, 2))
+        assert env.observation_space.contains(seen)
+        unknown += int(seen[1] == 0.0)
+        if ended:
+            break
+    assert unknown > 0, "this episode has such an echo"

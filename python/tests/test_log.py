@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from pathlib import Path
 
 import pytest
@@ -15,7 +16,7 @@ def test_a_log_holds_the_run(wall_following: afp.Plan, tmp_path: Path) -> None:
         result = simulation.run(until=6.0)
     log = afp.Log(file)
     assert log.facts["plan"] == "WallFollowing" and log.facts["seed"] == "5"
-    told = [event for event in log.events if event.kind != "polled" or event.outcome]
+    told = [event for event in log.events if event.kind not in ("polled", "requested") or event.outcome]
     assert [(e.time, e.kind, e.component) for e in told] == [(e.time, e.kind, e.component) for e in result.events]
     times, values = log.entry("walldist")
     assert times[0] == 0.0 and values[0] == 0.35
@@ -40,3 +41,20 @@ def test_what_is_no_log(tmp_path: Path) -> None:
     (tmp_path / "text.mcap").write_text("hello")
     with pytest.raises(afp.AfpError):
         afp.Log(tmp_path / "text.mcap")
+
+
+def test_a_log_is_whole_when_the_plan_has_ended_or_the_simulation_is_gone(tmp_path: Path, wall_following: afp.Plan) -> None:
+    ended, gone, closed = (tmp_path / name for name in ("ended.mcap", "gone.mcap", "closed.mcap"))
+    afp.Simulation(wall_following, log=ended).run(until=1.0)
+    assert ended.exists()
+    simulation = afp.Simulation(wall_following, log=gone)
+    simulation.run_to(1.0)
+    assert not gone.exists()
+    del simulation
+    gc.collect()
+    assert gone.exists()
+    with afp.Simulation(wall_following, log=closed) as simulation:
+        simulation.run_to(1.0)
+    assert afp.Log(closed).events
+    with pytest.raises(RuntimeError, match="was closed with its log"):
+        simulation.run_to(2.0)

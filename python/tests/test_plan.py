@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import pickle
 import subprocess
 from pathlib import Path
@@ -9,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import afp
-from conftest import ROOT
+from conftest import ROOT, interrupted
 
 WRONG = "use carbot\nplan P { start go actor go: Forward(distance = 30) { ForwardSuccessful -> terminate } }\n"
 COMMENTED = """use carbot
@@ -50,7 +51,8 @@ def test_a_plan_shows_itself(wall_following: afp.Plan) -> None:
     svg = wall_following._repr_svg_()
     assert svg is not None and svg.startswith("<svg") and "searchFirstWall" in svg
     assert "<svg" in wall_following._repr_html_()
-    assert "E0203" in afp.Plan(WRONG)._repr_html_() and afp.Plan(WRONG)._repr_svg_() is None
+    wrong = afp.Plan(WRONG)
+    assert "E0203" in wrong._repr_html_() and "<svg" in wrong._repr_html_() and "wrong" in wrong._repr_svg_()
     assert "digraph" in wall_following.dot() and "<scxml" in wall_following.scxml()
     assert '"WallFollowing"' in wall_following.json()
     with pytest.raises(ValueError, match="there are: auto, light, dark"):
@@ -134,10 +136,60 @@ def test_files_that_are_not_there() -> None:
         afp.World.load("nowhere.toml")
 
 
-def test_plans_are_not_pickled(wall_following: afp.Plan) -> None:
-    for thing in (wall_following, afp.World.random(1), afp.Simulation(wall_following)._runner):
+def test_what_has_an_inside_that_runs_is_not_pickled(wall_following: afp.Plan) -> None:
+    for thing in (afp.Simulation(wall_following)._runner, afp.Carbot(afp.World.random(1))):
         with pytest.raises(TypeError, match="cannot be pickled"):
             pickle.dumps(thing)
+
+
+def test_what_is_plain_can_be_pickled_and_copied(wall_following: afp.Plan) -> None:
+    wall_following.rename("followWall", "along")
+    result = afp.Simulation(wall_following, seed=3).run(until=3.0)
+    broken = afp.Plan("plan P { start nowhere }", "p.afp")
+    with pytest.raises(afp.PlanError) as error:
+        broken.check()
+    for again in (lambda thing: pickle.loads(pickle.dumps(thing)), copy.copy, copy.deepcopy):
+        plan = again(wall_following)
+        assert (type(plan), plan.text, plan.path, plan.name) == (
+            afp.Plan,
+            wall_following.text,
+            wall_following.path,
+            "WallFollowing",
+        )
+        plan.rename("along", "beside")
+        assert "along" in wall_following.text and "along" not in plan.text, "a copy is of its own"
+        world = again(result._world)
+        assert (world.name, world.text, world.path) == (result._world.name, result._world.text, result._world.path)
+        assert afp.Simulation(wall_following, world, seed=3).run(until=3.0).trace_hash == result.trace_hash
+        told = again(result)
+        assert [str(event) for event in told.events] == [str(event) for event in result.events]
+        assert (told.trace_hash, told.entries, told.timeline) == (result.trace_hash, result.entries, result.timeline)
+        assert again(broken.diagnostics[0]) == broken.diagnostics[0]
+        why = again(error.value)
+        assert (str(why), why.diagnostics) == (str(error.value), broken.diagnostics)
+
+
+def test_scenarios_are_pickled_with_their_text() -> None:
+    plan = afp.load(ROOT / "plans/tests/wall_following.afp")
+    for scenario in plan.scenarios[:2]:
+        again = pickle.loads(pickle.dumps(scenario))
+        assert (again.name, again.plan, again.line) == (scenario.name, scenario.plan, scenario.line)
+
+
+def test_broken_plans_are_drawn() -> None:
+    broken = afp.Plan("use carbot\nplan P { start go actor go: Forward(distance = 3) { ForwardSuccessful -> nowhere } }")
+    assert not broken.ok
+    assert "Forward" in broken.svg() and "<svg" in broken._repr_html_()
+
+
+def test_a_drawing_that_takes_long_is_interrupted_and_leaves_others_their_turn() -> None:
+    count = 2000
+    ring = "".join(
+        f"actor a{i}: Forward(distance = 1 m) {{ ForwardSuccessful -> a{(i + 1) % count} }}\n" for i in range(count)
+    )
+    plan = afp.Plan(f"use carbot\nplan P {{ start a0\n{ring} }}")
+    assert plan.name == "P"
+    assert interrupted(plan.svg) < 0.5
 
 
 def test_every_shipped_plan_is_in_order() -> None:

@@ -118,7 +118,7 @@ def test_a_value_may_look_at_its_simulation(wall_following: afp.Plan) -> None:
 
 
 def test_ctrl_c_interrupts_a_scenario() -> None:
-    quiet = "use carbot\nplan P { start go actor go: Forward(distance = 1 m) { ForwardSuccessful -> go } }"
+    quiet = "use carbot\nplan P { start go actor go: Turn(angle = 90 deg) { TurnSuccessful -> go } }"
     plan = afp.Plan(f'{quiet}\nscenario "long" for P {{ never collision after 1 s until 1 h }}')
     assert plan.ok, plan.report()
     assert interrupted(plan.scenarios[0].run) < 1.0

@@ -81,13 +81,13 @@ def test_stimuli(wall_following: afp.Plan) -> None:
 
 def test_stimuli_that_make_no_sense(wall_following: afp.Plan) -> None:
     simulation = afp.Simulation(wall_following)
-    with pytest.raises(ValueError, match="but: frozen, lost"):
+    with pytest.raises(ValueError, match="it can be frozen, lost"):
         simulation.fail("ultrasonic", "melted")
-    with pytest.raises(ValueError, match=r"afp.faults\(\)"):
+    with pytest.raises(ValueError, match="nothing called 'hat' can fail; there are"):
         simulation.fail("hat", "lost")
     with pytest.raises(ValueError, match="no actor or supervisor 'nobody'"):
         simulation.fire("nobody", "Done")
-    with pytest.raises(ValueError, match="there are: touch, escape"):
+    with pytest.raises(ValueError, match="no control 'enter'; it has 'touch', 'escape'"):
         simulation.press("enter")
     with pytest.raises(ValueError, match="no time"):
         simulation.press(at=float("nan"))
@@ -101,7 +101,7 @@ def test_stimuli_that_make_no_sense(wall_following: afp.Plan) -> None:
     with pytest.raises(afp.AfpError, match="at 0.1 s: 'followWall.wallTouch' is not active"):
         simulation.run(until=1.0)
     assert simulation.run(until=1.0).time == 1.0
-    with pytest.raises(afp.AfpError, match="ended|over"):
+    with pytest.raises(RuntimeError, match="has ended"):
         simulation.set("walldist", 0.4, at=0.5)
 
 

@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 
 import afp
+from conftest import interrupted
 
 GO = "use carbot\nplan Go { in way: length = 20 cm start go actor go: Forward(distance = way) { ForwardSuccessful -> terminate } }"
 
@@ -141,6 +142,19 @@ def test_ctrl_c_stops_a_sweep() -> None:
     with pytest.raises(KeyboardInterrupt):
         afp.sweep(afp.Plan(GO.replace("20 cm", "-0.001 mm").replace("terminate", "go")), seeds=100_000, until=600.0, jobs=2, progress=False)
     assert time.monotonic() - begun < 10.0
+
+
+def test_ctrl_c_stops_a_sweep_whose_component_hangs() -> None:
+    tools = afp.Toolbox("tools")
+
+    @tools.actor(states=["Done"])
+    class Hangs:
+        def poll(self) -> str:
+            while True:
+                pass
+
+    plan = afp.Plan("use tools\nplan P { start go actor go: Hangs { Done -> terminate } }", toolboxes=[tools])
+    assert interrupted(lambda: afp.sweep(plan, seeds=8, jobs=2, progress=False)) < 5.0
 
 
 def test_tables(tmp_path: Path) -> None:

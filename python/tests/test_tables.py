@@ -40,18 +40,18 @@ def test_pictures(result: afp.Result) -> None:
 
 
 MISSING = {
-    "pandas": ("pandas", ["result.to_pandas()", "runs.to_pandas()", "log.to_pandas()"]),
-    "polars": ("polars", ["result.to_polars()", "runs.to_polars()", "log.to_polars()"]),
-    "pyarrow": ("arrow", ["result.to_arrow()", "runs.to_arrow()", "result.__arrow_c_stream__()"]),
-    "matplotlib": ("plot", ["result.plot_path()", "result.plot_timeline()", "runs.plot('seed')", "log.plot_timeline()"]),
-    "gymnasium": ("gym", ["__import__('afp.gym')"]),
-    "ray": ("ray", ["afp.sweep(plan, backend='ray', progress=False)"]),
+    "pandas": ["result.to_pandas()", "runs.to_pandas()", "log.to_pandas()"],
+    "polars": ["result.to_polars()", "runs.to_polars()", "log.to_polars()"],
+    "pyarrow": ["result.to_arrow()", "runs.to_arrow()", "result.__arrow_c_stream__()"],
+    "matplotlib": ["result.plot_path()", "result.plot_timeline()", "runs.plot('seed')", "log.plot_timeline()"],
+    "gymnasium": ["__import__('afp.gym')"],
+    "ray": ["afp.sweep(plan, backend='ray', progress=False)"],
 }
 
 
 @pytest.mark.parametrize("module", MISSING)
 def test_what_is_not_installed_says_so(module: str, tmp_path: Path) -> None:
-    extra, calls = MISSING[module]
+    calls = MISSING[module]
     program = f"""
 import sys
 sys.modules[{module!r}] = None
@@ -70,5 +70,5 @@ for call in {calls!r}:
 """
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
-    said = f"this needs {module}; install it with: pip install 'afp[{extra}]'"
+    said = f"this needs {module}; install it with: pip install {module}"
     assert done.stdout.splitlines() == [said] * len(calls)

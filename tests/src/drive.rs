@@ -85,8 +85,8 @@ fn shorten(mut lines: Vec<String>, keep: Option<usize>) -> Vec<String> {
 impl<P: NamedPlan + Plan<Platform>, S: Sink> Run<'_, P, S> {
     fn set_inputs(&mut self) {
         for (name, value) in &self.script.inputs {
-            let plan = self.scheduler.plan_mut();
-            match plan.entry_named(name).map(|entry| plan.set_input(entry, value)) {
+            let entry = self.scheduler.plan().entry_named(name);
+            match entry.map(|entry| self.scheduler.write(entry, value.clone())) {
                 None => self.log.note(format!("[no entry {name}]")),
                 Some(Err(why)) => self.log.note(format!("[{name} refused: {why}]")),
                 Some(Ok(())) => {}
@@ -105,7 +105,7 @@ impl<P: NamedPlan + Plan<Platform>, S: Sink> Run<'_, P, S> {
                 self.log.note(format!("[cannot start without {entry}]"));
                 None
             }
-            Ok(Err(StartError::AlreadyStarted)) => unreachable!("it is started once"),
+            Ok(Err(why)) => unreachable!("it is started once: {why}"),
             Err(_) => Some(self.abort()),
         }
     }

@@ -44,7 +44,7 @@ fn finished(text: &str, script: &str) -> (Vec<String>, Wake) {
     let (before, active) = (log.lines().len(), scheduler.active());
     let text = Value::Text(Text::try_from(text).expect("it is short"));
     let injection = Injection { component: ComponentId(1), outcome: 1, outputs: vec![(3, text)] };
-    scheduler.plan_mut().inject(active, &injection).expect("it is active");
+    scheduler.plan_under_test().inject(active, &injection).expect("it is active");
     let now = Instant::from_nanos(10_000_000);
     let wake = scheduler.step(&mut platform, &mut sink, &clock, now);
     (log.lines()[before..].to_vec(), wake)

@@ -66,6 +66,7 @@ fn run(text: &str) -> Option<Value> {
             assert!(matches!(ending, Ending::Error(_)), "{ending:?}");
             None
         }
+        Wake::NotStarted => panic!("it has been started"),
     }
 }
 

@@ -8,7 +8,7 @@ use std::hint::black_box;
 
 use afp::load::{LoadedPlan, Registry};
 use afp::trace::NoTrace;
-use afp::{Instant, Scheduler, StillClock, Wake};
+use afp::{Instant, Scheduler, Wake};
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
 use afp_dsl::toolbox::Toolboxes;
@@ -61,8 +61,7 @@ fn drive(graph: &Graph) {
     let mut robot = Simulation::new(&world, 1).unwrap_or_else(|why| panic!("{why:?}"));
     let start = robot.truth().pose();
     let mut plan = Scheduler::new(plan);
-    let advance = |robot: &mut Simulation, now| robot.advance_to(now);
-    let wake = plan.run(&mut robot, &mut NoTrace, &StillClock, END, advance);
+    let wake = plan.run_until(&mut robot, &mut NoTrace, END);
     assert!(matches!(wake, Ok(Wake::At(_))), "{wake:?}");
     let (from, to) = (start, robot.truth().pose());
     assert!((from.x - to.x).hypot(from.y - to.y) > 0.1, "the robot has moved");

@@ -160,3 +160,20 @@ fn a_library_takes_its_dependencies_from_where_it_is_told() {
     );
     assert!(!files[0].text.contains("afp-run"));
 }
+
+#[test]
+fn a_crate_named_like_its_toolbox_keeps_its_name() {
+    let text =
+        fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/codegen/toolbox.afp"))
+            .unwrap();
+    let mut toolboxes = Toolboxes::default();
+    toolboxes.add(Source::new("toolbox.afp", text), "kit");
+    let plan = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/codegen/objects.afp");
+    let source = Source::new("objects.afp", fs::read_to_string(plan).unwrap());
+    let compiled = afp_dsl::compile(&source, &toolboxes, &Texts::default());
+    let generated = afp_codegen::plan(&compiled.graph.unwrap(), &Options::default());
+    let code = afp_codegen::file(generated.tokens());
+    assert!(code.contains("use kit::templates as kit_templates;"), "{code}");
+    assert!(code.contains("Seek(kit::Seek)") && code.contains("kit_templates::seek::"), "{code}");
+    assert!(!code.contains("kit::seek::"), "{code}");
+}

@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::trace::{ComponentId, Names};
+
 /// A reason why a component failed. One pointer, so that results of polls stay in registers.
 #[derive(Clone, Copy)]
 pub struct Fault(&'static Reason);
@@ -19,6 +21,15 @@ pub struct Reason {
     pub code: &'static str,
     /// What happened, for people.
     pub text: &'static str,
+}
+
+/// Which component of a plan failed, and why.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Failure {
+    /// The component; 0 is the plan itself.
+    pub component: ComponentId,
+    /// Why.
+    pub fault: Fault,
 }
 
 macro_rules! faults {
@@ -63,6 +74,26 @@ impl Fault {
     /// What happened, for people.
     pub const fn text(self) -> &'static str {
         self.0.text
+    }
+}
+
+impl Failure {
+    /// The failure as people read it: `go (Forward): the drive does not move`.
+    pub fn named(self, names: &impl Names) -> impl fmt::Display {
+        NamedFailure(self, names)
+    }
+}
+
+struct NamedFailure<'a, N>(Failure, &'a N);
+
+impl<N: Names> fmt::Display for NamedFailure<'_, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Failure { component, fault } = self.0;
+        let name = self.1.component(component);
+        match name.template {
+            "" => write!(f, "{}: {fault}", name.path),
+            template => write!(f, "{} ({template}): {fault}", name.path),
+        }
     }
 }
 

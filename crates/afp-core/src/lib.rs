@@ -26,12 +26,12 @@ pub use component::{
     Actor, ActorTemplate, Computation, ComputationTemplate, Environment, Events, Poll, Supervisor,
     SupervisorTemplate,
 };
-pub use fault::{Fault, Reason};
+pub use fault::{Failure, Fault, Reason};
 pub use job::{Job, Ticket, Worker};
 pub use machine::MAX_TRANSITIONS_PER_STEP;
 pub use platform::Platform;
-pub use rt::{NamedPlan, Plan, PlanState, WriteError};
-pub use scheduler::{MAX_WRITES_PER_STEP, Scheduler, StartError, Wake};
+pub use rt::{NamedPlan, Plan, PlanState, Scale, Unit, WriteError};
+pub use scheduler::{MAX_WRITES_PER_STEP, Scheduler, SetError, StartError, TypedEntry, Wake};
 pub use time::{Duration, Instant};
 pub use trace::Ending;
 pub use value::{TEXT_CAPACITY, Text, Value, ValueRef};

@@ -97,6 +97,11 @@ impl<P: PlanState> Machine<P> {
         &self.level.plan
     }
 
+    /// The plan itself.
+    pub fn into_plan(self) -> P {
+        self.level.plan
+    }
+
     /// The plan, to set its entries before the start.
     pub fn plan_mut(&mut self) -> &mut P {
         &mut self.level.plan
@@ -176,9 +181,9 @@ impl<P: PlanState> Level<P> {
         self.due = Instant::MAX;
         if let Err(fault) = self.plan.initialise() {
             // A sub-plan's fault is traced by the plan that uses it, as any that ends it.
-            if S::ENABLED && cx.place.plan == ComponentId(0) {
-                let component = cx.place.plan;
-                cx.sink.record(cx.now, &Record::Faulted { component, fault });
+            match cx.place.plan {
+                plan @ ComponentId(0) => cx.failed(plan, fault),
+                sub_plan => cx.note_failure(sub_plan, fault),
             }
             return self.end(Ending::Error(fault), cx);
         }
@@ -265,6 +270,7 @@ impl<P: PlanState> Level<P> {
         self.active = None;
         self.plan.discard();
         self.plan.end();
+        cx.step.passed_on = matches!(ending, Ending::Error(_));
         if S::ENABLED {
             cx.sink.record(cx.now, &Record::Ended { plan: cx.place.plan, ending });
         }

@@ -8,6 +8,7 @@ mod names;
 mod native;
 mod plan;
 mod ports;
+mod state;
 mod store;
 mod table;
 
@@ -21,11 +22,10 @@ pub use native::{
     finite, hold, print_choice, read_choice, set_input, stage_outside, within, within_int,
     within_value,
 };
-pub use plan::{
-    AtElement, Committer, Cx, Fired, Plan, PlanState, Polled, Slot, Started, WriteError,
-};
+pub use plan::{Committer, Cx, Fired, Polled, Slot, Started};
 pub(crate) use plan::{Place, StepState};
 pub use ports::{Args, FromArgs, Outcome, Outputs, Ports, Registry};
+pub use state::{AtElement, Plan, PlanState, WriteError};
 pub use store::{Any, Choice, Entry, Number, Object, Stored, Writable};
 pub use table::{Child, ElementKind, ElementRow, PlanTable, Range, SupervisorRow, Tables, Target};
 

@@ -1,4 +1,7 @@
-//! The outermost plan: its start, its steps, and what comes from outside.
+//! The outermost plan: its start and its steps.
+
+mod drive;
+mod outside;
 
 use core::fmt;
 
@@ -6,12 +9,14 @@ use heapless::Deque;
 
 use crate::clock::Clock;
 use crate::component::Environment;
-use crate::fault::Fault;
+use crate::fault::{Failure, Fault};
 use crate::machine::{Flow, MAX_TRANSITIONS_PER_STEP, Machine};
-use crate::rt::{Cx, Place, Plan, PlanState, StepState, WriteError};
+use crate::rt::{Cx, Place, Plan, PlanState, StepState};
 use crate::time::Instant;
-use crate::trace::{Author, ComponentId, Ending, Record, Sink};
+use crate::trace::{Author, ComponentId, Ending, Names, Record, Sink, TraceEntryId};
 use crate::value::Value;
+
+pub use outside::{SetError, TypedEntry};
 
 /// Writes from outside that one step can take.
 pub const MAX_WRITES_PER_STEP: usize = 16;
@@ -23,10 +28,13 @@ pub enum Wake {
     At(Instant),
     /// The plan has ended; nothing will ever be due.
     Ended(Ending),
+    /// The plan has not started, so nothing was done: call [`Scheduler::start`] first.
+    NotStarted,
 }
 
 /// Why a plan cannot start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum StartError {
     /// This `in` entry, by position, has neither a value nor a default.
     InputMissing(u16),
@@ -54,8 +62,31 @@ pub struct Scheduler<P: PlanState> {
 impl fmt::Display for StartError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            StartError::InputMissing(entry) => write!(f, "entry {entry} of the plan has no value"),
+            StartError::InputMissing(entry) => {
+                write!(f, "input {entry} of the plan (by position, from 0) has no value")
+            }
             StartError::AlreadyStarted => f.write_str("the plan has been started before"),
+        }
+    }
+}
+
+impl StartError {
+    /// The error with the name of the entry in place of its position.
+    pub fn named(self, names: &impl Names) -> impl fmt::Display {
+        NamedStartError(self, names)
+    }
+}
+
+struct NamedStartError<'a, N>(StartError, &'a N);
+
+impl<N: Names> fmt::Display for NamedStartError<'_, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            StartError::InputMissing(entry) => {
+                let name = self.1.entry(TraceEntryId(entry.into())).path;
+                write!(f, "the input '{name}' has no value: set it before the start")
+            }
+            error => error.fmt(f),
         }
     }
 }
@@ -120,9 +151,20 @@ impl<P: PlanState> Scheduler<P> {
         self.machine.plan()
     }
 
-    /// The plan, to set its `in` entries before the start. A running plan is written to with
-    /// [`Scheduler::write`].
-    pub fn plan_mut(&mut self) -> &mut P {
+    /// The plan itself, as far as it is.
+    pub fn into_plan(self) -> P {
+        self.machine.into_plan()
+    }
+
+    /// The plan, to set its `in` entries before the start; none once it has started. A running plan
+    /// is written to with [`Scheduler::set`] and [`Scheduler::write`].
+    pub fn plan_mut(&mut self) -> Option<&mut P> {
+        (self.state == State::Ready).then(|| self.machine.plan_mut())
+    }
+
+    /// The plan however far it is, for tests that put outcomes in the place of a component's own.
+    #[doc(hidden)]
+    pub fn plan_under_test(&mut self) -> &mut P {
         self.machine.plan_mut()
     }
 
@@ -136,6 +178,15 @@ impl<P: PlanState> Scheduler<P> {
         match self.state {
             State::Ended(ending) => Some(ending),
             State::Ready | State::Running | State::Broken => None,
+        }
+    }
+
+    /// Which component failed and why, where the plan ended in [`Ending::Error`]: the innermost one
+    /// whose fault no `Error` edge took. The plan itself (id 0) where no single component failed.
+    pub fn failure(&self) -> Option<Failure> {
+        match self.state {
+            State::Ended(Ending::Error(_)) => self.step.failure,
+            _ => None,
         }
     }
 
@@ -181,7 +232,8 @@ impl<P: PlanState> Scheduler<P> {
         Ok(self.conclude(flow, env, sink))
     }
 
-    /// Does everything that is due at `now` and says when to call again.
+    /// Does everything that is due at `now` and says when to call again. Before the start it does
+    /// nothing.
     ///
     /// Never allocates. Time grows linearly with the number of due supervisors. A time before
     /// that of the last step is traced and counts as that one.
@@ -194,7 +246,7 @@ impl<P: PlanState> Scheduler<P> {
         P: Plan<E>,
     {
         if self.state != State::Running {
-            return self.not_running(env, sink, now);
+            return self.not_running(env, sink);
         }
         if now < self.last {
             sink.record(self.last, &Record::ClockWentBack { asked: now });
@@ -218,59 +270,6 @@ impl<P: PlanState> Scheduler<P> {
             Flow::Running(wake) => Wake::At(wake),
             flow => self.conclude(flow, env, sink),
         }
-    }
-
-    /// Drives the plan in virtual time up to and including `until`, from the start if it has not
-    /// started: before each step `advance` brings the platform to the step's instant.
-    ///
-    /// # Errors
-    /// [`StartError`] when it cannot start.
-    pub fn run<E, S, C>(
-        &mut self,
-        env: &mut E,
-        sink: &mut S,
-        clock: &C,
-        until: Instant,
-        mut advance: impl FnMut(&mut E, Instant),
-    ) -> Result<Wake, StartError>
-    where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
-    {
-        let mut wake = match self.state {
-            State::Ready => self.start(env, sink, clock, self.last)?,
-            State::Running | State::Broken | State::Ended(_) => {
-                self.step(env, sink, clock, self.last)
-            }
-        };
-        while let Wake::At(at) = wake {
-            if at > until {
-                break;
-            }
-            advance(env, at);
-            wake = self.step(env, sink, clock, at);
-        }
-        Ok(wake)
-    }
-
-    /// Stages a write to an `in` or `var` entry; the next step commits it.
-    ///
-    /// # Errors
-    /// [`WriteError`]: the plan gets nothing.
-    pub fn write(&mut self, entry: u16, value: Value) -> Result<(), WriteError> {
-        if matches!(self.state, State::Broken | State::Ended(_)) {
-            return Err(WriteError::Ended);
-        }
-        self.machine.plan().accepts(entry, &value)?;
-        self.writes.push_back((entry, value)).map_err(|_| WriteError::QueueFull)
-    }
-
-    /// Asks the plan to stop: the next step interrupts it and ends it as `Interrupted`. A plan that
-    /// has not started then ends at its start, before anything runs.
-    pub fn request_stop(&mut self) {
-        self.stop_requested = true;
     }
 
     /// The plan cannot be stepped any more, for instance because a component panicked: the
@@ -297,7 +296,7 @@ impl<P: PlanState> Scheduler<P> {
     }
 
     #[cold]
-    fn not_running<E, S>(&mut self, env: &mut E, sink: &mut S, now: Instant) -> Wake
+    fn not_running<E, S>(&mut self, env: &mut E, sink: &mut S) -> Wake
     where
         E: Environment + ?Sized,
         S: Sink,
@@ -305,7 +304,7 @@ impl<P: PlanState> Scheduler<P> {
         match self.state {
             State::Ended(ending) => Wake::Ended(ending),
             State::Broken => self.broken(env, sink),
-            State::Ready | State::Running => Wake::At(now),
+            State::Ready | State::Running => Wake::NotStarted,
         }
     }
 
@@ -332,6 +331,10 @@ impl<P: PlanState> Scheduler<P> {
     {
         env.emergency_stop();
         let (plan, ending) = (ComponentId(0), Ending::Error(fault));
+        // An actor that could not be interrupted has been noted already.
+        if self.step.failure.is_none_or(|known| known.fault != fault) {
+            self.step.failure = Some(Failure { component, fault });
+        }
         sink.record(self.last, &Record::Faulted { component, fault });
         sink.record(self.last, &Record::Ended { plan, ending });
         self.state = State::Ended(ending);

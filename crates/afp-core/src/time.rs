@@ -102,6 +102,12 @@ impl Sub<Instant> for Instant {
     }
 }
 
+impl From<Duration> for core::time::Duration {
+    fn from(duration: Duration) -> Self {
+        core::time::Duration::from_nanos(duration.0)
+    }
+}
+
 impl Add for Duration {
     type Output = Duration;
     fn add(self, other: Duration) -> Duration {

@@ -31,7 +31,7 @@ pub fn doctor(path: &Path) -> Result<Vec<String>, LogError> {
     if lost > 0 {
         doctor.found.push(format!("{lost} records were lost while it was written"));
     }
-    if log.facts.is_empty() {
+    if !doctor.has_facts {
         doctor.found.push("it has no metadata record 'afp.run'".to_owned());
     }
     Ok(doctor.found)
@@ -45,6 +45,8 @@ struct Doctor {
     messages: u64,
     chunks: u64,
     statistics: Option<Statistics>,
+    /// The metadata record of the run was seen; it may say nothing.
+    has_facts: bool,
 }
 
 #[derive(Default)]
@@ -75,6 +77,7 @@ impl Doctor {
                 self.channels.entry(id).or_insert(Channel { topic, ..Channel::default() });
             }
             Record::Message { header, .. } => self.message(&header),
+            Record::Metadata(metadata) => self.has_facts |= metadata.name == "afp.run",
             Record::ChunkIndex(_) => self.chunks += 1,
             Record::Statistics(statistics) => self.statistics = Some(statistics),
             _ => {}

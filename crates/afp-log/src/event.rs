@@ -5,6 +5,7 @@ use afp_core::trace::{
 };
 use afp_core::{Duration, Instant, ValueRef};
 use afp_session::{Datum, Done, EndingKind, EventKind, Miss, Requested, RunEvent, Stimulus};
+use prost::Message;
 use prost_types::Timestamp;
 
 use crate::proto::afp::plan_event::{self, Kind};
@@ -12,6 +13,16 @@ use crate::proto::afp::plan_table::{Component, Outcome};
 use crate::proto::afp::request::{self, Became, Output};
 use crate::proto::afp::{Entry, PlanEvent, PlanTable, Request, Value, plan_table, value};
 use crate::read::instant;
+
+/// What happened, as the bytes of a message: to be kept or sent without a log around it.
+pub fn pack(event: &RunEvent) -> Vec<u8> {
+    encode(event.clone()).encode_to_vec()
+}
+
+/// What [`pack`] made bytes of; none for other bytes.
+pub fn unpack(bytes: &[u8]) -> Option<RunEvent> {
+    PlanEvent::decode(bytes).ok().map(decode)
+}
 
 /// What happened, as a message.
 pub(crate) fn encode(event: RunEvent) -> PlanEvent {

@@ -23,6 +23,7 @@ mod write;
 pub use afp_session::{Kept, OwnedRecord};
 pub use doctor::doctor;
 pub use error::LogError;
+pub use event::{pack, unpack};
 pub use names::NameTable;
 pub use read::{Configured, Heard, LogData, TopicInfo, read};
 pub use recipe::WORLD;

@@ -382,3 +382,13 @@ fn a_log_goes_through_a_pipe() {
         assert_eq!(read(&copy).unwrap().events.len(), 2009);
     }
 }
+
+#[test]
+fn a_log_that_says_nothing_of_its_run_is_sound() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("bare.mcap");
+    let names = NameTable::new(&Names1);
+    let log = Recorder::create(&path, &About::default(), names, WhenFull::Wait).unwrap();
+    log.finish().unwrap();
+    assert_eq!(doctor(&path).unwrap(), [""; 0]);
+}

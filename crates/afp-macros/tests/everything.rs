@@ -166,7 +166,7 @@ mod golden {
 
 use afp::load::{LoadedPlan, Registry};
 use afp_core::quantity::Speed;
-use afp_core::rt::{NamedPlan, Plan};
+use afp_core::rt::{NamedPlan, Plan, PlanState};
 use afp_core::trace::{Line, Names, NoTrace, Record, Sink};
 use afp_core::{Instant, Scheduler, StillClock, Value, Wake};
 use afp_dsl::files::Texts;
@@ -202,7 +202,7 @@ fn story<P: Plan<Script> + NamedPlan>(
     for _ in 0..60 {
         match wake {
             Wake::At(at) => wake = scheduler.step(&mut script, &mut sink, &StillClock, at),
-            Wake::Ended(_) => break,
+            Wake::Ended(_) | Wake::NotStarted => break,
         }
     }
     (sink.lines, script.told)

@@ -1,7 +1,7 @@
-//! Components in Python: the homes that a loaded plan polls, and what they share.
+//! Components in Python: the slots that a loaded plan polls, and what they share.
 //!
 //! What implements a template is an object with a `poll` and, for an actor, an `interrupt`; the package makes it of
-//! classes, functions and coroutines. The simulation is lent to the [`Robot`] for the time of a call.
+//! classes, functions and coroutines. The [`Robot`] has the simulation for the time of a call.
 
 mod actor;
 mod call;
@@ -24,7 +24,7 @@ use call::PyTemplate;
 use computation::PyComputation;
 pub use depth::{may_run, may_sweep};
 use handles::PyHandle;
-pub use host::Host;
+pub use host::{Host, RAISED};
 use supervisor::PySupervisor;
 
 /// An object of a plan: whatever Python put there.
@@ -41,9 +41,9 @@ pub fn register(
     registry: &mut Registry<Simulation>,
 ) -> PyResult<()> {
     let declared = toolbox.declared()?;
-    let home = declared.name.as_str();
+    let name_of_toolbox = declared.name.as_str();
     for object in &declared.objects {
-        registry.add_object::<Object>(home, &object.name);
+        registry.add_object::<Object>(name_of_toolbox, &object.name);
     }
     for (name, maker) in toolbox.makers(py) {
         let index = declared.templates.iter().position(|template| template.name == name);
@@ -53,15 +53,15 @@ pub fn register(
         match kind {
             TemplateKind::Actor => {
                 let new = move || Box::new(PyActor::new(template.clone())) as _;
-                registry.add_actor(home, &name, new);
+                registry.add_actor(name_of_toolbox, &name, new);
             }
             TemplateKind::Supervisor => {
                 let new = move || Box::new(PySupervisor::new(template.clone())) as _;
-                registry.add_supervisor(home, &name, new);
+                registry.add_supervisor(name_of_toolbox, &name, new);
             }
             TemplateKind::Computation => {
                 let new = move || Box::new(PyComputation::new(template.clone())) as _;
-                registry.add_computation(home, &name, new);
+                registry.add_computation(name_of_toolbox, &name, new);
             }
         }
     }

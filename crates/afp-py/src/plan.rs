@@ -4,6 +4,7 @@ mod change;
 mod compile;
 mod diagnostic;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -20,6 +21,7 @@ use crate::errors::{error, plan_error, run_error};
 use crate::scenario::{self, Scenario};
 use crate::toolbox::Toolbox;
 
+use crate::pause::in_background;
 use compile::Desk;
 pub use diagnostic::{Diagnostic, diagnostics};
 
@@ -84,7 +86,7 @@ impl Plan {
 
     /// The scenarios of the file; none while it has errors.
     #[getter]
-    fn scenarios(&self, py: Python<'_>) -> Vec<Scenario> {
+    fn scenarios(&self, py: Python<'_>) -> PyResult<Vec<Scenario>> {
         scenario::scenarios(py, self)
     }
 
@@ -122,7 +124,7 @@ impl Plan {
         self.lock().save(path)
     }
 
-    /// The drawing in the notation of the paper, as SVG.
+    /// The drawing in the notation of the paper, as SVG, with what is wrong marked where it is.
     #[pyo3(signature = (*, theme="auto", fold=false, data=true))]
     fn svg(&self, py: Python<'_>, theme: &str, fold: bool, data: bool) -> PyResult<String> {
         let theme = match theme {
@@ -134,19 +136,28 @@ impl Plan {
                 return Err(PyValueError::new_err(text));
             }
         };
-        self.draw(py, |outline, options| {
-            afp_draw::svg(outline, &Options { theme, sub_plans: !fold, data, ..*options })
+        let compiled = self.compiled(py);
+        in_background(py, move || {
+            let options =
+                Options { theme, sub_plans: !fold, data, icons: Some(&icon), ..Options::default() };
+            afp_draw::svg(&compiled.outline, &options)
         })
     }
 
     /// The drawing for GraphViz.
     fn dot(&self, py: Python<'_>) -> PyResult<String> {
-        self.draw(py, afp_draw::dot)
+        let compiled = self.sound(py)?;
+        in_background(py, move || {
+            afp_draw::dot(&compiled.outline, &Options { icons: Some(&icon), ..Options::default() })
+        })
     }
 
     /// The checked graph as JSON.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
-        self.draw(py, afp_draw::json)
+        let compiled = self.sound(py)?;
+        in_background(py, move || {
+            afp_draw::json(&compiled.outline, &Options { icons: Some(&icon), ..Options::default() })
+        })
     }
 
     /// The flow of action as State Chart XML.
@@ -177,9 +188,24 @@ impl Plan {
         self.toolboxes.iter().try_for_each(|toolbox| visit.call(toolbox))
     }
 
-    fn __reduce__(&self) -> PyResult<()> {
-        Err(crate::value::no_pickle("Plan", "pickle its text and path"))
+    /// What it is made of: text, path, the plan that runs, toolboxes, texts of other files that a change has reached.
+    fn _state(&self, py: Python<'_>) -> State {
+        self.state(py)
     }
+
+    /// Takes over texts of other files.
+    fn _set_others(&self, others: BTreeMap<String, String>) {
+        self.lock().set_others(others);
+    }
+}
+
+/// What a plan is made of.
+pub type State =
+    (String, Option<PathBuf>, Option<String>, Vec<Py<Toolbox>>, BTreeMap<String, String>);
+
+/// The icon of a template, where it is a built-in one.
+fn icon(_: &Declared, name: &str) -> Option<String> {
+    afp_toolboxes::icon(name).map(str::to_owned)
 }
 
 impl Plan {
@@ -193,6 +219,13 @@ impl Plan {
         py.detach(|| self.lock().compiled())
     }
 
+    /// What it is made of, for pickles and copies.
+    pub fn state(&self, py: Python<'_>) -> State {
+        let desk = self.lock();
+        let (text, path) = (desk.text().to_owned(), desk.path().cloned());
+        (text, path, desk.name().cloned(), self.python_toolboxes(py), desk.others().clone())
+    }
+
     /// The toolboxes that were given with it.
     pub fn python_toolboxes(&self, py: Python<'_>) -> Vec<Py<Toolbox>> {
         self.toolboxes.iter().map(|toolbox| toolbox.clone_ref(py)).collect()
@@ -203,18 +236,16 @@ impl Plan {
         self.lock().file()
     }
 
-    fn draw(
-        &self,
-        py: Python<'_>,
-        draw: impl FnOnce(&afp_dsl::outline::Outline, &Options<'_>) -> String,
-    ) -> PyResult<String> {
+    /// What became of the text.
+    ///
+    /// # Errors
+    /// The plan has errors.
+    fn sound(&self, py: Python<'_>) -> PyResult<Arc<Compiled>> {
         let compiled = self.compiled(py);
-        if compiled.graph.is_none() {
-            return Err(plan_error(py, &compiled));
+        match compiled.graph {
+            Some(_) => Ok(compiled),
+            None => Err(plan_error(py, &compiled)),
         }
-        let icons = |_: &Declared, name: &str| afp_toolboxes::icon(name).map(str::to_owned);
-        let options = Options { icons: Some(&icons), ..Options::default() };
-        Ok(draw(&compiled.outline, &options))
     }
 
     fn change(&self, change: &Change) -> PyResult<()> {

@@ -21,32 +21,32 @@ pub use sense::sense;
 /// It can be used while a component is being called and not between calls.
 #[pyclass(module = "afp", frozen)]
 pub struct Robot {
-    lent: Mutex<Lent>,
+    slot: Mutex<Slot>,
 }
 
 /// The simulation while a component is called; an empty one otherwise.
-struct Lent {
+struct Slot {
     sim: Simulation,
-    here: bool,
+    in_call: bool,
 }
 
 impl Robot {
-    /// A robot that has not been lent to anybody.
+    /// A robot without a simulation.
     pub fn new() -> PyResult<Robot> {
         let empty = World::parse(EMPTY).map_err(|why| error(why.message))?;
         let sim = Simulation::new(&empty, 0).map_err(|why| error(why.message))?;
-        Ok(Robot { lent: Mutex::new(Lent { sim, here: false }) })
+        Ok(Robot { slot: Mutex::new(Slot { sim, in_call: false }) })
     }
 
     /// Takes the simulation or gives it back.
-    pub fn exchange(&self, env: &mut Simulation, here: bool) {
-        let mut lent = self.lock();
-        mem::swap(env, &mut lent.sim);
-        lent.here = here;
+    pub fn exchange(&self, env: &mut Simulation, in_call: bool) {
+        let mut slot = self.lock();
+        mem::swap(env, &mut slot.sim);
+        slot.in_call = in_call;
     }
 
-    fn lock(&self) -> MutexGuard<'_, Lent> {
-        self.lent.lock().unwrap_or_else(PoisonError::into_inner)
+    fn lock(&self) -> MutexGuard<'_, Slot> {
+        self.slot.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// What a sensor says.
@@ -57,9 +57,9 @@ impl Robot {
 
     /// Uses the simulation, without a call of Python meanwhile.
     fn with<T>(&self, use_it: impl FnOnce(&mut Simulation) -> T) -> PyResult<T> {
-        let mut lent = self.lock();
-        match lent.here {
-            true => Ok(use_it(&mut lent.sim)),
+        let mut slot = self.lock();
+        match slot.in_call {
+            true => Ok(use_it(&mut slot.sim)),
             false => Err(PyRuntimeError::new_err(
                 "the robot can be used only while a component is being called",
             )),
@@ -106,7 +106,7 @@ impl Robot {
     }
 
     /// How far it is to the nearest thing ahead of the range sensor, metres; infinity for silence; `None` before the
-    /// first echo.
+    /// first echo and for one that the sensor cannot measure.
     #[getter]
     fn distance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.sensed(py, "distance")

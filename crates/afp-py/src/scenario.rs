@@ -9,6 +9,7 @@ use afp_dsl::scenario::Scenario as Checked;
 use afp_sim::{Simulation, carbot};
 use afp_syntax::source::Span;
 use afp_test::{Setting, Verdict as Came};
+use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::{PyTraverseError, PyVisit};
@@ -19,7 +20,6 @@ use crate::pause::{Halt, Pause};
 use crate::plan::Plan;
 use crate::robot::Robot;
 use crate::toolbox::Toolbox;
-use crate::value::no_pickle;
 use crate::world::ROBOT;
 
 /// A scenario of a file: a world, what happens, what is expected.
@@ -29,6 +29,8 @@ pub struct Scenario {
     index: usize,
     file: PathBuf,
     toolboxes: Vec<Py<Toolbox>>,
+    /// What the plan is pickled as, with the text that this is a scenario of.
+    source: Py<PyAny>,
 }
 
 /// An expectation that was not met.
@@ -136,11 +138,17 @@ impl Scenario {
     }
 
     fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
+        visit.call(&self.source)?;
         self.toolboxes.iter().try_for_each(|toolbox| visit.call(toolbox))
     }
 
-    fn __reduce__(&self) -> PyResult<()> {
-        Err(no_pickle("Scenario", "load its file again"))
+    /// By its plan and its place among the scenarios of that.
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Py<PyAny>, usize))> {
+        let again = py.import("afp.plan")?.getattr("_scenario")?;
+        Ok((again, (self.source.clone_ref(py), self.index)))
     }
 }
 
@@ -152,15 +160,17 @@ impl Scenario {
 }
 
 /// The scenarios of a plan's file.
-pub fn scenarios(py: Python<'_>, plan: &Plan) -> Vec<Scenario> {
+pub fn scenarios(py: Python<'_>, plan: &Plan) -> PyResult<Vec<Scenario>> {
     let compiled = plan.compiled(py);
+    let source = plan.state(py).into_py_any(py)?;
     let one = |index| Scenario {
         compiled: Arc::clone(&compiled),
         index,
         file: plan.file(),
         toolboxes: plan.python_toolboxes(py),
+        source: source.clone_ref(py),
     };
-    (0..compiled.scenarios.len()).map(one).collect()
+    Ok((0..compiled.scenarios.len()).map(one).collect())
 }
 
 /// Components in Python for engines that make plans by themselves: each plan gets a robot of its own.
@@ -213,6 +223,15 @@ impl<'a> Components<'a> {
         let broken = self.broken.lock().unwrap_or_else(PoisonError::into_inner).is_some();
         let hosts = self.hosts.lock().unwrap_or_else(PoisonError::into_inner);
         broken || hosts.iter().any(|host| host.is_aborted())
+    }
+
+    /// Interrupts the components that are being called in other threads.
+    ///
+    /// # Errors
+    /// As [`Host::interrupt`].
+    pub fn interrupt(&self, py: Python<'_>) -> PyResult<()> {
+        let hosts = self.hosts.lock().unwrap_or_else(PoisonError::into_inner);
+        hosts.iter().try_for_each(|host| host.interrupt(py))
     }
 
     /// Raises what cannot be an outcome: a toolbox that broke, `SystemExit` and the like.

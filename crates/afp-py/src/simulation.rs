@@ -12,15 +12,15 @@ use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
 use afp::load::{LoadedPlan, Registry};
 use afp_carbot::table::TABLE;
+use afp_core::PlanState;
 use afp_core::devices::faults as faults_of;
 use afp_core::trace::{Names, TraceEntryId};
-use afp_core::{Duration, Instant, Value};
+use afp_core::{Duration, Instant};
 use afp_dsl::Compiled;
-use afp_dsl::types::Type;
 use afp_session::{AnySession, Request, Waypoint};
 use afp_sim::Simulation;
 use numpy::PyArray2;
-use pyo3::exceptions::{PyKeyError, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyKeyError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use pyo3::{PyTraverseError, PyVisit};
@@ -30,7 +30,7 @@ use crate::errors::{error, plan_error};
 use crate::pause::Pause;
 use crate::plan::Plan;
 use crate::robot::{Robot, sense};
-use crate::value::{Given, no_pickle, to_port, to_python};
+use crate::value::{Given, no_pickle, to_python};
 use crate::world::{World, table};
 
 use event::line;
@@ -256,6 +256,10 @@ impl Runner {
         let plan = session.session.plan();
         let number = entry(plan, name)?;
         let value = given.for_entry(plan, number)?;
+        if session.session.ending().is_some() {
+            let text = "the plan has ended; its entries cannot be set any more";
+            return Err(PyRuntimeError::new_err(text));
+        }
         let set = match at {
             None => session.write(number, value).map_err(|why| why.to_string()),
             Some(at) => session.ask(instant(at)?, Request::Write(number, value)),
@@ -302,7 +306,10 @@ impl Runner {
     ) -> PyResult<()> {
         let mut injection = self.lock()?.injection(component, outcome)?;
         // Reading values may run Python, as above.
-        injection.outputs = self.brought(component, (injection.outcome, outcome), outputs)?;
+        if let Some(graph) = &self.compiled.graph {
+            let of = (component, outcome, injection.outcome);
+            injection.outputs = stimuli::outputs(graph, of, outputs)?;
+        }
         let mut session = self.lock()?;
         let from = session.moment(at.map(instant).transpose()?)?;
         session.ask(from, Request::Inject(injection)).map_err(error)
@@ -321,14 +328,23 @@ impl Runner {
         self.lock()?.close()
     }
 
-    /// The exceptions of components: time, template, exception.
-    fn failures<'py>(&self, py: Python<'py>) -> Vec<(f64, String, Bound<'py, PyAny>)> {
+    /// The exceptions of components after the first `seen`: time, element or supervisor, template, exception.
+    fn failures<'py>(
+        &self,
+        py: Python<'py>,
+        seen: usize,
+    ) -> Vec<(f64, String, String, Bound<'py, PyAny>)> {
         let failures = self.host.as_ref().map(|host| host.failures()).unwrap_or_default();
-        let told = failures.into_iter().map(|failure| {
+        // The trace knows who it was, and when, of computations too; while the plan runs nobody can look at it.
+        let run = self.lock().ok();
+        let mut raised = run.as_ref().map(|run| run.raised().skip(seen));
+        let each = failures.into_iter().map(|failure| {
+            let known = raised.as_mut().and_then(Iterator::next);
+            let (at, path) = known.unwrap_or((failure.at, ""));
             let error = failure.error.into_bound(py).into_any();
-            (failure.at.as_secs_f64(), failure.template, error)
+            (at.as_secs_f64(), path.to_owned(), failure.template, error)
         });
-        told.collect()
+        each.collect()
     }
 
     fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
@@ -363,34 +379,6 @@ impl Runner {
                 "the simulation broke in an earlier call; make a new one",
             )),
         }
-    }
-
-    /// The values that come with an outcome: one for each of its connected outputs, as in a scenario.
-    fn brought(
-        &self,
-        component: &str,
-        (number, outcome): (u16, &str),
-        given: &Bound<'_, PyDict>,
-    ) -> PyResult<Vec<(u16, Value)>> {
-        let Some(graph) = &self.compiled.graph else { return Ok(Vec::new()) };
-        let wanted = afp_dsl::outputs(graph, component, number);
-        for name in given.keys() {
-            let name: String = name.extract()?;
-            if !wanted.iter().any(|(_, known, _)| *known == name) {
-                let text = format!("'{component}.{outcome}' brings no connected output '{name}'");
-                return Err(PyValueError::new_err(text));
-            }
-        }
-        let value = |(port, name, ty): &(u16, String, Type)| {
-            let missing = || {
-                let what = format!("'{component}.{outcome}' also brings '{name}'");
-                let help = format!("give outputs={{\"{name}\": ...}}");
-                PyValueError::new_err(format!("{what}, which has no value here: {help}"))
-            };
-            let value = given.get_item(name)?.ok_or_else(missing)?;
-            Ok((*port, to_port(ty, &value)?))
-        };
-        wanted.iter().map(value).collect()
     }
 
     /// Drives the session with the interpreter free for others.

@@ -21,7 +21,10 @@ pub struct Toolbox {
 
 struct Inner {
     file: String,
+    /// What the toolbox was made of.
     text: String,
+    /// The templates that were declared later, by name.
+    declared: Vec<(String, String)>,
     makers: Vec<(String, Py<PyAny>)>,
 }
 
@@ -32,13 +35,14 @@ impl Toolbox {
     fn new(text: String, path: Option<PathBuf>) -> PyResult<Self> {
         let file = path.map_or("toolbox".to_owned(), |path| path.display().to_string());
         parse(&file, &text)?;
-        Ok(Toolbox { inner: Mutex::new(Inner { file, text, makers: Vec::new() }) })
+        let inner = Inner { file, text, declared: Vec::new(), makers: Vec::new() };
+        Ok(Toolbox { inner: Mutex::new(inner) })
     }
 
     /// The text of the toolbox file.
     #[getter]
     fn text(&self) -> String {
-        self.lock().text.clone()
+        self.lock().whole()
     }
 
     /// The name behind `use`.
@@ -59,12 +63,17 @@ impl Toolbox {
         self.lock().makers.iter().map(|(name, _)| name.clone()).collect()
     }
 
-    /// Adds the text of a template.
-    fn _declare(&self, text: &str) -> PyResult<()> {
+    /// Adds the text of a template; one that was declared here before takes its place, as when a cell of a notebook
+    /// is run again.
+    fn _declare(&self, name: &str, text: String) -> PyResult<()> {
         let mut inner = self.lock();
-        let longer = format!("{}\n{text}", inner.text);
-        parse(&inner.file, &longer)?;
-        inner.text = longer;
+        let mut declared = inner.declared.clone();
+        match declared.iter_mut().find(|(known, _)| known == name) {
+            Some((_, known)) => *known = text,
+            None => declared.push((name.to_owned(), text)),
+        }
+        parse(&inner.file, &whole(&inner.text, &declared))?;
+        inner.declared = declared;
         Ok(())
     }
 
@@ -119,13 +128,13 @@ impl Toolbox {
     /// Its text for the compiler.
     pub fn source(&self) -> Source {
         let inner = self.lock();
-        Source::new(&*inner.file, &*inner.text)
+        Source::new(&*inner.file, inner.whole())
     }
 
     /// What its text declares.
     pub fn declared(&self) -> PyResult<Arc<Declared>> {
         let inner = self.lock();
-        parse(&inner.file, &inner.text)
+        parse(&inner.file, &inner.whole())
     }
 
     /// What makes the components, by template.
@@ -133,6 +142,22 @@ impl Toolbox {
         let inner = self.lock();
         inner.makers.iter().map(|(name, maker)| (name.clone(), maker.clone_ref(py))).collect()
     }
+}
+
+impl Inner {
+    /// The text of the toolbox file.
+    fn whole(&self) -> String {
+        whole(&self.text, &self.declared)
+    }
+}
+
+fn whole(text: &str, declared: &[(String, String)]) -> String {
+    let mut whole = text.to_owned();
+    for (_, template) in declared {
+        whole.push('\n');
+        whole.push_str(template);
+    }
+    whole
 }
 
 fn parse(file: &str, text: &str) -> PyResult<Arc<Declared>> {

@@ -7,7 +7,7 @@ use afp_dsl::types::Type;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyException, PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyFloat, PyInt, PyString};
+use pyo3::types::{PyFloat, PyInt, PyString};
 
 /// The exception for what cannot be pickled, with what to do instead.
 pub fn no_pickle(what: &str, instead: &str) -> PyErr {
@@ -55,14 +55,14 @@ impl Given {
     /// # Errors
     /// What the value itself raises; an integer of more than 64 bits.
     pub fn new(value: &Bound<'_, PyAny>) -> PyResult<Given> {
-        if value.is_instance_of::<PyBool>() {
-            return Ok(Given::Plain(Value::Bool(value.extract()?), None));
+        if let Some(truth) = truth(value) {
+            return Ok(Given::Plain(Value::Bool(truth), None));
         }
         if let Ok(text) = value.cast::<PyString>() {
             return Ok(Given::Text(text.to_cow()?.into_owned()));
         }
         let unit = unit(value)?;
-        if value.is_instance_of::<PyInt>() {
+        if is_integer(value)? {
             return Ok(Given::Plain(Value::Int(integer(value)?), unit));
         }
         match number(value)? {
@@ -95,6 +95,16 @@ impl Given {
             Given::Other(name) => Err(wrong(name)),
         }
     }
+}
+
+/// A truth value, of Python or numpy.
+fn truth(value: &Bound<'_, PyAny>) -> Option<bool> {
+    value.extract().ok()
+}
+
+/// Whether a value is an integer, of Python or numpy.
+fn is_integer(value: &Bound<'_, PyAny>) -> PyResult<bool> {
+    Ok(value.is_instance_of::<PyInt>() || value.hasattr("__index__")?)
 }
 
 fn integer(value: &Bound<'_, PyAny>) -> PyResult<i64> {
@@ -157,10 +167,10 @@ pub fn to_port(ty: &Type, value: &Bound<'_, PyAny>) -> PyResult<Value> {
 
 /// A value of whatever type Python gives.
 fn any(value: &Bound<'_, PyAny>) -> PyResult<Option<Value>> {
-    if value.is_instance_of::<PyBool>() {
-        return Ok(value.extract().ok().map(Value::Bool));
+    if let Some(truth) = truth(value) {
+        return Ok(Some(Value::Bool(truth)));
     }
-    if value.is_instance_of::<PyInt>() {
+    if is_integer(value)? {
         return Ok(value.extract().ok().map(Value::Int));
     }
     if let Ok(text) = value.extract::<String>() {

@@ -10,7 +10,6 @@ use numpy::{PyArray2, ToPyArray};
 use pyo3::prelude::*;
 
 use crate::errors::{error, run_error};
-use crate::value::no_pickle;
 
 /// A room: where the robot starts and what stands, lies, shines and moves around it.
 #[pyclass(module = "afp", frozen)]
@@ -107,8 +106,19 @@ impl World {
         format!("<World '{}', {} obstacles>", self.name(), self.room.obstacles.len())
     }
 
-    fn __reduce__(&self) -> PyResult<()> {
-        Err(no_pickle("World", "pickle its text and parse it again"))
+    /// As it was pickled.
+    #[staticmethod]
+    fn _again(text: String, path: Option<PathBuf>) -> PyResult<World> {
+        let mut world = World::parse(text)?;
+        world.loaded.path = path;
+        Ok(world)
+    }
+
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, (&str, Option<&Path>))> {
+        Ok((py.get_type::<World>().getattr("_again")?, (self.text(), self.path())))
     }
 }
 

@@ -68,7 +68,7 @@ pub fn missing(error: StartError, names: &dyn Names) -> RunError {
                 format!("give it one with '--set {path}=VALUE', a {ty}"),
             )
         }
-        StartError::AlreadyStarted => RunError::usage("the plan runs already", "start a new one"),
+        _ => RunError::usage("the plan runs already", "start a new one"),
     }
 }
 

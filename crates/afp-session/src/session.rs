@@ -162,7 +162,7 @@ where
 
     /// The plan, to set its inputs; none once it has started.
     pub fn plan_mut(&mut self) -> Option<&mut P> {
-        (!self.started).then(|| self.scheduler.plan_mut())
+        self.scheduler.plan_mut()
     }
 
     /// The names of the plan.
@@ -345,7 +345,7 @@ where
         self.stepped = Some(now);
         match wake {
             Wake::At(due) => self.due = due,
-            _ => self.ended(now),
+            Wake::Ended(_) | Wake::NotStarted => self.ended(now),
         }
         if !self.sink.is_empty() {
             self.tell_records(to);

@@ -1,6 +1,6 @@
 //! The Carbot as a robot on which plans are loaded at run time.
 
-use afp::load::Registry;
+use afp::load::{Library, Registry, Templates};
 use afp_session::{Loader, simulated};
 
 use crate::simulation::Simulation;
@@ -12,4 +12,10 @@ pub fn carbot(more: impl Fn(&mut Registry<Simulation>) + Sync) -> impl Loader {
         afp_carbot::templates::register(registry);
         more(registry);
     })
+}
+
+impl Templates for Simulation {
+    fn add_to(library: &mut Library<Self>) {
+        library.register(afp_std::templates::register).register(afp_carbot::templates::register);
+    }
 }

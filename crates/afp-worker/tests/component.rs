@@ -3,8 +3,8 @@
 use afp_core::rt::NamedPlan;
 use afp_core::trace::{Ending, Line, Names, Record, Sink};
 use afp_core::{
-    Actor, Duration, Environment, Events, Fault, Instant, Job, Poll, Scheduler, StillClock,
-    Supervisor, Ticket, Wake, Worker,
+    Actor, Duration, Environment, Events, Fault, Instant, Job, Platform, Poll, Scheduler,
+    StillClock, Supervisor, Ticket, Wake, Worker,
 };
 use afp_worker::VirtualWorker;
 use std::thread;
@@ -92,6 +92,22 @@ impl Actor<templates::Add, Bench> for Add {
     }
 }
 
+impl Platform for Bench {
+    type Clock = StillClock;
+
+    fn clock(&self) -> StillClock {
+        StillClock
+    }
+
+    fn now(&self) -> Instant {
+        self.now
+    }
+
+    fn advance(&mut self, to: Instant) {
+        self.now = self.now.max(to);
+    }
+}
+
 #[derive(Clone)]
 struct CheckButton {
     seen: bool,
@@ -141,8 +157,7 @@ fn run(bench: &mut Bench, limit: i64) -> (Instant, Ending, Option<i64>, Vec<Stri
     plan.set_limit(limit);
     let mut sink = Text { names: plan.names(), lines: Vec::new() };
     let mut scheduler = Scheduler::new(plan);
-    let advance = |bench: &mut Bench, now: Instant| bench.now = now;
-    let wake = scheduler.run(bench, &mut sink, &StillClock, at(1000), advance).unwrap();
+    let wake = scheduler.run_until(bench, &mut sink, at(1000)).unwrap();
     let Wake::Ended(ending) = wake else { panic!("it goes on") };
     (bench.now, ending, scheduler.plan().sum(), sink.lines)
 }
@@ -161,7 +176,7 @@ fn a_run_is_the_same_however_slow_the_machine_is() {
 fn an_interrupted_actor_cancels_its_job_and_the_next_has_its_own() {
     let mut bench = Bench::new(Span::ZERO, at(12));
     let (end, ending, sum, _) = run(&mut bench, 100);
-    assert_eq!(bench.heard, ["cancel"]);
+    assert_eq!(bench.heard, ["cancel", "stop"]);
     // The worker has been busy with the first until 25 ms; the second begins at 20 ms.
     assert_eq!((end, ending, sum), (at(50), Ending::Ok, Some(6)));
 }

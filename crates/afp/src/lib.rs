@@ -1,18 +1,41 @@
 //! What users name in Cargo.toml: the run time, the macros, and plans loaded at run time.
 //!
 //! A plan known when a program is built is best compiled in, by [`plan!`]; a plan that comes as a
-//! file at run time is loaded by the `load` module. Both drive the scheduler of `afp-core`.
+//! file at run time is loaded by [`load()`]. Both are driven by a [`Scheduler`] on a [`Platform`]. A
+//! whole program, with a plan that only waits:
+//!
+//! ```text
+#![doc = include_str!("../examples/patience.afp")]
+//! ```
+//!
+#![cfg_attr(feature = "load", doc = "```")]
+#![cfg_attr(not(feature = "load"), doc = "```text")]
+#![doc = include_str!("../examples/patience.rs")]
+//! ```
+//!
+//! - Values of entries: [`Scheduler::set`], [`Scheduler::set_named`], [`Scheduler::get`].
+//! - Time: [`Scheduler::run`], [`Scheduler::run_until`]; in a loop of one's own [`Scheduler::start`] and
+//!   [`Scheduler::step`].
+//! - What happens: [`Callbacks`] by name, [`trace::Observe`] for every record.
+//! - Templates of one's own: [`toolbox!`], [`Actor`], [`Supervisor`], [`Computation`].
+//! - Tests: [`scenarios!`].
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub use afp_core as core;
 pub use afp_core::{
-    Actor, Computation, Duration, Ending, Environment, Events, Fault, Instant, Job, NamedPlan,
-    Plan, Poll, Reason, Scheduler, StartError, StillClock, Supervisor, Text, Ticket, Value,
-    ValueRef, Wake, Worker, WriteError, quantity, trace,
+    Actor, Clock, Computation, Duration, Ending, Environment, Events, Failure, Fault, Instant, Job,
+    NamedPlan, Plan, PlanState, Platform, Poll, Reason, Scheduler, SetError, StartError,
+    StillClock, Supervisor, Text, Ticket, TypedEntry, Value, ValueRef, Wake, Worker, WriteError,
+    quantity, trace,
 };
 
+mod callbacks;
 #[cfg(feature = "load")]
 pub mod load;
+
+pub use callbacks::{Callbacks, UnknownName};
+#[cfg(feature = "load")]
+pub use load::load;
 
 #[doc(hidden)]
 pub use afp_macros as macros;

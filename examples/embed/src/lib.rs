@@ -7,7 +7,7 @@ mod shop;
 
 use afp::quantity::{Angle, Length};
 use afp::trace::{NoTrace, Observe, Record};
-use afp::{Instant, NamedPlan, Scheduler, StillClock, Value, Wake, trace::Names};
+use afp::{Duration, Instant, NamedPlan, Platform, Scheduler, Wake, trace::Names};
 use afp_sim::{Simulation, World};
 
 pub use shop::{Announce, Loudspeaker, Shop, templates};
@@ -47,8 +47,7 @@ pub fn follow(
     farther: Length,
     seconds: u64,
 ) -> Result<Followed, Error> {
-    let mut plan = WallFollowing::new();
-    plan.set_walldist(walldist)?;
+    let plan = WallFollowing::new();
     let names = plan.names();
     let mut activations = Vec::new();
     let mut subscriber = Observe(|at: Instant, record: &Record<'_>| {
@@ -57,18 +56,17 @@ pub fn follow(
             activations.push(format!("{:.3} {path}", at.as_secs_f64()));
         }
     });
-    let half = Instant::from_nanos(seconds * 1_000_000_000);
-    let end = Instant::from_nanos(2 * seconds * 1_000_000_000);
+    let half = Duration::from_secs(seconds);
     let mut plan = Scheduler::new(plan);
-    let advance = |shop: &mut Shop, to| shop.robot.advance_to(to);
-    plan.run(shop, &mut subscriber, &StillClock, half, advance)?;
-    // A running plan is written to by name; the next step commits it.
-    let entry = plan.plan().entry_named("walldist").ok_or("no 'walldist'")?;
-    plan.write(entry, Value::Float(farther.si()))?;
-    plan.run(shop, &mut subscriber, &StillClock, end, advance)?;
+    plan.set(WallFollowing::WALLDIST, walldist)?;
+    let middle = shop.now() + half;
+    plan.run_until(shop, &mut subscriber, middle)?;
+    // A running plan is written to in the same way; the next step commits it.
+    plan.set(WallFollowing::WALLDIST, farther)?;
+    plan.run_until(shop, &mut subscriber, middle + half)?;
     let wall_angle = plan.plan().wallangle();
     plan.request_stop();
-    plan.step(shop, &mut NoTrace, &StillClock, end);
+    plan.run_until(shop, &mut NoTrace, middle + half)?;
     Ok(Followed { wall_angle, activations })
 }
 
@@ -77,9 +75,9 @@ pub fn follow(
 /// # Errors
 /// A number that does not fit.
 pub fn fetch(shop: &mut Shop, things: i64) -> Result<Wake, Error> {
-    let mut plan = Errands::new();
-    plan.set_things(things);
-    drive(shop, Scheduler::new(plan))
+    let mut plan = Scheduler::new(Errands::new());
+    plan.set(Errands::THINGS, things)?;
+    drive(shop, plan)
 }
 
 /// One errand alone: the sub-plan started by itself.
@@ -87,21 +85,13 @@ pub fn fetch(shop: &mut Shop, things: i64) -> Result<Wake, Error> {
 /// # Errors
 /// A way that is no number.
 pub fn errand(shop: &mut Shop, way: Length) -> Result<Wake, Error> {
-    let mut plan = Errand::new();
-    plan.set_way(way)?;
-    drive(shop, Scheduler::new(plan))
+    let mut plan = Scheduler::new(Errand::new());
+    plan.set(Errand::WAY, way)?;
+    drive(shop, plan)
 }
 
 /// Drives a plan to its end, at most two minutes from now on.
 fn drive<P: afp::Plan<Shop>>(shop: &mut Shop, mut plan: Scheduler<P>) -> Result<Wake, Error> {
-    let start = shop.robot.now();
-    let until = start + afp::Duration::from_secs(120);
-    let mut wake = plan.start(shop, &mut NoTrace, &StillClock, start)?;
-    while let Wake::At(at) = wake
-        && at <= until
-    {
-        shop.robot.advance_to(at);
-        wake = plan.step(shop, &mut NoTrace, &StillClock, at);
-    }
-    Ok(wake)
+    let until = shop.now() + Duration::from_secs(120);
+    Ok(plan.run_until(shop, &mut NoTrace, until)?)
 }

@@ -1,7 +1,7 @@
 //! The foreign program's side: a shop with a robot in it. A template calls it back.
 
 use afp::quantity::{Angle, AngularSpeed, Speed};
-use afp::{Actor, Environment, Fault, Instant, Poll};
+use afp::{Actor, Environment, Fault, Instant, Platform, Poll};
 use afp_carbot::devices::{
     Beam, Body, Button, Buttons, Echo, Motion, Navigator, Odometry, Reading, RotatingTelemetry,
     Rotator, TouchSensor, Ultrasonic,
@@ -68,6 +68,26 @@ impl Environment for Shop {
 
     fn emergency_stop(&mut self) {
         self.robot.emergency_stop();
+    }
+}
+
+impl Platform for Shop {
+    type Clock = <Simulation as Platform>::Clock;
+
+    fn clock(&self) -> Self::Clock {
+        self.robot.clock()
+    }
+
+    fn now(&self) -> Instant {
+        self.robot.now()
+    }
+
+    fn advance(&mut self, to: Instant) {
+        self.robot.advance_to(to);
+    }
+
+    fn ready(&self) -> Instant {
+        self.robot.ready()
     }
 }
 

@@ -3,7 +3,7 @@
 //! unchanged.
 
 use afp::quantity::{Angle, AngularSpeed, Length, Speed};
-use afp::{Duration, Environment, Instant};
+use afp::{Duration, Environment, Instant, Platform, StillClock};
 use afp_carbot::devices::{
     Beam, Body, Button, Buttons, Echo, Motion, Navigator, Odometry, Reading, RotatingTelemetry,
     Rotator, TouchSensor, Ultrasonic,
@@ -46,15 +46,6 @@ impl Toy {
             bearing: 0.0,
             touched: false,
             escape: false,
-        }
-    }
-
-    /// Lets time pass.
-    pub fn advance_to(&mut self, to: Instant) {
-        while self.now < to {
-            let next = to.min(self.now + TICK);
-            self.roll((next - self.now).as_secs_f64());
-            self.now = next;
         }
     }
 
@@ -105,6 +96,26 @@ impl Environment for Toy {
 
     fn emergency_stop(&mut self) {
         self.command = (0.0, 0.0);
+    }
+}
+
+impl Platform for Toy {
+    type Clock = StillClock;
+
+    fn clock(&self) -> StillClock {
+        StillClock
+    }
+
+    fn now(&self) -> Instant {
+        self.now
+    }
+
+    fn advance(&mut self, to: Instant) {
+        while self.now < to {
+            let next = to.min(self.now + TICK);
+            self.roll((next - self.now).as_secs_f64());
+            self.now = next;
+        }
     }
 }
 

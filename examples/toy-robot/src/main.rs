@@ -1,7 +1,7 @@
 //! Lets the toy follow the walls of its room for two minutes and prints what it does.
 
 use afp::trace::{Names, Observe, Record};
-use afp::{Instant, NamedPlan, Scheduler, StillClock};
+use afp::{Instant, NamedPlan, Scheduler};
 use toy_robot::Toy;
 
 afp::plan!("../../plans/wall_following.afp");
@@ -16,7 +16,7 @@ fn main() {
     });
     let (mut toy, mut plan) = (Toy::new(), Scheduler::new(plan));
     let until = Instant::from_nanos(120_000_000_000);
-    let wake = plan.run(&mut toy, &mut show, &StillClock, until, Toy::advance_to);
+    let wake = plan.run_until(&mut toy, &mut show, until);
     let (x, y) = toy.position;
     println!("{wake:?} at ({x:.2} m, {y:.2} m), {:.3} m from the wall", toy.right_gap());
 }

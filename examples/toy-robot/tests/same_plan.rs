@@ -1,7 +1,7 @@
 //! The Carbot's plan on another target system.
 
 use afp::trace::{NoTrace, Observe, Record};
-use afp::{Ending, Instant, NamedPlan, Scheduler, StillClock, Wake, trace::Names};
+use afp::{Ending, Instant, NamedPlan, Platform, Scheduler, Wake, trace::Names};
 use toy_robot::Toy;
 
 afp::plan!("../../plans/wall_following.afp");
@@ -23,11 +23,12 @@ fn the_toy_follows_the_walls_of_its_room() {
     });
     let (mut toy, mut plan) = (Toy::new(), Scheduler::new(plan));
     let mut gaps = Vec::new();
-    let wake = plan.run(&mut toy, &mut watch, &StillClock, seconds(120.0), |toy, to| {
-        toy.advance_to(to);
+    for hundredth in 1..=12_000 {
+        let to = seconds(f64::from(hundredth) / 100.0);
+        let wake = plan.run_until(&mut toy, &mut watch, to);
+        assert!(matches!(wake, Ok(Wake::At(_))), "{wake:?}");
         gaps.push((to, toy.right_gap()));
-    });
-    assert!(matches!(wake, Ok(Wake::At(_))), "{wake:?}");
+    }
     assert!(follows.len() >= 6, "it goes round: {follows:?}");
     let settled = |from: Instant| {
         let within = move |at: &Instant| (3.0..5.0).contains(&(at.since(from).as_secs_f64()));
@@ -41,13 +42,11 @@ fn the_toy_follows_the_walls_of_its_room() {
 #[test]
 fn the_escape_button_ends_the_plan_and_stops_the_toy() {
     let (mut toy, mut plan) = (Toy::new(), Scheduler::new(WallFollowing::new()));
-    let mut drive = |toy: &mut Toy, to| {
-        plan.run(toy, &mut NoTrace, &StillClock, to, Toy::advance_to).expect("it starts")
-    };
+    let mut drive = |toy: &mut Toy, to| plan.run_until(toy, &mut NoTrace, to).expect("it starts");
     assert!(matches!(drive(&mut toy, seconds(3.0)), Wake::At(_)));
     toy.escape = true;
     assert_eq!(drive(&mut toy, seconds(4.0)), Wake::Ended(Ending::Interrupted));
     let there = toy.position;
-    toy.advance_to(seconds(5.0));
+    toy.advance(seconds(5.0));
     assert_eq!(toy.position, there);
 }

@@ -1,4 +1,4 @@
-"""Sweeps on a Ray cluster; it needs `afp[ray]`.
+"""Sweeps on a Ray cluster; it needs ray.
 
     afp.sweep(plan, seeds=range(10_000), backend="ray", out="runs.parquet")
 
@@ -59,7 +59,7 @@ class Spec:
     def packed(self) -> bytes:
         """What is sent to workers."""
         try:
-            packed: bytes = need("ray.cloudpickle", "ray").dumps(self)
+            packed: bytes = need("ray.cloudpickle").dumps(self)
         except (TypeError, pickle.PicklingError) as error:
             text = f"the plan's components cannot be sent to other processes: {error}"
             help = 'let them make there what cannot be pickled, or use backend="local"'
@@ -76,7 +76,7 @@ def run(
     spec: Spec, sweeper: Sweeper, runs: Sequence[int], tell: Callable[[int], Any], *, chunk: int | None = None
 ) -> None:
     """Does runs on the cluster; `sweeper` keeps their outcomes, `tell` hears how many of all are done."""
-    ray = need("ray", "ray")
+    ray = need("ray")
     if not ray.is_initialized():
         ray.init(include_dashboard=False, log_to_driver=False)
     cpus = int(ray.cluster_resources().get("CPU", 1))

@@ -30,7 +30,7 @@ from typing import Any, TypeVar, get_type_hints
 
 from . import _afp
 from ._afp import Robot
-from .units import spelled_time
+from .units import Quantity, plain, spelled_time
 
 __all__ = ["Toolbox", "tick"]
 
@@ -152,7 +152,7 @@ class Toolbox(_afp.Toolbox):
             template = name or _name(component)
             devices = [uses] if isinstance(uses, str) else uses
             text = _declaration(kind, template, component, outcomes, devices, timing, icon)
-            self._declare(text)
+            self._declare(template, text)
             return self.implement(component, template)
 
         return declare
@@ -210,18 +210,34 @@ def _type(hint: Any, where: str) -> str:
     raise TypeError(f"{where} needs a type hint: one of {known}, or Annotated[float, 'force'] and the like")
 
 
-def _constant(value: Any, type: str) -> str:
+_UNITS = {
+    "length": "m",
+    "angle": "rad",
+    "duration": "s",
+    "speed": "m/s",
+    "angular_speed": "rad/s",
+    "acceleration": "m/s^2",
+    "mass": "kg",
+    "force": "N",
+    "voltage": "V",
+    "temperature": "K",
+    "frequency": "Hz",
+}
+
+
+def _constant(value: Any, type: str, where: str) -> str:
     """A default as it stands in a toolbox file."""
+    value = plain(value)
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
         return _text(value) if type == "string" else value
+    unit = _UNITS.get(type, "")
+    if isinstance(value, Quantity) and value.unit != unit:
+        raise TypeError(f"{where} is {type}{f' in {unit}' if unit else ''}, its default a quantity in {value.unit}")
     if type in {"int", "float"}:
         return repr(value)
-    units = {"length": "m", "angle": "rad", "duration": "s", "speed": "m/s", "angular_speed": "rad/s"}
-    units |= {"acceleration": "m/s^2", "mass": "kg", "force": "N", "voltage": "V", "temperature": "K"}
-    units |= {"frequency": "Hz"}
-    return f"{float(value)!r} {units.get(type, '')}".rstrip()
+    return f"{float(value)!r} {unit}".rstrip()
 
 
 def _ports(function: Callable[..., Any], live: bool) -> list[str]:
@@ -232,9 +248,10 @@ def _ports(function: Callable[..., Any], live: bool) -> list[str]:
             continue
         if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD):
             raise TypeError(f"'{function.__qualname__}' takes *{name}; its parameters are ports and need names")
-        type = _type(hints.get(name), f"the parameter '{name}' of '{function.__qualname__}'")
+        where = f"the parameter '{name}' of '{function.__qualname__}'"
+        type = _type(hints.get(name), where)
         default = parameter.default
-        end = "" if default is parameter.empty else f" = {_constant(default, type)}"
+        end = "" if default is parameter.empty else f" = {_constant(default, type, where)}"
         lines.append(f"in {'live ' if live else ''}{name}: {type}{end}")
     return lines
 

@@ -1,4 +1,4 @@
-"""A Gymnasium environment of the simulated Carbot; it needs `afp[gym]`.
+"""A Gymnasium environment of the simulated Carbot; it needs gymnasium.
 
     import gymnasium, afp.gym
     env = gymnasium.make("afp/Carbot-v0")
@@ -8,8 +8,8 @@
 **Action**, `Box(-1, 1, (2,))`: speed and turn rate as shares of `SPEED` and `TURN`; backwards and to the right where
 negative. An action lasts 100 ms of simulated time.
 
-**Observation**, `Box(float32, (9,))`: the distance that the range sensor reports (m, `RANGE` for silence), 1 if it has
-said anything yet; from the odometry x and y (m), sine and cosine of the heading, speed (m/s) and turn rate (rad/s);
+**Observation**, `Box(float32, (9,))`: the distance that the range sensor reports (m, `RANGE` for silence), 1 if it is
+known, else 0 and the distance is `RANGE`: before the first echo, and for an echo that the sensor cannot measure; from the odometry x and y (m), sine and cosine of the heading, speed (m/s) and turn rate (rad/s);
 1 if the bumper is pressed. What the robot cannot know is in `info` only: `pose`, `collisions`, `time`.
 
 **Reward.** For each step the way in metres by which the robot got ahead (negative backwards); minus 10 for
@@ -31,7 +31,7 @@ from numpy.typing import NDArray
 from ._afp import Carbot, World
 from .tables import need
 
-gymnasium = need("gymnasium", "gym")
+gymnasium = need("gymnasium")
 
 __all__ = ["RANGE", "SPEED", "TURN", "CarbotEnv"]
 
@@ -135,7 +135,7 @@ class CarbotEnv(gymnasium.Env):  # type: ignore[misc, name-defined]
     def _observe(self, carbot: Carbot) -> NDArray[np.float32]:
         echo = carbot.sense("distance")
         x, y, heading, speed, turn = carbot.sense("odometry")
-        distance = 0.0 if echo is None else min(echo, RANGE)
+        distance = RANGE if echo is None else min(echo, RANGE)
         rest = [x, y, math.sin(heading), math.cos(heading), speed, turn, float(carbot.sense("touched") or False)]
         all = np.array([distance, float(echo is not None), *rest], np.float32)
         seen: NDArray[np.float32] = np.clip(all, self.observation_space.low, self.observation_space.high)

@@ -56,7 +56,7 @@ class Log(tables.Events):
         return np.array([time for time, _ in rows]), [value for _, value in rows]
 
     def plot_timeline(self, ax: Any = None) -> Any:
-        """Draws what was active when; needs `afp[plot]`."""
+        """Draws what was active when; needs matplotlib."""
         end = max((event.time for event in self.events), default=0.0)
         return plots.timeline(self.events, end, self.facts.get("plan", self.file), ax)
 

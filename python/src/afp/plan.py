@@ -6,6 +6,7 @@ import html
 import os
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from . import _afp
 from ._afp import Toolbox
@@ -30,6 +31,9 @@ class Plan(_afp.Plan):
     True
     """
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _again, (type(self), *self._state())
+
     def __repr__(self) -> str:
         place = self.path or "<text>"
         count = len(self.diagnostics)
@@ -37,9 +41,7 @@ class Plan(_afp.Plan):
 
     def _repr_html_(self) -> str:
         lines = [f"<pre>{html.escape(self.report().rstrip())}</pre>"] if self.diagnostics else []
-        if self.ok:
-            lines.insert(0, self.svg())
-        return "\n".join(lines)
+        return "\n".join([self.svg(), *lines])
 
     def save_svg(self, path: str | os.PathLike[str], *, theme: str = "light", fold: bool = False) -> None:
         """Writes the drawing to a file."""
@@ -137,6 +139,25 @@ class Plan(_afp.Plan):
     def inline(self, element: str, *, plan: str | None = None) -> None:
         """Puts the elements of a sub-plan in its place."""
         self._change("inline", {"element": element, "plan": plan})
+
+
+def _again(
+    kind: type[Plan],
+    text: str,
+    path: str | os.PathLike[str] | None,
+    name: str | None,
+    toolboxes: Sequence[Toolbox],
+    others: dict[str, str],
+) -> Plan:
+    """A plan as it was pickled or copied."""
+    plan = kind(text, path, name=name, toolboxes=list(toolboxes))
+    plan._set_others(others)
+    return plan
+
+
+def _scenario(state: tuple[Any, ...], index: int) -> _afp.Scenario:
+    """A scenario as it was pickled: of a plan, by its place there."""
+    return _again(Plan, *state).scenarios[index]
 
 
 def load(path: str | os.PathLike[str], *, plan: str | None = None, toolboxes: Sequence[Toolbox] = ()) -> Plan:

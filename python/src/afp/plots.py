@@ -1,4 +1,4 @@
-"""Pictures of runs; they need `afp[plot]`."""
+"""Pictures of runs; they need matplotlib."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def path(
     ax: Any = None,
 ) -> Any:
     """The robot's path in its world, with the events that were taken."""
-    pyplot = need("matplotlib.pyplot", "plot")
+    pyplot = need("matplotlib.pyplot")
     ax = ax if ax is not None else pyplot.subplots(figsize=(6, 5), layout="constrained")[1]
     for corners in outlines:
         closed = np.vstack([corners, corners[:1]])
@@ -59,7 +59,7 @@ def path(
 
 def timeline(events: Sequence[Event], end: float, title: str, ax: Any = None) -> Any:
     """What was active when, one row an element, with the events that were taken."""
-    pyplot = need("matplotlib.pyplot", "plot")
+    pyplot = need("matplotlib.pyplot")
     active = spans(events, end)
     rows = list(dict.fromkeys(component for component, _, _ in active))
     if ax is None:
@@ -84,7 +84,7 @@ def _label(column: str) -> str:
 
 def runs(x: Sequence[Any], y: Sequence[Any], endings: Sequence[str], labels: tuple[str, str, str], ax: Any = None) -> Any:
     """A measure of many runs, a dot for each, told apart by how they ended."""
-    pyplot = need("matplotlib.pyplot", "plot")
+    pyplot = need("matplotlib.pyplot")
     ax = ax if ax is not None else pyplot.subplots(figsize=(6, 4), layout="constrained")[1]
     for number, ending in enumerate(dict.fromkeys(endings)):
         dots = [(a, b) for a, b, e in zip(x, y, endings, strict=True) if e == ending and a is not None and b is not None]

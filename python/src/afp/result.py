@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import pickle
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -23,9 +24,23 @@ class ComponentError:
     """An exception of a component written in Python."""
 
     time: float
+    """When, seconds since the start."""
+    element: str
+    """The element or supervisor, by its path in the plan; empty while the plan runs."""
     template: str
+    """Its template."""
     error: BaseException
+    """The exception."""
     traceback: str
+    """How Python prints it."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        try:
+            error = pickle.loads(pickle.dumps(self.error))
+        except Exception:
+            # Not every exception can be pickled: its text can.
+            error = RuntimeError(f"{type(self.error).__name__}: {self.error}")
+        return ComponentError, (self.time, self.element, self.template, error, self.traceback)
 
 
 @dataclass(frozen=True)
@@ -110,11 +125,11 @@ class Result(tables.Events):
         return self
 
     def plot_path(self, ax: Any = None) -> Any:
-        """Draws the robot's path in its world; needs `afp[plot]`."""
+        """Draws the robot's path in its world; needs matplotlib."""
         return plots.path(self.path, self._world.outlines(), self.events, self._title(), ax)
 
     def plot_timeline(self, ax: Any = None) -> Any:
-        """Draws what was active when; needs `afp[plot]`."""
+        """Draws what was active when; needs matplotlib."""
         return plots.timeline(self.events, self.time, self._title(), ax)
 
     def _title(self) -> str:

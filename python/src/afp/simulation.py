@@ -24,7 +24,8 @@ class Simulation:
 
     `world` is a `World`, the path of its file, or `None` for the one that `afpc run` would take. `set` gives `in`
     entries their values: `afp.cm(30)`, plain floats in SI units, texts as on the command line (`"30cm"`), names of
-    enum values. `log` is the MCAP file to be written.
+    enum values. `log` is the MCAP file to be written: whole once the plan has ended or the simulation is closed, which
+    `with` does; nothing can be driven on then.
 
     While it runs, other threads of Python run too; a simulation itself belongs to one caller at a time.
     """
@@ -224,9 +225,9 @@ class Simulation:
     @property
     def errors(self) -> list[ComponentError]:
         """The exceptions of components written in Python, in the order in which they were raised."""
-        for time, template, error in self._runner.failures():
+        for time, element, template, error in self._runner.failures(len(self._failures)):
             lines = "".join(traceback.format_exception(type(error), error, error.__traceback__))
-            self._failures.append(ComponentError(time, template, error, lines))
+            self._failures.append(ComponentError(time, element, template, error, lines))
         return list(self._failures)
 
     def __repr__(self) -> str:

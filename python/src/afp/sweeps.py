@@ -48,7 +48,7 @@ def sweep(
     `out` (`runs.csv`, `runs.parquet`, or a folder for both) keeps each outcome as it comes: the same call goes on
     where an earlier one was stopped or killed, unless `restart` is set; `afpc sweep` goes on with it too.
 
-    `backend="ray"` spreads the runs over a Ray cluster; it needs `afp[ray]`, see `afp.cluster`.
+    `backend="ray"` spreads the runs over a Ray cluster; it needs ray, see `afp.cluster`.
     """
     if not isinstance(plan, Plan):
         raise TypeError(f"a sweep needs a Plan, not a {type(plan).__name__}: afp.load() reads one")
@@ -57,6 +57,8 @@ def sweep(
     if backend not in ("local", "ray"):
         raise ValueError(f"no backend '{backend}'; there are: local, ray")
     until = seconds("until", until)
+    if not isinstance(vary, (Mapping, type(None))):
+        raise TypeError(f"vary gives entries lists of values, such as {{'walldist': [afp.cm(30), afp.cm(40)]}}, not {vary!r}")
     values = [(name, _values(name, given)) for name, given in (vary or {}).items()]
     sweeper = Sweeper(
         plan,
@@ -200,29 +202,29 @@ class Runs:
         return [dict(zip(("ending", "where", "why", "count", "run"), group, strict=True)) for group in self._groups]
 
     def to_pandas(self) -> Any:
-        """The table as a pandas data frame; needs `afp[pandas]`."""
+        """The table as a pandas data frame; needs pandas."""
         numbers = {name: "float64" for name, kind in self._kinds.items() if kind == "number"}
-        return tables.need("pandas", "pandas").DataFrame(self.columns).astype(numbers)
+        return tables.need("pandas").DataFrame(self.columns).astype(numbers)
 
     def to_polars(self) -> Any:
-        """The table as a polars data frame; needs `afp[polars]`."""
-        polars = tables.need("polars", "polars")
+        """The table as a polars data frame; needs polars."""
+        polars = tables.need("polars")
         types = {"count": polars.UInt64, "number": polars.Float64, "text": polars.String}
         return polars.DataFrame(self.columns, schema={name: types[kind] for name, kind in self._kinds.items()})
 
     def to_arrow(self) -> Any:
-        """The table as an Arrow table; needs `afp[arrow]`."""
-        arrow = tables.need("pyarrow", "arrow")
+        """The table as an Arrow table; needs pyarrow."""
+        arrow = tables.need("pyarrow")
         types = {"count": arrow.uint64(), "number": arrow.float64(), "text": arrow.string()}
         schema = arrow.schema([(name, types[kind]) for name, kind in self._kinds.items()])
         return arrow.table(self.columns, schema=schema)
 
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
-        """The table for whatever reads Arrow; needs `afp[arrow]`."""
+        """The table for whatever reads Arrow; needs pyarrow."""
         return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     def plot(self, x: str, y: str = "time_s", ax: Any = None) -> Any:
-        """Draws a measure of each run over what was varied; needs `afp[plot]`."""
+        """Draws a measure of each run over what was varied; needs matplotlib."""
         known = f"{x}_si" if f"{x}_si" in self.columns else x
         for name in (known, y):
             if name not in self.columns:

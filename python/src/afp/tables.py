@@ -25,13 +25,13 @@ COLUMNS = (
 )
 
 
-def need(module: str, extra: str) -> Any:
-    """A module that comes with an extra of the package."""
+def need(module: str) -> Any:
+    """A module of another package."""
     try:
         return importlib.import_module(module)
     except ImportError as error:
         needed = module.partition(".")[0]
-        raise ImportError(f"this needs {needed}; install it with: pip install 'afp[{extra}]'") from error
+        raise ImportError(f"this needs {needed}; install it with: pip install {needed}") from error
 
 
 def columns(events: Sequence[Event]) -> dict[str, list[Any]]:
@@ -45,12 +45,12 @@ def columns(events: Sequence[Event]) -> dict[str, list[Any]]:
 
 def to_pandas(events: Sequence[Event]) -> Any:
     """The events as a pandas data frame."""
-    return need("pandas", "pandas").DataFrame(columns(events))
+    return need("pandas").DataFrame(columns(events))
 
 
 def to_polars(events: Sequence[Event]) -> Any:
     """The events as a polars data frame."""
-    polars = need("polars", "polars")
+    polars = need("polars")
     numbers = {"time", "lateness", "value"}
     table = columns(events)
     return polars.DataFrame(table, schema={name: polars.Float64 if name in numbers else polars.String for name in table})
@@ -58,7 +58,7 @@ def to_polars(events: Sequence[Event]) -> Any:
 
 def to_arrow(events: Sequence[Event]) -> Any:
     """The events as an Arrow table."""
-    arrow = need("pyarrow", "arrow")
+    arrow = need("pyarrow")
     numbers = {"time", "lateness", "value"}
     table = columns(events)
     types = {name: arrow.float64() if name in numbers else arrow.string() for name in table}
@@ -75,17 +75,17 @@ class Events:
         return columns(self.events)
 
     def to_pandas(self) -> Any:
-        """The events as a pandas data frame; needs `afp[pandas]`."""
+        """The events as a pandas data frame; needs pandas."""
         return to_pandas(self.events)
 
     def to_polars(self) -> Any:
-        """The events as a polars data frame; needs `afp[polars]`."""
+        """The events as a polars data frame; needs polars."""
         return to_polars(self.events)
 
     def to_arrow(self) -> Any:
-        """The events as an Arrow table; needs `afp[arrow]`."""
+        """The events as an Arrow table; needs pyarrow."""
         return to_arrow(self.events)
 
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
-        """The events for whatever reads Arrow, as in `polars.DataFrame(result)`; needs `afp[arrow]`."""
+        """The events for whatever reads Arrow, as in `polars.DataFrame(result)`; needs pyarrow."""
         return self.to_arrow().__arrow_c_stream__(requested_schema)

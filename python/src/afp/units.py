@@ -11,7 +11,9 @@ Entries and ports take a quantity only of their own dimension; a plain float is 
 from __future__ import annotations
 
 import math
-from typing import Annotated, Callable
+from typing import Annotated, Any, Callable
+
+import numpy as np
 
 __all__ = [
     "Angle",
@@ -36,7 +38,15 @@ __all__ = [
 
 
 class Quantity(float):
-    """A number in an SI unit; arithmetic with it gives plain floats."""
+    """A number in an SI unit, which multiples, quotients and sums of like quantities keep; else plain floats come out.
+
+    >>> 2 * cm(30)
+    Quantity(0.6, 'm')
+    >>> cm(30) + mm(5)
+    Quantity(0.305, 'm')
+    >>> cm(30) / cm(15)
+    2.0
+    """
 
     __slots__ = ("unit",)
     unit: str
@@ -52,11 +62,49 @@ class Quantity(float):
     def __repr__(self) -> str:
         return f"Quantity({float(self)!r}, {self.unit!r})"
 
+    def _like(self, value: Any, other: object) -> Any:
+        """`value` in the unit, if `other` is of it, too."""
+        alike = isinstance(other, Quantity) and other.unit == self.unit
+        return Quantity(value, self.unit) if alike and value is not NotImplemented else value
+
+    def _scaled(self, value: Any, other: object) -> Any:
+        """`value` in the unit, if `other` is a plain number."""
+        is_number = isinstance(other, (int, float)) and not isinstance(other, Quantity)
+        return Quantity(value, self.unit) if is_number and value is not NotImplemented else value
+
+    def __neg__(self) -> Quantity:
+        return Quantity(-float(self), self.unit)
+
+    def __abs__(self) -> Quantity:
+        return Quantity(abs(float(self)), self.unit)
+
+    def __add__(self, other: float) -> Any:
+        return self._like(super().__add__(other), other)
+
+    def __sub__(self, other: float) -> Any:
+        return self._like(super().__sub__(other), other)
+
+    def __mul__(self, other: float) -> Any:
+        return self._scaled(super().__mul__(other), other)
+
+    def __rmul__(self, other: float) -> Any:
+        return self._scaled(super().__rmul__(other), other)
+
+    def __truediv__(self, other: float) -> Any:
+        return self._scaled(super().__truediv__(other), other)
+
 
 def _number(name: str, value: float) -> float:
     if isinstance(value, (str, bytes)):
         raise TypeError(f"{name}() takes a number, not {value!r}")
+    if isinstance(value, Quantity):
+        raise TypeError(f"{name}() takes a number, not a quantity in {value.unit}")
     return value
+
+
+def plain(value: Any) -> Any:
+    """A value of numpy as Python has it; others as they are."""
+    return value.item() if isinstance(value, np.generic) else value
 
 
 def seconds(what: str, value: float) -> float:
@@ -75,6 +123,7 @@ def moment(what: str, value: float | None) -> float | None:
 
 def spelled(value: object) -> str:
     """A value as it stands in a plan: texts are taken as they are, plain numbers have no unit."""
+    value = plain(value)
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, Quantity):

@@ -71,7 +71,7 @@ pub fn run(case: &Case) -> Outcome {
     while robot.sim.now() < end {
         let due = match wake {
             Wake::At(due) => due.max(clock.free()),
-            Wake::Ended(_) => Instant::MAX,
+            Wake::Ended(_) | Wake::NotStarted => Instant::MAX,
         };
         let deed = case.chance.0.get(next).map_or(Instant::MAX, |(at, _)| *at);
         robot.sim.advance_to(due.min(look).min(deed).min(end));

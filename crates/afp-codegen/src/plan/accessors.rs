@@ -1,12 +1,12 @@
 //! Typed access for whoever starts the plan.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::context::Context;
-use super::state::entry_doc;
+use super::state::{entry_doc, is_open};
 use crate::layout::{at, doc};
-use crate::names::{Names, ident, snake};
+use crate::names::{Names, ident, shout, snake};
 use afp_dsl::graph::{Entry, EntryKind};
 use afp_dsl::types::Type;
 
@@ -15,6 +15,12 @@ pub fn accessors(context: &Context<'_>) -> TokenStream {
     let ty = &context.ty;
     let new = doc("", "The plan, not yet started.");
     let mut names = Names::taken(&["new", "default", "from", "into"]);
+    let mut constants = Names::taken(&[]);
+    let typed: Vec<_> = (0..)
+        .zip(&context.plan.entries)
+        .filter(|(_, entry)| is_open(entry))
+        .map(|(index, entry)| typed(context, entry, index, &constants.unique(shout(&entry.name))))
+        .collect();
     let entries = context.plan.entries.iter().zip(&context.entries);
     let accessors = entries.map(|(entry, field)| {
         let get = ident(&names.unique(snake(&entry.name)));
@@ -27,6 +33,8 @@ pub fn accessors(context: &Context<'_>) -> TokenStream {
     });
     quote! {
         impl #ty {
+            #(#typed)*
+
             #new
             pub fn new() -> Self {
                 Self::default()
@@ -34,6 +42,18 @@ pub fn accessors(context: &Context<'_>) -> TokenStream {
 
             #(#accessors)*
         }
+    }
+}
+
+/// The constant by which [`is_open`] entries are set.
+fn typed(context: &Context<'_>, entry: &Entry, index: u16, name: &str) -> TokenStream {
+    let (name, value) = (ident(name), context.value_type(&entry.ty));
+    let help = doc("", &format!("The entry `{}`, for `Scheduler::set`.", entry.name));
+    let (at, index) = (at(entry.span), Literal::u16_unsuffixed(index));
+    quote! {
+        #help
+        #at
+        pub const #name: TypedEntry<Self, #value> = TypedEntry::new(#index);
     }
 }
 

@@ -144,7 +144,7 @@ impl<'a> Context<'a> {
     /// the type that implements it, `afp_carbot::Forward`.
     pub fn paths(&self, id: TemplateId, generic: Option<&Type>) -> Paths {
         let toolbox = self.toolbox(id);
-        let (home, alias) = (path(&toolbox.rust_path), alias(&toolbox.name));
+        let (home, alias) = (path(&toolbox.rust_path), alias(self.graph, &toolbox.name));
         let name = &self.template(id).name;
         let (camel, snake) = (ident(&camel(name)), ident(&snake(name)));
         let generic = generic.map(|ty| {
@@ -228,11 +228,13 @@ pub fn path(text: &str) -> TokenStream {
     quote!(#(#parts)::*)
 }
 
-/// The name under which a module of templates is imported.
-pub fn alias(toolbox: &str) -> Ident {
+/// The name under which a module of templates is imported. A crate that is named like a toolbox keeps its name.
+pub fn alias(graph: &Graph, toolbox: &str) -> Ident {
     let name = snake(toolbox);
+    let mut roots = graph.toolboxes.iter().map(|each| each.rust_path.split("::").next());
     match name.as_str() {
         "std" | "core" | "alloc" | "rt" | "enums" | "units" => format_ident!("{name}_templates"),
+        name if roots.any(|root| root == Some(name)) => format_ident!("{name}_templates"),
         name => ident(name),
     }
 }

@@ -16,6 +16,7 @@ pub const CORE: &[&str] = &[
     "Events",
     "Fault",
     "Text",
+    "TypedEntry",
     "Value",
     "ValueRef",
     "WriteError",
@@ -117,7 +118,7 @@ pub fn imports(
         }
     });
     let toolboxes = context.graph.toolboxes.iter().filter_map(|toolbox| {
-        let (home, alias) = (path(&toolbox.rust_path), alias(&toolbox.name));
+        let (home, alias) = (path(&toolbox.rust_path), alias(context.graph, &toolbox.name));
         let item = quote!(use #home::templates as #alias;);
         used.contains(&alias.to_string()).then_some(item)
     });

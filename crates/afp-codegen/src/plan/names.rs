@@ -34,17 +34,9 @@ pub fn names(context: &Context<'_>, id: PlanId) -> TokenStream {
     }
 }
 
-/// Writing the inputs of the plan before its start.
+/// The units in which texts give entries their values.
 fn access(context: &Context<'_>) -> TokenStream {
     let entries = || context.plan.entries.iter().zip(&context.entries).enumerate();
-    let is_input = |kind| kind == EntryKind::In;
-    let sets: Vec<_> = entries()
-        .filter(|(_, (entry, _))| is_input(entry.kind) && !matches!(entry.ty, Type::Object(_)))
-        .map(|(index, (_, name))| {
-            let index = Literal::usize_unsuffixed(index);
-            quote!(#index => set_input(&mut self.config.#name, value),)
-        })
-        .collect();
     let units: Vec<_> = entries()
         .filter_map(|(index, (entry, _))| match entry.ty {
             Type::Quantity(dimension) if dimension != Dimension::NONE => {
@@ -61,14 +53,6 @@ fn access(context: &Context<'_>) -> TokenStream {
         (quote!(entry), quote!(match entry { #(#units)* _ => &[] }))
     };
     quote! {
-        fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
-            self.accepts(entry, value)?;
-            match entry {
-                #(#sets)*
-                _ => Err(WriteError::ReadOnly),
-            }
-        }
-
         fn units(&self, #unit_of: u16) -> impl Iterator<Item = Unit<'_>> {
             let units: &[Unit<'static>] = #units;
             units.iter().copied()

@@ -275,6 +275,12 @@ fn outside(context: &Context<'_>) -> TokenStream {
             quote!(#index => stage_outside(&mut self.staged.#name, value),)
         })
         .collect();
+    let inputs = entries()
+        .filter(|(_, (entry, _))| entry.kind == EntryKind::In && is_open(entry))
+        .map(|(index, (_, name))| {
+            let index = number(index);
+            quote!(#index => set_input(&mut self.config.#name, value),)
+        });
     let read = context.plan.entries.iter().any(is_open);
     let value = if read { quote!(value) } else { quote!(_) };
     let (entry, accepts) = if accepts.is_empty() {
@@ -289,6 +295,14 @@ fn outside(context: &Context<'_>) -> TokenStream {
             #accepts
         }
 
+        fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
+            self.accepts(entry, value)?;
+            match entry {
+                #(#inputs)*
+                _ => Err(WriteError::NotStarted),
+            }
+        }
+
         fn stage(&mut self, #staged: u16, #value: &Value) {
             #staging
         }
@@ -296,6 +310,6 @@ fn outside(context: &Context<'_>) -> TokenStream {
 }
 
 /// Whether writers from outside can write an entry.
-fn is_open(entry: &Entry) -> bool {
+pub fn is_open(entry: &Entry) -> bool {
     matches!(entry.kind, EntryKind::In | EntryKind::Var) && !matches!(entry.ty, Type::Object(_))
 }

@@ -74,6 +74,18 @@ impl Config {
 }
 
 impl P {
+    /// The entry `pace`, for `Scheduler::set`.
+    pub const PACE: TypedEntry<Self, Speed> = TypedEntry::new(0);
+
+    /// The entry `often`, for `Scheduler::set`.
+    pub const OFTEN: TypedEntry<Self, i64> = TypedEntry::new(1);
+
+    /// The entry `flag`, for `Scheduler::set`.
+    pub const FLAG: TypedEntry<Self, bool> = TypedEntry::new(2);
+
+    /// The entry `text`, for `Scheduler::set`.
+    pub const TEXT: TypedEntry<Self, Text> = TypedEntry::new(3);
+
     /// The plan, not yet started.
     pub fn new() -> Self {
         Self::default()
@@ -218,6 +230,15 @@ impl PlanState for P {
             4 => Err(WriteError::ReadOnly),
             5 => Err(WriteError::ReadOnly),
             _ => Err(WriteError::Unknown),
+        }
+    }
+
+    fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
+        self.accepts(entry, value)?;
+        match entry {
+            0 => set_input(&mut self.config.pace, value),
+            1 => set_input(&mut self.config.often, value),
+            _ => Err(WriteError::NotStarted),
         }
     }
 

@@ -96,13 +96,6 @@ impl NamedPlan for Config_2 {
         NAMES
     }
 
-    fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
-        self.accepts(entry, value)?;
-        match entry {
-            _ => Err(WriteError::ReadOnly),
-        }
-    }
-
     fn units(&self, _: u16) -> impl Iterator<Item = Unit<'_>> {
         let units: &[Unit<'static>] = &[];
         units.iter().copied()

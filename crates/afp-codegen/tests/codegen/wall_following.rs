@@ -51,7 +51,7 @@ pub static ANGLE: [Unit<'static>; 3] = [
 //! The plan `WallFollowing`: Find the next wall, then drive parallel to it until the escape button is pressed.
 
 use ::afp_core::{
-    Clock, Duration, Environment, Events, Fault, Value, ValueRef, WriteError,
+    Clock, Duration, Environment, Events, Fault, TypedEntry, Value, ValueRef, WriteError,
 };
 use ::afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
 use ::afp_core::rt::{
@@ -236,6 +236,12 @@ impl Config {
 }
 
 impl WallFollowing {
+    /// The entry `walldist`, for `Scheduler::set`.
+    pub const WALLDIST: TypedEntry<Self, Length> = TypedEntry::new(0);
+
+    /// The entry `wallangle`, for `Scheduler::set`.
+    pub const WALLANGLE: TypedEntry<Self, Angle> = TypedEntry::new(1);
+
     /// The plan, not yet started.
     pub fn new() -> Self {
         Self::default()
@@ -324,6 +330,14 @@ impl PlanState for WallFollowing {
             0 => WriteError::check::<Length>(value),
             1 => WriteError::check::<Angle>(value),
             _ => Err(WriteError::Unknown),
+        }
+    }
+
+    fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
+        self.accepts(entry, value)?;
+        match entry {
+            0 => set_input(&mut self.config.walldist, value),
+            _ => Err(WriteError::NotStarted),
         }
     }
 
@@ -815,14 +829,6 @@ impl NamedPlan for WallFollowing {
 
     fn names(&self) -> NameTable {
         NAMES
-    }
-
-    fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
-        self.accepts(entry, value)?;
-        match entry {
-            0 => set_input(&mut self.config.walldist, value),
-            _ => Err(WriteError::ReadOnly),
-        }
     }
 
     fn units(&self, entry: u16) -> impl Iterator<Item = Unit<'_>> {

@@ -57,10 +57,10 @@ impl<P: PlanState> Level<P> {
         let id = supervisor_id(t, cx, supervisor);
         cx.place.component = id;
         let result = cx.call(id, |cx| self.plan.start_supervisor(supervisor, cx));
-        cx.trace(&match result {
-            Ok(()) => Record::Started { component: id },
-            Err(fault) => Record::Faulted { component: id, fault },
-        });
+        match result {
+            Ok(()) => cx.trace(&Record::Started { component: id }),
+            Err(fault) => cx.failed(id, fault),
+        }
         result
     }
 
@@ -118,7 +118,7 @@ impl<P: PlanState> Level<P> {
             }
             What::Fault(fault) => {
                 self.plan.discard();
-                cx.trace(&Record::Faulted { component: supervisor, fault });
+                cx.failed(supervisor, fault);
             }
         }
         self.after_supervisor(t, element, row, found, cx)
@@ -174,7 +174,7 @@ impl<P: PlanState> Level<P> {
         P: Plan<E>,
     {
         self.plan.discard();
-        cx.trace(&Record::Faulted { component: component(cx, element), fault });
+        cx.failed(component(cx, element), fault);
         if row.kind == ElementKind::Actor {
             cx.step.called = cx.place.plan;
             cx.env.stop(cx.now);

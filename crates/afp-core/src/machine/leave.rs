@@ -30,7 +30,7 @@ impl<P: PlanState> Level<P> {
                 Err(fault) => Err(Stop::Run(fault)),
             },
             Polled::Failed(fault) => {
-                cx.trace(&Record::Faulted { component: component(cx, element), fault });
+                cx.failed(component(cx, element), fault);
                 if row.kind == ElementKind::SubPlan {
                     // It ended by itself and interrupted what was active inside.
                     self.active = None;
@@ -160,7 +160,7 @@ impl<P: PlanState> Level<P> {
         if let Err(fault) = result
             && t.table().element(element).is_some_and(|row| row.kind == ElementKind::Actor)
         {
-            cx.trace(&Record::Faulted { component: id, fault });
+            cx.failed(id, fault);
         }
         result
     }

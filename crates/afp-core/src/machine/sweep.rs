@@ -228,7 +228,7 @@ impl<P: PlanState> Level<P> {
             What::Event(event, _) => cx.trace(&Record::Event { supervisor: id, event }),
             What::Fault(fault) => {
                 self.plan.discard();
-                cx.trace(&Record::Faulted { component: id, fault });
+                cx.failed(id, fault);
             }
         }
         if let Err(fault) = self.interrupt_active(t, cx) {

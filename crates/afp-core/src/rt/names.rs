@@ -2,7 +2,7 @@
 
 use crate::fault::Fault;
 use crate::rt::formula::{Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};
-use crate::rt::plan::{PlanState, WriteError};
+use crate::rt::state::PlanState;
 use crate::trace::{
     ComponentId, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Kind, Names,
     TraceEntryId,
@@ -75,12 +75,6 @@ pub trait NamedPlan: PlanState {
 
     /// The names, to be kept apart from the running plan.
     fn names(&self) -> Self::Names;
-
-    /// Sets an `in` entry, by position, before the start.
-    ///
-    /// # Errors
-    /// Why not.
-    fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError>;
 
     /// Reads a value for an entry, by position, as it would stand in the plan: `35 cm`, `true`,
     /// `Side.left`; texts without quotes. Only [`NamedPlan::units`] are understood.

@@ -8,8 +8,9 @@ use crate::component::{
 };
 use crate::fault::Fault;
 use crate::rt::formula::parse_choice;
-use crate::rt::plan::{Cx, Fired, Polled, Started, WriteError};
+use crate::rt::plan::{Cx, Fired, Polled, Started};
 use crate::rt::ports::{Outcome, Ports};
+use crate::rt::state::WriteError;
 use crate::rt::store::{Choice, Entry, Stored, Writable};
 use crate::trace::Sink;
 use crate::value::{Text, Value, ValueRef};

@@ -1,132 +1,18 @@
-//! What the scheduler asks of a plan, and what it lends it meanwhile.
+//! What a plan gets from the scheduler while it is asked, and what it answers.
 
 use core::num::NonZeroU32;
 
 use crate::clock::Clock;
 use crate::component::Environment;
-use crate::fault::Fault;
+use crate::fault::{Failure, Fault};
 use crate::machine::{Flow, Machine};
 use crate::rt::ports::Ports;
+use crate::rt::state::Plan;
 use crate::rt::store::{Entry, Stored};
-use crate::rt::table::{Child, Tables};
+use crate::rt::table::Child;
 use crate::time::Instant;
 use crate::trace::{Author, ComponentId, Ending, Record, Sink, TraceEntryId};
-use crate::value::{Value, ValueRef};
-
-/// The part of a plan that knows no platform: rows, entries, staged outputs.
-pub trait PlanState: Sized {
-    /// Its rows.
-    type Tables: Tables + Send;
-    /// Storage for the releases of its supervisors, [`crate::rt::PlanTable::slots`] of them.
-    type Slots: AsRef<[Slot]> + AsMut<[Slot]> + Clone + Send;
-
-    /// Its rows.
-    fn tables(&self) -> Self::Tables;
-
-    /// Runs `run` at an element. A compiled plan spells the elements out, so that each has a step
-    /// of its own with its rows folded in.
-    #[inline(always)]
-    fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
-        run.any(element)
-    }
-
-    /// A copy that goes on from here by itself; `None` where a component cannot be copied.
-    fn try_clone(&self) -> Option<Self>;
-
-    /// Fresh storage for releases.
-    fn slots(&self) -> Self::Slots;
-
-    /// The number of the first `in` entry that has neither a value nor a default.
-    fn missing_input(&self) -> Option<u16>;
-
-    /// Gives every entry but the `in` ones that were set its initial value, or makes it unset.
-    ///
-    /// # Errors
-    /// The fault of a formula; the plan then ends in `Error`.
-    fn initialise(&mut self) -> Result<(), Fault>;
-
-    /// An entry's committed value.
-    fn entry(&self, entry: u16) -> ValueRef<'_>;
-
-    /// Whether a writer from outside may give an entry this value.
-    ///
-    /// # Errors
-    /// Why not.
-    fn accepts(&self, entry: u16, value: &Value) -> Result<(), WriteError>;
-
-    /// Stages a value that [`PlanState::accepts`] let pass.
-    fn stage(&mut self, entry: u16, value: &Value);
-
-    /// Writes everything that is staged, in the order of the entries.
-    fn commit<S: Sink>(&mut self, to: &mut Committer<'_, S>);
-
-    /// Forgets everything that is staged.
-    fn discard(&mut self);
-}
-
-/// Work to be done at an element.
-pub trait AtElement: Sized {
-    /// What it gives.
-    type Out;
-
-    /// Does it at an element known when the plan is compiled.
-    fn at<const ELEMENT: u16>(self) -> Self::Out;
-
-    /// Does it at any element.
-    fn any(self, element: u16) -> Self::Out;
-
-    /// There is no such element.
-    fn unknown(self) -> Self::Out;
-}
-
-/// A plan on platform `E`: its components.
-///
-/// Polls stage the outputs of what they report; the scheduler then commits or discards them.
-pub trait Plan<E: ?Sized>: PlanState {
-    /// Starts a supervisor: inputs, then the component.
-    ///
-    /// # Errors
-    /// The fault of an input or of the component.
-    fn start_supervisor<S: Sink, C: Clock>(
-        &mut self,
-        supervisor: u16,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Result<(), Fault>;
-
-    /// Polls a supervisor.
-    fn poll_supervisor<S: Sink, C: Clock>(
-        &mut self,
-        supervisor: u16,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Fired;
-
-    /// Starts an element: inputs, then the component; runs a computation.
-    fn start_element<S: Sink, C: Clock>(
-        &mut self,
-        element: u16,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Started;
-
-    /// Polls the active element.
-    fn poll_element<S: Sink, C: Clock>(&mut self, element: u16, cx: &mut Cx<'_, E, S, C>)
-    -> Polled;
-
-    /// Interrupts the active element.
-    ///
-    /// # Errors
-    /// A failed interrupt ends the whole run.
-    fn interrupt_element<S: Sink, C: Clock>(
-        &mut self,
-        element: u16,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Result<(), Fault>;
-
-    /// Drops an element's instance and its supervisors.
-    fn leave(&mut self, element: u16);
-
-    /// Drops everything that is left when the plan ends.
-    fn end(&mut self);
-}
+use crate::value::ValueRef;
 
 /// When a supervisor is due.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -170,38 +56,6 @@ pub enum Polled {
     Failed(Fault),
 }
 
-/// Why a write from outside was refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WriteError {
-    /// The plan has no such entry.
-    Unknown,
-    /// `const` and `out` entries cannot be written from outside.
-    ReadOnly,
-    /// The value is of another type.
-    Type,
-    /// The number is not finite.
-    NotFinite,
-    /// Too many writes since the last step.
-    QueueFull,
-    /// The plan has ended.
-    Ended,
-}
-
-impl core::fmt::Display for WriteError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str(match self {
-            WriteError::Unknown => "the plan has no such entry",
-            WriteError::ReadOnly => "only 'in' and 'var' entries can be written from outside",
-            WriteError::Type => "the value does not have the entry's type",
-            WriteError::NotFinite => "the value is not finite",
-            WriteError::QueueFull => "too many writes since the last step",
-            WriteError::Ended => "the plan has ended",
-        })
-    }
-}
-
-impl core::error::Error for WriteError {}
-
 /// What a step carries through all levels of a plan.
 pub struct Cx<'a, E: ?Sized, S, C> {
     /// The platform.
@@ -228,6 +82,10 @@ pub(crate) struct StepState {
     /// The component that was called last, the innermost one of those that are being called: whose a
     /// panic is.
     pub called: ComponentId,
+    /// The component that failed last: the innermost one, where sub-plans passed its fault on.
+    pub failure: Option<Failure>,
+    /// A plan has just ended in `Error`: whoever uses it fails for the same reason.
+    pub passed_on: bool,
 }
 
 /// Where a level's ids begin.
@@ -341,6 +199,13 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
 }
 
 impl<E: ?Sized, S, C> Cx<'_, E, S, C> {
+    /// Notes who failed, unless it is a sub-plan that passes on the fault of a component inside.
+    pub(crate) fn note_failure(&mut self, component: ComponentId, fault: Fault) {
+        if !core::mem::take(&mut self.step.passed_on) {
+            self.step.failure = Some(Failure { component, fault });
+        }
+    }
+
     /// Calls a component, so that a panic in it is known to be its own.
     ///
     /// A guard that the unwinding drops would say so, too, and take back after the call what it says,
@@ -363,6 +228,13 @@ impl<E: ?Sized, S: Sink, C> Cx<'_, E, S, C> {
         if S::ENABLED {
             self.sink.record(self.now, record);
         }
+    }
+
+    /// Notes and traces that a component failed.
+    #[cold]
+    pub(crate) fn failed(&mut self, component: ComponentId, fault: Fault) {
+        self.note_failure(component, fault);
+        self.trace(&Record::Faulted { component, fault });
     }
 }
 

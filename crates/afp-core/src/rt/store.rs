@@ -6,7 +6,7 @@ use core::fmt;
 use crate::fault::Fault;
 use crate::quantity::Quantity;
 use crate::rt::formula::int_to_float;
-use crate::rt::plan::WriteError;
+use crate::rt::state::WriteError;
 use crate::value::{Text, Value, ValueRef};
 
 /// A value that an entry can hold. The default is what unset storage holds.

@@ -5,6 +5,7 @@ mod support;
 
 mod already_there;
 mod deadlines;
+mod drive;
 mod faults;
 mod life_cycle;
 mod livelock;

@@ -129,8 +129,51 @@ fn an_input_without_value_keeps_the_plan_from_starting() {
     let mut run = Run::ready(build(), World::default());
     assert_eq!(run.start(), Err(StartError::InputMissing(0)));
     assert_eq!((run.world.calls.len(), run.trace().len()), (0, 0));
-    run.scheduler.plan_mut().set("size", Value::Int(4));
+    run.scheduler.plan_mut().expect("not started").set("size", Value::Int(4));
     run.start().expect("the input is set");
     assert_eq!(run.calls("see"), ["0 see 4 a"]);
     assert_eq!(run.start(), Err(StartError::AlreadyStarted));
+}
+
+#[test]
+fn a_write_before_the_start_sets_an_input_and_is_no_commit() {
+    let build = plan("p")
+        .entry("size", EntryKind::In, Value::Unset)
+        .var("x")
+        .with(actor("a").reads("size").on("Done", "a"));
+    let mut run = Run::ready(build, World::default());
+    assert_eq!(run.write("x", 3), Err(WriteError::NotStarted), "its initial value comes later");
+    assert_eq!(run.write("size", 3), Ok(()));
+    assert_eq!(run.entry("size"), Value::Int(3));
+    run.start().expect("the input is set");
+    assert_eq!(run.calls("see"), ["0 see 3 a"]);
+    run.trace();
+    run.step(10);
+    assert_lines(&run.trace(), "");
+}
+
+#[test]
+fn a_running_plan_cannot_be_changed_past_its_commits() {
+    let mut run = Run::started(watched(), World::default());
+    assert!(run.scheduler.plan_mut().is_none());
+    run.scheduler.request_stop();
+    run.step(10);
+    assert!(run.scheduler.plan_mut().is_none(), "nor one that has ended");
+}
+
+#[test]
+fn a_step_before_the_start_does_nothing_and_says_so() {
+    let mut run = Run::ready(watched(), World::default());
+    assert_eq!(run.step(10), Wake::NotStarted);
+    assert_eq!((run.world.calls.len(), run.trace().len()), (0, 0));
+    assert!(matches!(run.start(), Ok(Wake::At(_))));
+}
+
+#[test]
+fn a_plan_that_lacks_an_input_names_it() {
+    let build = plan("p").entry("size", EntryKind::In, Value::Unset).with(actor("a").on("D", "a"));
+    let mut run = Run::ready(build, World::default());
+    let why = run.start().expect_err("an input is missing");
+    let named = why.named(run.names()).to_string();
+    assert_eq!(named, "the input 'size' has no value: set it before the start");
 }

@@ -267,7 +267,7 @@ fn the_earliest_instant_inside_is_when_a_sub_plan_is_due() {
         wakes.push(run.wake);
         run.until(match run.wake {
             Wake::At(at) => at.as_nanos() / 1_000_000,
-            Wake::Ended(_) => break,
+            Wake::Ended(_) | Wake::NotStarted => break,
         });
     }
     assert_eq!(wakes, [3, 6, 7, 9, 12, 14, 15].map(|at| Wake::At(ms(at))));

@@ -83,6 +83,15 @@ impl Run {
         self.scheduler.write(entry, Value::Int(value))
     }
 
+    pub fn names(&self) -> &SpecNames {
+        &self.sink.names
+    }
+
+    /// Who failed and why, as people read it.
+    pub fn failure(&self) -> Option<String> {
+        self.scheduler.failure().map(|failure| failure.named(&self.sink.names).to_string())
+    }
+
     pub fn abort(&mut self) {
         let fault = afp_core::Fault::PANIC;
         self.wake = self.scheduler.abort(&mut self.world, &mut self.sink, fault);

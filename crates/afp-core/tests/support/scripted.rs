@@ -159,6 +159,15 @@ impl PlanState for Scripted {
         }
     }
 
+    fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
+        self.accepts(entry, value)?;
+        if self.spec.entries[usize::from(entry)].kind != EntryKind::In {
+            return Err(WriteError::NotStarted);
+        }
+        self.entries[usize::from(entry)] = value.clone();
+        Ok(())
+    }
+
     fn stage(&mut self, entry: u16, value: &Value) {
         self.staged[usize::from(entry)] = Some(value.clone());
     }

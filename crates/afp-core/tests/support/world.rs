@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::ops::Range;
 use std::rc::Rc;
 
-use afp_core::{Clock, Duration, Environment, Events, Fault, Instant, Reason};
+use afp_core::{Clock, Duration, Environment, Events, Fault, Instant, Platform, Reason};
 
 use super::ms;
 
@@ -55,6 +55,10 @@ pub struct World {
     /// Nothing is recorded.
     quiet: bool,
     pub clock: CostClock,
+    /// Where [`Platform::now`] stands, for whoever drives a plan on it.
+    pub time: Instant,
+    /// No step before this instant.
+    pub ready: Instant,
 }
 
 impl World {
@@ -160,5 +164,25 @@ impl Environment for World {
         if !self.quiet {
             self.calls.push("emergency stop".to_owned());
         }
+    }
+}
+
+impl Platform for World {
+    type Clock = CostClock;
+
+    fn clock(&self) -> CostClock {
+        self.clock.clone()
+    }
+
+    fn now(&self) -> Instant {
+        self.time
+    }
+
+    fn advance(&mut self, to: Instant) {
+        self.time = self.time.max(to);
+    }
+
+    fn ready(&self) -> Instant {
+        self.ready
     }
 }

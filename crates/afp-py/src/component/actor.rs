@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use super::PyHandle;
 use super::call::PyTemplate;
 
-/// The home of an actor in Python.
+/// The slot of an actor in Python.
 pub struct PyActor {
     template: PyTemplate,
     running: Option<Running>,

@@ -1,11 +1,14 @@
 //! What all components of a run share: the robot, which they have while they are called, and what they raised.
 
+use std::cell::Cell;
 use std::mem;
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use afp_core::{Fault, Instant, Reason};
 use afp_sim::Simulation;
-use pyo3::exceptions::{PyBaseException, PyException};
+use pyo3::exceptions::{PyBaseException, PyException, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 use pyo3::{PyTraverseError, PyVisit};
 
@@ -14,7 +17,7 @@ use super::handles::PyHandles;
 use crate::robot::Robot;
 
 /// What a plan sees of an exception.
-const RAISED: Fault = Fault::new(&Reason {
+pub const RAISED: Fault = Fault::new(&Reason {
     code: "python-exception",
     text: "a component written in Python raised an exception",
 });
@@ -34,18 +37,32 @@ pub struct Host {
     failures: Mutex<Vec<Failure>>,
     /// What ends the whole run: Ctrl-C and the like, which no `Error` edge shall catch.
     abort: Mutex<Option<Py<PyBaseException>>>,
+    /// The thread in which a component is being called, as Python numbers threads; 0 for none.
+    calling: AtomicU64,
+}
+
+thread_local! {
+    /// What Python calls this thread, once it has been asked.
+    static THREAD: Cell<u64> = const { Cell::new(0) };
 }
 
 impl Host {
     /// For a run whose components get this robot.
     pub fn new(robot: Py<Robot>) -> Host {
-        Host { robot, handles: Arc::default(), failures: Mutex::default(), abort: Mutex::default() }
+        Host {
+            robot,
+            handles: Arc::default(),
+            failures: Mutex::default(),
+            abort: Mutex::default(),
+            calling: AtomicU64::new(0),
+        }
     }
 
     /// Calls Python, which may use the robot meanwhile.
     ///
     /// # Errors
-    /// [`RAISED`] for an exception, which is kept.
+    /// [`RAISED`] for an exception, which is kept. What ends the whole run, Ctrl-C and the like, unwinds as a panic
+    /// does: no `Error` edge takes it, and no component is called again.
     pub fn call_with_robot<T>(
         &self,
         env: &mut Simulation,
@@ -56,10 +73,11 @@ impl Host {
         Python::attach(|py| {
             let robot = self.robot.get();
             robot.exchange(env, true);
-            let done = inside(|| call(py));
+            let done = self.inside(py, call);
             robot.exchange(env, false);
-            done.map_err(|error| self.fail(py, now, template, error))
+            done.map_err(|error| self.keep(py, now, template, error))
         })
+        .map_err(Raised::fault)
     }
 
     /// Calls Python without a robot.
@@ -72,19 +90,50 @@ impl Host {
         call: impl FnOnce(Python<'_>) -> PyResult<T>,
     ) -> Result<T, Fault> {
         Python::attach(|py| {
-            inside(|| call(py)).map_err(|error| self.fail(py, Instant::ZERO, template, error))
+            let done = self.inside(py, call);
+            done.map_err(|error| self.keep(py, Instant::ZERO, template, error))
         })
+        .map_err(Raised::fault)
     }
 
-    fn fail(&self, py: Python<'_>, at: Instant, template: &str, error: PyErr) -> Fault {
+    /// Calls Python in a thread that [`Host::interrupt`] knows.
+    fn inside<T>(
+        &self,
+        py: Python<'_>,
+        call: impl FnOnce(Python<'_>) -> PyResult<T>,
+    ) -> PyResult<T> {
+        let outer = self.calling.swap(thread(py)?, Ordering::Relaxed);
+        let done = inside(|| call(py));
+        self.calling.store(outer, Ordering::Relaxed);
+        done
+    }
+
+    /// Raises `KeyboardInterrupt` in the component that is being called, if there is one, as soon as it runs Python
+    /// again: for components in threads of ours, which no signal reaches.
+    ///
+    /// # Errors
+    /// `ctypes` is not there.
+    pub fn interrupt(&self, py: Python<'_>) -> PyResult<()> {
+        let thread = self.calling.load(Ordering::Relaxed);
+        if thread == 0 {
+            return Ok(());
+        }
+        let ctypes = py.import("ctypes")?;
+        let thread = ctypes.getattr("c_ulong")?.call1((thread,))?;
+        let raised = ctypes.getattr("py_object")?.call1((py.get_type::<PyKeyboardInterrupt>(),))?;
+        let api = ctypes.getattr("pythonapi")?;
+        api.call_method1("PyThreadState_SetAsyncExc", (thread, raised)).map(drop)
+    }
+
+    fn keep(&self, py: Python<'_>, at: Instant, template: &str, error: PyErr) -> Raised {
         let ordinary = error.is_instance_of::<PyException>(py);
         let error = error.into_value(py);
         if ordinary {
             lock(&self.failures).push(Failure { at, template: template.to_owned(), error });
-        } else {
-            lock(&self.abort).get_or_insert(error);
+            return Raised::Exception;
         }
-        RAISED
+        lock(&self.abort).get_or_insert(error);
+        Raised::EndOfAll
     }
 
     /// Whether something was raised that ends the run.
@@ -120,6 +169,34 @@ impl Host {
     pub fn failures(&self) -> Vec<Failure> {
         mem::take(&mut *lock(&self.failures))
     }
+}
+
+/// What a component raised.
+enum Raised {
+    Exception,
+    /// Ctrl-C and the like.
+    EndOfAll,
+}
+
+impl Raised {
+    /// What the plan sees of it, outside of Python; the end of all unwinds.
+    fn fault(self) -> Fault {
+        match self {
+            Raised::Exception => RAISED,
+            Raised::EndOfAll => resume_unwind(Box::new("a component ends the run")),
+        }
+    }
+}
+
+/// What Python calls this thread.
+fn thread(py: Python<'_>) -> PyResult<u64> {
+    let known = THREAD.get();
+    if known != 0 {
+        return Ok(known);
+    }
+    let thread = py.import("threading")?.call_method0("get_ident")?.extract()?;
+    THREAD.set(thread);
+    Ok(thread)
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

@@ -10,7 +10,7 @@ use pyo3::types::PyTuple;
 use super::PyHandle;
 use super::call::PyTemplate;
 
-/// The home of a supervisor in Python.
+/// The slot of a supervisor in Python.
 pub struct PySupervisor {
     template: PyTemplate,
     /// Its method.

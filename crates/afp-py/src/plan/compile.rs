@@ -59,6 +59,22 @@ impl Desk {
         &self.text
     }
 
+    /// Which plan of the file runs, where that was said.
+    pub fn name(&self) -> Option<&String> {
+        self.name.as_ref()
+    }
+
+    /// Texts of other files that a change has reached, by path.
+    pub fn others(&self) -> &BTreeMap<String, String> {
+        &self.others
+    }
+
+    /// Takes over such texts.
+    pub fn set_others(&mut self, others: BTreeMap<String, String>) {
+        self.others = others;
+        self.compiled = None;
+    }
+
     pub fn path(&self) -> Option<&PathBuf> {
         self.path.as_ref()
     }

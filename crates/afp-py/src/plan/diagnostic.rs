@@ -1,6 +1,8 @@
 //! `Diagnostic`: one thing the compiler has to say.
 
 use afp_dsl::Compiled;
+use afp_syntax::diagnostics::Severity;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 /// One thing the compiler has to say, as `afpc check` says it.
@@ -35,7 +37,30 @@ impl Diagnostic {
     fn __repr__(&self) -> String {
         format!("<Diagnostic {self}>", self = self.__str__())
     }
+
+    /// As it was pickled.
+    #[staticmethod]
+    fn _again(facts: Facts, place: Place) -> PyResult<Self> {
+        let (code, severity, message, help, fix) = facts;
+        let (file, line, column) = place;
+        let known = [Severity::Error, Severity::Warning, Severity::Note].map(Severity::as_str);
+        let severity = known.into_iter().find(|known| *known == severity);
+        let severity = severity.ok_or_else(|| PyValueError::new_err("no such severity"))?;
+        Ok(Diagnostic { code, severity, message, help, file, line, column, fix })
+    }
+
+    fn __reduce__(&self, py: Python<'_>) -> PyResult<(Py<PyAny>, (Facts, Place))> {
+        let again = py.get_type::<Diagnostic>().getattr("_again")?.unbind();
+        let Diagnostic { code, severity, message, help, file, line, column, fix } = self.clone();
+        Ok((again, ((code, severity.to_owned(), message, help, fix), (file, line, column))))
+    }
 }
+
+/// Code, severity, message, help and fix.
+type Facts = (String, String, String, String, Option<String>);
+
+/// File, line and column.
+type Place = (String, usize, usize);
 
 /// All that the compiler has to say.
 pub fn diagnostics(compiled: &Compiled) -> Vec<Diagnostic> {

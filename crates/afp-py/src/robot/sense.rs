@@ -47,7 +47,8 @@ impl Sensed {
     }
 }
 
-/// Reads a sensor. What has not been measured yet is nothing; what does not answer is an error.
+/// Reads a sensor. What has not been measured, yet or in the sensor's range, is nothing; a sensor that is broken is an
+/// error.
 ///
 /// # Errors
 /// No such sensor, or one that is broken.
@@ -88,16 +89,13 @@ pub fn sense(sim: &Simulation, name: &str) -> PyResult<Sensed> {
 fn said<T>(name: &str, reading: Reading<T>, take: impl FnOnce(T) -> Sensed) -> PyResult<Sensed> {
     match reading.value {
         Ok(value) => Ok(take(value)),
-        Err(Invalid::NotYet) => Ok(Sensed::Nothing),
+        Err(Invalid::NotYet | Invalid::OutOfRange) => Ok(Sensed::Nothing),
         Err(Invalid::NoAnswer) => Err(error(format!("the sensor of '{name}' does not answer"))),
         Err(Invalid::Frozen) => {
             Err(error(format!("the sensor of '{name}' says the same for ever")))
         }
         Err(Invalid::NotFinite) => {
             Err(error(format!("the sensor of '{name}' says what is no number")))
-        }
-        Err(Invalid::OutOfRange) => {
-            Err(error(format!("the sensor of '{name}' says what it cannot measure")))
         }
     }
 }

@@ -1,9 +1,12 @@
 //! `Event`: one thing that happened.
 
 use afp::load::PlanNames;
+use afp_log::{pack, unpack};
 use afp_session::{Datum, Done, EndingKind, Miss, OwnedRecord, RunEvent};
 use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 
 /// One thing that happened in a run.
 #[pyclass(module = "afp", frozen)]
@@ -155,6 +158,22 @@ impl Event {
 
     fn __repr__(&self) -> String {
         format!("<Event {}>", self.__str__().trim())
+    }
+
+    /// As it was pickled.
+    #[staticmethod]
+    fn _again(message: &[u8], line: Option<String>) -> PyResult<Self> {
+        let unknown = || PyValueError::new_err("this is no pickled event");
+        Ok(Event { event: unpack(message).ok_or_else(unknown)?, line })
+    }
+
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>, Option<String>))> {
+        let again = py.get_type::<Event>().getattr("_again")?;
+        let message = PyBytes::new(py, &pack(&self.event));
+        Ok((again, (message, self.line.clone())))
     }
 }
 

@@ -5,7 +5,7 @@
 use std::path::{Path, PathBuf};
 
 use afp::load::{Injection, LoadedPlan, PlanNames};
-use afp_core::trace::{ComponentId, Ending, Kind, Names, TraceEntryId};
+use afp_core::trace::{ComponentId, Ending, Kind, Names, Record, TraceEntryId};
 use afp_core::{Fault, Instant, Value, WriteError};
 use afp_dsl::graph::Graph;
 use afp_log::{About, NameTable, SessionLog};
@@ -15,10 +15,11 @@ use afp_session::{
     AnySession, Build, Figures, Go, Observer, Recipe, Request, Robot, Session, TextFile, Track,
 };
 use afp_sim::{Simulation, World as Room};
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyIsADirectoryError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
 use super::keeper::Keeper;
+use crate::component::RAISED;
 use crate::errors::{error, log_error, run_error};
 use crate::pause::{Halt, Pause};
 
@@ -51,6 +52,10 @@ impl Run {
     pub fn new(plan: LoadedPlan<Simulation>, setting: &Setting<'_>, pause: Pause) -> PyResult<Run> {
         let sim = Simulation::new(setting.room, setting.seed).map_err(|why| error(why.message))?;
         let session = Session::loaded(plan, sim);
+        if let Some(folder) = setting.log.filter(|path| path.is_dir()) {
+            let text = format!("cannot write the log: it is a folder: '{}'", folder.display());
+            return Err(PyIsADirectoryError::new_err(text));
+        }
         let world = &setting.world.world;
         let log = setting.log.map(|path| {
             let (about, names) = (about(setting), NameTable::new(session.plan_names()));
@@ -78,7 +83,7 @@ impl Run {
         if stop && self.is_running() {
             self.stop("until");
         }
-        Ok(self.is_running())
+        self.ended_or_not()
     }
 
     /// Drives the plan until there are more than `seen` records, or to `until`; whether it still runs.
@@ -87,7 +92,7 @@ impl Run {
     /// As [`Run::run`].
     pub fn listen(&mut self, seen: usize, until: Instant) -> PyResult<bool> {
         self.drive(until, seen.saturating_add(1))?;
-        Ok(self.is_running())
+        self.ended_or_not()
     }
 
     fn drive(&mut self, until: Instant, enough: usize) -> PyResult<()> {
@@ -112,11 +117,23 @@ impl Run {
                 break;
             }
         }
-        Ok(self.is_running())
+        self.ended_or_not()
+    }
+
+    /// Whether the plan still runs; where it does not, the log is finished, too.
+    fn ended_or_not(&mut self) -> PyResult<bool> {
+        match self.is_running() {
+            true => Ok(true),
+            false => self.close().map(|_| false),
+        }
     }
 
     /// Does the next thing, unless something halts the run.
     fn tick(&mut self, limit: Instant) -> PyResult<()> {
+        if self.log.is_none() && self.log_path.is_some() {
+            let text = "the simulation was closed with its log; make a new one";
+            return Err(PyRuntimeError::new_err(text));
+        }
         let mut halt = self.pause.look();
         if halt.is_none() {
             self.tell(|session, to| {
@@ -169,6 +186,19 @@ impl Run {
     /// It can never be done.
     pub fn ask(&mut self, at: Instant, request: Request) -> Result<(), String> {
         self.session.at(at, request).map(|_| ()).map_err(|why| why.to_string())
+    }
+
+    /// The instants and components of what components in Python raised, sub-plans that passed it on left out.
+    pub fn raised(&self) -> impl Iterator<Item = (Instant, &str)> {
+        let names = self.session.plan_names();
+        self.keeper.records.iter().filter_map(|record| match record.get() {
+            Record::Faulted { component, fault } if fault == RAISED => {
+                let name = names.component(component);
+                let inner = !matches!(name.kind, Kind::Plan | Kind::SubPlan);
+                inner.then_some((record.at, name.path))
+            }
+            _ => None,
+        })
     }
 
     /// An instant to come, or now.
@@ -266,6 +296,13 @@ impl Run {
 
 fn text_file(name: &str, text: &str) -> TextFile {
     TextFile { name: name.to_owned(), text: text.to_owned() }
+}
+
+impl Drop for Run {
+    fn drop(&mut self) {
+        // Nobody is left to tell of a failure; whoever wants to know closes the simulation.
+        let _ = self.close();
+    }
 }
 
 /// What the log says of the run.

@@ -1,17 +1,20 @@
 //! What happens to the robot and the plan from outside, by its names.
 
 use afp_carbot::table::TABLE;
-use afp_core::devices::{ControlId, FaultId, controls, faults, find_control};
+use afp_core::Value;
+use afp_core::devices::{ControlId, FaultId, faults, find_control};
+use afp_dsl::graph::Graph;
+use afp_dsl::types::Type;
+use afp_run::requests::{no_control, no_fault};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::value::to_port;
 
 /// A control by name.
 pub fn control(name: &str) -> PyResult<ControlId> {
-    find_control(TABLE, name).ok_or_else(|| {
-        let known: Vec<_> = controls(TABLE).map(|(_, _, row)| row.name).collect();
-        let known = known.join(", ");
-        PyValueError::new_err(format!("nothing called '{name}' can be pressed; there are: {known}"))
-    })
+    find_control(TABLE, name).ok_or_else(|| PyValueError::new_err(no_control(TABLE, name)))
 }
 
 /// A fault by its names, with its amount in SI units: a delay, seconds, or a share.
@@ -22,7 +25,8 @@ pub fn fault(
     share: Option<f64>,
 ) -> PyResult<(FaultId, Option<f64>)> {
     let found = faults(TABLE).find(|(_, at, row)| at.name == device && row.name == kind);
-    let (id, _, row) = found.ok_or_else(|| no_fault(device, kind))?;
+    let unknown = || PyValueError::new_err(no_fault(TABLE, device, kind));
+    let (id, _, row) = found.ok_or_else(unknown)?;
     let of = |unit: &str| row.amount.filter(|of| of.unit == unit);
     for (given, unit, what) in [(delay, "s", "delay"), (share, "", "share")] {
         let Some(amount) = given else { continue };
@@ -38,12 +42,31 @@ pub fn fault(
     Ok((id, delay.or(share)))
 }
 
-fn no_fault(device: &str, kind: &str) -> PyErr {
-    let of = faults(TABLE).filter(|(_, at, _)| at.name == device);
-    let kinds: Vec<_> = of.map(|(_, _, row)| row.name).collect();
-    let text = match kinds.is_empty() {
-        true => format!("nothing called '{device}' can break; afp.faults() has all"),
-        false => format!("'{device}' cannot be '{kind}', but: {}", kinds.join(", ")),
+/// The values that come with an outcome: one for each of its connected outputs, as in a scenario.
+///
+/// # Errors
+/// A value is missing, is not connected or does not fit.
+pub fn outputs(
+    graph: &Graph,
+    (component, outcome, number): (&str, &str, u16),
+    given: &Bound<'_, PyDict>,
+) -> PyResult<Vec<(u16, Value)>> {
+    let wanted = afp_dsl::outputs(graph, component, number);
+    for name in given.keys() {
+        let name: String = name.extract()?;
+        if !wanted.iter().any(|(_, known, _)| *known == name) {
+            let text = format!("'{component}.{outcome}' brings no connected output '{name}'");
+            return Err(PyValueError::new_err(text));
+        }
+    }
+    let value = |(port, name, ty): &(u16, String, Type)| {
+        let missing = || {
+            let what = format!("'{component}.{outcome}' also brings '{name}'");
+            let help = format!("give outputs={{\"{name}\": ...}}");
+            PyValueError::new_err(format!("{what}, which has no value here: {help}"))
+        };
+        let value = given.get_item(name)?.ok_or_else(missing)?;
+        Ok((*port, to_port(ty, &value)?))
     };
-    PyValueError::new_err(text)
+    wanted.iter().map(value).collect()
 }

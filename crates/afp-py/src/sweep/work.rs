@@ -16,6 +16,8 @@ use crate::scenario::Components;
 
 /// How often signals are looked at while no outcome comes.
 const EVERY: Duration = Duration::from_millis(30);
+/// For so many looks a component may go on when its run is called off; then it is interrupted.
+const PATIENCE: u32 = 10;
 
 impl Sweeper {
     /// Does runs; hands their outcomes to `each`, several at once if they come fast. What `each` or a handler
@@ -53,11 +55,20 @@ fn drive(
 ) -> PyResult<()> {
     thread::scope(|scope| {
         let (send, outcomes) = channel();
-        scope.spawn(move || engine.run(runs, |outcome| send.send(outcome).is_ok()));
+        let working = scope.spawn(move || engine.run(runs, |outcome| send.send(outcome).is_ok()));
         let attended = attend(&outcomes, components, each);
         // Whatever still runs is called off.
         engine.stop.store(attended.is_err(), Ordering::Relaxed);
         drop(outcomes);
+        // A component that hangs does not look at that.
+        let mut waited = 0;
+        while attended.is_err() && !working.is_finished() {
+            thread::sleep(EVERY);
+            waited += 1;
+            if waited >= PATIENCE {
+                Python::attach(|py| components.interrupt(py))?;
+            }
+        }
         attended
     })
 }

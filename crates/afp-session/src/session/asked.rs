@@ -5,7 +5,7 @@ use afp::load::{Injection, LoadedPlan, NotActive};
 use afp_core::devices::{ControlId, Devices, FaultId, controls, faults};
 use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::{ComponentId, EntryKind, Names, TraceEntryId};
-use afp_core::{Duration, Instant, Value};
+use afp_core::{Duration, Instant, Value, WriteError};
 
 use super::Session;
 use crate::any::SetError;
@@ -151,7 +151,7 @@ where
     fn apply(&mut self, request: Request, now: Instant) -> Result<(), RequestError> {
         match request {
             Request::Write(entry, value) => {
-                self.write_now(entry, value).map_err(RequestError::Write)
+                self.scheduler.write(entry, value).map_err(RequestError::Write)
             }
             Request::Press(id, held) => {
                 let control = R::Devices::control(id).ok_or(RequestError::NoControl)?;
@@ -166,7 +166,7 @@ where
             Request::Inject(injection) => self.inject(&injection),
             Request::Idle(element) => {
                 let testing = self.testing.as_ref().ok_or(RequestError::Compiled)?;
-                match (testing.idle)(self.scheduler.plan_mut(), element) {
+                match (testing.idle)(self.scheduler.plan_under_test(), element) {
                     true => Ok(()),
                     false => Err(RequestError::NoElement),
                 }
@@ -184,7 +184,7 @@ where
     fn inject(&mut self, injection: &Injection) -> Result<(), RequestError> {
         let testing = self.testing.as_ref().ok_or(RequestError::Compiled)?;
         let active = self.scheduler.active();
-        let done = (testing.inject)(self.scheduler.plan_mut(), active, injection);
+        let done = (testing.inject)(self.scheduler.plan_under_test(), active, injection);
         done.map_err(|_| {
             let path = self.names.component(injection.component).path;
             RequestError::NotActive(path.to_owned())
@@ -195,20 +195,13 @@ where
     ///
     /// # Errors
     /// The value does not fit, the plan has ended, or too many writes wait.
-    pub fn write(&mut self, entry: u16, value: Value) -> Result<(), afp_core::WriteError> {
-        self.write_now(entry, value.clone())?;
+    pub fn write(&mut self, entry: u16, value: Value) -> Result<(), WriteError> {
+        self.scheduler.write(entry, value.clone())?;
         let at = self.after_step_at(self.robot.now());
         let request = Request::Write(entry, value);
         self.asked.push((at, request.clone()));
         self.requests.add_done(at, request);
         Ok(())
-    }
-
-    fn write_now(&mut self, entry: u16, value: Value) -> Result<(), afp_core::WriteError> {
-        match self.started {
-            false => self.scheduler.plan_mut().set_input(entry, &value),
-            true => self.scheduler.write(entry, value),
-        }
     }
 
     /// Writes an entry as people write it, `35 cm`: before the start an `in` entry, later with the next step. Gives
@@ -229,7 +222,7 @@ where
         })?;
         match self.write(id, value.clone()) {
             Ok(()) => Ok(value),
-            Err(afp_core::WriteError::ReadOnly) => Err(SetError::NotIn),
+            Err(WriteError::ReadOnly | WriteError::NotStarted) => Err(SetError::NotIn),
             Err(why) => Err(SetError::Refused(why)),
         }
     }

@@ -6,6 +6,7 @@ use afp_core::WriteError;
 
 /// Why a graph cannot be loaded.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum LoadError {
     /// No Rust type was registered for a template.
     NoComponent {
@@ -25,6 +26,7 @@ pub enum LoadError {
 
 /// Why an input of a plan cannot be set.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum InputError {
     /// The plan has no such entry.
     Unknown(String),

@@ -1,6 +1,8 @@
 //! An instance of a graph: the interpreter's side of the contract with the scheduler.
 
+mod carry;
 mod loader;
+mod testing;
 
 use std::sync::Arc;
 
@@ -8,7 +10,7 @@ use afp_core::rt::{
     Committer, Cx, Events, Fired, NamedPlan, Plan, Polled, Scale, Slot, Started, Tables, Unit,
     int_to_float,
 };
-use afp_core::trace::{ComponentId, Sink};
+use afp_core::trace::Sink;
 use afp_core::{Clock, Environment, Fault, PlanState, Value, ValueRef, WriteError};
 use afp_dsl::graph::{self, EntryKind, Graph};
 use afp_dsl::types::Type;
@@ -17,12 +19,13 @@ use super::config::{Config, ObjectCell};
 use super::element::ElementSlot;
 use super::error::{InputError, LoadError};
 use super::formula::{Formula, spellings};
-use super::inject::{Injected, Injection, NotActive};
+use super::inject::Injected;
 use super::names::PlanNames;
 use super::outputs::{Binding, Inputs, Stage};
 use super::registry::Registry;
 use super::slots::SupervisorSlot;
 use super::tables::LoadedTables;
+use carry::Carried;
 use loader::Loader;
 
 /// A plan loaded at run time, for platform `E`.
@@ -32,6 +35,8 @@ pub struct LoadedPlan<E: ?Sized + 'static> {
     entries: Arc<[EntryInfo]>,
     /// Entries with an initial value, in the order in which they get it.
     initial: Arc<[(u16, Formula)]>,
+    /// Values of the plan that this one replaces.
+    carried: Vec<Carried>,
     elements: Vec<ElementSlot<E>>,
     supervisors: Vec<WatchSlot<E>>,
     /// The names of the outermost plan.
@@ -48,7 +53,7 @@ struct EntryInfo {
 impl EntryInfo {
     fn new(entry: &graph::Entry) -> Self {
         let units = match (&entry.ty, entry.kind) {
-            (Type::Quantity(dimension), EntryKind::In) => spellings(*dimension),
+            (Type::Quantity(dimension), EntryKind::In | EntryKind::Var) => spellings(*dimension),
             _ => Vec::new(),
         };
         EntryInfo { name: entry.name.clone(), kind: entry.kind, units }
@@ -112,78 +117,7 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     pub fn set_input(&mut self, name: &str, value: &Value) -> Result<(), InputError> {
         let entry = self.entry_number(name).ok_or_else(|| InputError::Unknown(name.to_owned()))?;
         let refused = |why| InputError::Refused(name.to_owned(), why);
-        NamedPlan::set_input(self, entry, value).map_err(refused)
-    }
-
-    /// Makes a component of the running plan report an outcome at its next poll, whatever it sees: for
-    /// tests. An actor is interrupted once the outputs are staged, so that it leaves the robot at rest.
-    ///
-    /// `active` is the active element of the plan, as its scheduler has it.
-    ///
-    /// # Errors
-    /// [`NotActive`] when the component is not being polled; nothing changes then.
-    pub fn inject(&mut self, active: Option<u16>, injection: &Injection) -> Result<(), NotActive> {
-        let part = injection.component.0.checked_sub(1).ok_or(NotActive)?;
-        self.inject_at(active, part, injection)
-    }
-
-    /// As [`LoadedPlan::inject`]; `part` counts from this plan's first element.
-    pub(super) fn inject_at(
-        &mut self,
-        active: Option<u16>,
-        part: u32,
-        injection: &Injection,
-    ) -> Result<(), NotActive> {
-        let active = active.ok_or(NotActive)?;
-        let (elements, supervisors) = (self.elements.len() as u32, self.supervisors.len() as u32);
-        if part < elements {
-            let slot = self.elements.get_mut(part as usize).ok_or(NotActive)?;
-            return match u32::from(active) == part {
-                true => slot.inject(injection),
-                false => Err(NotActive),
-            };
-        }
-        if let Some(number) = part.checked_sub(elements).filter(|number| *number < supervisors) {
-            let table = self.tables.table();
-            let locals = table.element(active).map(|row| row.locals).ok_or(NotActive)?;
-            let local = u32::from(locals.first)..u32::from(locals.first) + u32::from(locals.len);
-            if number >= u32::from(table.globals) && !local.contains(&number) {
-                return Err(NotActive);
-            }
-            let watch = self.supervisors.get_mut(number as usize).ok_or(NotActive)?;
-            watch.injected = injection.boxed();
-            return Ok(());
-        }
-        self.elements.get_mut(usize::from(active)).ok_or(NotActive)?.inject_inside(part, injection)
-    }
-
-    /// Makes an actor, or all actors of a sub-plan, do nothing from their next start on: for tests. They
-    /// are active all the same, until they are interrupted or made to report a state. Without an
-    /// element it is about all actors.
-    ///
-    /// Gives whether there is such an element.
-    pub fn idle(&mut self, element: Option<ComponentId>) -> bool {
-        let Some(element) = element else {
-            self.idle_all();
-            return true;
-        };
-        element.0.checked_sub(1).is_some_and(|part| self.idle_at(part))
-    }
-
-    pub(super) fn idle_all(&mut self) {
-        self.elements.iter_mut().for_each(ElementSlot::idle);
-    }
-
-    /// As [`LoadedPlan::idle`]; `part` counts from this plan's first element.
-    pub(super) fn idle_at(&mut self, part: u32) -> bool {
-        match self.elements.get_mut(part as usize) {
-            Some(element) => {
-                element.idle();
-                true
-            }
-            // The parts of a sub-plan follow one another, so that one sub-plan at most has it.
-            None => self.elements.iter_mut().any(|element| element.idle_inside(part)),
-        }
+        PlanState::set_input(self, entry, value).map_err(refused)
     }
 
     /// Gives the `port`-th `in` entry its value for the next activation.
@@ -256,6 +190,7 @@ impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {
             config: self.config.clone(),
             entries: self.entries.clone(),
             initial: self.initial.clone(),
+            carried: self.carried.clone(),
             elements: self.elements.iter().map(ElementSlot::try_clone).collect::<Option<_>>()?,
             supervisors: self
                 .supervisors
@@ -293,6 +228,7 @@ impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {
                 self.config.values.set(*entry, value, None);
             }
         }
+        self.put_carried(|_| true);
         Ok(())
     }
 
@@ -320,6 +256,16 @@ impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {
         }
     }
 
+    fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
+        self.accepts(entry, value)?;
+        if self.entries.get(usize::from(entry)).is_some_and(|info| info.kind != EntryKind::In) {
+            return Err(WriteError::NotStarted);
+        }
+        let value = fit(self.config.values.ty(entry), value);
+        self.config.values.set(entry, value, None);
+        Ok(())
+    }
+
     fn stage(&mut self, entry: u16, value: &Value) {
         let value = fit(self.config.values.ty(entry), value);
         self.config.staged.put(entry, value);
@@ -341,17 +287,6 @@ impl<E: ?Sized + 'static> NamedPlan for LoadedPlan<E> {
 
     fn names(&self) -> PlanNames {
         self.names.clone()
-    }
-
-    fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
-        let info = self.entries.get(usize::from(entry)).ok_or(WriteError::Unknown)?;
-        if info.kind != EntryKind::In {
-            return Err(WriteError::ReadOnly);
-        }
-        self.accepts(entry, value)?;
-        let value = fit(self.config.values.ty(entry), value);
-        self.config.values.set(entry, value, None);
-        Ok(())
     }
 
     fn units(&self, entry: u16) -> impl Iterator<Item = Unit<'_>> {

@@ -26,13 +26,16 @@ fn project(block: &Block) -> Result<(), String> {
     mistakes.first().map_or(Ok(()), |mistake| Err(mistake.to_string()))
 }
 
-/// A manifest names only crates of this workspace among those called `afp`, with features they have.
+/// A manifest names crates of this workspace, with features they have, or crates of a registry by their version.
 fn manifest(block: &Block) -> Result<(), String> {
     let document: DocumentMut = block.text.parse().map_err(|error| format!("{error}"))?;
     let tables = ["dependencies", "dev-dependencies"]
         .into_iter()
         .filter_map(|name| document.get(name)?.as_table());
     for (name, item) in tables.flat_map(|table| table.iter()) {
+        if item.get("version").is_some() && !name.starts_with("afp") {
+            continue;
+        }
         let folder = format!("{}/../../crates/{name}/Cargo.toml", env!("CARGO_MANIFEST_DIR"));
         let theirs = std::fs::read_to_string(folder).map_err(|_| format!("no crate '{name}'"))?;
         let theirs: DocumentMut = theirs.parse().map_err(|error| format!("{error}"))?;

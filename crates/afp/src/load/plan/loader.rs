@@ -44,6 +44,7 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
             entries: plan.entries.iter().map(EntryInfo::new).collect(),
             names: self.names.clone(),
             initial: initial(plan),
+            carried: Vec::new(),
             elements: elements
                 .map(|(element, row)| self.element(element, row.child))
                 .collect::<Result<_, _>>()?,

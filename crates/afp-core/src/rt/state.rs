@@ -1,0 +1,190 @@
+//! What the scheduler asks of a plan.
+
+use crate::clock::Clock;
+use crate::fault::Fault;
+use crate::rt::plan::{Committer, Cx, Fired, Polled, Slot, Started};
+use crate::rt::table::Tables;
+use crate::trace::Sink;
+use crate::value::{Value, ValueRef};
+
+/// A plan, whatever its platform: its rows, entries, staged outputs. `plan!` and the loader of plans
+/// implement it; programs name it in bounds.
+pub trait PlanState: Sized {
+    /// Its rows.
+    #[doc(hidden)]
+    type Tables: Tables + Send;
+    /// Storage for the releases of its supervisors, [`crate::rt::PlanTable::slots`] of them.
+    #[doc(hidden)]
+    type Slots: AsRef<[Slot]> + AsMut<[Slot]> + Clone + Send;
+
+    /// Its rows.
+    #[doc(hidden)]
+    fn tables(&self) -> Self::Tables;
+
+    /// Runs `run` at an element. A compiled plan spells the elements out, so that each has a step
+    /// of its own with its rows folded in.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
+        run.any(element)
+    }
+
+    /// A copy that goes on from here by itself; `None` where a component cannot be copied.
+    #[doc(hidden)]
+    fn try_clone(&self) -> Option<Self>;
+
+    /// Fresh storage for releases.
+    #[doc(hidden)]
+    fn slots(&self) -> Self::Slots;
+
+    /// The number of the first `in` entry that has neither a value nor a default.
+    #[doc(hidden)]
+    fn missing_input(&self) -> Option<u16>;
+
+    /// Gives every entry but the `in` ones that were set its initial value, or makes it unset.
+    ///
+    /// # Errors
+    /// The fault of a formula; the plan then ends in `Error`.
+    #[doc(hidden)]
+    fn initialise(&mut self) -> Result<(), Fault>;
+
+    /// An entry's committed value.
+    #[doc(hidden)]
+    fn entry(&self, entry: u16) -> ValueRef<'_>;
+
+    /// Whether a writer from outside may give an entry this value.
+    ///
+    /// # Errors
+    /// Why not.
+    #[doc(hidden)]
+    fn accepts(&self, entry: u16, value: &Value) -> Result<(), WriteError>;
+
+    /// Gives an `in` entry, by position, a value before the start.
+    ///
+    /// # Errors
+    /// Why not; [`WriteError::NotStarted`] for a `var` entry.
+    #[doc(hidden)]
+    fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError>;
+
+    /// Stages a value that [`PlanState::accepts`] let pass.
+    #[doc(hidden)]
+    fn stage(&mut self, entry: u16, value: &Value);
+
+    /// Writes everything that is staged, in the order of the entries.
+    #[doc(hidden)]
+    fn commit<S: Sink>(&mut self, to: &mut Committer<'_, S>);
+
+    /// Forgets everything that is staged.
+    #[doc(hidden)]
+    fn discard(&mut self);
+}
+
+/// Work to be done at an element.
+pub trait AtElement: Sized {
+    /// What it gives.
+    type Out;
+
+    /// Does it at an element known when the plan is compiled.
+    fn at<const ELEMENT: u16>(self) -> Self::Out;
+
+    /// Does it at any element.
+    fn any(self, element: u16) -> Self::Out;
+
+    /// There is no such element.
+    fn unknown(self) -> Self::Out;
+}
+
+/// A plan on platform `E`: its components. `plan!` and the loader of plans implement it; programs name
+/// it in bounds.
+///
+/// Polls stage the outputs of what they report; the scheduler then commits or discards them.
+pub trait Plan<E: ?Sized>: PlanState {
+    /// Starts a supervisor: inputs, then the component.
+    ///
+    /// # Errors
+    /// The fault of an input or of the component.
+    #[doc(hidden)]
+    fn start_supervisor<S: Sink, C: Clock>(
+        &mut self,
+        supervisor: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), Fault>;
+
+    /// Polls a supervisor.
+    #[doc(hidden)]
+    fn poll_supervisor<S: Sink, C: Clock>(
+        &mut self,
+        supervisor: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Fired;
+
+    /// Starts an element: inputs, then the component; runs a computation.
+    #[doc(hidden)]
+    fn start_element<S: Sink, C: Clock>(
+        &mut self,
+        element: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Started;
+
+    /// Polls the active element.
+    #[doc(hidden)]
+    fn poll_element<S: Sink, C: Clock>(&mut self, element: u16, cx: &mut Cx<'_, E, S, C>)
+    -> Polled;
+
+    /// Interrupts the active element.
+    ///
+    /// # Errors
+    /// A failed interrupt ends the whole run.
+    #[doc(hidden)]
+    fn interrupt_element<S: Sink, C: Clock>(
+        &mut self,
+        element: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), Fault>;
+
+    /// Drops an element's instance and its supervisors.
+    #[doc(hidden)]
+    fn leave(&mut self, element: u16);
+
+    /// Drops everything that is left when the plan ends.
+    #[doc(hidden)]
+    fn end(&mut self);
+}
+
+/// Why a write from outside was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// The plan has no such entry.
+    Unknown,
+    /// `const` and `out` entries cannot be written from outside.
+    ReadOnly,
+    /// The value is of another type.
+    Type,
+    /// The number is not finite.
+    NotFinite,
+    /// Too many writes since the last step.
+    QueueFull,
+    /// A `var` entry has no value to be replaced before the plan has started.
+    NotStarted,
+    /// The plan has ended.
+    Ended,
+}
+
+impl core::fmt::Display for WriteError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            WriteError::Unknown => "the plan has no such entry",
+            WriteError::ReadOnly => "only 'in' and 'var' entries can be written from outside",
+            WriteError::Type => "the value does not have the entry's type",
+            WriteError::NotFinite => "the value is not finite",
+            WriteError::QueueFull => "too many writes since the last step",
+            WriteError::NotStarted => {
+                "a 'var' entry gets its initial value at the start: write it later"
+            }
+            WriteError::Ended => "the plan has ended",
+        })
+    }
+}
+
+impl core::error::Error for WriteError {}

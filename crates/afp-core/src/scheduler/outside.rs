@@ -1,0 +1,135 @@
+//! What comes from outside: values of entries, and the request to stop.
+
+use core::fmt;
+use core::marker::PhantomData;
+
+use super::{Scheduler, State};
+use crate::fault::Fault;
+use crate::rt::{NamedPlan, PlanState, Writable, WriteError};
+use crate::value::{Value, ValueRef};
+
+/// An entry of the plan `P` that takes values of type `T` from outside. `plan!` makes a constant of
+/// each `in` and `var` entry: `Patrol::WAY`.
+pub struct TypedEntry<P, T> {
+    position: u16,
+    of: PhantomData<fn(P, T)>,
+}
+
+/// Why an entry cannot be set by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SetError {
+    /// The plan has no entry of that name.
+    Unknown,
+    /// The text is no value of the entry's type.
+    Unreadable(Fault),
+    /// The entry does not take the value.
+    Refused(WriteError),
+}
+
+impl<P, T> TypedEntry<P, T> {
+    /// The entry at a position of the plan.
+    #[doc(hidden)]
+    pub const fn new(position: u16) -> Self {
+        TypedEntry { position, of: PhantomData }
+    }
+
+    /// Its position among the entries of the plan.
+    pub const fn position(self) -> u16 {
+        self.position
+    }
+}
+
+impl<P, T> Clone for TypedEntry<P, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<P, T> Copy for TypedEntry<P, T> {}
+
+impl<P, T> fmt::Debug for TypedEntry<P, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "TypedEntry({})", self.position)
+    }
+}
+
+impl fmt::Display for SetError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SetError::Unknown => f.write_str("the plan has no such entry"),
+            SetError::Unreadable(why) => why.fmt(f),
+            SetError::Refused(why) => why.fmt(f),
+        }
+    }
+}
+
+impl core::error::Error for SetError {}
+
+impl<P: PlanState> Scheduler<P> {
+    /// Gives an entry a value: before the start an `in` entry, at once; later an `in` or `var` entry,
+    /// which the next step commits. In the examples `Patrol` is a plan with an `in way: length`.
+    ///
+    /// ```ignore
+    /// plan.set(Patrol::WAY, Length::from_si(0.8))?;
+    /// ```
+    ///
+    /// # Errors
+    /// [`WriteError`]: the plan gets nothing.
+    pub fn set<T: Writable>(
+        &mut self,
+        entry: TypedEntry<P, T>,
+        value: T,
+    ) -> Result<(), WriteError> {
+        self.write(entry.position, value.as_value().to_owned())
+    }
+
+    /// As [`Scheduler::set`], by name, with the value as it would stand in the plan.
+    ///
+    /// ```ignore
+    /// plan.set_named("way", "80 cm")?;
+    /// ```
+    ///
+    /// # Errors
+    /// [`SetError`]: the plan gets nothing.
+    pub fn set_named(&mut self, entry: &str, text: &str) -> Result<(), SetError>
+    where
+        P: NamedPlan,
+    {
+        let plan = self.plan();
+        let position = plan.entry_named(entry).ok_or(SetError::Unknown)?;
+        let value = plan.read(position, text).map_err(SetError::Unreadable)?;
+        self.write(position, value).map_err(SetError::Refused)
+    }
+
+    /// As [`Scheduler::set`], by position, with any value; quantities are in SI units.
+    ///
+    /// # Errors
+    /// [`WriteError`]: the plan gets nothing.
+    pub fn write(&mut self, entry: u16, value: Value) -> Result<(), WriteError> {
+        match self.state {
+            State::Ready => self.machine.plan_mut().set_input(entry, &value),
+            State::Running => {
+                self.machine.plan().accepts(entry, &value)?;
+                self.writes.push_back((entry, value)).map_err(|_| WriteError::QueueFull)
+            }
+            State::Broken | State::Ended(_) => Err(WriteError::Ended),
+        }
+    }
+
+    /// The committed value of an entry of the plan itself, by name; quantities are in SI units.
+    /// [`ValueRef::Unset`] while nobody has written it, `None` where there is none.
+    pub fn get(&self, entry: &str) -> Option<ValueRef<'_>>
+    where
+        P: NamedPlan,
+    {
+        let plan = self.plan();
+        plan.entry_named(entry).map(|position| plan.entry(position))
+    }
+
+    /// Asks the plan to stop: the next step interrupts it and ends it as `Interrupted`. A plan that
+    /// has not started then ends at its start, before anything runs.
+    pub fn request_stop(&mut self) {
+        self.stop_requested = true;
+    }
+}

@@ -1,0 +1,165 @@
+//! Functions that are called when something of a plan happens, by name.
+
+use std::fmt;
+
+use afp_core::Instant;
+use afp_core::ValueRef;
+use afp_core::rt::NamedPlan;
+use afp_core::trace::{ComponentId, Names, Record, Sink, TraceEntryId};
+
+/// A sink that calls functions when a component starts, reports a state or an event, or an entry
+/// changes. Several functions for one thing are called in the order in which they were given.
+///
+/// They run within a step: they must not block, and they are told before the step is over.
+///
+/// ```ignore
+/// let mut calls = Callbacks::new(plan.plan())
+///     .on("go.touch", "TouchSensorPressed", |at| println!("bumped at {at}"))?
+///     .on_write("driven", |at, driven| println!("{driven} m after {at}"))?;
+/// plan.run_until(&mut robot, &mut calls, until)?;
+/// ```
+pub struct Callbacks<'a, N> {
+    names: N,
+    calls: Vec<Call<'a>>,
+}
+
+enum Call<'a> {
+    Start(ComponentId, Box<dyn FnMut(Instant) + 'a>),
+    Outcome(ComponentId, u16, Box<dyn FnMut(Instant) + 'a>),
+    Write(TraceEntryId, Box<dyn FnMut(Instant, ValueRef<'_>) + 'a>),
+}
+
+/// The plan has nothing of that name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownName {
+    /// What was looked for: `component`, `state or event of 'go'`, `entry`.
+    what: String,
+    name: String,
+    /// The names that there are.
+    known: Vec<String>,
+}
+
+impl<'a, N: Names> Callbacks<'a, N> {
+    /// No functions yet, for a plan.
+    pub fn new(plan: &impl NamedPlan<Names = N>) -> Self {
+        Callbacks { names: plan.names(), calls: Vec::new() }
+    }
+
+    /// Calls a function when a component reports a state or an event. A component goes by its path:
+    /// `go` for an element, `go.touch` for its supervisor, `patrol.go` for one of a sub-plan; a
+    /// sub-plan's states are `OK` and `Interrupted`.
+    ///
+    /// # Errors
+    /// [`UnknownName`]; the component or its outcome.
+    pub fn on(
+        mut self,
+        component: &str,
+        outcome: &str,
+        call: impl FnMut(Instant) + 'a,
+    ) -> Result<Self, UnknownName> {
+        let id = self.component(component)?;
+        let all = || (0..).map(|each| (each, self.names.outcome(id, each)));
+        let mut known = all().take_while(|(_, name)| !name.is_empty());
+        let number = known.find(|(_, name)| *name == outcome).map(|(number, _)| number);
+        let number = number.ok_or_else(|| UnknownName {
+            what: format!("state or event of '{component}'"),
+            name: outcome.to_owned(),
+            known: all().map_while(|(_, n)| (!n.is_empty()).then(|| n.to_owned())).collect(),
+        })?;
+        self.calls.push(Call::Outcome(id, number, Box::new(call)));
+        Ok(self)
+    }
+
+    /// Calls a function when an actor, a sub-plan or a supervisor starts.
+    ///
+    /// # Errors
+    /// [`UnknownName`]; the component.
+    pub fn on_start(
+        mut self,
+        component: &str,
+        call: impl FnMut(Instant) + 'a,
+    ) -> Result<Self, UnknownName> {
+        let id = self.component(component)?;
+        self.calls.push(Call::Start(id, Box::new(call)));
+        Ok(self)
+    }
+
+    /// Calls a function with the new value when an entry is written; quantities are in SI units.
+    ///
+    /// # Errors
+    /// [`UnknownName`]; the entry.
+    pub fn on_write(
+        mut self,
+        entry: &str,
+        call: impl FnMut(Instant, ValueRef<'_>) + 'a,
+    ) -> Result<Self, UnknownName> {
+        let ids = || (0..self.names.entries()).map(TraceEntryId);
+        let found = ids().find(|id| self.names.entry(*id).path == entry);
+        let id = found.ok_or_else(|| UnknownName {
+            what: "entry".to_owned(),
+            name: entry.to_owned(),
+            known: ids().map(|id| self.names.entry(id).path.to_owned()).collect(),
+        })?;
+        self.calls.push(Call::Write(id, Box::new(call)));
+        Ok(self)
+    }
+
+    fn component(&self, path: &str) -> Result<ComponentId, UnknownName> {
+        let ids = || (0..self.names.components()).map(ComponentId);
+        let found = ids().find(|id| self.names.component(*id).path == path);
+        found.ok_or_else(|| UnknownName {
+            what: "component".to_owned(),
+            name: path.to_owned(),
+            known: ids().skip(1).map(|id| self.names.component(id).path.to_owned()).collect(),
+        })
+    }
+}
+
+impl<N> Sink for Callbacks<'_, N> {
+    fn record(&mut self, at: Instant, record: &Record<'_>) {
+        match *record {
+            Record::Started { component } => self.each(|call| match call {
+                Call::Start(id, call) if *id == component => call(at),
+                _ => {}
+            }),
+            Record::Event { supervisor: component, event: outcome }
+            | Record::Finished { element: component, state: outcome } => {
+                self.each(|call| match call {
+                    Call::Outcome(id, number, call) if (*id, *number) == (component, outcome) => {
+                        call(at);
+                    }
+                    _ => {}
+                });
+            }
+            Record::Committed { entry, new, .. } => self.each(|call| match call {
+                Call::Write(id, call) if *id == entry => call(at, new),
+                _ => {}
+            }),
+            _ => {}
+        }
+    }
+}
+
+impl<'a, N> Callbacks<'a, N> {
+    fn each(&mut self, call: impl FnMut(&mut Call<'a>)) {
+        self.calls.iter_mut().for_each(call);
+    }
+}
+
+impl<N> fmt::Debug for Callbacks<'_, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Callbacks({})", self.calls.len())
+    }
+}
+
+impl fmt::Display for UnknownName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the plan has no {} '{}'", self.what, self.name)?;
+        match self.known.is_empty() {
+            true => Ok(()),
+            false => write!(f, "; there are: {}", self.known.join(", ")),
+        }
+    }
+}
+
+impl std::error::Error for UnknownName {}

@@ -1,0 +1,152 @@
+//! From a plan file to a plan that runs: the texts of toolboxes, and the Rust that implements them.
+
+use std::fmt;
+use std::fs;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+use afp_core::{Environment, Scheduler};
+use afp_dsl::toolbox::Toolboxes;
+use afp_syntax::source::Source;
+
+use super::error::LoadError;
+use super::plan::LoadedPlan;
+use super::registry::Registry;
+
+/// A platform that knows the templates that plans for it may use.
+///
+/// ```ignore
+/// impl afp::load::Templates for Lamp {
+///     fn add_to(library: &mut Library<Self>) {
+///         library.register(afp_std::templates::register);
+///         library.toolbox("signals.afp", signals::templates::SOURCE);
+///         library.register(signals::templates::register);
+///     }
+/// }
+/// ```
+pub trait Templates: Environment + Sized + 'static {
+    /// Adds the toolboxes, and what implements their templates on this platform.
+    fn add_to(library: &mut Library<Self>);
+}
+
+/// The toolboxes that plans may use, and the Rust that implements their templates on platform `E`.
+///
+/// The texts of the built-in toolboxes are in it from the beginning, their templates are not: which
+/// ones a platform can have depends on its devices.
+pub struct Library<E: ?Sized + 'static> {
+    toolboxes: Toolboxes,
+    registry: Registry<E>,
+}
+
+/// Why a plan file does not become a plan that runs.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum OpenError {
+    /// The file cannot be read.
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        why: io::Error,
+    },
+    /// The plan has errors: the text is what `afpc check` prints.
+    Plan(String),
+    /// A template or object type has no implementation in the library.
+    Load(LoadError),
+}
+
+/// Reads, checks and loads the first plan of a file for platform `E`, which knows its templates. The
+/// plan has not started.
+///
+/// ```ignore
+/// let ending = afp::load("errand.afp")?.run(&mut robot)?;
+/// ```
+///
+/// # Errors
+/// [`OpenError`]: the file cannot be read, the plan has errors, or the platform lacks a template.
+pub fn load<E: Templates>(path: impl AsRef<Path>) -> Result<Scheduler<LoadedPlan<E>>, OpenError> {
+    let mut library = Library::new();
+    E::add_to(&mut library);
+    library.load(path)
+}
+
+impl<E: Environment + ?Sized + 'static> Library<E> {
+    /// The texts of the built-in toolboxes, and no templates.
+    pub fn new() -> Self {
+        Library { toolboxes: afp_toolboxes::sources().collect(), registry: Registry::new() }
+    }
+
+    /// Adds a toolbox: the name of its file, for messages, and its text. That of a toolbox that
+    /// `toolbox!` has read is its `SOURCE`.
+    pub fn toolbox(&mut self, file: &str, text: &str) -> &mut Self {
+        // The crate is for generated Rust, which there is none of here.
+        self.toolboxes.add(Source::new(file, text), "crate");
+        self
+    }
+
+    /// Adds implementations, by the `register` of a toolbox.
+    pub fn register(&mut self, register: impl FnOnce(&mut Registry<E>)) -> &mut Self {
+        register(&mut self.registry);
+        self
+    }
+
+    /// Reads, checks and loads the first plan of a file; plan files that it uses are looked for from
+    /// its folder.
+    ///
+    /// # Errors
+    /// As for [`load`].
+    pub fn load(&self, path: impl AsRef<Path>) -> Result<Scheduler<LoadedPlan<E>>, OpenError> {
+        let path = path.as_ref();
+        let text = fs::read_to_string(path)
+            .map_err(|why| OpenError::Read { path: path.to_owned(), why })?;
+        self.load_text(&path.display().to_string(), &text)
+    }
+
+    /// Checks and loads the first plan of a text; `file` is the name for messages, from whose folder
+    /// used plan files are looked for.
+    ///
+    /// # Errors
+    /// As for [`load`].
+    pub fn load_text(&self, file: &str, text: &str) -> Result<Scheduler<LoadedPlan<E>>, OpenError> {
+        let compiled = afp_dsl::compile(&Source::new(file, text), &self.toolboxes, &used);
+        match &compiled.graph {
+            None => Err(OpenError::Plan(compiled.render(false))),
+            Some(graph) => {
+                LoadedPlan::new(graph, &self.registry).map(Scheduler::new).map_err(OpenError::Load)
+            }
+        }
+    }
+}
+
+/// The text of a plan file that another one uses.
+fn used(path: &str) -> Result<String, String> {
+    fs::read_to_string(path).map_err(|why| match why.kind() {
+        ErrorKind::NotFound => "there is no such file".to_owned(),
+        _ => why.to_string().to_lowercase(),
+    })
+}
+
+impl<E: Environment + ?Sized + 'static> Default for Library<E> {
+    fn default() -> Self {
+        Library::new()
+    }
+}
+
+impl fmt::Display for OpenError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            OpenError::Read { path, why } => write!(f, "cannot read '{}': {why}", path.display()),
+            OpenError::Plan(report) => write!(f, "the plan has errors\n{report}"),
+            OpenError::Load(why) => why.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for OpenError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            OpenError::Read { why, .. } => Some(why),
+            OpenError::Plan(_) | OpenError::Load(_) => None,
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! Values of one plan for another one that takes its place.
+
+use afp_core::{Environment, Value};
+use afp_dsl::graph::EntryKind;
+use afp_dsl::types::Type;
+
+use super::{LoadedPlan, numbered};
+use crate::load::config::ObjectCell;
+
+/// The value of an entry that takes the place of its initial value.
+#[derive(Clone)]
+pub(super) struct Carried {
+    entry: u16,
+    value: Value,
+    object: Option<Box<dyn ObjectCell>>,
+}
+
+impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
+    /// Takes over the values of another plan, which this one is to replace: of each `in`, `var` and
+    /// `out` entry that has the same name and type in both and a value in the other. A value takes
+    /// the place of an initial one, for the next start alone. Gives the names of those entries.
+    ///
+    /// Enums are the same type when their values have the same names in the same order.
+    pub fn carry(&mut self, from: &LoadedPlan<E>) -> Vec<String> {
+        let mut names = Vec::new();
+        for (entry, info) in numbered(&*self.entries) {
+            let Some(other) = from.entry_number(&info.name) else { continue };
+            let types = (self.config.values.ty(entry), from.config.values.ty(other));
+            let (Some(ty), Some(other_ty)) = types else { continue };
+            if info.kind == EntryKind::Const || !same(ty, other_ty) {
+                continue;
+            }
+            if !from.config.values.is_set(other) {
+                continue;
+            }
+            let value = from.config.values.get(other).clone();
+            let object = from.config.values.cell(other).map(ObjectCell::copied);
+            self.carried.push(Carried { entry, value, object });
+            names.push(info.name.clone());
+        }
+        // Inputs are there before the start, so that none is missing.
+        self.put_carried(|kind| kind == EntryKind::In);
+        names
+    }
+}
+
+impl<E: ?Sized + 'static> LoadedPlan<E> {
+    /// Puts what is carried into the entries of some kinds.
+    pub(super) fn put_carried(&mut self, of: impl Fn(EntryKind) -> bool) {
+        let LoadedPlan { carried, entries, config, .. } = self;
+        carried.retain(|Carried { entry, value, object }| {
+            let here = entries.get(usize::from(*entry)).is_some_and(|info| of(info.kind));
+            if here {
+                config.values.set(*entry, value.clone(), object.as_deref());
+            }
+            !here
+        });
+    }
+}
+
+/// Whether a value of one type is one of the other.
+fn same(one: &Type, other: &Type) -> bool {
+    match (one, other) {
+        (Type::Enum(one_enum), Type::Enum(other_enum)) => {
+            one == other && one_enum.variants == other_enum.variants
+        }
+        _ => one == other,
+    }
+}

@@ -1,0 +1,82 @@
+//! What tests put in the place of components: outcomes, and actors that do nothing.
+
+use afp_core::Environment;
+use afp_core::rt::Tables;
+use afp_core::trace::ComponentId;
+
+use super::LoadedPlan;
+use crate::load::element::ElementSlot;
+use crate::load::inject::{Injection, NotActive};
+
+impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
+    /// Makes a component of the running plan report an outcome at its next poll, whatever it sees: for
+    /// tests. An actor is interrupted once the outputs are staged, so that it leaves the robot at rest.
+    ///
+    /// `active` is the active element of the plan, as its scheduler has it.
+    ///
+    /// # Errors
+    /// [`NotActive`] when the component is not being polled; nothing changes then.
+    pub fn inject(&mut self, active: Option<u16>, injection: &Injection) -> Result<(), NotActive> {
+        let part = injection.component.0.checked_sub(1).ok_or(NotActive)?;
+        self.inject_at(active, part, injection)
+    }
+
+    /// As [`LoadedPlan::inject`]; `part` counts from this plan's first element.
+    pub(in crate::load) fn inject_at(
+        &mut self,
+        active: Option<u16>,
+        part: u32,
+        injection: &Injection,
+    ) -> Result<(), NotActive> {
+        let active = active.ok_or(NotActive)?;
+        let (elements, supervisors) = (self.elements.len() as u32, self.supervisors.len() as u32);
+        if part < elements {
+            let slot = self.elements.get_mut(part as usize).ok_or(NotActive)?;
+            return match u32::from(active) == part {
+                true => slot.inject(injection),
+                false => Err(NotActive),
+            };
+        }
+        if let Some(number) = part.checked_sub(elements).filter(|number| *number < supervisors) {
+            let table = self.tables.table();
+            let locals = table.element(active).map(|row| row.locals).ok_or(NotActive)?;
+            let local = u32::from(locals.first)..u32::from(locals.first) + u32::from(locals.len);
+            if number >= u32::from(table.globals) && !local.contains(&number) {
+                return Err(NotActive);
+            }
+            let watch = self.supervisors.get_mut(number as usize).ok_or(NotActive)?;
+            watch.injected = injection.boxed();
+            return Ok(());
+        }
+        self.elements.get_mut(usize::from(active)).ok_or(NotActive)?.inject_inside(part, injection)
+    }
+
+    /// Makes an actor, or all actors of a sub-plan, do nothing from their next start on: for tests. They
+    /// are active all the same, until they are interrupted or made to report a state. Without an
+    /// element it is about all actors.
+    ///
+    /// Gives whether there is such an element.
+    pub fn idle(&mut self, element: Option<ComponentId>) -> bool {
+        let Some(element) = element else {
+            self.idle_all();
+            return true;
+        };
+        element.0.checked_sub(1).is_some_and(|part| self.idle_at(part))
+    }
+
+    pub(in crate::load) fn idle_all(&mut self) {
+        self.elements.iter_mut().for_each(ElementSlot::idle);
+    }
+
+    /// As [`LoadedPlan::idle`]; `part` counts from this plan's first element.
+    pub(in crate::load) fn idle_at(&mut self, part: u32) -> bool {
+        match self.elements.get_mut(part as usize) {
+            Some(element) => {
+                element.idle();
+                true
+            }
+            // The parts of a sub-plan follow one another, so that one sub-plan at most has it.
+            None => self.elements.iter_mut().any(|element| element.idle_inside(part)),
+        }
+    }
+}
