@@ -1,6 +1,10 @@
 //! Texts and places in them.
 
+mod lines;
+
 use std::sync::Arc;
+
+pub use lines::{Encoding, LineColumn, Lines};
 
 /// A range of bytes in one file of a compilation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
