@@ -6,10 +6,10 @@
 
 mod assigned;
 mod cycles;
+mod dataflow;
 mod endless;
 mod frozen;
 mod ignored;
-mod lanes;
 mod recovery;
 pub(crate) mod strong;
 mod unreachable;

@@ -7,7 +7,7 @@
 mod reads;
 mod report;
 
-use crate::flow::lanes::{WIDTH, spread};
+use crate::flow::dataflow::{WIDTH, propagate};
 use crate::flow::view::View;
 use crate::flow::{INTERRUPTED, OK};
 use crate::graph::{Entry, EntryId, EntryKind};
@@ -30,12 +30,12 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [Vec<Option<Str
     let writes = writes(view);
     let mut stops = vec![0u64; view.edges.len()];
     for group in unsure.chunks(WIDTH) {
-        for (lane, entry) in group.iter().enumerate() {
-            writes[entry.index()].iter().for_each(|at| stops[*at as usize] |= 1 << lane);
+        for (bit, entry) in group.iter().enumerate() {
+            writes[entry.index()].iter().for_each(|at| stops[*at as usize] |= 1 << bit);
         }
-        let without = spread(view, u64::MAX, &stops);
-        for (lane, entry) in group.iter().enumerate() {
-            let may_lack = |node: usize| without[node] >> lane & 1 == 1;
+        let without = propagate(view, u64::MAX, &stops);
+        for (bit, entry) in group.iter().enumerate() {
+            let may_lack = |node: usize| without[node] >> bit & 1 == 1;
             let writes = &writes[entry.index()];
             report.reads(*entry, &reads, &may_lack, writes);
             report.endings(

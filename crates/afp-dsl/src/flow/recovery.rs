@@ -4,7 +4,7 @@
 //! lets one element finish. Elements behind it that only this event leads to are part of the same
 //! recovery, and there it is taken: the recovery begins anew, for ever.
 
-use crate::flow::lanes::{WIDTH, spread};
+use crate::flow::dataflow::{WIDTH, propagate};
 use crate::flow::view::{Cause, View, takes_time};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
@@ -21,12 +21,12 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
         .collect();
     for group in events.chunks(WIDTH) {
         let mut stops = vec![0u64; view.edges.len()];
-        for (lane, at) in group.iter().enumerate() {
-            stops[*at] = 1 << lane;
+        for (bit, at) in group.iter().enumerate() {
+            stops[*at] = 1 << bit;
         }
-        let without = spread(view, u64::MAX, &stops);
-        for (lane, at) in group.iter().enumerate() {
-            report(view, *at, |node| without[node] >> lane & 1 == 0, diags);
+        let without = propagate(view, u64::MAX, &stops);
+        for (bit, at) in group.iter().enumerate() {
+            report(view, *at, |node| without[node] >> bit & 1 == 0, diags);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Says that an entry may have no value, with a way on which nothing writes it.
 
 use super::reads::{Read, Reads};
-use crate::flow::lanes;
+use crate::flow::dataflow;
 use crate::flow::view::{Cause, Node, View};
 use crate::flow::{INTERRUPTED, OK};
 use crate::graph::{EntryId, EntryKind};
@@ -122,7 +122,7 @@ impl<'a, 'b> Report<'a, 'b> {
             return ("not looked for, since there are so many".to_owned(), Vec::new());
         }
         let passes = |at: usize| writes.binary_search(&(at as u32)).is_err();
-        let edges = lanes::way(self.view, goal, passes).unwrap_or_default();
+        let edges = dataflow::path(self.view, goal, passes).unwrap_or_default();
         (self.spell(&edges), edges)
     }
 

@@ -1,20 +1,21 @@
-//! Sixty-four searches at once: which lanes reach which node, when edges stop some of them.
+//! A forward dataflow analysis over sets of bits: which of 64 questions reach which node, when edges
+//! stop some of them.
 //!
 //! "Can this be reached without passing that?" is asked for every entry and for every event of a
-//! global supervisor. One bit for each question makes the answers cheap.
+//! global supervisor. One bit for each question answers 64 of them in one search.
 
 use crate::flow::view::{Node, View};
 
-/// How many lanes there are.
+/// How many questions one search answers.
 pub(super) const WIDTH: usize = 64;
 
-/// The lanes that reach each node, all of them beginning at `start`; `stops` holds for each edge
-/// the lanes that do not pass it.
-pub(super) fn spread(view: &View<'_>, lanes: u64, stops: &[u64]) -> Vec<u64> {
+/// The bits that reach each node when `bits` begin at `start`; `stops` has for each edge the bits that
+/// do not pass it.
+pub(super) fn propagate(view: &View<'_>, bits: u64, stops: &[u64]) -> Vec<u64> {
     let mut reached = vec![0u64; view.nodes()];
     let mut waiting = vec![false; view.nodes()];
     let mut open = std::collections::VecDeque::from([view.start()]);
-    reached[view.start()] = lanes;
+    reached[view.start()] = bits;
     while let Some(node) = open.pop_front() {
         waiting[node] = false;
         for at in view.range(node) {
@@ -34,9 +35,9 @@ pub(super) fn spread(view: &View<'_>, lanes: u64, stops: &[u64]) -> Vec<u64> {
     reached
 }
 
-/// A shortest way from `start` to `goal` that takes only edges which `passes` allows, as the indices
+/// A shortest path from `start` to `goal` that takes only edges which `passes` allows, as the indices
 /// of its edges; `None` when there is none.
-pub(super) fn way(
+pub(super) fn path(
     view: &View<'_>,
     goal: Node,
     passes: impl Fn(usize) -> bool,
