@@ -11,7 +11,7 @@ mod view;
 use super::Options;
 use afp_dsl::graph::Graph;
 use chart::Chart;
-use names::Home;
+use names::Scope;
 use view::View;
 
 /// The control flow of the main plan as a State Chart XML document, sub-plans unfolded.
@@ -23,8 +23,8 @@ use view::View;
 /// deadlines, values. Formulas of the text stand in comments.
 pub fn scxml(graph: &Graph, options: &Options) -> String {
     let view = View { graph, plan: graph.main(), options };
-    let home = Home::outermost(&view.plan.name);
+    let scope = Scope::outermost(&view.plan.name);
     let mut chart = Chart::default();
-    chart.document(&view, &home);
+    chart.document(&view, &scope);
     chart.into_text()
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::names::{End, Home, target};
+use super::names::{End, Scope, target};
 use super::view::{Exit, ExitKind, Input, View};
 use afp_dsl::graph::{Component, Element, Supervisor, Target};
 
@@ -34,59 +34,59 @@ impl Chart {
         self.out
     }
 
-    pub(super) fn document(&mut self, view: &View, home: &Home) {
+    pub(super) fn document(&mut self, view: &View, scope: &Scope) {
         self.line("<?xml version=\"1.0\" encoding=\"UTF-8\"?>");
         self.line(&format!("<!--\n  {HEAD}\n-->"));
-        let id = &home.id;
+        let id = &scope.id;
         let open = "<scxml xmlns=\"http://www.w3.org/2005/07/scxml\" version=\"1.0\"";
         self.open(&format!("{open} datamodel=\"null\" name=\"{id}\" initial=\"{id}\">"));
-        let first = home.state(&view.element(view.plan.start).name);
+        let first = scope.state(&view.element(view.plan.start).name);
         self.open(&format!("<state id=\"{id}\" initial=\"{first}\">"));
-        self.transition(":stopped", Some(&home.end(End::Interrupted)));
-        self.transition(":failed", Some(&home.end(End::Error)));
-        self.body(view, home, false);
+        self.transition(":stopped", Some(&scope.end(End::Interrupted)));
+        self.transition(":failed", Some(&scope.end(End::Error)));
+        self.body(view, scope, false);
         self.close("state");
-        self.ends(home);
+        self.ends(scope);
         self.close("scxml");
     }
 
     /// The global supervisors and the elements of a plan; `nested` where its ends are states inside
     /// of its own state.
-    fn body(&mut self, view: &View, home: &Home, nested: bool) {
+    fn body(&mut self, view: &View, scope: &Scope, nested: bool) {
         for supervisor in view.supervisors(None) {
             self.comment(&supervisor_call(view, supervisor));
-            let path = home.path(&supervisor.name);
+            let path = scope.path(&supervisor.name);
             for exit in view.events(supervisor) {
-                let to = taken(view, home, &exit);
+                let to = taken(view, scope, &exit);
                 let within = nested || matches!(exit.target, Target::Element(_));
                 self.inner_transition(&event(&path, &exit), to.as_deref(), within);
             }
-            let end = home.end(End::Error);
+            let end = scope.end(End::Error);
             self.inner_transition(&format!("{path}.Error"), Some(&end), nested);
         }
         for element in &view.plan.elements {
-            self.element(view, home, element);
+            self.element(view, scope, element);
         }
     }
 
-    fn element(&mut self, view: &View, home: &Home, element: &Element) {
-        let id = home.state(&element.name);
+    fn element(&mut self, view: &View, scope: &Scope, element: &Element) {
+        let id = scope.state(&element.name);
         self.comment(&element_call(view, element));
         match element.component {
             Component::Actor(_) | Component::Computation(_) => {
                 self.open(&format!("<state id=\"{id}\">"));
-                self.states(view, home, element);
-                self.faults(view, home, element);
-                self.supervisors(view, home, element);
+                self.states(view, scope, element);
+                self.faults(view, scope, element);
+                self.supervisors(view, scope, element);
             }
             Component::SubPlan(plan) => {
-                let inside = home.inner(&element.name);
+                let inside = scope.inner(&element.name);
                 let body = View { plan: view.graph.plan(plan), ..*view };
                 let first = inside.state(&body.element(body.plan.start).name);
                 self.open(&format!("<state id=\"{id}\" initial=\"{first}\">"));
-                self.done(view, home, element, &inside);
-                self.faults(view, home, element);
-                self.supervisors(view, home, element);
+                self.done(view, scope, element, &inside);
+                self.faults(view, scope, element);
+                self.supervisors(view, scope, element);
                 self.body(&body, &inside, true);
                 self.ends(&inside);
             }
@@ -95,24 +95,24 @@ impl Chart {
     }
 
     /// The states of an actor or of a computation.
-    fn states(&mut self, view: &View, home: &Home, element: &Element) {
-        let path = home.path(&element.name);
+    fn states(&mut self, view: &View, scope: &Scope, element: &Element) {
+        let path = scope.path(&element.name);
         for exit in view.states(element).iter().filter(|exit| exit.kind == ExitKind::State) {
-            self.transition(&event(&path, exit), taken(view, home, exit).as_deref());
+            self.transition(&event(&path, exit), taken(view, scope, exit).as_deref());
         }
     }
 
     /// The three ways in which a sub-plan's body ends.
-    fn done(&mut self, view: &View, home: &Home, element: &Element, inside: &Home) {
+    fn done(&mut self, view: &View, scope: &Scope, element: &Element, inside: &Scope) {
         let states = view.states(element);
         let named = |name: &str| {
             let exit = states.iter().find(|exit| exit.kind == ExitKind::State && exit.name == name);
-            exit.and_then(|exit| taken(view, home, exit))
+            exit.and_then(|exit| taken(view, scope, exit))
         };
         let ways = [
             (End::Ok, named("OK")),
             (End::Interrupted, named("Interrupted")),
-            (End::Error, Some(after_fault(view, home, element))),
+            (End::Error, Some(after_fault(view, scope, element))),
         ];
         for (end, to) in ways {
             // What is not connected cannot happen.
@@ -125,29 +125,29 @@ impl Chart {
     }
 
     /// Faults of an element and of its supervisors.
-    fn faults(&mut self, view: &View, home: &Home, element: &Element) {
+    fn faults(&mut self, view: &View, scope: &Scope, element: &Element) {
         let locals = view.supervisors(Some(element)).into_iter();
-        let locals = locals.map(|local| home.local(&element.name, &local.name));
-        let paths = std::iter::once(home.path(&element.name)).chain(locals);
+        let locals = locals.map(|local| scope.local(&element.name, &local.name));
+        let paths = std::iter::once(scope.path(&element.name)).chain(locals);
         let events: Vec<_> = paths.map(|path| format!("{path}.Error")).collect();
-        self.transition(&events.join(" "), Some(&after_fault(view, home, element)));
+        self.transition(&events.join(" "), Some(&after_fault(view, scope, element)));
     }
 
     /// The events of an element's supervisors, and those of global ones that lead to it and are
     /// not taken while it is active.
-    fn supervisors(&mut self, view: &View, home: &Home, element: &Element) {
+    fn supervisors(&mut self, view: &View, scope: &Scope, element: &Element) {
         for supervisor in view.supervisors(Some(element)) {
             self.comment(&supervisor_call(view, supervisor));
-            let path = home.local(&element.name, &supervisor.name);
+            let path = scope.local(&element.name, &supervisor.name);
             for exit in view.events(supervisor) {
-                self.transition(&event(&path, &exit), taken(view, home, &exit).as_deref());
+                self.transition(&event(&path, &exit), taken(view, scope, &exit).as_deref());
             }
         }
         if matches!(element.component, Component::Computation(_)) {
             return;
         }
         for supervisor in view.supervisors(None) {
-            let path = home.path(&supervisor.name);
+            let path = scope.path(&supervisor.name);
             for exit in view.events(supervisor) {
                 let here = |id| view.element(id).name == element.name;
                 if matches!(exit.target, Target::Element(id) if here(id)) {
@@ -157,9 +157,9 @@ impl Chart {
         }
     }
 
-    fn ends(&mut self, home: &Home) {
+    fn ends(&mut self, scope: &Scope) {
         for end in End::ALL {
-            self.line(&format!("<final id=\"{}\"/>", home.end(end)));
+            self.line(&format!("<final id=\"{}\"/>", scope.end(end)));
         }
     }
 
@@ -208,19 +208,19 @@ fn event(path: &str, exit: &Exit) -> String {
 }
 
 /// The state that an exit leads to.
-fn taken(view: &View, home: &Home, exit: &Exit) -> Option<String> {
+fn taken(view: &View, scope: &Scope, exit: &Exit) -> Option<String> {
     let end = match exit.kind {
         ExitKind::State | ExitKind::Error => End::Ok,
         ExitKind::Event | ExitKind::Missed => End::Interrupted,
     };
-    target(home, exit.target, end, |id| &view.element(id).name)
+    target(scope, exit.target, end, |id| &view.element(id).name)
 }
 
 /// The state after a fault of an element.
-fn after_fault(view: &View, home: &Home, element: &Element) -> String {
+fn after_fault(view: &View, scope: &Scope, element: &Element) -> String {
     let connected = element.on_error;
-    let to = connected.and_then(|to| target(home, to, End::Ok, |id| &view.element(id).name));
-    to.unwrap_or_else(|| home.end(End::Error))
+    let to = connected.and_then(|to| target(scope, to, End::Ok, |id| &view.element(id).name));
+    to.unwrap_or_else(|| scope.end(End::Error))
 }
 
 fn element_call(view: &View, element: &Element) -> String {

@@ -6,7 +6,7 @@
 use afp_dsl::graph::Target;
 
 /// A plan where it is used: the outermost one, or the body of a sub-plan.
-pub(super) struct Home {
+pub(super) struct Scope {
     /// The id of its state.
     pub(super) id: String,
     /// What the events of its components begin with.
@@ -25,14 +25,14 @@ impl End {
     pub(super) const ALL: [End; 3] = [End::Ok, End::Interrupted, End::Error];
 }
 
-impl Home {
-    pub(super) fn outermost(plan: &str) -> Home {
-        Home { id: plan.to_owned(), prefix: String::new() }
+impl Scope {
+    pub(super) fn outermost(plan: &str) -> Scope {
+        Scope { id: plan.to_owned(), prefix: String::new() }
     }
 
     /// The body of the sub-plan of that name.
-    pub(super) fn inner(&self, element: &str) -> Home {
-        Home { id: self.state(element), prefix: format!("{}:", self.path(element)) }
+    pub(super) fn inner(&self, element: &str) -> Scope {
+        Scope { id: self.state(element), prefix: format!("{}:", self.path(element)) }
     }
 
     /// The id of an element's state.
@@ -63,14 +63,14 @@ impl Home {
 
 /// Where an edge leads when the event is taken; `None` where it is ignored.
 pub(super) fn target<'a>(
-    home: &Home,
+    scope: &Scope,
     target: Target,
     end: End,
     element: impl Fn(afp_dsl::graph::ElementId) -> &'a str,
 ) -> Option<String> {
     match target {
-        Target::Element(id) => Some(home.state(element(id))),
-        Target::Terminate => Some(home.end(end)),
+        Target::Element(id) => Some(scope.state(element(id))),
+        Target::Terminate => Some(scope.end(end)),
         Target::Ignore => None,
     }
 }
