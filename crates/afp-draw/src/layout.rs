@@ -69,7 +69,7 @@ pub(super) struct Placement {
 /// The result: places in pixels. Where nothing has a place of its own, the uppermost box touches
 /// the upper and the leftmost one the left axis.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Layout {
+pub(super) struct LaidOut {
     /// The upper left corner of each node.
     pub(super) corners: Vec<Point>,
     /// The corners of each link's polyline, start and tip included.
@@ -85,9 +85,9 @@ const ROUNDS: usize = 4;
 const BUDGET: u64 = 20_000_000;
 
 /// Lays out the nodes; `links` out of a node count in their order, and node 0 comes first.
-pub(super) fn layout(nodes: &[Node], links: &[Link]) -> Layout {
+pub(super) fn layout(nodes: &[Node], links: &[Link]) -> LaidOut {
     if nodes.is_empty() {
-        return Layout::default();
+        return LaidOut::default();
     }
     let layers = layers::assign(nodes.len(), links);
     let mut grid = Grid::new(nodes, links, &layers);
@@ -104,7 +104,7 @@ pub(super) fn layout(nodes: &[Node], links: &[Link]) -> Layout {
         // A box at which too many edges arrive cannot give way.
         let mut narrow = found.crowded.iter().filter(|narrow| !narrow.arrives).peekable();
         if narrow.peek().is_none() || round == ROUNDS || effort > BUDGET {
-            return Layout::new(nodes, corners, found.corners);
+            return LaidOut::new(nodes, corners, found.corners);
         }
         for narrow in narrow {
             rows.give_way(&mut grid, narrow);
@@ -137,8 +137,8 @@ fn wires(nodes: &[Node], links: &[Link], corners: &[Point]) -> Vec<Wire> {
     links.iter().map(wire).collect()
 }
 
-impl Layout {
-    fn new(nodes: &[Node], corners: Vec<Point>, routes: Vec<Vec<Point>>) -> Layout {
+impl LaidOut {
+    fn new(nodes: &[Node], corners: Vec<Point>, routes: Vec<Vec<Point>>) -> LaidOut {
         let ends = corners.iter().zip(nodes);
         let ends: Vec<_> = ends.map(|((x, y), node)| (x + node.width, y + node.height)).collect();
         let points = || corners.iter().chain(&ends).chain(routes.iter().flatten());
@@ -147,6 +147,6 @@ impl Layout {
         let (top, bottom) = (fold(|point| point.1, f64::min), fold(|point| point.1, f64::max));
         let (x, y) = (left.unwrap_or(0.0), top.unwrap_or(0.0));
         let (width, height) = (right.unwrap_or(x) - x, bottom.unwrap_or(y) - y);
-        Layout { corners, routes, bounds: Rect { x, y, width, height } }
+        LaidOut { corners, routes, bounds: Rect { x, y, width, height } }
     }
 }

@@ -4,7 +4,7 @@
 //! downwards. Edges then find their ways through the gaps that are left.
 
 use super::super::router::{self, Bounds, Point, Wire};
-use super::{Layout, Link, Node, Placement, bounds, layout, wires};
+use super::{LaidOut, Link, Node, Placement, bounds, layout, wires};
 
 /// Least distance between a box that gives way and the next one.
 const GAP: f64 = 48.0;
@@ -19,7 +19,7 @@ pub(in super::super) fn layout_around(
     nodes: &[Node],
     links: &[Link],
     placement: Placement,
-) -> Layout {
+) -> LaidOut {
     let known = placement.fixed.iter().zip(&placement.before);
     if known.into_iter().all(|(fixed, before)| fixed.is_none() && before.is_none()) {
         return layout(nodes, links);
@@ -33,7 +33,7 @@ pub(in super::super) fn layout_around(
         .map(|(route, wire)| route.filter(|route| is_still_good(route, wire, &boxes)))
         .collect();
     let found = router::route(&boxes, &wires, &kept);
-    Layout::new(nodes, corners, found.corners)
+    LaidOut::new(nodes, corners, found.corners)
 }
 
 /// Whether a route has the ends of its edge and passes no box too closely.
