@@ -311,8 +311,12 @@ class Stress(RuleBasedStateMachine):
     @rule(which=few)
     def pickled(self, which: int) -> None:
         for thing in [*self.plans[-1:], *self.worlds]:
-            for again in (pickle.loads(pickle.dumps(thing)), copy.copy(thing), copy.deepcopy(thing)):
-                assert again.text == thing.text, thing
+            ways: list[Callable[[Any], Any]] = [copy.copy, copy.deepcopy]
+            # Its components here are classes of a function, of which pickle knows none.
+            if not getattr(thing, "toolboxes", []):
+                ways.append(lambda thing: pickle.loads(pickle.dumps(thing)))
+            for way in ways:
+                assert way(thing).text == thing.text, thing
         for thing in [*self.sims[-1:], *self.cars[-1:], *self.robots[-1:]]:
             for how in (pickle.dumps, copy.copy, copy.deepcopy):
                 try:
