@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn signals_keep_the_numbers_that_logs_have() {
+    fn signals_are_numbered_as_the_toolbox_declares_them() {
         let names = signals(TABLE).map(|(_, device, row)| (device.name, row.name));
         let expected = [
             ("ultrasonic", "echo"),
@@ -114,15 +114,24 @@ mod tests {
             ("odometry", "pose"),
             ("touch", "touched"),
             ("buttons", "escape"),
+            ("infrared", "direction"),
+            ("infrared", "strength"),
+            ("color", "red"),
+            ("color", "green"),
+            ("color", "blue"),
             ("camera", "picture"),
+            ("camera", "frame"),
             ("battery", "left"),
+            ("navigator", "asked_speed"),
+            ("navigator", "asked_turn"),
             ("robot", "pose"),
             ("robot", "halted"),
             ("robot", "standing"),
             ("robot", "collision"),
+            ("robot", "contact"),
             ("world", "outline"),
         ];
         assert_eq!(names.collect::<Vec<_>>(), expected);
-        assert_eq!((signal::POSE.0, signal::WORLD_OUTLINE.0), (8, 12));
+        assert_eq!((signal::POSE.0, signal::WORLD_OUTLINE.0), (16, 21));
     }
 }

@@ -21,7 +21,7 @@ use crate::write::LogFile;
 use afp_session::{Datum, OwnedRecord, RunEvent};
 
 /// Frames in one message of [`Recorder::transforms`].
-pub const FRAMES: usize = 3;
+pub const FRAMES: usize = 4;
 
 /// Items that the queue holds: a second of a busy plan.
 const CAPACITY: usize = 8192;

@@ -7,7 +7,7 @@ mod legend;
 mod marks;
 mod sonar;
 
-use afp_core::trace::{ComponentId, Names};
+use afp_core::trace::{ComponentId, Kind, Names};
 use afp_session::{Drawing, Mark, Pose2, Waypoint};
 
 use canvas::{Canvas, View};
@@ -46,9 +46,9 @@ pub(crate) struct Picture<'a> {
 /// Draws the path of a run.
 pub(crate) fn draw(picture: &Picture<'_>, names: &dyn Names) -> String {
     let Picture { world, path, marks, .. } = picture;
-    let actors = actors(path);
+    let (actors, known) = (actors(path), known_actors(path, names));
     let color = |actor: Option<ComponentId>| {
-        let index = actor.and_then(|actor| actors.iter().position(|known| *known == actor));
+        let index = actor.and_then(|actor| known.iter().position(|known| *known == actor));
         index.map_or(NOBODY, |index| PALETTE[index % PALETTE.len()])
     };
     let view = View::around(bounds(world, path));
@@ -81,7 +81,7 @@ pub(crate) fn draw(picture: &Picture<'_>, names: &dyn Names) -> String {
     if let Some(last) = path.last() {
         canvas.robot(&world.body, last.pose, true);
     }
-    let kinds = marks::kinds(marks);
+    let kinds = marks::kinds(marks, names);
     marks::draw(&mut canvas, marks, &kinds);
     canvas.scale_bar();
     let mut legend = Legend::new(view);
@@ -114,6 +114,19 @@ fn actors(path: &[Waypoint]) -> Vec<ComponentId> {
         }
     }
     actors
+}
+
+/// The actors that have colours, in the order of the plan: all of it, so that one has the same colour in every run; in a plan with
+/// more actors than colours those that ran.
+fn known_actors(path: &[Waypoint], names: &dyn Names) -> Vec<ComponentId> {
+    let is_actor = |id: &ComponentId| names.component(*id).kind == Kind::Actor;
+    let all: Vec<_> = (0..names.components()).map(ComponentId).filter(is_actor).collect();
+    if all.len() <= PALETTE.len() {
+        return all;
+    }
+    let mut ran = actors(path);
+    ran.sort_unstable();
+    ran
 }
 
 /// The path cut where the actor changes; neighbours share a point.

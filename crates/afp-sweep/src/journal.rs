@@ -12,6 +12,7 @@ use std::time::{Duration, Instant};
 use afp_dsl::Compiled;
 use afp_dsl::graph::Graph;
 use afp_run::{RunError, hash};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::grid::Sweep;
@@ -24,7 +25,7 @@ const SYNC: Duration = Duration::from_secs(1);
 /// What a journal is of. A sweep goes on only with the same.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Header {
-    /// The version of the format, 1.
+    /// The version of the format, 2.
     pub sweep_journal: u32,
     /// The program: its version, and for one with toolboxes of one's own what it was built from.
     pub program: String,
@@ -47,7 +48,7 @@ impl Header {
         let texts = compiled.plan_texts();
         let texts = texts.iter().map(|(path, text)| format!("{path}\0{text}\0"));
         Header {
-            sweep_journal: 1,
+            sweep_journal: 2,
             program,
             plan: hash(&format!("{}\0{}", graph.main().name, texts.collect::<String>())),
             worlds: setting.hash(),
@@ -133,9 +134,10 @@ impl Journal {
     }
 
     fn line(&mut self, what: &impl Serialize) -> io::Result<()> {
-        let mut line = serde_json::to_vec(what)?;
-        line.push(b'\n');
-        self.file.write_all(&line)?;
+        let json = serde_json::to_string(what)?;
+        // What a disk gets wrong inside of a number is a number too.
+        let line = format!("{json}\t{}\n", hash(&json));
+        self.file.write_all(line.as_bytes())?;
         if self.synced.elapsed() >= SYNC {
             self.file.sync_data()?;
             self.synced = Instant::now();
@@ -154,7 +156,7 @@ fn read(path: &Path, bytes: &[u8], header: &Header) -> Result<(Vec<Outcome>, usi
         let message = format!("line {line} of '{}' is no line of a journal", path.display());
         RunError::usage(message, restart)
     };
-    let theirs: Header = serde_json::from_slice(first).map_err(|_| broken(1))?;
+    let theirs: Header = parse(first).ok_or_else(|| broken(1))?;
     if let Some(difference) = header.differs(&theirs) {
         let message = format!("'{}' is of another sweep: {difference}", path.display());
         return Err(RunError::usage(message, restart));
@@ -162,15 +164,22 @@ fn read(path: &Path, bytes: &[u8], header: &Header) -> Result<(Vec<Outcome>, usi
     let (mut outcomes, mut whole) = (Vec::new(), first.len());
     let mut lines = (2..).zip(lines).peekable();
     while let Some((number, line)) = lines.next() {
-        match serde_json::from_slice::<Outcome>(line) {
-            Ok(outcome) => outcomes.push(outcome),
+        match parse::<Outcome>(line) {
+            Some(outcome) => outcomes.push(outcome),
             // The disk may have kept the length of the last line and not its bytes.
-            Err(_) if lines.peek().is_none() => break,
-            Err(_) => return Err(broken(number)),
+            None if lines.peek().is_none() => break,
+            None => return Err(broken(number)),
         }
         whole += line.len();
     }
     Ok((outcomes, whole))
+}
+
+/// What a line says, if it is as it was written.
+fn parse<T: DeserializeOwned>(line: &[u8]) -> Option<T> {
+    let (json, sum) = str::from_utf8(line).ok()?.trim_end().rsplit_once('\t')?;
+    let sound = hash(json) == sum;
+    serde_json::from_str(json).ok().filter(|_| sound)
 }
 
 #[cfg(test)]
@@ -182,7 +191,7 @@ mod tests {
 
     fn header() -> Header {
         let [program, plan, worlds, grid] = ["1", "2", "3", "seeds 0..9"].map(str::to_owned);
-        Header { sweep_journal: 1, program, plan, worlds, grid }
+        Header { sweep_journal: 2, program, plan, worlds, grid }
     }
 
     fn outcome(run: u64) -> Outcome {
@@ -211,6 +220,24 @@ mod tests {
         // A torn header is no journal yet.
         fs::write(&path, &whole[..20]).unwrap();
         assert!(Journal::open(&path, &header(), false).unwrap().1.is_empty());
+    }
+
+    #[test]
+    fn a_flipped_bit_is_found_even_in_a_number() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.journal");
+        let (mut journal, _) = Journal::open(&path, &header(), false).unwrap();
+        [1, 2].iter().for_each(|run| journal.keep(&outcome(*run)).unwrap());
+        drop(journal);
+        let whole = fs::read(&path).unwrap();
+        let lines: Vec<_> = whole.split_inclusive(|byte| *byte == b'\n').collect();
+        for at in lines[0].len()..lines[0].len() + lines[1].len() - 1 {
+            let mut flipped = whole.clone();
+            flipped[at] ^= 1;
+            fs::write(&path, flipped).unwrap();
+            let error = Journal::open(&path, &header(), false).unwrap_err().to_string();
+            assert!(error.contains("line 2 of"), "byte {at}: {error}");
+        }
     }
 
     #[test]

@@ -13,7 +13,7 @@ use base64::engine::general_purpose::STANDARD;
 
 use super::canvas::escape;
 use super::from_log::follow;
-use super::{NOBODY, PALETTE, actors};
+use super::{NOBODY, PALETTE, known_actors};
 use crate::error::RunError;
 use still::fewer_colors;
 
@@ -57,7 +57,7 @@ pub fn draw_film(log: &LogData) -> Result<String, RunError> {
     }
     let names = &log.names;
     let (path, _) = follow(log, names);
-    let known = actors(&path);
+    let known = known_actors(&path, names);
     let actor_at = |at: Instant| {
         let behind = log.poses.partition_point(|(time, _)| *time <= at);
         path.get(behind.checked_sub(1)?)?.actor

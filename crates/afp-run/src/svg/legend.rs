@@ -42,9 +42,9 @@ impl Legend {
         }
     }
 
-    pub(super) fn events(&mut self, events: impl Iterator<Item = (String, usize)>) {
-        for (kind, (name, count)) in events.enumerate() {
-            if kind == 0 {
+    pub(super) fn events(&mut self, events: impl Iterator<Item = (usize, String, usize)>) {
+        for (number, (kind, name, count)) in events.enumerate() {
+            if number == 0 {
                 self.section("EVENTS");
             }
             let symbol = marks::symbol(kind, self.x + 10.0, self.y - 4.5);

@@ -1,20 +1,31 @@
 //! Symbols for events, one for each kind that was taken.
 
-use afp_core::trace::{ComponentId, Names};
+use std::collections::BTreeSet;
+
+use afp_core::trace::{ComponentId, ERROR, Kind, Names};
 use afp_session::Mark;
 
 use super::canvas::Canvas;
 
-/// The kinds of events in the order in which they first came.
-pub(super) fn kinds(marks: &[Mark]) -> Vec<(ComponentId, u16)> {
-    let mut kinds = Vec::new();
-    for mark in marks {
-        let kind = (mark.supervisor, mark.event);
-        if !kinds.contains(&kind) {
-            kinds.push(kind);
-        }
+/// So many kinds of events have a symbol of their own.
+const SYMBOLS: usize = 12;
+
+/// The kinds of events that have symbols, in the order of the plan: all that lead somewhere, so that one has the same
+/// symbol in every run; in a plan with more of them than symbols those that came.
+pub(super) fn kinds(marks: &[Mark], names: &dyn Names) -> Vec<(ComponentId, u16)> {
+    let supervisors = (0..names.components()).map(ComponentId);
+    let supervisors = supervisors.filter(|id| names.component(*id).kind == Kind::Supervisor);
+    let events = |id: ComponentId| {
+        let known = (0..ERROR).take_while(move |event| !names.outcome(id, *event).is_empty());
+        known.filter(move |event| !matches!(names.target(id, *event), "" | "ignore"))
+    };
+    let all = supervisors.flat_map(|id| events(id).map(move |event| (id, event)));
+    let all: BTreeSet<_> = all.collect();
+    let came: BTreeSet<_> = marks.iter().map(|mark| (mark.supervisor, mark.event)).collect();
+    match all.len() <= SYMBOLS && came.is_subset(&all) {
+        true => all.into_iter().collect(),
+        false => came.into_iter().collect(),
     }
-    kinds
 }
 
 /// Draws each mark where it was taken, with the symbol of its kind.
@@ -25,16 +36,18 @@ pub(super) fn draw(canvas: &mut Canvas, marks: &[Mark], kinds: &[(ComponentId, u
     }
 }
 
-/// The kinds by their names, and how often each came.
+/// The kinds that came with their symbols, by their names, and how often each came.
 pub(super) fn counted<'a>(
     marks: &'a [Mark],
     kinds: &'a [(ComponentId, u16)],
     names: &'a dyn Names,
-) -> impl Iterator<Item = (String, usize)> + 'a {
-    kinds.iter().map(|&(id, event)| {
+) -> impl Iterator<Item = (usize, String, usize)> + 'a {
+    let counted = kinds.iter().enumerate().map(|(symbol, &(id, event))| {
         let same = marks.iter().filter(|mark| (mark.supervisor, mark.event) == (id, event));
-        (format!("{}.{}", names.component(id).path, names.outcome(id, event)), same.count())
-    })
+        let name = format!("{}.{}", names.component(id).path, names.outcome(id, event));
+        (symbol, name, same.count())
+    });
+    counted.filter(|(_, _, count)| *count > 0)
 }
 
 /// The symbol of a kind, around a point in pixels.

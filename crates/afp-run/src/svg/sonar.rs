@@ -53,7 +53,7 @@ pub fn draw_sonar(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunErro
     if let Some(last) = path.last() {
         canvas.robot(&drawing.body, last.pose, true);
     }
-    let kinds = marks::kinds(&marks);
+    let kinds = marks::kinds(&marks, names);
     marks::draw(&mut canvas, &marks, &kinds);
     canvas.scale_bar();
     let mut legend = Legend::new(view);

@@ -17,8 +17,8 @@ pub(crate) use track::track;
 /// It takes a picture every so often.
 pub(crate) const PERIOD: Duration = Duration::from_millis(50);
 /// Where it sits: ahead of the turning centre and above the floor, metres.
-const FORWARD: f64 = 0.18;
-const HEIGHT: f64 = 0.20;
+pub(crate) const FORWARD: f64 = 0.18;
+pub(crate) const HEIGHT: f64 = 0.20;
 /// The whole angle that a row covers, radians.
 const OPENING: f64 = 70.0 / 180.0 * core::f64::consts::PI;
 /// Pixels.

@@ -1,6 +1,6 @@
 //! The simulation as a robot that sessions drive.
 
-use afp_carbot::devices::Ultrasonic;
+use afp_carbot::devices::{Color, Ultrasonic};
 use afp_carbot::fault::Fault;
 use afp_carbot::table::{Carbot, Control, signal};
 use afp_core::{Instant, Platform};
@@ -11,6 +11,7 @@ use afp_session::{
 
 use super::{Simulation, Snapshot};
 use crate::clock::VirtualClock;
+use crate::devices::camera;
 use crate::wall::WallDistance;
 use crate::world::{World, shape};
 
@@ -76,6 +77,12 @@ impl Robot for Simulation {
         to.put(signal::TOUCH_TOUCHED, SampleRef::Bool(touched));
         to.put(signal::BUTTONS_ESCAPE, SampleRef::Bool(self.escape));
         to.put(signal::BATTERY_LEFT, SampleRef::Float(self.battery.charge().left));
+        self.sample_light(to);
+        let (speed, turn) = self.drive.asked();
+        to.put(signal::NAVIGATOR_ASKED_SPEED, SampleRef::Float(speed));
+        to.put(signal::NAVIGATOR_ASKED_TURN, SampleRef::Float(turn));
+        let eye = Pose2 { x: camera::FORWARD, ..Pose2::default() };
+        to.put(signal::CAMERA_FRAME, frame(BASE, CAMERA, eye, camera::HEIGHT));
         if to.wants(signal::CAMERA_PICTURE)
             && let Some((time, picture)) = self.view()
         {
@@ -118,6 +125,22 @@ impl Simulation {
         // A touch lasts to the end of the physics step that found it.
         let touching = truth.collisions().last().is_some_and(|last| last.end == self.now());
         to.put(signal::COLLISION, SampleRef::Bool(touching));
+        let touched = truth.collisions().last().filter(|_| touching);
+        let contact = touched.and_then(|last| self.obstacles.get(last.obstacle));
+        to.put(signal::CONTACT, SampleRef::Text(contact.map_or("", |it| &it.name)));
+    }
+
+    /// What the sensors for light said last, before their lines make anything of it.
+    fn sample_light(&self, to: &mut Samples<'_, '_>) {
+        if let Ok(Some(glow)) = self.glow.value {
+            to.put(signal::INFRARED_DIRECTION, SampleRef::Float(glow.bearing.si()));
+            to.put(signal::INFRARED_STRENGTH, SampleRef::Float(glow.strength));
+        }
+        if let Ok(Color { red, green, blue }) = self.color.value {
+            to.put(signal::COLOR_RED, SampleRef::Float(red));
+            to.put(signal::COLOR_GREEN, SampleRef::Float(green));
+            to.put(signal::COLOR_BLUE, SampleRef::Float(blue));
+        }
     }
 
     fn sample_ranging(&self, to: &mut Samples<'_, '_>) {
