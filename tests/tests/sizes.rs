@@ -12,14 +12,15 @@ const MOST_IN_FUNCTION: usize = 60;
 /// Where sources are.
 const FOLDERS: [&str; 7] = ["bench", "crates", "examples", "firmware", "fuzz", "tests", "xtask"];
 
-/// Rust that the code generator made.
-const GOLDEN: &str = "tests/codegen";
+/// Rust that was generated: by our generator, and from the log's messages.
+const GENERATED: [&str; 2] = ["tests/codegen", "src/proto"];
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let is_source = path.extension().is_some_and(|extension| extension == "rs");
-        if path.is_dir() && !path.ends_with("target") && !path.ends_with(GOLDEN) {
+        let is_generated = GENERATED.iter().any(|folder| path.ends_with(folder));
+        if path.is_dir() && !path.ends_with("target") && !is_generated {
             sources(&path, found);
         } else if is_source {
             found.push(path);
