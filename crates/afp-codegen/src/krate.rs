@@ -1,5 +1,6 @@
 //! A whole crate for a plan: what `afpc build` writes and builds.
 
+use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::Options;
@@ -23,6 +24,9 @@ pub struct CrateOptions {
     pub origin: Origin,
     /// Crates of toolboxes that are not built in.
     pub dependencies: Vec<Dependency>,
+    /// The path of the type of the robot that the program runs on, whose crate is among the dependencies; without one
+    /// it is the simulated Carbot.
+    pub robot: Option<String>,
     /// Whether only a library is wanted, without the program that runs it in simulation.
     pub lib: bool,
 }
@@ -87,15 +91,25 @@ fn dependencies(graph: &Graph, options: &CrateOptions) -> Vec<Dependency> {
     let mut all = vec![Dependency::ours("afp", origin).without_defaults()];
     if !options.lib {
         all.push(Dependency::ours("afp-run", origin).without_defaults());
-        all.push(Dependency::ours("afp-sim", origin).without_defaults());
+        match &options.robot {
+            None => all.push(Dependency::ours("afp-sim", origin).without_defaults()),
+            Some(path) => all.extend(given(options, path).cloned()),
+        }
     }
     for toolbox in &graph.toolboxes {
-        let name = toolbox.rust_path.split("::").next().unwrap_or("");
-        let given = options.dependencies.iter().find(|given| given.key.replace('-', "_") == name);
-        let built_in = || Dependency::ours(&name.replace('_', "-"), origin);
-        all.push(given.cloned().unwrap_or_else(built_in));
+        let built_in = || {
+            let name = toolbox.rust_path.split("::").next().unwrap_or("");
+            Dependency::ours(&name.replace('_', "-"), origin)
+        };
+        all.push(given(options, &toolbox.rust_path).cloned().unwrap_or_else(built_in));
     }
     all
+}
+
+/// The dependency that a path in Rust begins with.
+fn given<'a>(options: &'a CrateOptions, path: &str) -> Option<&'a Dependency> {
+    let name = path.split("::").next().unwrap_or("");
+    options.dependencies.iter().find(|given| given.key.replace('-', "_") == name)
 }
 
 fn library(graph: &Graph, generated: &Generated, options: &CrateOptions) -> String {
@@ -125,17 +139,26 @@ fn program(graph: &Graph, generated: &Generated, options: &CrateOptions) -> Stri
     let about = format!(" Runs the plan `{name}` on the simulated robot.");
     let (krate, ty) = (ident(&snake(name)), &generated.plan);
     let path = &options.file;
+    let (import, robot) = match options.robot.as_ref().and_then(|path| path.parse().ok()) {
+        None => (
+            quote!(
+                use afp_sim::Simulation;
+            ),
+            quote!(Simulation),
+        ),
+        Some(robot) => (TokenStream::new(), robot),
+    };
     file(quote! {
         #![doc = #about]
         use std::process::ExitCode;
 
         use afp_run::Program;
-        use afp_sim::Simulation;
+        #import
         use #krate::#ty;
 
         fn main() -> ExitCode {
             let program = Program { name: #name, file: #path, texts: #krate::TEXTS };
-            afp_run::main::<Simulation, _>(program, #ty::new)
+            afp_run::main::<#robot, _>(program, #ty::new)
         }
     })
 }

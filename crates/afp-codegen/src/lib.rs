@@ -26,7 +26,7 @@ pub use manifest::{Dependency, MADE_BY, Origin};
 pub use places::Places;
 pub use plan::{Generated, Module, plan};
 pub use runner::{RunnerOptions, runner_files};
-pub use toolbox::{declaration, toolbox};
+pub use toolbox::{Support, declaration, register_supported, toolbox};
 
 /// How generated code names what it uses.
 #[derive(Clone, Debug)]

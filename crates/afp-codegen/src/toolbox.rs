@@ -21,6 +21,7 @@ use afp_dsl::toolbox::{InPort, Template, TemplateKind, Toolbox};
 use afp_dsl::types::{Enum, Object, Type};
 
 pub use declared::declaration;
+pub use register::{Support, register_supported};
 
 /// Everything that `toolbox!` makes.
 pub fn toolbox(toolbox: &Toolbox, options: &Options) -> TokenStream {

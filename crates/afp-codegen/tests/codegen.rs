@@ -97,6 +97,7 @@ fn wall_following() -> (String, Graph, CrateOptions) {
         file: "plans/wall_following.afp".to_owned(),
         texts: vec![("wall_following.afp".to_owned(), text.clone())],
         origin: Origin::Path("/home/a \"b\"".to_owned()),
+        robot: None,
         dependencies: Vec::new(),
         lib: false,
     };

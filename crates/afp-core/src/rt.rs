@@ -8,6 +8,7 @@ mod names;
 mod native;
 mod plan;
 mod ports;
+mod probe;
 mod state;
 mod store;
 mod table;
@@ -25,6 +26,7 @@ pub use native::{
 pub use plan::{Committer, Cx, Fired, Polled, Slot, Started};
 pub(crate) use plan::{Place, StepState};
 pub use ports::{Args, FromArgs, Outcome, Outputs, Ports, Registry};
+pub use probe::{ActorSupported, Probe, SupervisorSupported, Unsupported};
 pub use state::{AtElement, Plan, PlanState, WriteError};
 pub use store::{Any, Choice, Entry, Number, Object, Stored, Writable};
 pub use table::{Child, ElementKind, ElementRow, PlanTable, Range, SupervisorRow, Tables, Target};

@@ -4,6 +4,7 @@
 //! a compile error of its own, rendered as `afpc check` renders it.
 
 mod input;
+mod register;
 mod scenarios;
 mod sources;
 #[cfg(test)]
@@ -41,10 +42,19 @@ pub fn plan(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand(input.into(), plan_code).into()
 }
 
+/// Registers the templates of a toolbox that a platform supports; crates of toolboxes wrap it in a macro of their own.
+#[doc(hidden)]
+#[proc_macro]
+pub fn register(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
+    let input = syn::parse::<register::Input>(input).map_err(|error| error.into_compile_error());
+    input.and_then(|input| register::statements(&input)).unwrap_or_else(|error| error).into()
+}
+
 /// Makes a test of each scenario of a file or of the files of a folder.
 ///
 /// `scenarios!("plans/tests")` takes a path relative to the crate's manifest; behind it may stand what
-/// registers the templates of toolboxes of one's own: `scenarios!("tests", gripper::templates::register)`.
+/// registers the templates of toolboxes of one's own: `scenarios!("tests", gripper::templates::register)`, or a robot:
+/// `scenarios!("tests", robot = vacuum::Vacuum)`.
 #[proc_macro]
 pub fn scenarios(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     let input = syn::parse::<scenarios::Input>(input).map_err(|error| error.into_compile_error());
@@ -80,17 +90,22 @@ fn located(tokens: TokenStream, at: Span) -> TokenStream {
 }
 
 fn toolbox_code(input: &Input) -> Result<TokenStream, TokenStream> {
-    let file = sources::toolbox(&input.path).map_err(|text| error(&text))?;
-    let mut sources = Sources::default();
-    let index = sources.add(std::sync::Arc::new(file.source.clone())).unwrap_or(0);
-    let (toolbox, diags) = Toolbox::parse_broken(&file.source, index, "crate");
-    let errors = errors(&diags, &sources);
-    let mut toolbox = toolbox.ok_or_else(|| errors.clone())?;
+    let (mut toolbox, errors, file) = read_toolbox(&input.path)?;
     let mut names = HashSet::new();
     toolbox.templates.retain(|template| names.insert(template.name.clone()));
     let options = Options { core: input.core.clone(), source: file.text };
     let code = afp_codegen::code(afp_codegen::toolbox(&toolbox, &options));
     Ok(quote!(#errors #code))
+}
+
+/// What a toolbox file declares, what is wrong with it, and the file.
+fn read_toolbox(path: &str) -> Result<(Toolbox, TokenStream, sources::File), TokenStream> {
+    let file = sources::toolbox(path).map_err(|text| error(&text))?;
+    let mut sources = Sources::default();
+    let index = sources.add(std::sync::Arc::new(file.source.clone())).unwrap_or(0);
+    let (toolbox, diags) = Toolbox::parse_broken(&file.source, index, "crate");
+    let errors = errors(&diags, &sources);
+    Ok((toolbox.ok_or_else(|| errors.clone())?, errors, file))
 }
 
 fn plan_code(input: &Input) -> Result<TokenStream, TokenStream> {

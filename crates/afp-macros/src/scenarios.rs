@@ -4,27 +4,39 @@ use std::collections::HashSet;
 use std::fs;
 use std::path::Path;
 
+use afp_dsl::graph::Graph;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 use syn::parse::{Parse, ParseStream};
-use syn::{LitStr, Path as RustPath, Token};
+use syn::{LitStr, Path as RustPath, Token, Type};
 
 use crate::{error, errors, sources};
 
-/// `"file or folder" [, path of a function that registers templates]...`.
+/// `"file or folder" [, robot = type] [, path of a function that registers templates]...`.
 pub struct Input {
     path: String,
+    /// The robot; without one it is the Carbot.
+    robot: Option<Type>,
     register: Vec<RustPath>,
 }
 
 impl Parse for Input {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
         let path = input.parse::<LitStr>()?.value();
-        let mut register = Vec::new();
+        let (mut robot, mut register) = (None, Vec::new());
         while input.parse::<Option<Token![,]>>()?.is_some() && !input.is_empty() {
-            register.push(input.call(RustPath::parse_mod_style)?);
+            if !input.peek2(Token![=]) {
+                register.push(input.call(RustPath::parse_mod_style)?);
+                continue;
+            }
+            let word: Ident = input.parse()?;
+            if word != "robot" || robot.is_some() {
+                return Err(syn::Error::new(word.span(), "expected one 'robot = Type'"));
+            }
+            input.parse::<Token![=]>()?;
+            robot = Some(input.parse()?);
         }
-        Ok(Input { path, register })
+        Ok(Input { path, robot, register })
     }
 }
 
@@ -38,7 +50,7 @@ pub fn tests(input: &Input) -> Result<TokenStream, TokenStream> {
     let mut taken = HashSet::new();
     let mut modules = TokenStream::new();
     for file in &files {
-        if let Some(tests) = of_file(file, &input.register)? {
+        if let Some(tests) = of_file(file, input)? {
             let name = free(&slug(file.trim_end_matches(".afp")), &mut taken);
             modules.extend(quote! { mod #name { #tests } });
         }
@@ -72,7 +84,7 @@ fn collect(path: &str, files: &mut Vec<String>) -> Result<(), String> {
 }
 
 /// The tests of one file; `None` when it has no scenarios.
-fn of_file(path: &str, register: &[RustPath]) -> Result<Option<TokenStream>, TokenStream> {
+fn of_file(path: &str, input: &Input) -> Result<Option<TokenStream>, TokenStream> {
     let file = sources::read(path).map_err(|text| error(&text))?;
     if !file.source.text.lines().any(|line| line.trim_start().starts_with("scenario ")) {
         return Ok(None);
@@ -86,13 +98,11 @@ fn of_file(path: &str, register: &[RustPath]) -> Result<Option<TokenStream>, Tok
     let mut taken = HashSet::new();
     let tests = compiled.scenarios.iter().map(|scenario| {
         let (name, title) = (free(&slug(&scenario.name), &mut taken), &scenario.name);
+        let robot = robot(input, &scenario.graph);
         quote! {
             #[test]
             fn #name() {
-                let robot = ::afp_sim::carbot(|registry| {
-                    let _ = &registry;
-                    #(#register(registry);)*
-                });
+                let robot = #robot;
                 ::afp_test::check(::std::path::Path::new(#full), #title, &robot);
             }
         }
@@ -105,6 +115,34 @@ fn of_file(path: &str, register: &[RustPath]) -> Result<Option<TokenStream>, Tok
         #tests
         const _: &[&str] = &[#(#texts),*];
     }))
+}
+
+/// The expression of the robot with the templates that a plan may use.
+fn robot(input: &Input, plan: &Graph) -> TokenStream {
+    let register = &input.register;
+    let Some(robot) = &input.robot else {
+        return quote! {
+            ::afp_sim::carbot(|registry| {
+                let _ = &registry;
+                #(#register(registry);)*
+            })
+        };
+    };
+    let toolboxes = plan.toolboxes.iter().map(|toolbox| {
+        let built_in = afp_toolboxes::ALL.iter().any(|each| each.rust_path == toolbox.rust_path);
+        let path: TokenStream = toolbox.rust_path.parse().unwrap_or_default();
+        match built_in {
+            true => quote!(::#path::register!(registry, #robot);),
+            false => quote!(#path::templates::register(registry);),
+        }
+    });
+    quote! {
+        ::afp_session::simulated::<#robot, _>(|registry| {
+            let _ = &registry;
+            #(#toolboxes)*
+            #(#register(registry);)*
+        })
+    }
 }
 
 /// A text as a name in Rust.

@@ -5,7 +5,7 @@ use std::{fmt, fs, io};
 
 use afp_excerpt::{Mark, Report, Severity};
 
-use crate::krate::{self, CrateLink};
+use crate::krate::{self, CrateLink, RobotLink};
 use crate::project::{Mistake, Project, Toolbox};
 use crate::read::read;
 
@@ -119,6 +119,22 @@ impl ProjectFile {
             }
         }
         if mistakes.is_empty() { Ok(files) } else { Err(self.wrong(mistakes)) }
+    }
+
+    /// The robot of the project with its crate; none where plans run on the Carbot.
+    ///
+    /// # Errors
+    /// There is no such crate on this machine, or it is another one than the file says.
+    pub fn robot(&self) -> Result<Option<RobotLink>, ProjectError> {
+        let Some(robot) = &self.project.robot else { return Ok(None) };
+        let toolboxes = &self.project.toolboxes;
+        let is_of_robot = |toolbox: &&Toolbox| robot.toolbox.as_ref() == Some(&toolbox.name);
+        let toolbox = toolboxes.iter().find(is_of_robot);
+        let krate = robot.krate.as_ref().or_else(|| toolbox.map(|toolbox| &toolbox.krate));
+        let krate = krate.cloned().unwrap_or_default();
+        let file = toolbox.map_or_else(|| self.path(), |toolbox| self.folder.join(&toolbox.path));
+        let linked = krate::link_robot(&self.folder, robot, &krate, &file);
+        linked.map(Some).map_err(|mistake| self.wrong(vec![mistake]))
     }
 
     /// The error for what is wrong in this file beyond its own text.

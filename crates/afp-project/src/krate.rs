@@ -1,4 +1,4 @@
-//! The Rust crate of a toolbox: where it is and what it is called.
+//! The Rust crate of a toolbox or of the robot: where it is and what it is called.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use toml_edit::Document;
 
 use crate::file::shown;
-use crate::project::{Crate, Mistake, Origin, Toolbox};
+use crate::project::{Crate, Mistake, Origin, Robot, Toolbox};
 
-/// The crate of a toolbox, as a manifest can depend on it.
+/// A crate of the project, as a manifest can depend on it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CrateLink {
     /// The key of the dependency: with `_` for `-` it is the crate's name in Rust.
@@ -43,6 +43,24 @@ impl CrateLink {
     }
 }
 
+/// The robot's type and the crate that holds it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RobotLink {
+    /// The toolbox of the project that declares its devices.
+    pub toolbox: Option<String>,
+    /// The crate.
+    pub krate: CrateLink,
+    /// The type, seen from the crate's root.
+    pub sim: String,
+}
+
+impl RobotLink {
+    /// The path of the type, as other crates name it.
+    pub fn rust_type(&self) -> String {
+        format!("{}::{}", self.krate.rust_name(), self.sim)
+    }
+}
+
 /// What is wrong, and what to do.
 type Wrong = (String, String);
 
@@ -52,16 +70,39 @@ type Wrong = (String, String);
 /// There is no such crate on this machine, or it is another one than was said.
 pub(crate) fn link(folder: &Path, toolbox: &Toolbox, file: &Path) -> Result<CrateLink, Mistake> {
     let wrong = |(message, help)| Mistake { span: toolbox.span.clone(), message, help };
-    find(folder, toolbox, file).map_err(wrong)
+    let what = format!("the file of the toolbox '{}'", toolbox.name);
+    find(folder, &toolbox.krate, &toolbox.name, (&what, file)).map_err(wrong)
 }
 
-fn find(folder: &Path, toolbox: &Toolbox, file: &Path) -> Result<CrateLink, Wrong> {
-    let Crate { package, origin, module } = &toolbox.krate;
+/// Finds the crate of the robot of the project in `folder`; `file` is the file of its toolbox, else the project file.
+///
+/// # Errors
+/// As [`link`].
+pub(crate) fn link_robot(
+    folder: &Path,
+    robot: &Robot,
+    krate: &Crate,
+    file: &Path,
+) -> Result<RobotLink, Mistake> {
+    let wrong = |(message, help)| Mistake { span: robot.span.clone(), message, help };
+    let what = format!("'{}'", shown(file).display());
+    let krate = find(folder, krate, "robot", (&what, file)).map_err(wrong)?;
+    Ok(RobotLink { toolbox: robot.toolbox.clone(), krate, sim: robot.sim.clone() })
+}
+
+/// Finds a crate; without an origin it is the one around a file, which is called something.
+fn find(
+    folder: &Path,
+    krate: &Crate,
+    name: &str,
+    (what, file): (&str, &Path),
+) -> Result<CrateLink, Wrong> {
+    let Crate { package, origin, module } = krate;
     let home = match origin {
         Some(Origin::Path(path)) => folder.join(path),
         Some(elsewhere) => {
             // Nothing is known of a crate that cargo has yet to fetch.
-            let name = package.clone().unwrap_or_else(|| toolbox.name.clone());
+            let name = package.clone().unwrap_or_else(|| name.to_owned());
             let (origin, module) = (elsewhere.clone(), module.clone());
             return Ok(CrateLink {
                 key: name.clone(),
@@ -71,7 +112,7 @@ fn find(folder: &Path, toolbox: &Toolbox, file: &Path) -> Result<CrateLink, Wron
                 module,
             });
         }
-        None => around(&toolbox.name, file)?,
+        None => around(what, file)?,
     };
     let manifest = home.join("Cargo.toml");
     let names = Names::read(&manifest)?;
@@ -91,14 +132,14 @@ fn find(folder: &Path, toolbox: &Toolbox, file: &Path) -> Result<CrateLink, Wron
     Ok(CrateLink { key, package: names.package, origin, folder: Some(folder), module })
 }
 
-/// The nearest folder around a toolbox file that has a manifest.
-fn around(name: &str, file: &Path) -> Result<PathBuf, Wrong> {
+/// The nearest folder around a file that has a manifest.
+fn around(what: &str, file: &Path) -> Result<PathBuf, Wrong> {
     let file = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
     let mut folders = file.ancestors().skip(1);
     let home = folders.find(|folder| folder.join("Cargo.toml").is_file());
     home.map(Path::to_owned).ok_or_else(|| {
         (
-            format!("no folder around the file of the toolbox '{name}' has a Cargo.toml"),
+            format!("no folder around {what} has a Cargo.toml"),
             "'crate = { path = \"...\" }' names the folder of its Cargo.toml".to_owned(),
         )
     })

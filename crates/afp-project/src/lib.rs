@@ -1,4 +1,4 @@
-//! The project file `afp.toml`: toolboxes of one's own, targets, the world, where the afp crates are.
+//! The project file `afp.toml`: toolboxes and a robot of one's own, targets, the world, where the afp crates are.
 //!
 //! Compiler macros, the command line and generated programs all read it here. [`read`] goes from a
 //! text to a [`Project`] and does no I/O; [`ProjectFile`] finds the file and what it names.
@@ -15,6 +15,10 @@
 //! tick = "1 ms"
 //! capacity = 0.5
 //!
+//! [robot]
+//! toolbox = "gripper"                                         # its crate holds the robot, too
+//! sim = "Arm"
+//!
 //! [afp]
 //! path = "../afp"
 //! ```
@@ -26,7 +30,7 @@ mod read;
 mod time;
 
 pub use file::{ProjectError, ProjectFile, ToolboxFile, shown};
-pub use krate::CrateLink;
-pub use project::{Crate, Mistake, Origin, Project, Target, Toolbox};
+pub use krate::{CrateLink, RobotLink};
+pub use project::{Crate, Mistake, Origin, Project, Robot, Target, Toolbox};
 pub use read::read;
 pub use time::duration;

@@ -12,6 +12,8 @@ pub struct Project {
     pub measures: Vec<String>,
     /// Where generated crates take the `afp` crates from.
     pub afp: Option<Origin>,
+    /// The robot that plans run on; without one it is the Carbot.
+    pub robot: Option<Robot>,
     /// Toolboxes of the project, in the order of the file.
     pub toolboxes: Vec<Toolbox>,
     /// What plans shall run on, in the order of the file.
@@ -42,7 +44,20 @@ pub struct Toolbox {
     pub span: Range<usize>,
 }
 
-/// The Rust crate of a toolbox, as far as it is said.
+/// The robot of the project.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Robot {
+    /// The toolbox of the project that declares its devices.
+    pub toolbox: Option<String>,
+    /// The type that implements `afp_session::Simulated`, seen from the root of its crate.
+    pub sim: String,
+    /// Its crate; else that of its toolbox, else the one around the project file.
+    pub krate: Option<Crate>,
+    /// The heading in the text, in bytes.
+    pub span: Range<usize>,
+}
+
+/// The Rust crate of a toolbox or of the robot, as far as it is said.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Crate {
     /// The name of its package; else that of the manifest.

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use toml_edit::{Document, Item, TableLike, Value};
 
-use crate::project::{Crate, Mistake, Origin, Project, Target, Toolbox};
+use crate::project::{Crate, Mistake, Origin, Project, Robot, Target, Toolbox};
 use crate::time::duration;
 
 /// Reads the text of an `afp.toml`. What is wrong is left out of the project and said beside it, in
@@ -37,19 +37,23 @@ struct Reader {
 
 impl Reader {
     fn project(&mut self, table: &dyn TableLike, project: &mut Project) {
+        let mut robot = None;
         for pair in pairs(table) {
             match pair.key {
                 "run" => self.run(&pair, project),
                 "afp" => project.afp = self.afp(&pair),
+                "robot" => robot = Some(pair),
                 "toolboxes" => project.toolboxes = self.each(&pair, Reader::toolbox),
                 "target" => project.targets = self.each(&pair, Reader::target),
                 _ => self.unknown(
                     &pair,
                     "a project",
-                    "it has '[run]', '[toolboxes]', '[target.NAME]' and '[afp]'",
+                    "it has '[run]', '[robot]', '[toolboxes]', '[target.NAME]' and '[afp]'",
                 ),
             }
         }
+        // It names a toolbox, which may stand below it.
+        project.robot = robot.and_then(|pair| self.robot(&pair, &project.toolboxes));
     }
 
     fn run(&mut self, run: &Pair<'_>, project: &mut Project) {
@@ -116,6 +120,53 @@ impl Reader {
         Some(Toolbox { name: name.to_owned(), path: path?, krate, span: toolbox.span.clone() })
     }
 
+    fn robot(&mut self, robot: &Pair<'_>, toolboxes: &[Toolbox]) -> Option<Robot> {
+        let before = self.mistakes.len();
+        let (mut toolbox, mut sim, mut krate) = (None, None, None);
+        for pair in self.table(robot, "a heading '[robot]'") {
+            match pair.key {
+                "toolbox" => toolbox = self.known_toolbox(&pair, toolboxes),
+                "sim" => sim = self.type_path(&pair),
+                "crate" => krate = Some(self.krate(&pair)),
+                _ => self.unknown(&pair, "'[robot]'", "it has 'toolbox', 'sim' and 'crate'"),
+            }
+        }
+        if sim.is_none() && self.mistakes.len() == before {
+            let help = "write 'sim = \"Vacuum\"', the Rust type that implements 'Simulated'";
+            self.wrong(robot.span.clone(), "'[robot]' has no 'sim'".to_owned(), help);
+        }
+        Some(Robot { toolbox, sim: sim?, krate, span: robot.span.clone() })
+    }
+
+    fn known_toolbox(&mut self, pair: &Pair<'_>, toolboxes: &[Toolbox]) -> Option<String> {
+        let name = self.text(pair, "the name of one of '[toolboxes]'")?;
+        if toolboxes.iter().all(|toolbox| toolbox.name != name) {
+            let names: Vec<_> = toolboxes.iter().map(|each| format!("'{}'", each.name)).collect();
+            let help = match names.is_empty() {
+                true => format!("name its file: '[toolboxes]' with '{name}.path = \"{name}.afp\"'"),
+                false => format!("write {}", names.join(" or ")),
+            };
+            self.wrong(value_span(pair), format!("no toolbox '{name}' in '[toolboxes]'"), &help);
+        }
+        Some(name)
+    }
+
+    /// The path of a type in Rust, such as `Vacuum` or `sim::Vacuum`.
+    fn type_path(&mut self, pair: &Pair<'_>) -> Option<String> {
+        let what = "the Rust type seen from the root of its crate, such as \"Vacuum\"";
+        let path = self.text(pair, what)?;
+        let is_word = |word: &str| {
+            let mut letters = word.chars();
+            letters.next().is_some_and(|first| first.is_alphabetic() || first == '_')
+                && letters.all(|letter| letter.is_alphanumeric() || letter == '_')
+        };
+        if path.split("::").all(is_word) {
+            return Some(path);
+        }
+        self.value(pair, what);
+        None
+    }
+
     /// `"package"` or a table.
     fn krate(&mut self, krate: &Pair<'_>) -> Crate {
         if let Some(package) = krate.item.as_str() {
@@ -130,7 +181,7 @@ impl Reader {
                 ("module", _) => read.module = self.text(&pair, "a path such as \"gripper::fast\""),
                 _ => self.unknown(
                     &pair,
-                    "the crate of a toolbox",
+                    "a crate",
                     "it has 'path', 'git' or 'version', and 'package' and 'module'",
                 ),
             }
@@ -235,91 +286,4 @@ fn value_span(pair: &Pair<'_>) -> Range<usize> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_whole_file_is_read() {
-        let text = "\
-[run]
-world = 'w.toml'
-measures = ['wall']
-
-[toolboxes]
-b = { path = 'b.afp' }
-a.path = 'a.afp'
-a.crate = { git = 'https://x', package = 'aa', module = 'm' }
-c = { path = 'c.afp', crate = 'cc' }
-
-[target.pi]
-capacity = 0.5
-[target.toy]
-tick = '2 ms'
-
-[afp]
-version = '0.1'
-";
-        let (project, mistakes) = read(text);
-        assert_eq!(mistakes, []);
-        assert_eq!(project.world.as_deref(), Some("w.toml"));
-        assert_eq!(project.measures, ["wall"]);
-        assert_eq!(project.afp, Some(Origin::Version("0.1".to_owned())));
-        let names: Vec<_> = project.toolboxes.iter().map(|toolbox| &*toolbox.name).collect();
-        assert_eq!(names, ["b", "a", "c"]);
-        let krate = &project.toolboxes[1].krate;
-        assert_eq!(krate.origin, Some(Origin::Git("https://x".to_owned())));
-        assert_eq!((krate.package.as_deref(), krate.module.as_deref()), (Some("aa"), Some("m")));
-        assert_eq!(project.toolboxes[2].krate.package.as_deref(), Some("cc"));
-        let [pi, toy] = &project.targets[..] else { panic!("{:?}", project.targets) };
-        assert_eq!((pi.tick, pi.capacity), (None, Some(0.5)));
-        assert_eq!((toy.tick, toy.capacity), (Some(2_000_000), None));
-        assert_eq!(read("").0, Project::default());
-    }
-
-    /// The texts that mistakes are about.
-    fn wrong(text: &str) -> Vec<&str> {
-        let (_, mistakes) = read(text);
-        for mistake in &mistakes {
-            assert!(!mistake.message.is_empty() && !mistake.message.contains('\n'), "{mistake}");
-        }
-        mistakes.iter().map(|mistake| &text[mistake.span.clone()]).collect()
-    }
-
-    #[test]
-    fn what_is_wrong_is_named_at_its_place_all_at_once() {
-        assert_eq!(wrong("run = 3\n[rum]\n[afp]\npaht = 1"), ["3", "rum", "paht"]);
-        assert_eq!(wrong("[run]\nworlds = 'x'\nworld = 7"), ["worlds", "7"]);
-        assert_eq!(wrong("[run]\nmeasures = 'wall'"), ["'wall'"]);
-        assert_eq!(wrong("[run]\nmeasures = [1]"), ["[1]"]);
-        assert_eq!(wrong("[toolboxes]\na = 1\nb = {}\nc = { crate = 'x' }"), ["1", "b", "c"]);
-        assert_eq!(wrong("[toolboxes]\na = { path = 'x', crate = 3 }"), ["3"]);
-        assert_eq!(wrong("[toolboxes]\na = { path = '', krate = 'x' }"), ["''", "krate"]);
-        assert_eq!(
-            wrong("[toolboxes]\na.path = 'x'\na.crate = { git = 1, nam = 2 }"),
-            ["1", "nam"]
-        );
-        assert_eq!(wrong("[afp]\npath = 'x'\ngit = 'y'"), ["afp"]);
-    }
-
-    #[test]
-    fn what_is_wrong_with_a_target_is_named_at_its_place() {
-        assert_eq!(wrong("[target.a]\ntock = 1"), ["tock"]);
-        assert_eq!(wrong("[target.a]\ntick = 1"), ["1"]);
-        assert_eq!(wrong("[target.a]\ntick = \"0 s\""), ["\"0 s\""]);
-        assert_eq!(wrong("[target.a]\ntick = \"3 cm\""), ["\"3 cm\""]);
-        assert_eq!(wrong("[target.a]\ncapacity = 1.5\ntick = 1"), ["1.5", "1"]);
-        assert_eq!(wrong("[target]\na = 3"), ["3"]);
-        assert_eq!(wrong("target = 3"), ["3"]);
-    }
-
-    #[test]
-    fn no_text_is_too_strange() {
-        for text in ["[", "a = ", "[a]\n[a]", "\u{0}", "run.world.x = 1", "[[toolboxes]]\na = 1"] {
-            let (_, mistakes) = read(text);
-            assert!(!mistakes.is_empty(), "{text:?}");
-            for mistake in mistakes {
-                assert!(text.get(mistake.span.clone()).is_some(), "{text:?}: {mistake:?}");
-            }
-        }
-    }
-}
+mod tests;

@@ -155,14 +155,6 @@ impl From<LogError> for RunError {
 
 impl From<SessionError> for RunError {
     fn from(error: SessionError) -> Self {
-        let help = match &error {
-            SessionError::World(_) | SessionError::OtherWorld => {
-                "look at the world's file".to_owned()
-            }
-            SessionError::Measure(_, known) => format!("it has {}", known.join(", ")),
-            // What is left is a plan that cannot be loaded.
-            _ => "the toolbox file and the Rust crate behind it do not belong together".to_owned(),
-        };
-        RunError::usage(error.to_string(), help)
+        RunError::usage(error.to_string(), error.help())
     }
 }

@@ -70,7 +70,10 @@ fn a_panic_stops_the_robot_and_ends_the_run() {
     let program = Program { name: "Breaks", file: "breaks.afp", texts: &[("breaks.afp", PLAN)] };
     let log_name = log.to_str().unwrap();
     let options = options(&["--json", "--svg", "none", "--log", log_name]);
-    assert_eq!(run(&program, &robot, Box::new(make), &options, None).unwrap(), EXIT_PLAN_ERROR);
+    assert_eq!(
+        run(&program, robot.kind(), Box::new(make), &options, None).unwrap(),
+        EXIT_PLAN_ERROR
+    );
     let log = afp_log::read(&log).unwrap();
     assert_eq!(log.cut_short, None);
     let last = log.events.last().unwrap();

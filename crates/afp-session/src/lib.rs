@@ -50,7 +50,7 @@ pub use request::{HOLD, Request, RequestError, RequestId};
 pub use robot::{ControlOf, FaultOf, Measure, Refused, Robot, Simulated};
 pub use robots::{AnyRobot, Kind, SessionError, kind};
 #[cfg(feature = "load")]
-pub use robots::{Loader, Simulator, simulated};
+pub use robots::{Loader, simulated};
 pub use sample::{Image, Pose2, Ranging, SampleRef, Samples, Shape, Transform};
 pub use session::{SAMPLE, Session};
 pub use stimulus::Stimulus;

@@ -64,7 +64,9 @@ pub trait Robot: Platform {
 }
 
 /// A robot in a world, in virtual time.
-pub trait Simulated: Robot + Sized + Send + 'static {
+pub trait Simulated:
+    Robot<Devices: Devices<Fault: Send>> + Platform<Clock: Send> + Sized + Send + 'static
+{
     /// The world.
     type World: World;
 

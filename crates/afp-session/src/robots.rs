@@ -143,12 +143,15 @@ fn robot_in<R: Simulated>(world: &dyn AnyWorld, seed: u64) -> Result<R, SessionE
 
 /// A kind of simulated robot on which plans can be loaded.
 #[cfg(feature = "load")]
-pub trait Loader: AnyRobot {
+pub trait Loader: Sync {
+    /// The kind: its devices and its worlds.
+    fn kind(&self) -> &dyn AnyRobot;
+
     /// A session of the main plan of a graph on a robot at its start in a world, judged by some measures.
     ///
     /// # Errors
-    /// A template that this program does not know, a world of another robot or one that cannot be built, a measure
-    /// that the robot has not.
+    /// A template that this program does not know or that the robot does not serve, a world of another robot or one
+    /// that cannot be built, a measure that the robot has not.
     fn session(
         &self,
         plan: &Graph,
@@ -160,59 +163,23 @@ pub trait Loader: AnyRobot {
 
 /// A kind of simulated robot with the templates that plans for it may use.
 #[cfg(feature = "load")]
-pub struct Simulator<R, F> {
+struct Simulator<R, F> {
     kind: Kind<R>,
     register: F,
 }
 
 /// A kind of simulated robot, with a function that registers the templates that plans for it may use.
 #[cfg(feature = "load")]
-pub const fn simulated<R: Simulated, F: Fn(&mut Registry<R>) + Sync>(
-    register: F,
-) -> Simulator<R, F> {
-    Simulator { kind: kind(), register }
+pub const fn simulated<R: Simulated, F: Fn(&mut Registry<R>) + Sync>(register: F) -> impl Loader {
+    Simulator { kind: kind::<R>(), register }
 }
 
 #[cfg(feature = "load")]
-impl<R: Simulated, F: Fn(&mut Registry<R>) + Sync> AnyRobot for Simulator<R, F> {
-    fn devices(&self) -> &'static [DeviceRow] {
-        self.kind.devices()
+impl<R: Simulated, F: Fn(&mut Registry<R>) + Sync> Loader for Simulator<R, F> {
+    fn kind(&self) -> &dyn AnyRobot {
+        &self.kind
     }
 
-    fn facts(&self) -> &'static [(&'static str, &'static str)] {
-        self.kind.facts()
-    }
-
-    fn measures(&self) -> &'static [&'static str] {
-        self.kind.measures()
-    }
-
-    fn default_world(&self) -> &'static str {
-        self.kind.default_world()
-    }
-
-    fn made_up_world(&self, seed: u64) -> Option<String> {
-        self.kind.made_up_world(seed)
-    }
-
-    fn picture_of_map(&self, map: &str) -> Result<String, WorldError> {
-        self.kind.picture_of_map(map)
-    }
-
-    fn text_of_map(&self, name: &str, map: &str, picture: &[u8]) -> Result<String, WorldError> {
-        self.kind.text_of_map(name, map, picture)
-    }
-
-    fn world(&self, text: &str) -> Result<Arc<dyn AnyWorld>, WorldError> {
-        self.kind.world(text)
-    }
-}
-
-#[cfg(feature = "load")]
-impl<R: Simulated, F: Fn(&mut Registry<R>) + Sync> Loader for Simulator<R, F>
-where
-    Session<LoadedPlan<R>, R, Kept>: AnySession,
-{
     fn session(
         &self,
         plan: &Graph,
@@ -225,6 +192,27 @@ where
         let plan = LoadedPlan::new(plan, &registry).map_err(SessionError::Load)?;
         let robot = robot_in::<R>(world, seed)?;
         Ok(Box::new(Session::loaded(plan, robot).measured(measures)?))
+    }
+}
+
+impl SessionError {
+    /// What to do about it.
+    pub fn help(&self) -> String {
+        match self {
+            #[cfg(feature = "load")]
+            SessionError::Load(LoadError::Unsupported { .. }) => {
+                "implement the traits for the robot, or use templates that it supports".to_owned()
+            }
+            #[cfg(feature = "load")]
+            SessionError::Load(_) => {
+                "the toolbox file and the Rust crate behind it do not belong together".to_owned()
+            }
+            SessionError::World(_) | SessionError::OtherWorld => {
+                "look at the world's file".to_owned()
+            }
+            SessionError::Measure(_, []) => "it has none".to_owned(),
+            SessionError::Measure(_, known) => format!("it has {}", known.join(", ")),
+        }
     }
 }
 

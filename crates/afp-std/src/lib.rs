@@ -19,6 +19,14 @@ pub use count::Count;
 pub use log::Log;
 pub use wait::Wait;
 
+/// Registers the templates on a platform, as the macros of this name of other toolboxes do those that it supports.
+#[macro_export]
+macro_rules! register {
+    ($registry:expr, $platform:ty) => {
+        $crate::templates::register::<$platform, _>($registry)
+    };
+}
+
 pub mod templates {
     //! The templates of the toolbox as types: ports, states and events.
     afp_macros::toolbox!("std.afp");

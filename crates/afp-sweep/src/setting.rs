@@ -46,7 +46,8 @@ impl<'a> Setting<'a> {
             ));
         }
         let worlds = sweep.worlds.iter();
-        let worlds = worlds.map(|asked| world::find(asked.as_deref().map(Path::new), file, robot));
+        let worlds =
+            worlds.map(|asked| world::find(asked.as_deref().map(Path::new), file, robot.kind()));
         let worlds = worlds.collect::<Result<Vec<_>, _>>()?;
         let (presses, failures) = (sweep.presses.clone(), sweep.failures.clone());
         let setting = Setting { graph, robot, worlds, presses, failures };
@@ -105,7 +106,7 @@ impl<'a> Setting<'a> {
                     rest /= axis.points.len().max(1);
                     Some((*key, point.text.as_str()))
                 });
-                world.with(&changes.collect::<Vec<_>>(), self.robot)
+                world.with(&changes.collect::<Vec<_>>(), self.robot.kind())
             });
             // The first one that works is enough.
             let mut first = None;
@@ -137,10 +138,10 @@ impl<'a> Setting<'a> {
         let changes: Vec<_> = changes.collect();
         let changed = match changes.is_empty() {
             true => None,
-            false => Some(world.with(&changes, self.robot)?),
+            false => Some(world.with(&changes, self.robot.kind())?),
         };
         let world = &changed.as_ref().unwrap_or(world).world;
-        let measures = self.robot.measures();
+        let measures = self.robot.kind().measures();
         let mut session = self.robot.session(self.graph, &**world, row.seed, measures)?;
         for (name, point) in row.values.iter().filter(|(name, _)| change::key(name).is_none()) {
             inputs::set(&mut *session, name, &point.text)?;

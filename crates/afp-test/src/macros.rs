@@ -32,7 +32,7 @@ pub fn check(file: &Path, name: &str, robot: &dyn Loader) {
         failed(compiled.render(false))
     };
     let setting =
-        Setting::find(scenario, file, robot).unwrap_or_else(|error| failed(error.to_string()));
+        Setting::find(scenario, file, robot.kind()).unwrap_or_else(|error| failed(error.to_string()));
     match run(scenario, &setting, robot, None) {
         Ok(verdict) if verdict.passed() => {}
         Ok(verdict) => failed(verdict.report()),

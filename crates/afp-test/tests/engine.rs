@@ -6,7 +6,7 @@ use afp_dsl::Compiled;
 use afp_dsl::files::Texts;
 use afp_dsl::scenario::Scenario;
 use afp_dsl::toolbox::Toolboxes;
-use afp_session::AnyRobot;
+use afp_session::Loader;
 use afp_syntax::source::Source;
 use afp_test::{Setting, Verdict};
 
@@ -39,7 +39,7 @@ plan Nested {
 }
 "#;
 
-fn robot() -> impl afp_session::Loader {
+fn robot() -> impl Loader {
     afp_sim::carbot(|_| {})
 }
 
@@ -55,7 +55,7 @@ fn compiled(plan: &str, lines: &str) -> Compiled {
 fn run(lines: &str) -> Verdict {
     let compiled = compiled(PLAN, lines);
     let [scenario] = compiled.scenarios.as_slice() else { panic!("{}", compiled.render(false)) };
-    let setting = Setting::find(scenario, Path::new("case.afp"), &robot()).unwrap();
+    let setting = Setting::find(scenario, Path::new("case.afp"), robot().kind()).unwrap();
     afp_test::run(scenario, &setting, &robot(), None).unwrap()
 }
 
@@ -236,10 +236,10 @@ fn the_report_shows_the_timeline_around_what_broke() {
 fn scenarios_are_made_for_every_event_at_five_points_and_pass() {
     let base = compiled(PLAN, "expect go active\n until 20 s");
     let scenario = &base.scenarios[0];
-    let setting = Setting::find(scenario, Path::new("case.afp"), &robot()).unwrap();
+    let setting = Setting::find(scenario, Path::new("case.afp"), robot().kind()).unwrap();
     let quiet = Scenario::quiet("", scenario.graph.clone(), "case.afp", 30_000_000_000);
     let mut go = |scenario: &Scenario| afp_test::run(scenario, &setting, &robot(), None);
-    let made = afp_test::generate("case.afp", &quiet, robot().devices(), &mut go).unwrap();
+    let made = afp_test::generate("case.afp", &quiet, robot().kind().devices(), &mut go).unwrap();
     assert_eq!(made.left_out, [""; 0]);
     assert!(made.scenarios >= 15, "{}", made.text);
     assert!(made.text.contains("expect go -> back by touch.TouchSensorPressed once within"));
@@ -280,10 +280,10 @@ plan Ahead {
 "#;
     let base = compiled(HIDDEN, "expect end");
     let quiet = Scenario::quiet("", base.scenarios[0].graph.clone(), "case.afp", 30_000_000_000);
-    let setting = Setting::find(&quiet, Path::new("case.afp"), &robot()).unwrap();
+    let setting = Setting::find(&quiet, Path::new("case.afp"), robot().kind()).unwrap();
     let mut runs = 0;
     let made =
-        afp_test::generate("case.afp", &quiet, robot().devices(), &mut |scenario: &Scenario| {
+        afp_test::generate("case.afp", &quiet, robot().kind().devices(), &mut |scenario: &Scenario| {
             runs += 1;
             afp_test::run(scenario, &setting, &robot(), None)
         });

@@ -58,8 +58,10 @@ macro_rules! plan {
 /// Makes a `#[test]` of each scenario of a file or of the files of a folder.
 ///
 /// `afp::scenarios!("plans/tests")`, with a path relative to the crate's manifest, belongs into a test;
-/// `afp-test`, and `afp-sim` with its feature `load`, must be dev-dependencies. Behind the path may stand the functions that register the
-/// templates of toolboxes of one's own: `afp::scenarios!("tests", gripper::templates::register)`. A
+/// `afp-test`, and `afp-sim` with its feature `load`, must be dev-dependencies. Behind the path may stand the functions
+/// that register the templates of toolboxes of one's own: `afp::scenarios!("tests", gripper::templates::register)`.
+/// With `afp::scenarios!("tests", robot = vacuum::Vacuum)` they run on another robot, with the toolboxes that the plans
+/// use; `afp-session` with its feature `load` takes the place of `afp-sim`. A
 /// mistake in a scenario is a compile error; a failed one panics with what broke and the timeline around
 /// it. A new file in the folder is seen when the test is next compiled.
 #[macro_export]

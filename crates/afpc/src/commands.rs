@@ -22,7 +22,7 @@ use crate::cli::Command;
 use crate::plan_file::NoPlan;
 
 /// Runs a command.
-pub fn dispatch(command: &Command, linked: &[Linked]) -> ExitCode {
+pub fn dispatch(command: &Command, linked: &Linked<'_>) -> ExitCode {
     let result = match command {
         Command::Check(arguments) => check::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),
@@ -32,7 +32,7 @@ pub fn dispatch(command: &Command, linked: &[Linked]) -> ExitCode {
         Command::Test(arguments) => test::run(arguments, linked),
         Command::Sweep(arguments) => sweep::run(arguments, linked),
         Command::Build(arguments) => build::run(arguments),
-        Command::Log(arguments) => log::run(arguments),
+        Command::Log(arguments) => log::run(arguments, linked),
         Command::Completions(arguments) => completions::run(arguments),
     };
     match result {

@@ -1,7 +1,7 @@
 //! The command line of Action Flow Plans: arguments, files, exit codes.
 //!
-//! It is a library so that a *runner* can be made: the same program with toolboxes of one's own
-//! linked in, which `afpc` builds, keeps and becomes when a plan needs them.
+//! It is a library so that a *runner* can be made: the same program with a robot and toolboxes of one's own linked
+//! in, which `afpc` builds, keeps and becomes when a plan needs them.
 
 mod cargo;
 mod cli;
@@ -15,30 +15,35 @@ mod toolboxes;
 
 use std::process::ExitCode;
 
-use afp::load::Registry;
 use afp_session::Loader;
-use afp_sim::Simulation;
+
+pub use afp_session::simulated;
+pub use afp_sim::carbot;
 
 /// Trees are many small pieces; checking a large plan takes a third less time than with the
 /// allocator of the system.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-/// A toolbox that is linked in beside the built-in ones.
-#[derive(Clone, Copy, Debug)]
-pub struct Linked {
-    /// The name behind `use`.
-    pub toolbox: &'static str,
-    /// Names its templates to a registry: the function `register` that `toolbox!` makes.
-    pub register: fn(&mut Registry<Simulation>),
+/// What is linked into the program.
+#[derive(Clone, Copy)]
+pub struct Linked<'a> {
+    /// The robot that plans run on, with the templates that they may use.
+    pub robot: &'a dyn Loader,
+    /// The path of the robot's type, where it is one of a project; none for the Carbot.
+    pub own_robot: Option<&'a str>,
+    /// The toolboxes beside the built-in ones, by the names behind `use`.
+    pub toolboxes: &'a [&'a str],
 }
 
-/// The robot that plans run on: the Carbot, with the templates of linked toolboxes.
-fn robot(linked: &[Linked]) -> impl Loader {
-    afp_sim::carbot(|registry| linked.iter().for_each(|toolbox| (toolbox.register)(registry)))
+impl Linked<'_> {
+    /// Whether anything of a project is linked in.
+    fn is_runner(&self) -> bool {
+        self.own_robot.is_some() || !self.toolboxes.is_empty()
+    }
 }
 
 /// The whole program.
-pub fn main(linked: &'static [Linked]) -> ExitCode {
-    commands::dispatch(&cli::parse(&robot(linked)), linked)
+pub fn main(linked: &Linked<'_>) -> ExitCode {
+    commands::dispatch(&cli::parse(linked.robot.kind()), linked)
 }

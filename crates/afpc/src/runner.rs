@@ -1,21 +1,21 @@
-//! Runners: this program with toolboxes of one's own linked in.
+//! Runners: this program with a robot and toolboxes of one's own linked in.
 //!
-//! A plan is interpreted, but its templates are Rust. So the first command that runs a plan with a
-//! toolbox of the project builds such a program, keeps it, and becomes it; later ones become it at
+//! A plan is interpreted, but robots and templates are Rust. So the first command that runs a plan of a project with
+//! a robot or toolboxes of its own builds such a program, keeps it, and becomes it; later ones become it at
 //! once, until something that it was built from changes. Arguments, exit code, terminal and signals
 //! are those of the one process.
 
+mod folder;
 mod fresh;
 
 use std::env;
 use std::ffi::OsString;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use afp_codegen::{RunnerOptions, runner_files};
 use afp_dsl::graph::Graph;
-use afp_project::ProjectFile;
+use afp_project::{CrateLink, ProjectFile, RobotLink};
 use afp_run::{RunError, hash, say};
 
 use crate::cargo::{self, Blame, Job};
@@ -23,34 +23,118 @@ use crate::plan_file::NoPlan;
 use crate::toolboxes::{OwnToolbox, OwnToolboxes};
 use crate::{Linked, crate_folder, origin};
 
-/// Where runners are kept, below the project's folder or the user's cache.
-const HOME: &str = "target/afp";
-
-/// Comes back when this program has the toolboxes of all of these plans; otherwise builds, if need be,
+/// Comes back when this program has the robot and the toolboxes of all of these plans; otherwise builds, if need be,
 /// the one runner that has them, and goes on as that, with the arguments of this process.
 ///
 /// # Errors
-/// A toolbox without a crate, two toolboxes of one name, no cargo, a crate that does not build, a file
-/// that cannot be written.
+/// A robot or a toolbox without a crate, two robots, two toolboxes of one name, no cargo, a crate that does not
+/// build, a file that cannot be written.
 pub fn become_one_for<'a>(
     plans: impl IntoIterator<Item = (&'a OwnToolboxes, &'a Graph)>,
-    linked: &[Linked],
+    linked: &Linked<'_>,
 ) -> Result<(), NoPlan> {
-    let mut all: Vec<OwnToolbox> = Vec::new();
-    let mut project = None;
+    let mut parts: Option<Parts<'a>> = None;
     for (own, graph) in plans {
-        for toolbox in own.used_by(graph)? {
-            project = project.or(Some(&own.project));
-            match all.iter().find(|known| known.name == toolbox.name) {
-                None => all.push(toolbox),
+        let (robot, toolboxes) = (own.project.robot()?, own.used_by(graph)?);
+        let parts = parts.get_or_insert_with(|| Parts::new(&own.project, robot.clone()));
+        parts.add(robot.as_ref(), toolboxes)?;
+    }
+    parts.map_or(Ok(()), |parts| parts.become_one(linked))
+}
+
+/// Comes back when this program has the robot of a project; otherwise goes on as one that has.
+///
+/// # Errors
+/// As [`become_one_for`].
+pub fn become_one_of(project: &ProjectFile, linked: &Linked<'_>) -> Result<(), NoPlan> {
+    Parts::new(project, project.robot()?).become_one(linked)
+}
+
+/// What a runner links in.
+struct Parts<'a> {
+    project: &'a ProjectFile,
+    robot: Option<RobotLink>,
+    toolboxes: Vec<OwnToolbox>,
+}
+
+impl<'a> Parts<'a> {
+    fn new(project: &'a ProjectFile, robot: Option<RobotLink>) -> Self {
+        Parts { project, robot, toolboxes: Vec::new() }
+    }
+
+    /// Adds the toolboxes of a plan for a robot.
+    fn add(
+        &mut self,
+        robot: Option<&RobotLink>,
+        toolboxes: Vec<OwnToolbox>,
+    ) -> Result<(), RunError> {
+        if self.robot.as_ref() != robot {
+            let name = |robot: Option<&RobotLink>| {
+                robot.map_or("the Carbot".to_owned(), |robot| format!("'{}'", robot.rust_type()))
+            };
+            let (one, other) = (name(self.robot.as_ref()), name(robot));
+            return Err(RunError::usage(
+                format!("these plans are for two robots: {one} and {other}"),
+                "run those of each project apart",
+            ));
+        }
+        for toolbox in toolboxes {
+            match self.toolboxes.iter().find(|known| known.name == toolbox.name) {
+                None => self.toolboxes.push(toolbox),
                 Some(known) if known.krate == toolbox.krate => {}
-                Some(known) => return Err(two_of_one_name(known, &toolbox).into()),
+                Some(known) => return Err(two_of_one_name(known, &toolbox)),
             }
         }
+        Ok(())
     }
-    // The same runner whatever the order of the plans.
-    all.sort_by(|one, other| one.name.cmp(&other.name));
-    project.map_or(Ok(()), |project| become_one_with(&all, linked, project))
+
+    /// Comes back when this program has all of it; otherwise goes on as one that has.
+    fn become_one(mut self, linked: &Linked<'_>) -> Result<(), NoPlan> {
+        let robot = self.robot.as_ref().map(RobotLink::rust_type);
+        let has = |own: &OwnToolbox| linked.toolboxes.contains(&&*own.name);
+        if robot.as_deref() == linked.own_robot && self.toolboxes.iter().all(has) {
+            return Ok(());
+        }
+        if linked.is_runner() {
+            let message = format!("this runner was built for other parts than {}", self.names());
+            return Err(RunError::usage(message, "start 'afpc' instead").into());
+        }
+        // The same runner whatever the order of the plans.
+        self.toolboxes.sort_by(|one, other| one.name.cmp(&other.name));
+        let runner = Runner::new(&self)?;
+        let program = match fresh::program(&runner.folder, &self.manifests()) {
+            Some(program) => program,
+            None => runner.build(&self)?,
+        };
+        Err(turn_into(&program).into())
+    }
+
+    fn crates(&self) -> impl Iterator<Item = &CrateLink> {
+        let robot = self.robot.iter().map(|robot| &robot.krate);
+        self.toolboxes.iter().map(|own| &own.krate).chain(robot)
+    }
+
+    /// What a runner is built from beside Rust: the manifests of its crates.
+    fn manifests(&self) -> Vec<PathBuf> {
+        let folders = self.crates().filter_map(|krate| krate.folder.as_ref());
+        folders.map(|folder| folder.join("Cargo.toml")).collect()
+    }
+
+    /// `the toolbox 'a'`, `the robot 'b' with the toolboxes 'c' and 'd'`.
+    fn names(&self) -> String {
+        let names: Vec<_> = self.toolboxes.iter().map(|own| format!("'{}'", own.name)).collect();
+        let toolboxes = match names.as_slice() {
+            [] => String::new(),
+            [one] => format!("the toolbox {one}"),
+            _ => format!("the toolboxes {}", names.join(" and ")),
+        };
+        let robot = self.robot.as_ref().map(|robot| format!("the robot '{}'", robot.rust_type()));
+        match (robot, toolboxes.is_empty()) {
+            (None, _) => toolboxes,
+            (Some(robot), true) => robot,
+            (Some(robot), false) => format!("{robot} with {toolboxes}"),
+        }
+    }
 }
 
 fn two_of_one_name(one: &OwnToolbox, other: &OwnToolbox) -> RunError {
@@ -59,29 +143,6 @@ fn two_of_one_name(one: &OwnToolbox, other: &OwnToolbox) -> RunError {
         format!("'{path}' and '{another}' are two toolboxes called '{}'", one.name),
         "one program cannot have both: run what uses them apart",
     )
-}
-
-/// Comes back when this program has all of the toolboxes; otherwise goes on as one that has.
-fn become_one_with(
-    toolboxes: &[OwnToolbox],
-    linked: &[Linked],
-    project: &ProjectFile,
-) -> Result<(), NoPlan> {
-    let has = |own: &OwnToolbox| linked.iter().any(|known| known.toolbox == own.name);
-    if toolboxes.iter().all(has) {
-        return Ok(());
-    }
-    if !linked.is_empty() {
-        let names = names(toolboxes);
-        let message = format!("this runner was built for other toolboxes than {names}");
-        return Err(RunError::usage(message, "start 'afpc' instead").into());
-    }
-    let runner = Runner::new(toolboxes, project)?;
-    let program = match fresh::program(&runner.folder, &runner.manifests(toolboxes)) {
-        Some(program) => program,
-        None => runner.build(toolboxes)?,
-    };
-    Err(turn_into(&program).into())
 }
 
 /// A runner and where it is kept.
@@ -93,35 +154,29 @@ struct Runner {
 }
 
 impl Runner {
-    fn new(toolboxes: &[OwnToolbox], project: &ProjectFile) -> Result<Runner, RunError> {
+    fn new(parts: &Parts<'_>) -> Result<Runner, RunError> {
         let mut options = RunnerOptions {
             package: String::new(),
-            origin: origin::of_afp(project)?,
+            origin: origin::of_afp(parts.project)?,
+            robot: parts.robot.as_ref().map(RobotLink::rust_type),
             toolboxes: Vec::new(),
-            dependencies: Vec::new(),
+            dependencies: parts.crates().map(origin::dependency).collect(),
         };
-        for own in toolboxes {
+        for own in &parts.toolboxes {
             options.toolboxes.push((own.name.clone(), own.krate.rust_path()));
-            options.dependencies.push(origin::dependency(&own.krate));
         }
         let inputs = hash(&format!("{} {options:?}", env!("CARGO_PKG_VERSION")));
         options.package = format!("afp-runner-{inputs}");
         let below = Path::new("runner").join(&inputs);
-        let home = writable(&project.folder.join(HOME), &below)?;
-        Ok(Runner { options, folder: home.join(below), target: home.join("build") })
+        let folder::Folder { kept, build } = folder::find(&parts.project.folder, &below)?;
+        Ok(Runner { options, folder: kept.join(below), target: build })
     }
 
-    /// What it is built from beside Rust: the manifests of its crates.
-    fn manifests(&self, toolboxes: &[OwnToolbox]) -> Vec<PathBuf> {
-        let folders = toolboxes.iter().filter_map(|own| own.krate.folder.as_ref());
-        folders.map(|folder| folder.join("Cargo.toml")).collect()
-    }
-
-    fn build(&self, toolboxes: &[OwnToolbox]) -> Result<PathBuf, NoPlan> {
-        let names = names(toolboxes);
+    fn build(&self, parts: &Parts<'_>) -> Result<PathBuf, NoPlan> {
+        let names = parts.names();
         let no_cargo = RunError::Missing {
             message: format!(
-                "the plan uses {names}, whose Rust has to be built first: there is no cargo"
+                "the plan needs {names}, whose Rust has to be built first: there is no cargo"
             ),
             help:
                 "install Rust from https://rustup.rs, then run the same command again; plans that \
@@ -138,34 +193,12 @@ impl Runner {
         let built = cargo::build(Job {
             folder: &self.folder,
             target: Some(&self.target),
-            blame: Blame { generated: None, toolboxes },
+            blame: Blame { generated: None, toolboxes: &parts.toolboxes },
             no_cargo,
         })?;
         let program = built.ok_or(NoPlan::Wrong)?;
         fresh::done(&self.folder, &program, begun)?;
         Ok(program)
-    }
-}
-
-/// `the toolbox 'a'`, `the toolboxes 'a' and 'b'`.
-fn names(toolboxes: &[OwnToolbox]) -> String {
-    let names: Vec<_> = toolboxes.iter().map(|own| format!("'{}'", own.name)).collect();
-    match names.as_slice() {
-        [one] => format!("the toolbox {one}"),
-        _ => format!("the toolboxes {}", names.join(" and ")),
-    }
-}
-
-/// The project's folder if `below` can be made in it, else the user's cache.
-fn writable(project: &Path, below: &Path) -> Result<PathBuf, RunError> {
-    let folder = project.join(below);
-    let Err(error) = fs::create_dir_all(&folder) else { return Ok(project.to_owned()) };
-    let home = || Some(Path::new(&env::var_os("HOME")?).join(".cache"));
-    let cache = env::var_os("XDG_CACHE_HOME").map(PathBuf::from).or_else(home);
-    let cache = cache.map(|cache| cache.join("afp"));
-    match cache.filter(|cache| fs::create_dir_all(cache.join(below)).is_ok()) {
-        Some(cache) => Ok(cache),
-        None => Err(RunError::file("cannot make the folder", &folder)(error)),
     }
 }
 

@@ -65,16 +65,21 @@ impl OwnToolboxes {
         self.files.iter().map(|file| (file.toolbox.name.as_str(), file.text.as_str()))
     }
 
-    /// Those that a plan uses, with their crates.
+    /// Those that a plan uses, and that of the robot, with their crates.
     ///
     /// # Errors
-    /// There is no such crate.
+    /// There is no such crate, or the robot's toolbox is wrong.
     pub fn used_by(&self, graph: &Graph) -> Result<Vec<OwnToolbox>, ProjectError> {
         let (mut used, mut mistakes) = (Vec::new(), Vec::new());
+        let of_robot = self.project.project.robot.as_ref().and_then(|robot| robot.toolbox.as_ref());
         for file in &self.files {
             let name = &file.toolbox.name;
-            let declared = graph.toolboxes.iter().find(|toolbox| toolbox.name == *name);
-            let Some(declared) = declared.map(Arc::clone) else { continue };
+            let mut declared =
+                graph.toolboxes.iter().find(|toolbox| toolbox.name == *name).cloned();
+            if declared.is_none() && of_robot == Some(name) {
+                declared = self.with_built_in()?.get(name).cloned();
+            }
+            let Some(declared) = declared else { continue };
             match file.krate.clone() {
                 Ok(krate) => {
                     let (name, source) = (name.clone(), source(file));

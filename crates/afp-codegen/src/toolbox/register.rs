@@ -1,4 +1,4 @@
-//! The function that names every implementation of a toolbox to those who load plans.
+//! Names the implementations of a toolbox to those who load plans: all of them, or those that a platform supports.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -13,12 +13,12 @@ pub fn register(core: &TokenStream, toolbox: &Toolbox) -> TokenStream {
     let about = doc("", "Names the Rust type of every template and object to a registry.");
     let bounds = toolbox.templates.iter().filter(|t| t.kind != TemplateKind::Computation);
     let bounds = bounds.map(|template| {
-        let (marker, implementation) = types(core, template);
+        let (marker, implementation) = types(core, &quote!(super), template);
         let component = words(template.kind).component;
         quote!(#implementation: #core::#component<#marker, E>,)
     });
     let templates = toolbox.templates.iter().map(|template| {
-        let (marker, implementation) = types(core, template);
+        let (marker, implementation) = types(core, &quote!(super), template);
         let method = ident(&snake(&words(template.kind).component.to_string()));
         let (home, name) = (&toolbox.name, &template.name);
         quote!(registry.#method::<#marker, #implementation>(#home, #name);)
@@ -41,9 +41,84 @@ pub fn register(core: &TokenStream, toolbox: &Toolbox) -> TokenStream {
     }
 }
 
-/// The marker of a template and the type that implements it, for plans loaded at run time.
-fn types(core: &TokenStream, template: &Template) -> (TokenStream, TokenStream) {
+/// A platform, and what a toolbox is to be registered with for it.
+pub struct Support {
+    /// The path of `afp_core`.
+    pub core: TokenStream,
+    /// The module that holds `templates` beside the types that implement them.
+    pub home: TokenStream,
+    /// The expression of the registry, a `&mut`.
+    pub registry: TokenStream,
+    /// The type of the platform.
+    pub platform: TokenStream,
+    /// The paths of the traits that the toolbox asks for, to name those that are missing.
+    pub traits: Vec<TokenStream>,
+}
+
+/// Statements that register every template that a platform supports, and note the others with the traits that it
+/// does not implement.
+pub fn register_supported(toolbox: &Toolbox, support: &Support) -> TokenStream {
+    let Support { core, home, registry, platform, traits } = support;
+    let missing = traits.iter().map(|path| missing(platform, path));
+    let templates = toolbox.templates.iter().map(|template| {
+        let (marker, implementation) = types(core, home, template);
+        let method = ident(&snake(&words(template.kind).component.to_string()));
+        let (toolbox, name) = (&toolbox.name, &template.name);
+        let types = quote!(#home::templates::#marker, #implementation);
+        match template.kind {
+            TemplateKind::Computation => quote! {
+                #core::rt::Registry::<#platform>::#method::<#types>(registry, #toolbox, #name);
+            },
+            TemplateKind::Actor | TemplateKind::Supervisor => quote! {
+                (&#core::rt::Probe::<#types, #platform>::NEW)
+                    .#method(registry, (#toolbox, #name), missing);
+            },
+        }
+    });
+    let objects = toolbox.objects.iter().map(|object| {
+        let (toolbox, name, ty) = (&toolbox.name, &object.name, ident(&camel(&object.name)));
+        quote! {
+            #core::rt::Registry::<#platform>::object::<#home::#ty>(registry, #toolbox, #name);
+        }
+    });
+    quote! {{
+        #[allow(unused_imports)]
+        use #core::rt::{ActorSupported as _, SupervisorSupported as _, Unsupported as _};
+        #[allow(unused_variables)]
+        let missing: &[&'static str] = &[#(#missing),*];
+        let registry = &mut *#registry;
+        #(#templates)*
+        #(#objects)*
+    }}
+}
+
+/// An expression: the name of a trait that the platform does not implement; empty where it does.
+///
+/// A constant of the type itself, which is there where the trait is, counts before that of a trait.
+fn missing(platform: &TokenStream, path: &TokenStream) -> TokenStream {
+    let name = path.to_string();
+    let name = name.rsplit(':').next().unwrap_or("").trim();
+    quote! {{
+        trait Absent {
+            const NAME: &'static str = #name;
+        }
+        struct Of<T: ?Sized>(::core::marker::PhantomData<T>);
+        impl<T: ?Sized> Absent for Of<T> {}
+        #[allow(dead_code)]
+        impl<T: ?Sized + #path> Of<T> {
+            const NAME: &'static str = "";
+        }
+        <Of<#platform>>::NAME
+    }}
+}
+
+/// The marker of a template and the type that implements it in a module, for plans loaded at run time.
+fn types(
+    core: &TokenStream,
+    home: &TokenStream,
+    template: &Template,
+) -> (TokenStream, TokenStream) {
     let name = ident(&camel(&template.name));
     let generic = bound(template).map(|_| quote!(<#core::Value>));
-    (quote!(#name #generic), quote!(super::#name #generic))
+    (quote!(#name #generic), quote!(#home::#name #generic))
 }

@@ -115,4 +115,13 @@ pub trait Registry<E: ?Sized> {
 
     /// Adds an object type.
     fn object<T: Clone + Send + 'static>(&mut self, toolbox: &'static str, name: &'static str);
+
+    /// Notes that the platform does not support a template: of the traits that the toolbox asks for it does not
+    /// implement those that are `missing`; empty names are skipped.
+    fn unsupported(
+        &mut self,
+        toolbox: &'static str,
+        template: &'static str,
+        missing: &[&'static str],
+    );
 }

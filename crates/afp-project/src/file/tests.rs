@@ -104,3 +104,32 @@ fn a_crate_that_is_not_there_is_said_at_the_toolbox() {
     let elsewhere = "[toolboxes]\na = { path = 'a/a.afp', crate = { path = 'z' } }";
     assert!(said(elsewhere, &[]).contains("cannot read the manifest"));
 }
+
+#[test]
+fn the_crate_of_a_robot_is_named_or_that_of_its_toolbox_or_around_the_project_file() {
+    let toolbox = "[toolboxes]\nv = { path = 'kit/v.afp' }\n";
+    let manifest = |name: &str| format!("[package]\nname = \"{name}\"\n");
+    let robot_of = |text: &str| {
+        let folder = project(&[
+            ("afp.toml", text),
+            ("Cargo.toml", &manifest("whole")),
+            ("kit/Cargo.toml", &manifest("kit-v")),
+            ("kit/v.afp", ""),
+        ]);
+        find(folder.path()).robot().unwrap().map(|robot| robot.rust_type())
+    };
+    let text = format!("[robot]\ntoolbox = 'v'\nsim = 'Vacuum'\n{toolbox}");
+    assert_eq!(robot_of(&text).as_deref(), Some("kit_v::Vacuum"));
+    assert_eq!(robot_of("[robot]\nsim = 'a::Toy'").as_deref(), Some("whole::a::Toy"));
+    let text = format!("[robot]\ntoolbox = 'v'\nsim = 'Toy'\ncrate = {{ path = '.' }}\n{toolbox}");
+    assert_eq!(robot_of(&text).as_deref(), Some("whole::Toy"));
+    assert_eq!(robot_of(toolbox), None);
+}
+
+#[test]
+fn a_robot_without_a_crate_is_said_at_its_heading() {
+    let folder = project(&[("afp.toml", "[robot]\nsim = 'Toy'\ncrate = { path = 'x' }")]);
+    let text = find(folder.path()).robot().unwrap_err().to_string();
+    assert!(text.contains("cannot read the manifest"), "{text}");
+    assert!(text.contains("afp.toml:1:2"), "{text}");
+}

@@ -15,6 +15,15 @@ pub enum LoadError {
         /// The template.
         template: String,
     },
+    /// The platform does not have what a template asks for.
+    Unsupported {
+        /// The toolbox.
+        toolbox: String,
+        /// The template.
+        template: String,
+        /// Traits that the toolbox asks for and the platform does not implement.
+        missing: Vec<&'static str>,
+    },
     /// No Rust type was registered for an object type.
     NoObject {
         /// The toolbox.
@@ -39,6 +48,14 @@ impl fmt::Display for LoadError {
         match self {
             LoadError::NoComponent { toolbox, template } => {
                 write!(f, "no implementation of '{toolbox}.{template}' is registered")
+            }
+            LoadError::Unsupported { toolbox, template, missing } => {
+                write!(f, "the robot does not support '{toolbox}.{template}'")?;
+                let names: Vec<_> = missing.iter().map(|name| format!("'{name}'")).collect();
+                match names.is_empty() {
+                    true => Ok(()),
+                    false => write!(f, ": it does not implement {}", names.join(", ")),
+                }
             }
             LoadError::NoObject { toolbox, name } => {
                 write!(f, "no Rust type of object '{toolbox}.{name}' is registered")

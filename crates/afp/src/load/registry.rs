@@ -31,6 +31,8 @@ pub struct Registry<E: ?Sized + 'static> {
     supervisors: Map<NewSupervisor<E>>,
     computations: Map<NewComputation>,
     objects: Map<NewCell>,
+    /// Templates that the platform does not support, with the traits that it does not implement.
+    unsupported: Map<Vec<&'static str>>,
 }
 
 impl<E: ?Sized> Registry<E> {
@@ -41,6 +43,7 @@ impl<E: ?Sized> Registry<E> {
             supervisors: BTreeMap::new(),
             computations: BTreeMap::new(),
             objects: BTreeMap::new(),
+            unsupported: BTreeMap::new(),
         }
     }
 
@@ -102,6 +105,11 @@ impl<E: ?Sized> Registry<E> {
         find(&self.computations, toolbox, name).map(|new| new())
     }
 
+    /// Which traits the platform lacks for a template; none where that is not why the template is unknown.
+    pub(super) fn missing(&self, toolbox: &str, template: &str) -> Option<&[&'static str]> {
+        find(&self.unsupported, toolbox, template).map(Vec::as_slice)
+    }
+
     pub(super) fn object_cell(&self, toolbox: &str, name: &str) -> Option<NewCell> {
         find(&self.objects, toolbox, name).copied()
     }
@@ -156,5 +164,15 @@ impl<E: ?Sized + 'static> rt::Registry<E> for Registry<E> {
 
     fn object<T: Clone + Send + 'static>(&mut self, toolbox: &'static str, name: &'static str) {
         self.add_object::<T>(toolbox, name);
+    }
+
+    fn unsupported(
+        &mut self,
+        toolbox: &'static str,
+        template: &'static str,
+        missing: &[&'static str],
+    ) {
+        let missing = missing.iter().copied().filter(|name| !name.is_empty()).collect();
+        add(&mut self.unsupported, toolbox, template, missing);
     }
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use afp_codegen::{CrateOptions, crate_files};
+use afp_project::RobotLink;
 use afp_run::{RunError, say};
 use clap::{Args, ValueEnum};
 
@@ -72,11 +73,15 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let origin = origin::of_afp(&file.own.project)?;
     let stem = file.path.file_stem().unwrap_or("plan".as_ref());
     let folder = arguments.output.clone().unwrap_or_else(|| Path::new(BUILDS).join(stem));
+    let robot = file.own.project.robot()?;
+    let crates = toolboxes.iter().map(|own| &own.krate);
+    let crates = crates.chain(robot.iter().map(|robot| &robot.krate));
     let options = CrateOptions {
         file: file.path.display().to_string(),
         texts: file.compiled.plan_texts(),
         origin: origin.clone(),
-        dependencies: toolboxes.iter().map(|own| origin::dependency(&own.krate)).collect(),
+        dependencies: crates.map(origin::dependency).collect(),
+        robot: robot.as_ref().map(RobotLink::rust_type),
         lib: arguments.lib,
     };
     let files = crate_files(&graph, &options);

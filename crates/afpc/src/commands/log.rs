@@ -11,6 +11,7 @@ use afp_run::{EXIT_FAILED, EXIT_OK, RunError, say};
 use clap::{Args, ValueEnum};
 
 use super::print;
+use crate::Linked;
 use crate::plan_file::NoPlan;
 
 /// Arguments of `afpc log`.
@@ -71,8 +72,8 @@ Exit codes: 0 done or sound, 1 the file cannot be read or is not sound, 2 wrong 
 ///
 /// # Errors
 /// A file cannot be read or written.
-pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
-    pictures::draw(arguments)?;
+pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
+    pictures::draw(arguments, linked)?;
     match arguments.action {
         Action::Timeline => {
             let log = read(&arguments.file).map_err(RunError::from)?;

@@ -1,13 +1,13 @@
-//! `afpc run`: compiles a plan in memory and drives the simulated robot with it.
+//! `afpc run`: compiles a plan in memory and drives the robot of the project, simulated, with it.
 
 use afp_run::options::RunOptions;
 use afp_run::{Program, RunError};
-use afp_session::{AnyWorld, Loader};
+use afp_session::AnyWorld;
 use clap::Args;
 
 use crate::picture;
 use crate::plan_file::{NoPlan, PlanFile};
-use crate::{Linked, robot, runner};
+use crate::{Linked, runner};
 
 /// Arguments of `afpc run`.
 #[derive(Args, Debug)]
@@ -23,7 +23,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// The plan is wrong, a file does not work.
-pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
+pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     arguments.options.check()?;
     let file = match (&arguments.plan, &arguments.options.again) {
         (Some(plan), _) => PlanFile::read(plan)?,
@@ -32,9 +32,8 @@ pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
     };
     runner::become_one_for(file.compiled.graph.iter().map(|graph| (&file.own, graph)), linked)?;
     let (file, graph) = file.checked()?;
-    let robot = robot(linked);
     let make = |world: &dyn AnyWorld, seed: u64, measures: &[&str]| {
-        robot.session(&graph, world, seed, measures)
+        linked.robot.session(&graph, world, seed, measures)
     };
     let path = file.path.display().to_string();
     let mut texts = file.compiled.plan_texts();
@@ -46,5 +45,11 @@ pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
     let texts: Vec<_> = texts.iter().map(|(path, text)| (path.as_str(), text.as_str())).collect();
     let program = Program { name: &graph.main().name, file: &path, texts: &texts };
     let pixels = |svg: &str| picture::pixels(svg, picture::DEFAULT_SCALE);
-    Ok(afp_run::run(&program, &robot, Box::new(make), &arguments.options, Some(&pixels))?)
+    Ok(afp_run::run(
+        &program,
+        linked.robot.kind(),
+        Box::new(make),
+        &arguments.options,
+        Some(&pixels),
+    )?)
 }

@@ -14,7 +14,7 @@ use clap::Args;
 
 use crate::cli::PlanArgument;
 use crate::plan_file::{NoPlan, PlanFile};
-use crate::{Linked, robot, runner};
+use crate::{Linked, runner};
 
 use tell::Teller;
 
@@ -95,13 +95,12 @@ fn worlds(text: &str) -> Result<Worlds, String> {
 ///
 /// # Errors
 /// The plan is wrong, a file does not work, there is something to vary that is not there.
-pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
+pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     let file = PlanFile::read(&arguments.plan.plan)?;
     runner::become_one_for(file.compiled.graph.iter().map(|graph| (&file.own, graph)), linked)?;
     let (file, graph) = file.checked()?;
     let mut sweep = arguments.sweep()?;
-    let robot = robot(linked);
-    let setting = Setting::new(&mut sweep, &graph, &file.path, &robot)?;
+    let setting = Setting::new(&mut sweep, &graph, &file.path, linked.robot)?;
     let header = Header::new(program(linked)?, (&file.compiled, &graph), &setting, &sweep);
     let place = Place::new(arguments.output.as_deref(), &file.path, &header)?;
     let (mut journal, mut outcomes) = Journal::open(&place.journal, &header, arguments.restart)?;
@@ -178,9 +177,9 @@ fn go_on(
 }
 
 /// What runs the plans: with toolboxes of one's own, what the program was built from counts too.
-fn program(linked: &[Linked]) -> Result<String, RunError> {
+fn program(linked: &Linked<'_>) -> Result<String, RunError> {
     let version = env!("CARGO_PKG_VERSION").to_owned();
-    if linked.is_empty() {
+    if !linked.is_runner() {
         return Ok(version);
     }
     let me = std::env::current_exe().map_err(RunError::file("cannot find", "afpc".as_ref()))?;

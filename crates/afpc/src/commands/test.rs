@@ -16,7 +16,7 @@ use clap::Args;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use crate::plan_file::{NoPlan, PlanFile};
-use crate::{Linked, robot, runner};
+use crate::{Linked, runner};
 
 use tell::Teller;
 
@@ -84,11 +84,11 @@ struct Done {
 ///
 /// # Errors
 /// Nothing to run, a file that cannot be read.
-pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
+pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     if arguments.generate {
         let files: Vec<_> = arguments.what.iter().map(PathBuf::from).collect();
         let output = arguments.output.as_deref();
-        return generate::run(&files, output, &robot(linked), linked);
+        return generate::run(&files, output, linked);
     }
     let find::Wanted { files, filters } = find::wanted(&arguments.what)?;
     let mut code = EXIT_OK;
@@ -112,7 +112,7 @@ pub fn run(arguments: &Arguments, linked: &[Linked]) -> Result<u8, NoPlan> {
 }
 
 /// Becomes a program with the toolboxes that the plans of all scenarios use, if some are not linked in.
-fn link(files: &[PlanFile], linked: &[Linked]) -> Result<(), NoPlan> {
+fn link(files: &[PlanFile], linked: &Linked<'_>) -> Result<(), NoPlan> {
     let plans = files.iter().flat_map(|file| {
         file.compiled.scenarios.iter().map(|scenario| (&file.own, &*scenario.graph))
     });
@@ -139,15 +139,14 @@ fn matches(case: &Case<'_>, filters: &[String]) -> bool {
 }
 
 /// Runs the cases on all cores; whether one of them failed.
-fn run_all(cases: &[Case<'_>], arguments: &Arguments, linked: &[Linked]) -> Result<bool, NoPlan> {
-    let robot = robot(linked);
+fn run_all(cases: &[Case<'_>], arguments: &Arguments, linked: &Linked<'_>) -> Result<bool, NoPlan> {
     let begun = Wall::now();
     let teller = Teller::new(cases.len(), arguments.json);
     let done: Vec<Done> = cases
         .par_iter()
         .with_max_len(1)
         .map(|case| {
-            let done = run_one(case, &robot);
+            let done = run_one(case, linked.robot);
             teller.done(case, &done);
             done
         })
@@ -205,7 +204,7 @@ impl Done {
 }
 
 fn run_one(case: &Case<'_>, robot: &dyn Loader) -> Done {
-    let setting = match Setting::find(case.scenario, case.file, robot) {
+    let setting = match Setting::find(case.scenario, case.file, robot.kind()) {
         Ok(setting) => setting,
         Err(error) => return Done { verdict: Err(error), log: None },
     };

@@ -69,6 +69,8 @@ impl Place {
     pub fn command(&self) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_afpc"));
         command.current_dir(self.folder.path());
+        // Runners are kept in the place's own cache.
+        command.env_remove("CARGO_TARGET_DIR").env("XDG_CACHE_HOME", self.path("cache"));
         command
     }
 

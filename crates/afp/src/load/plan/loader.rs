@@ -100,9 +100,13 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
     ) -> Result<T, LoadError> {
         let toolbox = &self.graph.toolboxes[id.toolbox.index()].name;
         let template = &self.graph.template(id).name;
-        new(self.registry, toolbox, template).ok_or_else(|| LoadError::NoComponent {
-            toolbox: toolbox.clone(),
-            template: template.clone(),
+        new(self.registry, toolbox, template).ok_or_else(|| {
+            let missing = self.registry.missing(toolbox, template).map(<[_]>::to_vec);
+            let (toolbox, template) = (toolbox.clone(), template.clone());
+            match missing {
+                Some(missing) => LoadError::Unsupported { toolbox, template, missing },
+                None => LoadError::NoComponent { toolbox, template },
+            }
         })
     }
 }

@@ -3,32 +3,36 @@
 use std::path::Path;
 
 use afp_log::{LogData, read};
+use afp_project::ProjectFile;
 use afp_run::RunError;
-use afp_session::kind;
-use afp_sim::Simulation;
 use afp_test::Coverage;
 
 use super::Arguments;
 use crate::commands::graph;
-use crate::picture;
 use crate::plan_file::{NoPlan, PlanFile};
+use crate::{Linked, picture, runner};
 
 /// Draws the pictures that are asked for, each into its file.
 ///
 /// # Errors
 /// The log cannot be read or does not hold what a picture shows; a file cannot be written.
-pub(super) fn draw(arguments: &Arguments) -> Result<(), NoPlan> {
+pub(super) fn draw(arguments: &Arguments, linked: &Linked<'_>) -> Result<(), NoPlan> {
     let Arguments { svg, sonar, film, coverage, .. } = arguments;
     if [svg, sonar, film, coverage].iter().all(|picture| picture.is_none()) {
         return Ok(());
     }
     let log = read(&arguments.file).map_err(RunError::from)?;
-    let robot = kind::<Simulation>();
+    if svg.is_some() || sonar.is_some() {
+        // Only the robot of the project that the run was of can read its world.
+        let file = log.facts.get("plan_file").map_or("", String::as_str);
+        runner::become_one_of(&ProjectFile::of_plan(Path::new(file))?, linked)?;
+    }
+    let robot = linked.robot.kind();
     if let Some(path) = svg {
-        picture::write(path, &afp_run::draw_log(&log, &robot)?)?;
+        picture::write(path, &afp_run::draw_log(&log, robot)?)?;
     }
     if let Some(path) = sonar {
-        picture::write(path, &afp_run::draw_sonar(&log, &robot)?)?;
+        picture::write(path, &afp_run::draw_sonar(&log, robot)?)?;
     }
     if let Some(path) = film {
         picture::write(path, &afp_run::draw_film(&log)?)?;

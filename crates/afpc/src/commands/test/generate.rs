@@ -24,8 +24,7 @@ const RUN: u64 = 60_000_000_000;
 pub(super) fn run(
     files: &[PathBuf],
     output: Option<&Path>,
-    robot: &dyn Loader,
-    linked: &[Linked],
+    linked: &Linked<'_>,
 ) -> Result<u8, NoPlan> {
     if files.is_empty() {
         let help = "afpc test --generate plans/patrol.afp";
@@ -38,7 +37,7 @@ pub(super) fn run(
     for file in read {
         let (file, graph) = file.checked()?;
         let path = place(&file.path, output, files.len() > 1)?;
-        let made = generate(&file.path, &path, graph, robot)?;
+        let made = generate(&file.path, &path, graph, linked.robot)?;
         let text = afp_format::format(&made.text).unwrap_or(made.text);
         write_whole("cannot write the scenarios", &path, text)?;
         print(&format!("{}: {} scenarios\n", path.display(), made.scenarios))?;
@@ -64,8 +63,9 @@ fn generate(
     }
     let plan_file = file.display().to_string();
     let quiet = Scenario::quiet("as it goes", Arc::new(graph), plan_file, RUN);
-    let setting = Setting::find(&quiet, file, robot)?;
-    afp_test::generate(&way(file, to)?, &quiet, robot.devices(), &mut |scenario| {
+    let setting = Setting::find(&quiet, file, robot.kind())?;
+    let devices = robot.kind().devices();
+    afp_test::generate(&way(file, to)?, &quiet, devices, &mut |scenario| {
         afp_test::run(scenario, &setting, robot, None)
     })
 }

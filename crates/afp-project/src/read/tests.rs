@@ -1,0 +1,114 @@
+//! Texts of project files, sound and broken.
+
+use super::read;
+use crate::project::{Origin, Project};
+
+#[test]
+fn a_whole_file_is_read() {
+    let text = "\
+[run]
+world = 'w.toml'
+measures = ['wall']
+
+[toolboxes]
+b = { path = 'b.afp' }
+a.path = 'a.afp'
+a.crate = { git = 'https://x', package = 'aa', module = 'm' }
+c = { path = 'c.afp', crate = 'cc' }
+
+[target.pi]
+capacity = 0.5
+[target.toy]
+tick = '2 ms'
+
+[afp]
+version = '0.1'
+";
+    let (project, mistakes) = read(text);
+    assert_eq!(mistakes, []);
+    assert_eq!(project.world.as_deref(), Some("w.toml"));
+    assert_eq!(project.measures, ["wall"]);
+    assert_eq!(project.afp, Some(Origin::Version("0.1".to_owned())));
+    let names: Vec<_> = project.toolboxes.iter().map(|toolbox| &*toolbox.name).collect();
+    assert_eq!(names, ["b", "a", "c"]);
+    let krate = &project.toolboxes[1].krate;
+    assert_eq!(krate.origin, Some(Origin::Git("https://x".to_owned())));
+    assert_eq!((krate.package.as_deref(), krate.module.as_deref()), (Some("aa"), Some("m")));
+    assert_eq!(project.toolboxes[2].krate.package.as_deref(), Some("cc"));
+    let [pi, toy] = &project.targets[..] else { panic!("{:?}", project.targets) };
+    assert_eq!((pi.tick, pi.capacity), (None, Some(0.5)));
+    assert_eq!((toy.tick, toy.capacity), (Some(2_000_000), None));
+    assert_eq!(read("").0, Project::default());
+}
+
+/// The texts that mistakes are about.
+fn wrong(text: &str) -> Vec<&str> {
+    let (_, mistakes) = read(text);
+    for mistake in &mistakes {
+        assert!(!mistake.message.is_empty() && !mistake.message.contains('\n'), "{mistake}");
+    }
+    mistakes.iter().map(|mistake| &text[mistake.span.clone()]).collect()
+}
+
+#[test]
+fn what_is_wrong_is_named_at_its_place_all_at_once() {
+    assert_eq!(wrong("run = 3\n[rum]\n[afp]\npaht = 1"), ["3", "rum", "paht"]);
+    assert_eq!(wrong("[run]\nworlds = 'x'\nworld = 7"), ["worlds", "7"]);
+    assert_eq!(wrong("[run]\nmeasures = 'wall'"), ["'wall'"]);
+    assert_eq!(wrong("[run]\nmeasures = [1]"), ["[1]"]);
+    assert_eq!(wrong("[toolboxes]\na = 1\nb = {}\nc = { crate = 'x' }"), ["1", "b", "c"]);
+    assert_eq!(wrong("[toolboxes]\na = { path = 'x', crate = 3 }"), ["3"]);
+    assert_eq!(wrong("[toolboxes]\na = { path = '', krate = 'x' }"), ["''", "krate"]);
+    assert_eq!(wrong("[toolboxes]\na.path = 'x'\na.crate = { git = 1, nam = 2 }"), ["1", "nam"]);
+    assert_eq!(wrong("[afp]\npath = 'x'\ngit = 'y'"), ["afp"]);
+}
+
+#[test]
+fn what_is_wrong_with_a_target_is_named_at_its_place() {
+    assert_eq!(wrong("[target.a]\ntock = 1"), ["tock"]);
+    assert_eq!(wrong("[target.a]\ntick = 1"), ["1"]);
+    assert_eq!(wrong("[target.a]\ntick = \"0 s\""), ["\"0 s\""]);
+    assert_eq!(wrong("[target.a]\ntick = \"3 cm\""), ["\"3 cm\""]);
+    assert_eq!(wrong("[target.a]\ncapacity = 1.5\ntick = 1"), ["1.5", "1"]);
+    assert_eq!(wrong("[target]\na = 3"), ["3"]);
+    assert_eq!(wrong("target = 3"), ["3"]);
+}
+
+#[test]
+fn no_text_is_too_strange() {
+    for text in ["[", "a = ", "[a]\n[a]", "\u{0}", "run.world.x = 1", "[[toolboxes]]\na = 1"] {
+        let (_, mistakes) = read(text);
+        assert!(!mistakes.is_empty(), "{text:?}");
+        for mistake in mistakes {
+            assert!(text.get(mistake.span.clone()).is_some(), "{text:?}: {mistake:?}");
+        }
+    }
+}
+
+#[test]
+fn a_robot_is_read_with_its_toolbox_above_or_below() {
+    let of = |text: &str| {
+        let (project, mistakes) = read(text);
+        assert_eq!(mistakes, []);
+        let robot = project.robot.unwrap();
+        (robot.toolbox, robot.sim, robot.krate.and_then(|krate| krate.origin))
+    };
+    let vacuum = Some("vacuum".to_owned());
+    let text =
+        "[robot]\ntoolbox = 'vacuum'\nsim = 'sim::Vacuum'\n[toolboxes]\nvacuum.path = 'v.afp'";
+    assert_eq!(of(text), (vacuum, "sim::Vacuum".to_owned(), None));
+    let text = "[robot]\nsim = 'Toy'\ncrate = { path = 'toy' }";
+    assert_eq!(of(text), (None, "Toy".to_owned(), Some(Origin::Path("toy".to_owned()))));
+    assert_eq!(read("[run]").0.robot, None);
+}
+
+#[test]
+fn what_is_wrong_with_a_robot_is_named_at_its_place() {
+    assert_eq!(wrong("[robot]\ntoolbox = 'v'\nsim = 'V'"), ["'v'"]);
+    assert_eq!(wrong("[robot]\ncrate = 'v'"), ["robot"]);
+    assert_eq!(wrong("[robot]\nsim = 'a b'"), ["'a b'"]);
+    assert_eq!(wrong("[robot]\nsim = 'a::'\nsom = 1"), ["'a::'", "som"]);
+    assert_eq!(wrong("robot = 3"), ["3"]);
+    let (_, mistakes) = read("[robot]\nsim = 'V'\ntoolbox = 'v'\n[toolboxes]\nw.path = 'w.afp'");
+    assert_eq!(mistakes[0].help, "write 'w'");
+}
