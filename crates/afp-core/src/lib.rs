@@ -14,6 +14,7 @@ mod job;
 mod machine;
 mod platform;
 pub mod quantity;
+mod reading;
 #[doc(hidden)]
 pub mod rt;
 mod scheduler;
@@ -30,6 +31,7 @@ pub use fault::{Failure, Fault, Reason};
 pub use job::{Job, Ticket, Worker};
 pub use machine::MAX_TRANSITIONS_PER_STEP;
 pub use platform::Platform;
+pub use reading::{Invalid, Reading};
 pub use rt::{NamedPlan, Plan, PlanState, Scale, Unit, WriteError};
 pub use scheduler::{MAX_WRITES_PER_STEP, Scheduler, SetError, StartError, TypedEntry, Wake};
 pub use time::{Duration, Instant};

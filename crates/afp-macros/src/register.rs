@@ -44,6 +44,9 @@ impl Parse for Input {
 /// # Errors
 /// Compile errors: a toolbox file that cannot be read or is wrong.
 pub fn statements(input: &Input) -> Result<TokenStream, TokenStream> {
-    let (toolbox, _) = read_toolbox(&input.file)?;
+    let (toolbox, errors, _) = read_toolbox(&input.file)?;
+    if !errors.is_empty() {
+        return Err(errors);
+    }
     Ok(register_supported(&toolbox, &input.support))
 }

@@ -27,6 +27,7 @@ mod event;
 mod faults;
 mod figures;
 mod observer;
+pub mod parts;
 mod recipe;
 mod record;
 mod request;

@@ -11,7 +11,6 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
-mod clock;
 mod devices;
 mod film;
 #[cfg(feature = "load")]
@@ -25,7 +24,7 @@ mod wall;
 pub mod world;
 
 pub use afp_carbot::fault::{Defect, Fault, Sensor, Side};
-pub use clock::VirtualClock;
+pub use afp_session::parts::VirtualClock;
 pub use film::Film;
 #[cfg(feature = "load")]
 pub use load::carbot;

@@ -15,7 +15,6 @@ mod snapshot;
 pub use bare::Bare;
 pub use snapshot::{Snapshot, Sonar};
 
-use crate::clock::VirtualClock;
 use crate::devices::battery::Battery;
 use crate::devices::bumper::Switch;
 use crate::devices::camera::Exposure;
@@ -24,7 +23,7 @@ use crate::devices::infrared::Infrared;
 use crate::devices::odometer::Odometer;
 use crate::devices::rotator::Rotator;
 use crate::devices::sonar;
-use crate::noise::{Noise, Source};
+use crate::noise::Source;
 use crate::scene::Scene;
 use crate::truth::{Collisions, Pose, Truth};
 use crate::vehicle::Twist;
@@ -35,6 +34,7 @@ use afp_carbot::fault::Fault;
 use afp_core::{Duration, Instant};
 use afp_flow::{FlowJob, FlowSensor, LucasKanade};
 use afp_session::Faults;
+use afp_session::parts::VirtualClock;
 use afp_worker::VirtualWorker;
 use build::{Built, build};
 use faults::Lines;
@@ -110,7 +110,7 @@ impl Simulation {
     /// An obstacle without an area; [`World::parse`] lets none through.
     pub fn new(world: &World, seed: u64) -> Result<Self, WorldError> {
         let Built { physics, body, collider, shapes, movers } = build(world)?;
-        let mut differences = Noise::new(seed, Source::Build);
+        let mut differences = Source::Build.of(seed);
         Ok(Simulation {
             physics,
             body,

@@ -18,7 +18,7 @@ pub(crate) struct Switch {
 
 impl Switch {
     pub(crate) fn new(seed: u64) -> Self {
-        let noise = Noise::new(seed, Source::Bumper);
+        let noise = Source::Bumper.of(seed);
         Switch { noise, pressed: false, bouncing: 0, says: false }
     }
 

@@ -21,7 +21,7 @@ pub(crate) struct ColorSensor {
 
 impl ColorSensor {
     pub(crate) fn new(seed: u64) -> Self {
-        ColorSensor { noise: Noise::new(seed, Source::Color) }
+        ColorSensor { noise: Source::Color.of(seed) }
     }
 
     /// What it sees from a robot at this place.

@@ -31,7 +31,7 @@ pub(crate) struct Infrared {
 
 impl Infrared {
     pub(crate) fn new(seed: u64) -> Self {
-        Infrared { noise: Noise::new(seed, Source::Infrared) }
+        Infrared { noise: Source::Infrared.of(seed) }
     }
 
     /// What it sees from a robot at this place.

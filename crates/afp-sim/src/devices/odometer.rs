@@ -31,7 +31,7 @@ impl Odometer {
     pub(crate) fn new(seed: u64, build: &mut Noise) -> Self {
         let scale = 1.0 + SCALE * build.normal();
         Odometer {
-            noise: Noise::new(seed, Source::Odometry),
+            noise: Source::Odometry.of(seed),
             scale,
             turn_scale: scale * (1.0 + TRACK * build.normal()),
             x: 0.0,

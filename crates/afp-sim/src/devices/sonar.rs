@@ -76,7 +76,7 @@ impl Sonar {
             *ray = (cos, sin, 1.0 - (1.0 - EDGE) * share * share);
         }
         Sonar {
-            noise: Noise::new(seed, Source::Ultrasonic),
+            noise: Source::Ultrasonic.of(seed),
             scale: 1.0 + CALIBRATION * build.normal(),
             rays,
         }

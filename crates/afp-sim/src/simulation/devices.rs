@@ -1,7 +1,6 @@
 //! The simulation as the Carbot's devices.
 
 use super::Simulation;
-use crate::devices::line::Line;
 use crate::devices::{camera, infrared, sonar};
 use crate::vehicle::drive::reduced;
 use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
@@ -12,6 +11,7 @@ use afp_carbot::devices::{
 };
 use afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
 use afp_core::{Environment, Fault, Instant};
+use afp_session::parts::Line;
 
 impl Environment for Simulation {
     fn stop(&mut self, now: Instant) {
@@ -41,8 +41,7 @@ impl Simulation {
 
     /// A reading as it arrives at the plan.
     fn deliver<T: Clone>(&self, line: &Line<T>, raw: Reading<T>) -> Reading<T> {
-        self.charge_for(line);
-        line.read(raw)
+        line.sense(raw, self.now, &self.clock)
     }
 
     /// Takes the time that one use of a sensor costs.

@@ -2,13 +2,13 @@
 
 use super::Simulation;
 use crate::devices::camera::Exposure;
-use crate::devices::line::Line;
 use crate::vehicle::drive::Health;
 use afp_carbot::devices::{Charge, Color, Echo, Glow, Motion, Reading};
 use afp_carbot::fault::{Defect, Fault, Sensor, Side};
 use afp_core::quantity::Angle;
 use afp_core::{Duration, Instant};
 use afp_session::Active;
+use afp_session::parts::Line;
 use std::sync::Arc;
 
 /// From each sensor to the plan.

@@ -4,13 +4,13 @@ use afp_carbot::devices::{Color, Ultrasonic};
 use afp_carbot::fault::Fault;
 use afp_carbot::table::{Carbot, Control, signal};
 use afp_core::{Instant, Platform};
+use afp_session::parts::VirtualClock;
 use afp_session::{
     Active, Figure, FigureValue, Image, Measure, Pose2, Ranging, Refused, Robot, SampleRef,
     Samples, Shape, Simulated, Span, Transform,
 };
 
 use super::{Simulation, Snapshot};
-use crate::clock::VirtualClock;
 use crate::devices::camera;
 use crate::wall::WallDistance;
 use crate::world::{World, shape};

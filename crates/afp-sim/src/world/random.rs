@@ -44,7 +44,7 @@ impl World {
 
 /// The first room of the seed's stream in which the robot has a place.
 fn made(seed: u64) -> (String, World) {
-    let mut noise = Noise::new(seed, Source::Rooms);
+    let mut noise = Source::Rooms.of(seed);
     loop {
         let text = Room::new(&mut noise).furnish(seed);
         if let Some(text) = text

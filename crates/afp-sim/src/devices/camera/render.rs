@@ -22,8 +22,7 @@ const GRAIN: u32 = 3;
 
 /// The picture seen from a robot at this place, with its own grain.
 pub(super) fn render(scene: &Scene, robot: Place, seed: u64) -> Vec<u8> {
-    let mut picture =
-        Picture { rgb: vec![0; COLUMNS * ROWS * 3], grain: Noise::new(seed, Source::Camera) };
+    let mut picture = Picture { rgb: vec![0; COLUMNS * ROWS * 3], grain: Source::Camera.of(seed) };
     let focus = focus();
     let eye = robot.beyond(FORWARD, 0.0);
     let mut met: Vec<(&Solid, Crossing)> = Vec::new();
