@@ -40,7 +40,7 @@ pub fn run(profile: Profile) -> Result<(), Failure> {
     long.args(["test", "--package", "afpc", "--test", "build"]);
     if profile == Profile::Release {
         // With the command line itself among what is built.
-        long.args(["--test", "own_toolboxes"]);
+        long.args(["--test", "own_toolboxes", "--test", "new"]);
     }
     run_command(long.args(["--", "--ignored"]))
 }

@@ -14,6 +14,7 @@ mod python;
 mod scxml;
 mod shell;
 mod suites;
+mod vacuum;
 mod wasm;
 
 use std::process::ExitCode;

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::install::Profile;
 use crate::shell::{Failure, cargo, run as run_command};
-use crate::{arm, bench, engine, fuzz, gate, install, opencv, python, scxml, wasm};
+use crate::{arm, bench, engine, fuzz, gate, install, opencv, python, scxml, vacuum, wasm};
 
 /// A suite by its name.
 type Suite = (&'static str, fn() -> Result<(), Failure>);
@@ -18,6 +18,7 @@ pub const TEST: &[Suite] = &[
     ("gate", gate::run),
     ("web", wasm::run),
     ("install", || install::run(Profile::Debug)),
+    ("vacuum", vacuum::test),
 ];
 
 /// What `cargo xtask nightly` runs.
@@ -34,6 +35,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("gate", gate::run),
     ("web", wasm::run),
     ("install", || install::run(Profile::Release)),
+    ("vacuum", vacuum::all),
     ("long run", long_run),
     ("opencv", opencv::run),
     ("fuzz", || fuzz::run(&[], FUZZED)),

@@ -94,6 +94,9 @@ impl Available {
         if project.exists {
             self.texts.push(include(&project.path()));
         }
+        if let Some(name) = project.project.robot.as_ref().and_then(|it| it.toolbox.as_ref()) {
+            self.toolboxes.set_robot(name);
+        }
         for file in project.toolboxes()? {
             let name = file.toolbox.name;
             let path = match file.krate {

@@ -84,11 +84,11 @@ pub struct RunOptions {
     pub json: bool,
 
     /// Serves live data on a port (comes with the live server)
-    #[arg(long, value_name = "PORT")]
+    #[arg(long, value_name = "PORT", hide = true)]
     pub live: Option<u16>,
 
     /// Reports real-time behaviour (comes with the driver for the Raspberry Pi)
-    #[arg(long)]
+    #[arg(long, hide = true)]
     pub rt_report: bool,
 }
 

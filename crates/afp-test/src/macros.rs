@@ -5,7 +5,7 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use afp_dsl::toolbox::Toolboxes;
-use afp_project::ProjectFile;
+use afp_project::{ProjectError, ProjectFile};
 use afp_session::Loader;
 use afp_syntax::source::Source;
 
@@ -20,24 +20,33 @@ pub fn check(file: &Path, name: &str, robot: &dyn Loader) {
         panic!("scenario \"{name}\" of {}\n{}", file.display(), anstream::adapter::strip_str(&text))
     };
     let text = fs::read_to_string(file).unwrap_or_else(|error| failed(error.to_string()));
-    let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
-    let project = ProjectFile::of_plan(file).and_then(|project| project.toolboxes());
-    for own in project.unwrap_or_else(|error| failed(error.to_string())) {
-        let source = Source::new(own.path.display().to_string(), own.text);
-        toolboxes.add(source, &own.toolbox.name);
-    }
+    let toolboxes = toolboxes(file).unwrap_or_else(|error| failed(error.to_string()));
     let source = Source::new(file.display().to_string(), text);
     let compiled = afp_dsl::compile(&source, &toolboxes, &read);
     let Some(scenario) = compiled.scenarios.iter().find(|each| each.name == name) else {
         failed(compiled.render(false))
     };
-    let setting =
-        Setting::find(scenario, file, robot.kind()).unwrap_or_else(|error| failed(error.to_string()));
+    let setting = Setting::find(scenario, file, robot.kind())
+        .unwrap_or_else(|error| failed(error.to_string()));
     match run(scenario, &setting, robot, None) {
         Ok(verdict) if verdict.passed() => {}
         Ok(verdict) => failed(verdict.report()),
         Err(error) => failed(error.to_string()),
     }
+}
+
+/// The built-in toolboxes and those of a file's project.
+fn toolboxes(file: &Path) -> Result<Toolboxes, ProjectError> {
+    let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+    let project = ProjectFile::of_plan(file)?;
+    for own in project.toolboxes()? {
+        let source = Source::new(own.path.display().to_string(), own.text);
+        toolboxes.add(source, &own.toolbox.name);
+    }
+    if let Some(name) = project.project.robot.and_then(|robot| robot.toolbox) {
+        toolboxes.set_robot(&name);
+    }
+    Ok(toolboxes)
 }
 
 /// The text of a file that another one uses.

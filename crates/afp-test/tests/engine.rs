@@ -282,11 +282,15 @@ plan Ahead {
     let quiet = Scenario::quiet("", base.scenarios[0].graph.clone(), "case.afp", 30_000_000_000);
     let setting = Setting::find(&quiet, Path::new("case.afp"), robot().kind()).unwrap();
     let mut runs = 0;
-    let made =
-        afp_test::generate("case.afp", &quiet, robot().kind().devices(), &mut |scenario: &Scenario| {
+    let made = afp_test::generate(
+        "case.afp",
+        &quiet,
+        robot().kind().devices(),
+        &mut |scenario: &Scenario| {
             runs += 1;
             afp_test::run(scenario, &setting, &robot(), None)
-        });
+        },
+    );
     let made = made.unwrap();
     assert_eq!(made.left_out, ["no run reached 'never'"]);
     assert!(runs < 20, "{runs} runs");

@@ -58,7 +58,8 @@ impl Made {
         let quiet = Scenario::quiet("as it goes", graph, &*name, DEFAULT_UNTIL);
         let setting = Setting::find(&quiet, file, robot.kind()).unwrap();
         let mut go = |scenario: &Scenario| afp_test::run(scenario, &setting, robot, None);
-        let generated = afp_test::generate("same file", &quiet, robot.kind().devices(), &mut go).unwrap();
+        let generated =
+            afp_test::generate("same file", &quiet, robot.kind().devices(), &mut go).unwrap();
         // The scenarios stand below the plan itself, so nothing is used.
         let (_, scenarios) = generated.text.split_once('\n').unwrap();
         let all = compiled(&name, &format!("{text}\n{scenarios}"));

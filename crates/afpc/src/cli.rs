@@ -1,12 +1,13 @@
 //! The command line's grammar.
 
 use afp_run::options::for_robot;
-use afp_run::say;
+use afp_run::{RunError, say};
 use afp_session::AnyRobot;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::commands::{
-    build, check, completions, explain, fmt, graph, later, log, run, sweep, test,
+    build, check, completions, explain, fmt, graph, later, log, new, run, sweep, templates, test,
 };
 
 /// Compiles, checks, draws and runs Action Flow Plans.
@@ -20,6 +21,12 @@ pub struct Cli {
 /// What to do.
 #[derive(Subcommand, Debug)]
 pub enum Command {
+    /// Makes a project that works at once: a plan, a toolbox or a robot
+    #[command(after_help = new::EXAMPLES)]
+    New(new::Arguments),
+    /// Lists what toolboxes can do
+    #[command(after_help = templates::EXAMPLES)]
+    Templates(templates::Arguments),
     /// Reports everything that is wrong with plans and toolboxes
     #[command(after_help = check::EXAMPLES)]
     Check(check::Arguments),
@@ -61,6 +68,7 @@ pub struct PlanArgument {
 
 const EXAMPLES: &str = "\
 Examples:
+  afpc new patrol
   afpc run plans/wall_following.afp
   afpc check plans/*.afp
   afpc graph plans/wall_following.afp -o plan.svg
@@ -72,18 +80,45 @@ Exit codes: 0 done, 1 a plan is wrong or a file cannot be read or written, 2 wro
 /// the words of the robot.
 pub fn parse(robot: &dyn AnyRobot) -> Command {
     let command = command().mut_subcommand("run", |run| for_robot(run, robot));
-    let matches = command.get_matches();
+    let matches = match command.try_get_matches() {
+        Ok(matches) => matches,
+        Err(error) => match without_command(&error) {
+            Some(refusal) => refuse(&refusal),
+            None => error.exit(),
+        },
+    };
     if let Some((name, _)) = matches.subcommand()
         && let Some(error) = later::refusal(name)
     {
-        // The exit code of wrong usage, in the words of every other error.
-        say(&error);
-        std::process::exit(error.code().into());
+        refuse(&error);
     }
     match Cli::from_arg_matches(&matches) {
         Ok(cli) => cli.command,
         Err(error) => error.exit(),
     }
+}
+
+/// Ends with the exit code of wrong usage, in the words of every other error.
+fn refuse(error: &RunError) -> ! {
+    say(error.styled());
+    std::process::exit(error.code().into());
+}
+
+/// What to say to somebody who names a plan and no command.
+fn without_command(error: &clap::Error) -> Option<RunError> {
+    if error.kind() != ErrorKind::InvalidSubcommand {
+        return None;
+    }
+    let Some(ContextValue::String(name)) = error.get(ContextKind::InvalidSubcommand) else {
+        return None;
+    };
+    let path = name.split_once(".afp:").map_or(&**name, |(path, _)| path);
+    (path != name || name.ends_with(".afp")).then(|| {
+        RunError::usage(
+            format!("'{name}' is a plan, not a command"),
+            format!("'afpc run {name}' runs it; 'afpc --help' lists what else can be done with it"),
+        )
+    })
 }
 
 /// The grammar, with the commands that later releases bring: hidden, but told apart from typing

@@ -8,8 +8,10 @@ pub mod fmt;
 pub mod graph;
 pub mod later;
 pub mod log;
+pub mod new;
 pub mod run;
 pub mod sweep;
+pub mod templates;
 pub mod test;
 
 use std::io::{ErrorKind, Write};
@@ -33,6 +35,8 @@ pub fn dispatch(command: &Command, linked: &Linked<'_>) -> ExitCode {
         Command::Sweep(arguments) => sweep::run(arguments, linked),
         Command::Build(arguments) => build::run(arguments),
         Command::Log(arguments) => log::run(arguments, linked),
+        Command::New(arguments) => new::run(arguments),
+        Command::Templates(arguments) => templates::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),
     };
     match result {

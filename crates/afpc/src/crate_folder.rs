@@ -38,8 +38,11 @@ pub fn write(folder: &Path, files: &[(&str, &str)], origin: &Origin) -> Result<(
     pin(folder, origin)
 }
 
-/// The versions that the checkout was tested with: another physics engine drives other paths.
-fn pin(folder: &Path, origin: &Origin) -> Result<(), RunError> {
+/// Writes down the versions that the checkout was tested with: another physics engine drives other paths.
+///
+/// # Errors
+/// The folder cannot be written.
+pub fn pin(folder: &Path, origin: &Origin) -> Result<(), RunError> {
     let (Origin::Path(root), lock) = (origin, folder.join("Cargo.lock")) else { return Ok(()) };
     match fs::read_to_string(Path::new(root).join("Cargo.lock")) {
         Ok(text) if !lock.exists() => write_whole("cannot write", &lock, &text),

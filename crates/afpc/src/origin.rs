@@ -40,6 +40,15 @@ fn origin_in(folder: &Path, origin: &afp_project::Origin) -> Origin {
     }
 }
 
+/// An origin as a project file has it.
+pub fn as_written(origin: Origin) -> afp_project::Origin {
+    match origin {
+        Origin::Path(path) => afp_project::Origin::Path(path),
+        Origin::Git(git) => afp_project::Origin::Git(git),
+        Origin::Version(version) => afp_project::Origin::Version(version),
+    }
+}
+
 /// The checkout that built this program.
 fn checkout() -> Result<Origin, RunError> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2);

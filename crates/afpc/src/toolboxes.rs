@@ -52,6 +52,9 @@ impl OwnToolboxes {
             let path = file.krate.as_ref().map_or_else(|_| name.clone(), CrateLink::rust_path);
             toolboxes.add(source(file), &path);
         }
+        if let Some(name) = self.of_robot() {
+            toolboxes.set_robot(name);
+        }
         let missing = |file: &&ToolboxFile| toolboxes.get(&file.toolbox.name).is_none();
         let misnamed: Vec<_> = self.files.iter().filter(missing).map(misnamed).collect();
         match misnamed.is_empty() || toolboxes.diagnostics().has_errors() {
@@ -65,18 +68,22 @@ impl OwnToolboxes {
         self.files.iter().map(|file| (file.toolbox.name.as_str(), file.text.as_str()))
     }
 
+    /// The toolbox that declares the devices of the project's robot.
+    fn of_robot(&self) -> Option<&String> {
+        self.project.project.robot.as_ref()?.toolbox.as_ref()
+    }
+
     /// Those that a plan uses, and that of the robot, with their crates.
     ///
     /// # Errors
     /// There is no such crate, or the robot's toolbox is wrong.
     pub fn used_by(&self, graph: &Graph) -> Result<Vec<OwnToolbox>, ProjectError> {
         let (mut used, mut mistakes) = (Vec::new(), Vec::new());
-        let of_robot = self.project.project.robot.as_ref().and_then(|robot| robot.toolbox.as_ref());
         for file in &self.files {
             let name = &file.toolbox.name;
             let mut declared =
                 graph.toolboxes.iter().find(|toolbox| toolbox.name == *name).cloned();
-            if declared.is_none() && of_robot == Some(name) {
+            if declared.is_none() && self.of_robot() == Some(name) {
                 declared = self.with_built_in()?.get(name).cloned();
             }
             let Some(declared) = declared else { continue };

@@ -154,16 +154,8 @@ fn two_toolboxes_of_one_name_do_not_go_into_one_runner() {
 
 /// A call in the project, built in the folder that all slow tests share, without long optimisation.
 fn build_with(mut command: Command, arguments: &str) -> Said {
-    let target = concat!(env!("CARGO_TARGET_TMPDIR"), "/built-plans");
-    command
-        .args(arguments.split_whitespace())
-        .env("CARGO_TARGET_DIR", target)
-        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1")
-        .env("CARGO_PROFILE_RELEASE_LTO", "off")
-        .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "16")
-        .env("CARGO_PROFILE_RELEASE_DEBUG", "0")
-        .env("CARGO_TERM_COLOR", "never");
-    said(command.output().unwrap())
+    command.args(arguments.split_whitespace());
+    said(common::quickly_built(&mut command).output().unwrap())
 }
 
 fn afpc(place: &Place, arguments: &str) -> Said {

@@ -11,8 +11,10 @@
 //! | `console` | commands behind `$ `, and what they print; `...` stands for anything |
 //! | `sh` | commands; those of `afpc` succeed |
 //! | `toml,world`, `toml,project`, `toml,cargo` | read as a world, as `afp.toml`, as a manifest |
+//! | `text` | an excerpt |
 //! | `ebnf` | the grammar: the parser takes random sentences of it |
 //!
+//! `of=PATH` says that a block is an excerpt of that file of `examples/vacuum`, to the letter.
 //! `set=ENTRY=VALUE` gives a plan an input that it needs to run. `file=NAME` puts a block's text into a file of that name, for the blocks after it on the page.
 
 pub mod rust;

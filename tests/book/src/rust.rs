@@ -24,11 +24,16 @@ pub fn modules(blocks: &[Block], out: &Path) -> io::Result<String> {
     }
     let mut code = String::new();
     for (page, blocks) in pages {
-        if blocks.iter().any(|block| block.kind == "rust") {
+        if blocks.iter().any(|block| is_whole(block)) {
             code += &module(page, &blocks, &out.join(page))?;
         }
     }
     Ok(code)
+}
+
+/// Whether a block is Rust that is compiled here; excerpts are compiled where they stand.
+fn is_whole(block: &Block) -> bool {
+    block.kind == "rust" && block.value("of").is_none()
 }
 
 fn module(page: &str, blocks: &[&Block], folder: &Path) -> io::Result<String> {
@@ -41,7 +46,7 @@ fn module(page: &str, blocks: &[&Block], folder: &Path) -> io::Result<String> {
             fs::write(&path, &block.text)?;
             files.push((format!("\"{name}\""), format!("{:?}", path.display().to_string())));
         }
-        if block.kind == "rust" {
+        if is_whole(block) {
             let _ = writeln!(rust, "// {}\n{}", block.place(), block.text);
         }
     }

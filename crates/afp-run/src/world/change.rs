@@ -88,7 +88,9 @@ impl LoadedWorld {
 /// The text with a value changed, and the value in SI units.
 fn changed(world: &str, key: &str, text: &str) -> Result<(String, Option<f64>), RunError> {
     let refused = |why: &str| refused(key, text, why);
-    let mut document: DocumentMut = world.parse().map_err(|error| refused(&format!("{error}")))?;
+    let mut document: DocumentMut = world
+        .parse()
+        .map_err(|_| refused("worlds of this robot are no TOML: no value can be set"))?;
     let mut parts: Vec<&str> = key.split('.').collect();
     let index = parts.last().and_then(|last| last.parse::<usize>().ok());
     if index.is_some() {

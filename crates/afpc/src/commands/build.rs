@@ -38,10 +38,13 @@ enum Target {
     /// This machine
     Host,
     /// Raspberry Pi, 64 bit (not in this release)
+    #[value(hide = true)]
     Pi,
     /// Raspberry Pi, 32 bit (not in this release)
+    #[value(hide = true)]
     Pi32,
     /// Cortex-M (not in this release)
+    #[value(hide = true)]
     Mcu,
 }
 

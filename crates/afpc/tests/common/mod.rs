@@ -124,3 +124,15 @@ impl Said {
         serde_json::from_str(self.out.lines().last().unwrap()).unwrap()
     }
 }
+
+/// What a command builds goes into the folder that all slow tests share, without long optimisation.
+pub fn quickly_built(command: &mut Command) -> &mut Command {
+    let target = concat!(env!("CARGO_TARGET_TMPDIR"), "/built-plans");
+    command
+        .env("CARGO_TARGET_DIR", target)
+        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1")
+        .env("CARGO_PROFILE_RELEASE_LTO", "off")
+        .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "16")
+        .env("CARGO_PROFILE_RELEASE_DEBUG", "0")
+        .env("CARGO_TERM_COLOR", "never")
+}

@@ -3,6 +3,7 @@
 //! What `afpc` prints in it is compared by a test of `afpc`. `AFP_BLESS=1` rewrites the lists.
 
 mod afp_blocks;
+mod excerpts;
 mod grammar;
 mod lists;
 mod pages;
@@ -21,8 +22,13 @@ fn docs() -> PathBuf {
 
 /// All blocks of a kind.
 fn blocks(kind: &str) -> Vec<Block> {
+    blocks_where(|block| block.kind == kind)
+}
+
+/// All blocks of which something holds.
+fn blocks_where(holds: impl Fn(&Block) -> bool) -> Vec<Block> {
     let mut blocks = afp_book::blocks(&docs()).unwrap();
-    blocks.retain(|block| block.kind == kind);
+    blocks.retain(holds);
     blocks
 }
 

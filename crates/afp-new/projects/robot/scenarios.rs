@@ -1,0 +1,3 @@
+//! The scenarios of the plans, each a test of its own.
+
+afp::scenarios!("plans/tests", robot = {{snake}}::{{Name}});

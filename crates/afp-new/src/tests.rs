@@ -1,0 +1,76 @@
+//! The texts of new projects are sound, whatever the name.
+
+use afp_dsl::toolbox::Toolboxes;
+use afp_project::Origin;
+use afp_syntax::source::Source;
+
+use super::{File, Kind, files};
+
+const KINDS: [Kind; 3] = [Kind::Plan, Kind::Toolbox, Kind::Robot];
+
+fn made(name: &str, kind: Kind) -> Vec<File> {
+    files(name, kind, &Origin::Path("/afp".to_owned())).unwrap()
+}
+
+fn text<'a>(files: &'a [File], path: &str) -> &'a str {
+    let file = files.iter().find(|file| file.path == path);
+    &file.unwrap_or_else(|| panic!("{path} among {files:?}")).text
+}
+
+#[test]
+fn plans_scenarios_and_toolboxes_are_without_a_mistake_and_canonical() {
+    for (name, kind) in KINDS.into_iter().flat_map(|kind| [("rover", kind), ("my-2nd_rover", kind)])
+    {
+        let files = made(name, kind);
+        let (project, mistakes) = afp_project::read(text(&files, "afp.toml"));
+        assert_eq!(mistakes, []);
+        let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+        for toolbox in &project.toolboxes {
+            toolboxes.add(Source::new(&toolbox.path, text(&files, &toolbox.path)), &toolbox.name);
+        }
+        let read = |path: &str| Ok(text(&files, path).to_owned());
+        for file in files.iter().filter(|file| file.path.ends_with(".afp")) {
+            let canonical = afp_format::format(&file.text).ok();
+            assert_eq!(canonical.as_deref(), Some(&*file.text), "{}", file.path);
+            if file.path.starts_with("plans/") {
+                let source = Source::new(&file.path, &*file.text);
+                let compiled = afp_dsl::compile(&source, &toolboxes, &read);
+                assert!(compiled.diags.is_empty(), "{}", compiled.render(false));
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_is_left_to_fill_in() {
+    for file in KINDS.into_iter().flat_map(|kind| made("my-rover", kind)) {
+        assert!(!file.text.contains("{{name") && !file.text.contains("{{Name"), "{file:?}");
+        assert!(!file.path.contains('{'), "{}", file.path);
+    }
+}
+
+#[test]
+fn a_manifest_takes_the_crates_from_where_it_is_told() {
+    let manifest = |origin: Origin| {
+        let files = files("rover", Kind::Robot, &origin).unwrap();
+        text(&files, "Cargo.toml").to_owned()
+    };
+    let path = manifest(Origin::Path("/a \"b\"/".to_owned()));
+    assert!(path.contains(r#"afp = { path = "/a \"b\"/crates/afp" }"#), "{path}");
+    let version = manifest(Origin::Version("0.1".to_owned()));
+    let line = r#"afp-session = { version = "0.1", features = ["load"] }"#;
+    assert!(version.contains(line), "{version}");
+}
+
+#[test]
+fn names_that_cannot_be_are_refused_with_another() {
+    for name in ["", "Rover", "2nd", "a b", "a--b", "rover-", "r\u{e4}der", "../x", "a/b"] {
+        let error = files(name, Kind::Plan, &Origin::Version(String::new())).unwrap_err();
+        assert!(error.help.contains("'my-rover'"), "{name:?}: {error}");
+    }
+    for name in ["std", "turn", "self", "robot"] {
+        let error = files(name, Kind::Plan, &Origin::Version(String::new())).unwrap_err();
+        assert_eq!(error.help, format!("another one, such as 'my-{name}'"));
+        assert!(files(&format!("my-{name}"), Kind::Plan, &Origin::Version(String::new())).is_ok());
+    }
+}

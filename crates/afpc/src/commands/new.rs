@@ -1,0 +1,91 @@
+//! `afpc new`: a project that works at once.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use afp_codegen::Origin;
+use afp_new::{Kind, NameError};
+use afp_project::ProjectFile;
+use afp_run::{EXIT_OK, RunError, write_whole};
+use clap::Args;
+
+use super::print;
+use crate::plan_file::NoPlan;
+use crate::{crate_folder, origin};
+
+/// Arguments of `afpc new`.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// The project's folder, which is made; its name is that of the project
+    #[arg(value_name = "NAME")]
+    folder: PathBuf,
+
+    /// With a toolbox of its own for the Carbot, in Rust
+    #[arg(long, conflicts_with = "robot")]
+    toolbox: bool,
+
+    /// With a robot of its own, in Rust: its toolbox and its simulation
+    #[arg(long)]
+    robot: bool,
+}
+
+pub const EXAMPLES: &str = "\
+Examples:
+  afpc new patrol
+  afpc new greeter --toolbox
+  afpc new rover --robot";
+
+/// Makes the project.
+///
+/// # Errors
+/// The name cannot be, there is such a folder already, a file cannot be written.
+pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
+    let kind = match (arguments.toolbox, arguments.robot) {
+        (true, _) => Kind::Toolbox,
+        (_, true) => Kind::Robot,
+        _ => Kind::Plan,
+    };
+    let folder = &arguments.folder;
+    let name = folder.file_name().unwrap_or_default().to_string_lossy();
+    // A plan alone needs no crate, so nothing has to be known of where ours are.
+    let afp = match kind {
+        Kind::Plan => Origin::Version(env!("CARGO_PKG_VERSION").to_owned()),
+        Kind::Toolbox | Kind::Robot => origin::of_afp(&around(folder)?)?,
+    };
+    let files = afp_new::files(&name, kind, &origin::as_written(afp.clone()));
+    let files = files.map_err(|NameError { message, help }| RunError::usage(message, help))?;
+    if fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some()) || folder.is_file() {
+        let message = format!("'{}' is there already", folder.display());
+        return Err(RunError::usage(message, "give another name, or remove it").into());
+    }
+    for file in &files {
+        let path = folder.join(&file.path);
+        let parent = path.parent().unwrap_or(folder);
+        fs::create_dir_all(parent).map_err(RunError::file("cannot make the folder", parent))?;
+        write_whole("cannot write", &path, &file.text)?;
+    }
+    if kind != Kind::Plan {
+        crate_folder::pin(folder, &afp)?;
+    }
+    print(&next(folder, &files, kind))?;
+    Ok(EXIT_OK)
+}
+
+/// The project around a new folder, which may say where the afp crates are.
+fn around(folder: &Path) -> Result<ProjectFile, RunError> {
+    let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+    Ok(ProjectFile::find(folder.parent().unwrap_or(&folder))?)
+}
+
+/// What there is now, and what to do with it.
+fn next(folder: &Path, files: &[afp_new::File], kind: Kind) -> String {
+    let is_plan = |path: &str| path.starts_with("plans/") && !path.starts_with("plans/tests/");
+    let plan = files.iter().find(|file| is_plan(&file.path)).map_or("", |file| &file.path);
+    let mut text: String =
+        files.iter().map(|file| format!("{}\n", folder.join(&file.path).display())).collect();
+    text += &format!("\nNext:\n  cd {}\n  afpc run {plan}\n  afpc test\n", folder.display());
+    if kind != Kind::Plan {
+        text += "  cargo test\n";
+    }
+    text
+}

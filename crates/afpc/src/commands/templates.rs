@@ -1,0 +1,140 @@
+//! `afpc templates`: what toolboxes can do, from their files.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use afp_dsl::toolbox::{Template, TemplateKind, Toolbox, Toolboxes};
+use afp_project::ProjectFile;
+use afp_run::{RunError, say};
+use afp_syntax::source::{Sources, Span};
+use clap::Args;
+
+use super::print;
+use crate::plan_file::NoPlan;
+use crate::toolboxes::OwnToolboxes;
+
+/// Arguments of `afpc templates`.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// A toolbox, or a template: Forward, carbot.Forward [default: all toolboxes]
+    #[arg(value_name = "NAME")]
+    name: Option<String>,
+}
+
+pub const EXAMPLES: &str = "\
+Examples:
+  afpc templates
+  afpc templates carbot
+  afpc templates Forward
+
+Toolboxes are the built-in ones and those of the project in this folder.";
+
+/// Columns of kind and name together.
+const COLUMN: usize = 32;
+
+/// Prints what there is.
+///
+/// # Errors
+/// The project is wrong, a toolbox file is wrong, nothing has that name.
+pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
+    let own = OwnToolboxes::read(ProjectFile::find(Path::new("."))?)?;
+    let toolboxes = own.with_built_in()?;
+    if toolboxes.diagnostics().has_errors() {
+        say(toolboxes.diagnostics().render(toolboxes.sources(), true));
+        return Err(NoPlan::Wrong);
+    }
+    print(&text(&toolboxes, arguments.name.as_deref())?)
+}
+
+/// What is printed for a name.
+fn text(toolboxes: &Toolboxes, name: Option<&str>) -> Result<String, RunError> {
+    let Some(name) = name else {
+        let lists: Vec<_> = toolboxes.iter().map(|toolbox| list(toolbox)).collect();
+        return Ok(lists.join("\n"));
+    };
+    if let Some(toolbox) = toolboxes.get(name) {
+        return Ok(list(toolbox));
+    }
+    let (of, name) = name.split_once('.').map_or((None, name), |(of, name)| (Some(of), name));
+    let all = toolboxes.iter().filter(|toolbox| of.is_none_or(|of| toolbox.name == of));
+    let found = all.flat_map(|toolbox| {
+        let named = move |template: &&Template| template.name.eq_ignore_ascii_case(name);
+        toolbox.templates.iter().filter(named).map(move |template| (toolbox, template))
+    });
+    let found: Vec<_> =
+        found.map(|(toolbox, template)| describe(toolbox, template, toolboxes.sources())).collect();
+    match found.is_empty() {
+        false => Ok(found.join("\n")),
+        true => Err(RunError::usage(
+            format!("there is no toolbox or template '{name}'"),
+            "'afpc templates' lists what there is",
+        )),
+    }
+}
+
+/// A toolbox with its templates, a line each.
+fn list(toolbox: &Toolbox) -> String {
+    let mut text = format!("{}: {}\n", toolbox.name, line_of(&toolbox.doc));
+    for template in &toolbox.templates {
+        let name = format!("  {} {}", kind(template), template.name);
+        let _ = writeln!(text, "{name:COLUMN$} {}", line_of(&template.doc));
+    }
+    text
+}
+
+/// A template as its file declares it, help behind each line.
+fn describe(toolbox: &Toolbox, template: &Template, sources: &Sources) -> String {
+    let mut text = format!("{} {} of '{}'\n", kind(template), template.name, toolbox.name);
+    let _ = writeln!(text, "  {}\n", line_of(&template.doc));
+    let inputs = template.inputs.iter().map(|port| (port.span, &port.doc));
+    let outputs = template.outputs.iter().map(|port| (port.span, &port.doc));
+    let outcomes = template.outcomes.iter().map(|outcome| (outcome.span, &outcome.doc));
+    let all = inputs.chain(outputs).chain(outcomes);
+    let lines: Vec<_> = all.map(|(span, help)| (declared(span, sources), line_of(help))).collect();
+    let width = lines.iter().map(|(line, _)| line.chars().count()).max().unwrap_or(0);
+    for (line, help) in lines {
+        let _ = writeln!(text, "  {}", format!("{line:width$}  {help}").trim_end());
+    }
+    let _ = writeln!(text, "\n  {}", timing(template));
+    text
+}
+
+/// What it commands, and how fast it is.
+fn timing(template: &Template) -> String {
+    let time = |word: &str, nanos: u64| {
+        let text = match nanos {
+            nanos if nanos.is_multiple_of(1_000_000) => format!("{} ms", nanos / 1_000_000),
+            nanos => format!("{} us", nanos as f64 / 1e3),
+        };
+        format!("{word} {text}")
+    };
+    let mut parts: Vec<_> = template.uses.iter().map(|name| format!("uses {name}")).collect();
+    if template.kind != TemplateKind::Computation {
+        parts.push(time("every", template.every));
+    }
+    let rest =
+        [("deadline", template.deadline), ("budget", template.budget), ("stop", template.stop)];
+    parts.extend(rest.into_iter().filter_map(|(word, nanos)| Some(time(word, nanos?))));
+    parts.join(", ")
+}
+
+fn kind(template: &Template) -> &'static str {
+    match template.kind {
+        TemplateKind::Actor => "actor",
+        TemplateKind::Supervisor => "supervisor",
+        TemplateKind::Computation => "computation",
+    }
+}
+
+/// The line of a declaration, single blanks only.
+fn declared(span: Span, sources: &Sources) -> String {
+    let text = sources.get(span.file).map_or("", |source| &source.text);
+    let before = text.get(..span.start as usize).unwrap_or_default();
+    let start = before.rfind('\n').map_or(0, |at| at + 1);
+    line_of(text.get(start..).and_then(|rest| rest.lines().next()).unwrap_or_default())
+}
+
+/// A text on one line, single blanks only.
+fn line_of(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,122 @@
+//! `afpc new`: what it makes works at once; `afpc templates`: what there is.
+
+mod common;
+
+use std::process::Command;
+
+use common::{Place, Said, said};
+
+#[test]
+fn a_plan_can_be_run_and_tested_at_once() {
+    let place = Place::new();
+    let made = place.afpc("new patrol");
+    made.succeeds();
+    assert!(made.out.contains("patrol/plans/patrol.afp\n"), "{}", made.out);
+    // The commands that it names.
+    let next = made.out.split_once("Next:\n").map_or("", |(_, next)| next);
+    assert_eq!(next, "  cd patrol\n  afpc run plans/patrol.afp\n  afpc test\n");
+    let inside = |arguments: &str| in_folder(&place, "patrol", arguments);
+    let ran = inside("run plans/patrol.afp --until 3min");
+    ran.succeeds();
+    assert!(ran.out.contains("world  Room (worlds/patrol.toml)"), "{}", ran.out);
+    let tested = inside("test");
+    tested.succeeds();
+    assert!(tested.out.contains("3 passed, 0 failed"), "{}", tested.out);
+    inside("check plans/patrol.afp plans/tests/patrol.afp").succeeds();
+    inside("fmt --check plans/patrol.afp plans/tests/patrol.afp").succeeds();
+}
+
+fn in_folder(place: &Place, folder: &str, arguments: &str) -> Said {
+    let mut command = place.command();
+    command.current_dir(place.path(folder)).args(arguments.split_whitespace());
+    said(command.output().unwrap())
+}
+
+#[test]
+fn projects_with_rust_are_sound_and_say_what_a_run_needs() {
+    let place = Place::new();
+    for (name, option, needs) in [
+        ("greeter", "--toolbox", "the toolbox 'greeter'"),
+        ("my-rover", "--robot", "the robot 'my_rover::MyRover' with the toolbox 'my_rover'"),
+    ] {
+        place.afpc(&format!("new {name} {option}")).succeeds();
+        let plan = format!("plans/{name}_plan.afp");
+        in_folder(&place, name, &format!("check {plan}")).succeeds();
+        let mut command = place.command();
+        command.current_dir(place.path(name)).args(["run", &plan]);
+        let said = said(command.env("PATH", "").env("CARGO", "no-such-cargo").output().unwrap());
+        said.fails(1, &[needs, "there is no cargo"]);
+    }
+}
+
+#[test]
+#[ignore = "builds the simulator and the command line; `cargo xtask nightly` runs it"]
+fn projects_with_rust_run_and_pass_their_tests_unchanged() {
+    let place = Place::new();
+    for (name, option) in [("greeter", "--toolbox"), ("my-rover", "--robot")] {
+        place.afpc(&format!("new {name} {option}")).succeeds();
+        let slow = |mut command: Command| {
+            command.current_dir(place.path(name));
+            said(common::quickly_built(&mut command).output().unwrap())
+        };
+        let afpc = |arguments: &str| {
+            let mut command = place.command();
+            command.args(arguments.split_whitespace());
+            slow(command)
+        };
+        afpc(&format!("run plans/{name}_plan.afp --until 20s")).succeeds();
+        let tested = afpc("test");
+        tested.succeeds();
+        assert!(tested.out.contains(" 0 failed"), "{}", tested.out);
+        afpc(&format!("build plans/{name}_plan.afp")).succeeds();
+        let mut cargo = Command::new(env!("CARGO"));
+        cargo.arg("test");
+        slow(cargo).succeeds();
+    }
+}
+
+#[test]
+fn what_is_there_is_not_written_over_and_names_are_looked_at() {
+    let place = Place::new();
+    place.afpc("new patrol").succeeds();
+    place.afpc("new patrol").fails(2, &["'patrol' is there already"]);
+    place.afpc("new Patrol").fails(2, &["cannot be the name", "'my-rover'"]);
+    place.afpc("new turn").fails(2, &["the name 'turn' is taken", "'my-turn'"]);
+    place.afpc("new x --toolbox --robot").fails(2, &["--robot"]);
+    assert!(place.files().iter().all(|name| name.starts_with("patrol/")), "{:?}", place.files());
+}
+
+#[test]
+fn a_plan_without_a_command_is_told_of_run() {
+    let place = Place::with_plan();
+    for name in ["wall_following.afp", "./wall_following.afp", "wall_following.afp:WallFollowing"] {
+        let said = place.afpc(name);
+        said.fails(
+            2,
+            &[&format!("'{name}' is a plan, not a command"), &format!("afpc run {name}")],
+        );
+    }
+    place.afpc("runn").fails(2, &["runn"]);
+}
+
+#[test]
+fn templates_are_listed_and_described() {
+    let place = Place::new();
+    let all = place.afpc("templates");
+    all.succeeds();
+    for line in ["std: What every robot", "  actor Forward", "  supervisor CheckTouchSensor"] {
+        assert!(all.out.contains(line), "{}", all.out);
+    }
+    assert!(!place.afpc("templates std").out.contains("Forward"));
+    for name in ["Forward", "forward", "carbot.Forward"] {
+        let one = place.afpc(&format!("templates {name}"));
+        one.succeeds();
+        assert!(one.out.starts_with("actor Forward of 'carbot'\n"), "{}", one.out);
+        assert!(one.out.contains("in distance: length = 100 cm from -1000 m"), "{}", one.out);
+        assert!(one.out.contains("uses navigator, every 10 ms, "), "{}", one.out);
+    }
+    place.afpc("templates Fly").fails(2, &["no toolbox or template 'Fly'", "lists what there is"]);
+    place.afpc("new greeter --toolbox").succeeds();
+    let own = in_folder(&place, "greeter", "templates");
+    assert!(own.out.contains("greeter: ") && own.out.contains("actor Wag"), "{}", own.out);
+}

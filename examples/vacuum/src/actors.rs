@@ -1,0 +1,180 @@
+//! What the robot does.
+
+use std::f64::consts::TAU;
+
+use afp::quantity::{AngularSpeed, Speed};
+use afp::{Actor, Duration, Fault, Instant, Poll, Reason};
+
+use crate::templates::{self, roll, spin, spiral, suction};
+use crate::{Nozzle, Way, Wheels};
+
+/// The wheels count nothing although they are asked to turn.
+const BLOCKED: Fault =
+    Fault::new(&Reason { code: "wheels-blocked", text: "the wheels have not turned for 2 s" });
+/// For so long.
+const PATIENCE: Duration = Duration::from_secs(2);
+/// They have turned when the way has changed by so much, metres or radians.
+const PROGRESS: f64 = 0.01;
+
+/// Watches how far the wheels have turned since an actor began.
+#[derive(Clone, Debug)]
+struct Counted {
+    from: Way,
+    last: f64,
+    since: Instant,
+}
+
+impl Counted {
+    fn new(env: &(impl Wheels + ?Sized), now: Instant) -> Self {
+        Counted { from: env.way(), last: 0.0, since: now }
+    }
+
+    /// The way and the angle so far; a fault when `which` of them has not changed for too long.
+    fn so_far(
+        &mut self,
+        env: &(impl Wheels + ?Sized),
+        which: fn(Way) -> f64,
+        now: Instant,
+    ) -> Result<f64, Fault> {
+        let so_far = which(env.way()) - which(self.from);
+        if (so_far - self.last).abs() > PROGRESS {
+            (self.last, self.since) = (so_far, now);
+        }
+        if now.since(self.since) > PATIENCE { Err(BLOCKED) } else { Ok(so_far) }
+    }
+}
+
+/// Drives a distance.
+#[derive(Clone, Debug)]
+pub struct Roll {
+    inputs: roll::Inputs,
+    counted: Counted,
+}
+
+impl<E: Wheels + ?Sized> Actor<templates::Roll, E> for Roll {
+    fn start(inputs: roll::Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
+        Ok(Roll { inputs, counted: Counted::new(env, now) })
+    }
+
+    fn poll(
+        &mut self,
+        _: roll::Live,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Poll<roll::State>, Fault> {
+        let driven = self.counted.so_far(env, |way| way.ahead.si(), now)?;
+        let distance = self.inputs.distance.si();
+        let rest = distance.abs() - driven * distance.signum();
+        if rest <= 0.0 {
+            env.halt();
+            return Ok(Poll::Ready(roll::State::Arrived));
+        }
+        // Slower near the end: the motors need a moment.
+        let speed = self.inputs.speed.si().min(0.02 + 3.0 * rest).copysign(distance);
+        env.drive(Speed::from_si(speed), AngularSpeed::from_si(0.0));
+        Ok(Poll::Pending)
+    }
+
+    fn interrupt(&mut self, env: &mut E, _: Instant) -> Result<(), Fault> {
+        env.halt();
+        Ok(())
+    }
+}
+
+/// Turns by an angle.
+#[derive(Clone, Debug)]
+pub struct Spin {
+    inputs: spin::Inputs,
+    counted: Counted,
+}
+
+impl<E: Wheels + ?Sized> Actor<templates::Spin, E> for Spin {
+    fn start(inputs: spin::Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
+        Ok(Spin { inputs, counted: Counted::new(env, now) })
+    }
+
+    fn poll(
+        &mut self,
+        _: spin::Live,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Poll<spin::State>, Fault> {
+        let turned = self.counted.so_far(env, |way| way.turned.si(), now)?;
+        let angle = self.inputs.angle.si();
+        let rest = angle.abs() - turned * angle.signum();
+        if rest <= 0.0 {
+            env.halt();
+            return Ok(Poll::Ready(spin::State::Turned));
+        }
+        let rate = self.inputs.rate.si().min(0.1 + 3.0 * rest).copysign(angle);
+        env.drive(Speed::from_si(0.0), AngularSpeed::from_si(rate));
+        Ok(Poll::Pending)
+    }
+
+    fn interrupt(&mut self, env: &mut E, _: Instant) -> Result<(), Fault> {
+        env.halt();
+        Ok(())
+    }
+}
+
+/// The radius at which a spiral begins, and what it grows by with each turn, metres.
+const BEGIN: f64 = 0.1;
+const GROWTH: f64 = 0.12;
+
+/// Drives a spiral.
+#[derive(Clone, Debug)]
+pub struct Spiral {
+    inputs: spiral::Inputs,
+    counted: Counted,
+}
+
+impl<E: Wheels + ?Sized> Actor<templates::Spiral, E> for Spiral {
+    fn start(inputs: spiral::Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
+        Ok(Spiral { inputs, counted: Counted::new(env, now) })
+    }
+
+    fn poll(
+        &mut self,
+        _: spiral::Live,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Poll<spiral::State>, Fault> {
+        let turned = self.counted.so_far(env, |way| way.turned.si(), now)?;
+        let radius = BEGIN + GROWTH * turned.max(0.0) / TAU;
+        if radius >= self.inputs.radius.si() {
+            env.halt();
+            return Ok(Poll::Ready(spiral::State::Done));
+        }
+        env.drive(self.inputs.speed, AngularSpeed::from_si(self.inputs.speed.si() / radius));
+        Ok(Poll::Pending)
+    }
+
+    fn interrupt(&mut self, env: &mut E, _: Instant) -> Result<(), Fault> {
+        env.halt();
+        Ok(())
+    }
+}
+
+/// Switches the suction motor.
+#[derive(Clone, Debug)]
+pub struct Suction;
+
+impl<E: Nozzle + ?Sized> Actor<templates::Suction, E> for Suction {
+    fn start(inputs: suction::Inputs, env: &mut E, _: Instant) -> Result<Self, Fault> {
+        env.suck(inputs.on);
+        Ok(Suction)
+    }
+
+    fn poll(
+        &mut self,
+        _: suction::Live,
+        _: &mut E,
+        _: Instant,
+    ) -> Result<Poll<suction::State>, Fault> {
+        Ok(Poll::Ready(suction::State::Set))
+    }
+
+    fn interrupt(&mut self, _: &mut E, _: Instant) -> Result<(), Fault> {
+        Ok(())
+    }
+}
