@@ -1,4 +1,4 @@
-//! The example that brings its own robot: a project outside of the workspace, as its author has it.
+//! Projects that bring their own robot, outside of the workspace as their authors have them: the example, and a new one.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,11 +11,22 @@ const FOLDER: &str = "examples/vacuum";
 /// A run that ends by itself.
 const RUN: [&str; 5] = ["run", "plans/clean.afp", "--json", "--until", "190s"];
 
-/// Runs the tests of the project's crate: the scenarios of its plan.
+/// Runs the tests of the example's crate, the scenarios of its plan, and those of new projects.
 ///
 /// # Errors
 /// Whatever does not work.
 pub fn test() -> Result<(), Failure> {
+    run_command(cargo().args(["build", "--package", "afpc"]))?;
+    for (name, option) in [("greeter", "--toolbox"), ("rover", "--robot")] {
+        let folder = target().join("xtask/new").join(name);
+        if folder.exists() {
+            fs::remove_dir_all(&folder)?;
+        }
+        let mut new = program(target().join("debug/afpc"));
+        run_command(new.args(["new", option]).arg(&folder))?;
+        let mut tests = cargo();
+        run_command(tests.arg("test").current_dir(folder).env("CARGO_TARGET_DIR", target()))?;
+    }
     let folder = root().join(FOLDER);
     // The versions that the workspace is tested with.
     fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock"))?;
@@ -29,7 +40,6 @@ pub fn test() -> Result<(), Failure> {
 /// Whatever does not work.
 pub fn all() -> Result<(), Failure> {
     test()?;
-    run_command(cargo().args(["build", "--package", "afpc"]))?;
     let afpc = target().join("debug/afpc");
     run_command(here(&afpc).arg("test"))?;
     let said = output(here(&afpc).args(RUN))?;

@@ -254,6 +254,10 @@ impl Robot for Vacuum {
         let text = format!("{:.0} % of the dirt", share * 100.0);
         vec![Figure { name: "cleaned", value, text }]
     }
+
+    fn keyframe(&self) -> Option<Self> {
+        Some(Vacuum { clock: self.clock.split(), ..self.clone() })
+    }
 }
 
 impl Simulated for Vacuum {
@@ -284,9 +288,5 @@ impl Simulated for Vacuum {
             grip: 1.0,
             lines: Lines::default(),
         })
-    }
-
-    fn keyframe(&self) -> Option<Self> {
-        Some(Vacuum { clock: self.clock.split(), ..self.clone() })
     }
 }

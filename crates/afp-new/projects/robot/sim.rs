@@ -150,6 +150,10 @@ impl Robot for {{Name}} {
         let pose = Transform { parent: "world", child: "base_link", pose, height: 0.0 };
         to.put(signal::POSE, SampleRef::Pose(pose));
     }
+
+    fn keyframe(&self) -> Option<Self> {
+        Some({{Name}} { clock: self.clock.split(), ..self.clone() })
+    }
 }
 
 impl Simulated for {{Name}} {
@@ -172,10 +176,6 @@ impl Simulated for {{Name}} {
             held: false,
             bumper: Line::default(),
         })
-    }
-
-    fn keyframe(&self) -> Option<Self> {
-        Some({{Name}} { clock: self.clock.split(), ..self.clone() })
     }
 }
 
