@@ -20,6 +20,7 @@ use crate::pause::{Halt, Pause};
 use crate::plan::Plan;
 use crate::robot::Robot;
 use crate::toolbox::Toolbox;
+use crate::value::Pickled;
 use crate::world::ROBOT;
 
 /// A scenario of a file: a world, what happens, what is expected.
@@ -143,10 +144,7 @@ impl Scenario {
     }
 
     /// By its plan and its place among the scenarios of that.
-    fn __reduce__<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyAny>, (Py<PyAny>, usize))> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Pickled<'py, (Py<PyAny>, usize)> {
         let again = py.import("afp.plan")?.getattr("_scenario")?;
         Ok((again, (self.source.clone_ref(py), self.index)))
     }

@@ -12,7 +12,6 @@ use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
 use afp::load::{LoadedPlan, Registry};
 use afp_carbot::table::TABLE;
-use afp_core::PlanState;
 use afp_core::devices::faults as faults_of;
 use afp_core::trace::{Names, TraceEntryId};
 use afp_core::{Duration, Instant};

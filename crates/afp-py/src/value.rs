@@ -9,6 +9,9 @@ use pyo3::exceptions::{PyException, PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyFloat, PyInt, PyString};
 
+/// What '__reduce__' gives: what makes the object again, and its arguments.
+pub type Pickled<'py, A> = PyResult<(Bound<'py, PyAny>, A)>;
+
 /// The exception for what cannot be pickled, with what to do instead.
 pub fn no_pickle(what: &str, instead: &str) -> PyErr {
     PyTypeError::new_err(format!("a {what} cannot be pickled; {instead}"))

@@ -10,6 +10,7 @@ use numpy::{PyArray2, ToPyArray};
 use pyo3::prelude::*;
 
 use crate::errors::{error, run_error};
+use crate::value::Pickled;
 
 /// A room: where the robot starts and what stands, lies, shines and moves around it.
 #[pyclass(module = "afp", frozen)]
@@ -114,10 +115,7 @@ impl World {
         Ok(world)
     }
 
-    fn __reduce__<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyAny>, (&str, Option<&Path>))> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Pickled<'py, (&str, Option<&Path>)> {
         Ok((py.get_type::<World>().getattr("_again")?, (self.text(), self.path())))
     }
 }

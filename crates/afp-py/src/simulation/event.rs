@@ -1,5 +1,6 @@
 //! `Event`: one thing that happened.
 
+use crate::value::Pickled;
 use afp::load::PlanNames;
 use afp_log::{pack, unpack};
 use afp_session::{Datum, Done, EndingKind, Miss, OwnedRecord, RunEvent};
@@ -170,7 +171,7 @@ impl Event {
     fn __reduce__<'py>(
         &self,
         py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>, Option<String>))> {
+    ) -> Pickled<'py, (Bound<'py, PyBytes>, Option<String>)> {
         let again = py.get_type::<Event>().getattr("_again")?;
         let message = PyBytes::new(py, &pack(&self.event));
         Ok((again, (message, self.line.clone())))
