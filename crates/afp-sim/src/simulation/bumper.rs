@@ -7,6 +7,8 @@ use rapier2d::parry::query;
 
 /// Nearer than this is a touch, metres.
 const TOUCH: f32 = 0.001;
+/// What pushes is no farther away than what comes closer at 1 m/s in a step.
+const PUSH: f32 = 0.005;
 /// The bumper covers the front face and this much of the sides, metres.
 const WRAP: f64 = 0.02;
 
@@ -26,7 +28,9 @@ impl Simulation {
             let colliders = &self.physics.colliders;
             let (robot, other) = (&colliders[self.collider], &colliders[other]);
             let (at, there) = (robot.position(), other.position());
-            let contact = query::contact(at, robot.shape(), there, other.shape(), TOUCH);
+            // What the engine held apart in this step, in advance of any touch, pushed all the same.
+            let near = if pair.total_impulse_magnitude() > 0.0 { PUSH } else { TOUCH };
+            let contact = query::contact(at, robot.shape(), there, other.shape(), near);
             let Ok(Some(contact)) = contact else { continue };
             self.collisions.touch(other.user_data as usize, now);
             let ahead = at.inverse_transform_point(contact.point1).x;

@@ -21,6 +21,9 @@ const FRICTION: f64 = 0.7 * MASS * 9.81 / 4.0;
 /// The most that a motor pushes, newtons at the rim: less than friction holds, so a blocked wheel stands.
 const MOTOR_FORCE: f64 = 6.5;
 
+/// Slower than this a wheel is held by its gear where it is to stand, metres a second.
+const HELD: f64 = 0.005;
+
 /// A wheel that steers and drives.
 #[derive(Clone, Debug)]
 pub(crate) struct Wheel {
@@ -102,8 +105,8 @@ impl Wheel {
     /// That its patch slips nowhere, with this share of the grip.
     pub(super) fn demand(&self, grip: f64) -> Demand {
         let motor = Motor { direction: self.direction, force: MOTOR_FORCE };
-        // A wheel that is to stand and does is held by its gear.
-        let held = self.stalled || (self.speed == 0.0 && self.wanted == (0.0, 0.0));
+        // A wheel that is to stand and all but does is held by its gear.
+        let held = self.stalled || (self.wanted == (0.0, 0.0) && self.speed.abs() < HELD);
         let motor = (!held).then_some(motor);
         Demand { rim: self.velocity(), most: FRICTION * grip, motor }
     }
