@@ -58,6 +58,24 @@ macro_rules! views {
 }
 pub(crate) use views;
 
+/// The name of what has one, and the help above it.
+macro_rules! named {
+    ($($name:ident)*) => {$(
+        impl $name {
+            /// Its name.
+            pub fn name(&self) -> Option<crate::ast::Name> {
+                crate::ast::token(&self.node, crate::kind::Kind::Name, self.file)
+            }
+
+            /// Its `///` lines.
+            pub fn doc(&self) -> String {
+                crate::ast::doc(&self.node)
+            }
+        }
+    )*};
+}
+pub(crate) use named;
+
 views! {
     /// A file.
     File
@@ -72,6 +90,8 @@ views! {
     /// `name` or `home.name`
     Ref
 }
+
+named! { Enum Object }
 
 /// What stands at the top of a file.
 #[derive(Clone, Debug)]
@@ -145,16 +165,6 @@ impl Use {
 }
 
 impl Enum {
-    /// Its name.
-    pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name, self.file)
-    }
-
-    /// Its `///` lines.
-    pub fn doc(&self) -> String {
-        doc(&self.node)
-    }
-
     /// The comment above it.
     pub fn note(&self) -> String {
         note(&self.node)
@@ -165,18 +175,6 @@ impl Enum {
         children(&self.node, Kind::Variant)
             .filter_map(|node| token(&node, Kind::Name, self.file))
             .collect()
-    }
-}
-
-impl Object {
-    /// Its name.
-    pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name, self.file)
-    }
-
-    /// Its `///` lines.
-    pub fn doc(&self) -> String {
-        doc(&self.node)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Devices of a toolbox in the typed view.
 
-use super::{Formula, Name, Type, child, children, doc, range, token, views};
+use super::{Formula, Name, Type, child, children, doc, named, range, token, views};
 use crate::kind::Kind;
 use crate::source::Span;
 
@@ -18,6 +18,8 @@ views! {
     /// What a device signals.
     Signal
 }
+
+named! { Device Control Fault Signal }
 
 /// What a device is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -56,16 +58,6 @@ impl Device {
         token(&self.node, Kind::Keyword, self.file)
     }
 
-    /// Its name; the robot has none.
-    pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name, self.file)
-    }
-
-    /// Its `///` lines.
-    pub fn doc(&self) -> String {
-        doc(&self.node)
-    }
-
     /// Its parts as written.
     pub fn parts(&self) -> Vec<DevicePart> {
         let file = self.file;
@@ -99,29 +91,7 @@ impl Press {
     }
 }
 
-impl Control {
-    /// Its name.
-    pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name, self.file)
-    }
-
-    /// Its own `///` lines.
-    pub fn doc(&self) -> String {
-        doc(&self.node)
-    }
-}
-
 impl Fault {
-    /// Its name.
-    pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name, self.file)
-    }
-
-    /// Its `///` lines.
-    pub fn doc(&self) -> String {
-        doc(&self.node)
-    }
-
     /// How much there can be of it.
     pub fn amount(&self) -> Option<Amount> {
         child(&self.node, Kind::Amount).map(|node| Amount::new(node, self.file))
@@ -154,16 +124,6 @@ impl Signal {
     /// `signal` or `truth`, and its place.
     pub fn keyword(&self) -> Option<Name> {
         token(&self.node, Kind::Keyword, self.file)
-    }
-
-    /// Its name.
-    pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name, self.file)
-    }
-
-    /// Its `///` lines.
-    pub fn doc(&self) -> String {
-        doc(&self.node)
     }
 
     /// Its type.

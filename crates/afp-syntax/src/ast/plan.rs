@@ -1,6 +1,8 @@
 //! Plans in the typed view.
 
-use super::{Formula, Name, Ref, Timing, Type, child, children, doc, keyword, note, token, views};
+use super::{
+    Formula, Name, Ref, Timing, Type, child, children, keyword, named, note, token, views,
+};
 use crate::kind::{Afp, Kind};
 use crate::source::Span;
 use crate::{Node, node_span};
@@ -20,6 +22,8 @@ views! {
     /// `State -> target`
     Edge
 }
+
+named! { Plan Entry Element Guard }
 
 /// What the keyword in front of an element says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,16 +62,6 @@ pub enum Bind {
 }
 
 impl Plan {
-    /// Its name.
-    pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name, self.file)
-    }
-
-    /// Its `///` lines.
-    pub fn doc(&self) -> String {
-        doc(&self.node)
-    }
-
     /// The comment above it.
     pub fn note(&self) -> String {
         note(&self.node)
@@ -98,16 +92,6 @@ impl Entry {
     /// `in`, `out`, `var` or `const`.
     pub fn keyword(&self) -> String {
         keyword(&self.node)
-    }
-
-    /// Its name.
-    pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name, self.file)
-    }
-
-    /// Its `///` lines.
-    pub fn doc(&self) -> String {
-        doc(&self.node)
     }
 
     /// The comment above it.
@@ -148,16 +132,6 @@ impl Element {
         token(&self.node, Kind::Keyword, self.file).map_or_else(|| self.span(), |token| token.span)
     }
 
-    /// Its name.
-    pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name, self.file)
-    }
-
-    /// Its `///` lines.
-    pub fn doc(&self) -> String {
-        doc(&self.node)
-    }
-
     /// The comment above it.
     pub fn note(&self) -> String {
         note(&self.node)
@@ -195,16 +169,6 @@ impl Element {
 }
 
 impl Guard {
-    /// Its name.
-    pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name, self.file)
-    }
-
-    /// Its `///` lines.
-    pub fn doc(&self) -> String {
-        doc(&self.node)
-    }
-
     /// The comment above it.
     pub fn note(&self) -> String {
         note(&self.node)

@@ -1,6 +1,6 @@
 //! Toolboxes in the typed view.
 
-use super::{Formula, Name, Type, child, doc, keyword, range, token, tokens, views};
+use super::{Formula, Name, Type, child, keyword, named, range, token, tokens, views};
 use crate::kind::Kind;
 use crate::source::Span;
 
@@ -18,6 +18,8 @@ views! {
     /// `every 10 ms` or another time.
     Timing
 }
+
+named! { Toolbox Template InPort OutPort Outcome }
 
 /// What a template is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -48,19 +50,9 @@ pub enum Part {
 }
 
 impl Toolbox {
-    /// Its name.
-    pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name, self.file)
-    }
-
     /// Its version, quotes included.
     pub fn version(&self) -> Option<Name> {
         token(&self.node, Kind::Text, self.file)
-    }
-
-    /// Its `///` lines.
-    pub fn doc(&self) -> String {
-        doc(&self.node)
     }
 }
 
@@ -72,16 +64,6 @@ impl Template {
             "computation" => TemplateKind::Computation,
             _ => TemplateKind::Actor,
         }
-    }
-
-    /// Its name.
-    pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name, self.file)
-    }
-
-    /// Its `///` lines.
-    pub fn doc(&self) -> String {
-        doc(&self.node)
     }
 
     /// Its parts as written.
@@ -106,16 +88,6 @@ impl Template {
 }
 
 impl InPort {
-    /// Its name.
-    pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name, self.file)
-    }
-
-    /// Its `///` lines.
-    pub fn doc(&self) -> String {
-        doc(&self.node)
-    }
-
     /// The place of `live`, where written.
     pub fn live(&self) -> Option<Span> {
         let mut words = tokens(&self.node, Kind::Keyword, self.file).into_iter().skip(1);
@@ -139,16 +111,6 @@ impl InPort {
 }
 
 impl OutPort {
-    /// Its name.
-    pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name, self.file)
-    }
-
-    /// Its `///` lines.
-    pub fn doc(&self) -> String {
-        doc(&self.node)
-    }
-
     /// Its type.
     pub fn ty(&self) -> Option<Type> {
         child(&self.node, Kind::Type).map(|node| Type::new(node, self.file))
@@ -165,16 +127,6 @@ impl Outcome {
     /// `state` or `event`, and its place.
     pub fn keyword(&self) -> Option<Name> {
         token(&self.node, Kind::Keyword, self.file)
-    }
-
-    /// Its name.
-    pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name, self.file)
-    }
-
-    /// Its `///` lines.
-    pub fn doc(&self) -> String {
-        doc(&self.node)
     }
 }
 
