@@ -98,7 +98,7 @@ pub(super) fn element<'a>(view: &View<'a>, element: &'a Component) -> Card<'a> {
     card.entry = (rect.x + 20.0, rect.right() - 20.0);
     card.width = rect.right();
     card.rect = rect;
-    let severity = view.severity(element.findings.worst);
+    let severity = view.severity(element.findings.worst());
     let item = element.item.clone();
     card.sketch.pieces.push(Piece { item, part: Part::Whole, rect, severity });
     card.sketch.mark(severity, (rect.x + 2.0, rect.y + 2.0));

@@ -166,7 +166,7 @@ impl<'a> View<'a> {
                 plain: value.is_some_and(|value| value.entry.is_some()),
                 missing: text.is_none() && (input.required || input.binding.is_some()),
                 text: text.unwrap_or_default(),
-                severity: self.severity(input.findings.worst),
+                severity: self.severity(input.findings.worst()),
             }
         });
         inputs.collect()
@@ -180,7 +180,7 @@ impl<'a> View<'a> {
                 port: &output.name,
                 nth: output.nth,
                 entry: value.map_or("", |value| &value.text),
-                severity: self.severity(output.findings.worst),
+                severity: self.severity(output.findings.worst()),
             })
         });
         outputs.collect()
@@ -210,7 +210,7 @@ impl<'a> View<'a> {
             });
             // What is ignored is never taken, so that counting it would say nothing.
             let count = count.filter(|_| to != To::Ignore);
-            let severity = self.severity(exit.findings.worst);
+            let severity = self.severity(exit.findings.worst());
             Some(Exit { name: &exit.name, nth: exit.nth, kind: exit.kind, to, count, severity })
         });
         exits.collect()

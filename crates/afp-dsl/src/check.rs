@@ -157,7 +157,7 @@ pub(crate) fn check(
     let (meanings, declared) = names(files, toolboxes, &record, diags);
     let material = Material { program: &program, files, members, meanings: &meanings, main };
     let outline = outline::build(material);
-    let index = index::build(&outline, &meanings, &declared);
+    let index = index::build(&outline, &meanings, declared);
     let Some(main) = main.filter(|_| !diags.has_errors()) else {
         return Checked { outline, index, ..Checked::default() };
     };

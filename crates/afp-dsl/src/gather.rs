@@ -4,7 +4,6 @@
 //! Each file is read once, however many use it; files may use one another in a circle, since only
 //! plans that contain themselves have no meaning.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use crate::files::{Files, joined, normalised};
@@ -14,6 +13,7 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::{Source, Sources, Span};
 use afp_syntax::unquote;
 use afp_syntax::{Parse, parse};
+use rustc_hash::FxHashMap;
 
 /// A plan file of a compilation.
 pub(crate) struct PlanFile {
@@ -50,8 +50,14 @@ pub(crate) fn gather(
     sources: &mut Sources,
     diags: &mut Diagnostics,
 ) -> Vec<PlanFile> {
-    let mut gathering =
-        Gathering { files, toolboxes, sources, diags, found: Vec::new(), known: HashMap::new() };
+    let mut gathering = Gathering {
+        files,
+        toolboxes,
+        sources,
+        diags,
+        found: Vec::new(),
+        known: FxHashMap::default(),
+    };
     gathering.first(source);
     let mut next = 0;
     while next < gathering.found.len() {
@@ -75,7 +81,7 @@ pub(crate) fn gather_all(
         sources,
         diags,
         found: Vec::new(),
-        known: HashMap::new(),
+        known: FxHashMap::default(),
     };
     files.iter().for_each(|source| gathering.first(source));
     for file in 0..gathering.found.len() {
@@ -91,7 +97,7 @@ struct Gathering<'a> {
     diags: &'a mut Diagnostics,
     found: Vec<PlanFile>,
     /// What became of each path: a place in `found`, or nothing with the reason.
-    known: HashMap<String, Result<usize, Unusable>>,
+    known: FxHashMap<String, Result<usize, Unusable>>,
 }
 
 /// Why a file cannot be used.

@@ -21,7 +21,7 @@ use afp_syntax::source::Span;
 
 pub(crate) use build::build;
 pub(crate) use declare::{Declared, of_toolbox};
-pub(crate) use record::{Found, Meanings, Recorder};
+pub(crate) use record::{Found, Lookup, Meanings, Recorder};
 pub(crate) use unread::unread;
 
 /// What names mean, where things are declared, and who refers to them.
@@ -31,8 +31,10 @@ pub struct Index {
     names: Vec<Name>,
     /// In the order of the places of their names.
     definitions: Vec<Definition>,
-    /// The references by definition: places in `names`.
-    uses: Vec<(DefinitionId, u32)>,
+    /// Places in `names`: the references to the first definition, those to the second one, and so on.
+    uses: Vec<u32>,
+    /// Where in `uses` those of each definition begin, and behind them its end.
+    first_uses: Vec<u32>,
     /// What ambiguous names may mean.
     several: Vec<Vec<DefinitionId>>,
 }
@@ -256,9 +258,8 @@ impl Index {
 
     /// The places that refer to a definition, in order, its declaration not among them.
     pub fn references(&self, id: DefinitionId) -> impl Iterator<Item = Span> {
-        let first = self.uses.partition_point(|(known, _)| *known < id);
-        let uses = self.uses[first..].iter().take_while(move |(known, _)| *known == id);
-        uses.map(|(_, name)| self.names[*name as usize].span)
+        let [first, end] = [0, 1].map(|next| self.first_uses[id.index() + next] as usize);
+        self.uses[first..end].iter().map(|name| self.names[*name as usize].span)
     }
 
     /// What can be named at a place of a plan file, in the order of the definitions: plans and enums

@@ -200,11 +200,25 @@ pub struct Entry {
     pub findings: Findings,
 }
 
-/// What the compiler has to say about an item or a part of it.
+/// What the compiler has to say about an item or a part of it: mostly nothing, which takes no memory.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Findings {
+pub struct Findings(Option<Box<Found>>);
+
+/// What there is to say.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Found {
+    worst: Severity,
+    list: Vec<u32>,
+}
+
+impl Findings {
     /// The worst of it.
-    pub worst: Option<Severity>,
+    pub fn worst(&self) -> Option<Severity> {
+        self.0.as_ref().map(|found| found.worst)
+    }
+
     /// Where it stands among the diagnostics of the compilation.
-    pub list: Vec<u32>,
+    pub fn list(&self) -> &[u32] {
+        self.0.as_ref().map_or(&[], |found| &found.list)
+    }
 }

@@ -13,11 +13,12 @@ use rowan::{Language, NodeOrToken};
 
 use crate::kind::{Afp, Kind};
 use crate::source::Span;
+use crate::tree::green_span;
 use crate::{Node, node_span};
 
 pub use device::{Amount, Control, Device, DeviceKind, DevicePart, Fault, Press, Signal};
 pub use formula::{Formula, FormulaKind, Operator, Sign};
-pub use plan::{Bind, Edge, Element, ElementKind, Entry, Guard, Plan, Start};
+pub use plan::{Bind, Edge, Element, ElementKind, Entry, Frame, Guard, Plan, Start};
 pub use scenario::{Action, Bound, Claim, ClaimKind, Line, LineKind, Path, Scenario};
 pub use toolbox::{InPort, OutPort, Outcome, Part, Template, TemplateKind, Timing, Toolbox};
 
@@ -276,6 +277,34 @@ fn find_token<R>(
     })
 }
 
+/// The place of the first token of a kind.
+fn span_of(node: &Node, kind: Kind, file: u16) -> Option<Span> {
+    find_token(node, file, |each, _, span| (each == kind).then_some(span))
+}
+
+/// The place of the first node of a kind among the children of a node.
+fn child_span(node: &Node, kind: Kind, file: u16) -> Option<Span> {
+    let mut end = u32::from(node.text_range().start());
+    node.green().children().find_map(|element| {
+        let start = end;
+        end += u32::from(element.text_len());
+        let child = element.into_node().filter(|each| Afp::kind_from_raw(each.kind()) == kind)?;
+        Some(green_span(child, start, file))
+    })
+}
+
+/// The place of the closing brace of a node.
+fn closing_span(node: &Node, file: u16) -> Option<Span> {
+    let mut start = u32::from(node.text_range().end());
+    node.green().children().rev().find_map(|element| {
+        let end = start;
+        start -= u32::from(element.text_len());
+        let token = element.into_token()?;
+        let closes = Afp::kind_from_raw(token.kind()) == Kind::CloseBrace;
+        closes.then_some(Span { file, start, end })
+    })
+}
+
 /// The first token of a kind.
 fn token(node: &Node, kind: Kind, file: u16) -> Option<Name> {
     find_token(node, file, |each, text, span| {
@@ -307,6 +336,12 @@ fn range(node: &Node, file: u16) -> Option<(Formula, Formula, Span)> {
 /// The first word of the grammar in a node.
 fn keyword(node: &Node) -> String {
     token(node, Kind::Keyword, 0).map(|token| token.text).unwrap_or_default()
+}
+
+/// What the first word of the grammar in a node stands for.
+fn keyword_as<R>(node: &Node, read: impl Fn(&str) -> R) -> R {
+    let word = find_token(node, 0, |kind, text, _| (kind == Kind::Keyword).then(|| read(text)));
+    word.unwrap_or_else(|| read(""))
 }
 
 /// The text of a node in one line: what separates its tokens becomes a blank.
@@ -361,12 +396,20 @@ fn note(node: &Node) -> String {
 
 /// The `///` lines in front of an item, without the slashes and one blank behind them.
 fn doc(node: &Node) -> String {
-    let lines: Vec<_> = tokens(node, Kind::Doc, 0)
-        .into_iter()
-        .map(|token| {
-            let text = token.text.trim_start_matches('/');
-            text.strip_prefix(' ').unwrap_or(text).trim_end().to_owned()
-        })
-        .collect();
-    lines.join("\n")
+    let mut doc = String::new();
+    let mut lines = 0;
+    for element in node.green().children() {
+        let Some(token) = element.into_token() else { break };
+        match Afp::kind_from_raw(token.kind()) {
+            Kind::Doc => {
+                let text = token.text().trim_start_matches('/');
+                doc += if lines > 0 { "\n" } else { "" };
+                doc += text.strip_prefix(' ').unwrap_or(text).trim_end();
+                lines += 1;
+            }
+            kind if kind.is_trivia() => {}
+            _ => break,
+        }
+    }
+    doc
 }

@@ -62,10 +62,13 @@ pub fn token_span(token: &Token, file: u16) -> Span {
 
 /// The place of a node without the trivia at its ends.
 pub fn node_span(node: &Node, file: u16) -> Span {
-    let range = node.text_range();
-    let (start, end) = (u32::from(range.start()), u32::from(range.end()));
-    let green = node.green();
-    match (leading(&green), trailing(&green)) {
+    green_span(&node.green(), node.text_range().start().into(), file)
+}
+
+/// The place of a node that starts at a byte, without the trivia at its ends.
+pub(crate) fn green_span(green: &GreenNodeData, start: u32, file: u16) -> Span {
+    let end = start + u32::from(green.text_len());
+    match (leading(green), trailing(green)) {
         (Ok(before), Ok(behind)) => Span { file, start: start + before, end: end - behind },
         _ => Span { file, start, end: start },
     }

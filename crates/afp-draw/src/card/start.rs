@@ -58,7 +58,7 @@ pub(in super::super) fn start<'a>(view: &View<'a>) -> Card<'a> {
     card.width = rect.right();
     card.height = rect.bottom().max(table.height);
     card.rect = rect;
-    let severity = view.severity(plan.findings.worst);
+    let severity = view.severity(plan.findings.worst());
     card.sketch.pieces.push(Piece { item: plan.item.clone(), part: Part::Whole, rect, severity });
     card.sketch.mark(severity, (rect.x + 4.0, rect.y + 4.0));
     leave(view, &mut card, rect);
@@ -72,7 +72,7 @@ fn leave(view: &View, card: &mut Card, rect: Rect) {
     let count = view.plan.starts.len() as f64;
     for (number, start) in (1_u16..).zip(&view.plan.starts) {
         let x = rect.x + rect.width * f64::from(number) / (count + 1.0);
-        let (class, severity) = ("start".into(), view.severity(start.findings.worst));
+        let (class, severity) = ("start".into(), view.severity(start.findings.worst()));
         let (item, part) = (view.plan.item.clone(), Part::Start(number));
         match To::of(start.target.as_ref()) {
             To::Element(id) => {
@@ -127,7 +127,7 @@ fn configuration<'a>(view: &View<'a>, sketch: &mut Sketch<'a>) -> Rect {
         let width = pill_width(text_in_pill);
         let pill = Rect { x: 12.0 + KIND, y: y - 9.0, width, height: 18.0 };
         sketch.pill(pill, *class, text_in_pill, PORT_SIZE);
-        let (item, severity) = (entry.item.clone(), view.severity(entry.findings.worst));
+        let (item, severity) = (entry.item.clone(), view.severity(entry.findings.worst()));
         sketch.pieces.push(Piece { item, part: Part::Whole, rect: pill, severity });
         sketch.mark(severity, (pill.x, pill.y));
         sketch.labels.push(label((22.0 + KIND + names, base), text, PORT_SIZE, "port"));

@@ -143,7 +143,7 @@ impl<'a> Row<'a> {
         let class = Class { name: "supervisor", usage: self.usage };
         card.sketch.frames.push(Frame { rect, shape, class, title });
         self.heading(view, &mut card.sketch, rect);
-        let severity = view.severity(self.supervisor.findings.worst);
+        let severity = view.severity(self.supervisor.findings.worst());
         let item = self.supervisor.item.clone();
         card.sketch.pieces.push(Piece { item, part: Part::Whole, rect, severity });
         card.sketch.mark(severity, (rect.x + 2.0, rect.y + 2.0));

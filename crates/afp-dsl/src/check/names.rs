@@ -1,11 +1,10 @@
 //! Names of one scope: each is used once, can be spelled in Rust, and differs in more than case.
 
-use std::collections::HashMap;
-
 use afp_syntax::ast::Name;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
 use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
+use rustc_hash::FxHashMap;
 
 /// How many names a help lists at most.
 const MOST_LISTED: usize = 12;
@@ -16,7 +15,7 @@ const REFUSED: &[&str] = &["self", "Self", "super", "crate", "true", "false"];
 /// The names declared in one scope so far.
 #[derive(Default)]
 pub(crate) struct Names {
-    declared: HashMap<String, Name>,
+    declared: FxHashMap<String, Name>,
 }
 
 impl Names {
@@ -48,12 +47,12 @@ impl Names {
 
 /// Where names stand in a list. Of names that occur twice the first counts.
 #[derive(Default)]
-pub(crate) struct Places(HashMap<String, usize>);
+pub(crate) struct Places(FxHashMap<String, usize>);
 
 impl Places {
     /// The places in a list, in which there may be holes.
     pub fn of<'a>(names: impl IntoIterator<Item = Option<&'a str>>) -> Places {
-        let mut places = HashMap::new();
+        let mut places = FxHashMap::default();
         for (place, name) in names.into_iter().enumerate() {
             if let Some(name) = name {
                 places.entry(name.to_owned()).or_insert(place);

@@ -1,7 +1,6 @@
 //! What each plan file can name: its toolboxes, its own plans and enums, and those of the files
 //! that it uses, but not of the files that those use.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use crate::check::imports::{self, Import};
@@ -16,6 +15,7 @@ use crate::types::{Enum, is_built_in};
 use afp_syntax::ast::{Item, Name};
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::Span;
+use rustc_hash::FxHashMap;
 
 /// What the plans of one file can name.
 pub(crate) struct FileScope<'a> {
@@ -31,7 +31,7 @@ pub(crate) struct FileScope<'a> {
     pub incomplete: bool,
     /// The plans that it can name, by name and by place in [`Program::plans`]: its own first, of
     /// each file the first one.
-    pub plans: HashMap<String, Vec<usize>>,
+    pub plans: FxHashMap<String, Vec<usize>>,
     /// Where a `use` line can be added.
     pub top: Span,
 }
@@ -49,11 +49,11 @@ pub(super) fn program<'a>(
     let mut scopes: Vec<_> =
         places.map(|file| scope(file, toolboxes, &enums, &mut linked, record, diags)).collect();
     let mut plans = Vec::new();
-    let mut own: Vec<HashMap<String, usize>> = Vec::new();
+    let mut own: Vec<FxHashMap<String, usize>> = Vec::new();
     for (place, file) in files.iter().enumerate() {
         let first = plans.len();
         plans.extend(heads(file, place, &scopes[place].types, record, diags));
-        let mut names = HashMap::new();
+        let mut names = FxHashMap::default();
         for (at, head) in plans.iter().enumerate().skip(first) {
             if let Some(name) = &head.name {
                 names.entry(name.text.clone()).or_insert(at);
@@ -98,7 +98,7 @@ fn scope<'a>(
         imports,
         types,
         incomplete: file.incomplete,
-        plans: HashMap::new(),
+        plans: FxHashMap::default(),
         top: top(file),
     }
 }

@@ -5,25 +5,18 @@ use super::record::{Found, Meanings, key};
 use super::{Candidates, Definition, DefinitionId, Index, Meaning, Name};
 use crate::outline::Outline;
 use afp_syntax::source::Span;
+use rustc_hash::FxHashMap;
 
-/// The index of a compilation. `declared` has what toolboxes declare, the outline has the rest.
-pub(crate) fn build(outline: &Outline, meanings: &Meanings, declared: &[Declared]) -> Index {
-    let mut all: Vec<Declared> = declared.to_vec();
+/// The index of a compilation. `all` has what toolboxes declare, the outline has the rest.
+pub(crate) fn build(outline: &Outline, meanings: &Meanings, mut all: Vec<Declared>) -> Index {
     declare::of_outline(outline, meanings, &mut all);
     all.sort_by_key(|each| key(each.name));
     all.dedup_by_key(|each| each.name);
     let own: Vec<Span> = all.iter().map(|each| each.name).collect();
-    let keys: Vec<u64> = own.iter().map(|name| key(*name)).collect();
-    let known = |name: Span| keys.binary_search(&key(name)).ok().map(DefinitionId::new);
+    let ids: FxHashMap<u64, DefinitionId> = own.iter().map(|name| key(*name)).zip(ids()).collect();
+    let known = |name: Span| ids.get(&key(name)).copied();
     let names = names(&own, meanings, &known);
-    let mut uses: Vec<_> = (0..)
-        .zip(&names)
-        .filter_map(|(at, name)| match name.meaning {
-            Meaning::Refers(id) => Some((id, at)),
-            _ => None,
-        })
-        .collect();
-    uses.sort_unstable();
+    let (uses, first_uses) = uses(&names, own.len());
     let several = meanings.several.iter();
     let several = several.map(|spans| spans.iter().filter_map(|span| known(*span)).collect());
     let several = several.collect();
@@ -35,7 +28,32 @@ pub(crate) fn build(outline: &Outline, meanings: &Meanings, declared: &[Declared
         made_from: each.made_from.and_then(known),
         doc: each.doc,
     });
-    Index { definitions: definitions.collect(), names, uses, several }
+    Index { definitions: definitions.collect(), names, uses, first_uses, several }
+}
+
+fn ids() -> impl Iterator<Item = DefinitionId> {
+    (0..).map(DefinitionId)
+}
+
+/// The places of the names that refer to each definition, and where those of each definition begin.
+fn uses(names: &[Name], definitions: usize) -> (Vec<u32>, Vec<u32>) {
+    let refers = |(at, name): (u32, &Name)| match name.meaning {
+        Meaning::Refers(id) => Some((id.index(), at)),
+        _ => None,
+    };
+    let referring = || (0..).zip(names).filter_map(refers);
+    let mut first = vec![0_u32; definitions + 1];
+    referring().for_each(|(id, _)| first[id + 1] += 1);
+    for id in 0..definitions {
+        first[id + 1] += first[id];
+    }
+    let mut next = first.clone();
+    let mut uses = vec![0; first[definitions] as usize];
+    for (id, at) in referring() {
+        uses[next[id] as usize] = at;
+        next[id] += 1;
+    }
+    (uses, first)
 }
 
 /// Joins the names that declare with those that were recorded; both are in order.
@@ -45,7 +63,7 @@ fn names(
     known: &dyn Fn(Span) -> Option<DefinitionId>,
 ) -> Vec<Name> {
     let mut names = Vec::with_capacity(own.len() + meanings.names.len());
-    let mut declared = (0..).map(DefinitionId).zip(own).peekable();
+    let mut declared = ids().zip(own).peekable();
     for (span, found) in &meanings.names {
         while let Some((id, name)) = declared.next_if(|(_, name)| *name <= span) {
             names.push(Name { span: *name, meaning: Meaning::Declares(id) });

@@ -44,7 +44,8 @@ impl Declared {
 
 /// What the plan files declare.
 pub(super) fn of_outline(outline: &Outline, meanings: &Meanings, all: &mut Vec<Declared>) {
-    let meant = |name: Span| match meanings.get(name) {
+    let lookup = meanings.lookup();
+    let meant = |name: Span| match lookup.get(name) {
         Some(Found::Definition(definition)) => Some(definition),
         _ => None,
     };

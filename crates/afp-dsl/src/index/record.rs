@@ -3,7 +3,7 @@
 //! A definition is known by the span of its own name, which the check has at hand wherever it
 //! resolves something, so recording costs a push. The index gives them numbers at the end.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 
 use afp_syntax::source::Span;
 
@@ -99,8 +99,7 @@ impl Meanings {
     /// Puts records in order.
     pub fn new(records: Records) -> Meanings {
         let Records { mut names, several } = records;
-        // Names come nearly in order, which this way of sorting makes use of.
-        names.sort_by_key(|(name, _)| key(*name));
+        sort(&mut names);
         // Of several findings the greatest one counts.
         names.dedup_by(|next, kept| {
             let same = next.0 == kept.0;
@@ -124,9 +123,54 @@ impl Meanings {
 
     /// What the name at a place means.
     pub fn get(&self, name: Span) -> Option<Found> {
-        let place = self.names.binary_search_by_key(&key(name), |(known, _)| key(*known)).ok()?;
-        let (known, found) = self.names[place];
-        (known == name).then_some(found)
+        self.lookup().get(name)
+    }
+
+    /// Answers many questions about the names.
+    pub fn lookup(&self) -> Lookup<'_> {
+        Lookup { names: &self.names, last: Cell::new(0) }
+    }
+}
+
+/// Sorts names by their places. The check goes through a text nearly in order, so most names are where
+/// they belong and the others a few places off; where they are not, they are sorted as any list is.
+fn sort(names: &mut [(Span, Found)]) {
+    let mut moves = 16 * names.len();
+    for at in 1..names.len() {
+        let own = key(names[at].0);
+        if key(names[at - 1].0) <= own {
+            continue;
+        }
+        let before = names[..at].iter().rposition(|(name, _)| key(*name) <= own);
+        let to = before.map_or(0, |before| before + 1);
+        match moves.checked_sub(at - to) {
+            Some(rest) => moves = rest,
+            None => return names.sort_by_key(|(name, _)| key(*name)),
+        }
+        names[to..=at].rotate_right(1);
+    }
+}
+
+/// Answers questions about names that are asked nearly in the order of their places.
+pub(crate) struct Lookup<'a> {
+    names: &'a [(Span, Found)],
+    /// Where the last answer was.
+    last: Cell<usize>,
+}
+
+impl Lookup<'_> {
+    /// What the name at a place means.
+    pub fn get(&self, name: Span) -> Option<Found> {
+        let own = key(name);
+        let near = self.last.get();
+        let near = near..self.names.len().min(near + 8);
+        let found = match self.names[near.clone()].iter().position(|(known, _)| *known == name) {
+            Some(found) => near.start + found,
+            None => self.names.binary_search_by_key(&own, |(known, _)| key(*known)).ok()?,
+        };
+        self.last.set(found);
+        let (known, meaning) = self.names[found];
+        (known == name).then_some(meaning)
     }
 }
 

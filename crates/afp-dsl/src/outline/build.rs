@@ -1,7 +1,5 @@
 //! Reads the outline from the trees, with what the check has found out about names and types.
 
-use std::collections::HashMap;
-
 use super::read::Reader;
 use super::{
     Component, Destination, ElementId, Entry, EntryId, Enum, File, Findings, Outline, Plan, PlanId,
@@ -10,10 +8,11 @@ use super::{
 use crate::check::{Member, Members, PlanHead, Program};
 use crate::gather::PlanFile;
 use crate::graph::EntryKind;
-use crate::index::{Found, Meanings, Word};
+use crate::index::{Found, Lookup, Meanings, Word};
 use afp_syntax::ast::{self, Name};
 use afp_syntax::item::Item;
 use afp_syntax::source::Span;
+use rustc_hash::FxHashMap;
 
 /// What the outline is made of.
 pub(crate) struct Material<'a> {
@@ -35,7 +34,7 @@ pub(crate) fn build(mut material: Material<'_>) -> Outline {
     let material = &material;
     let heads = material.program.plans.iter();
     let names = heads.enumerate().filter_map(|(at, head)| Some((head.name.as_ref()?.span, at)));
-    let names: HashMap<Span, usize> = names.collect();
+    let names: FxHashMap<Span, usize> = names.collect();
     let mut outline = Outline { main: material.main.map(PlanId::new), ..Outline::default() };
     for (at, file) in material.files.iter().enumerate() {
         outline.files.push(self::file(material, at, file, &names));
@@ -49,7 +48,12 @@ pub(crate) fn build(mut material: Material<'_>) -> Outline {
     outline
 }
 
-fn file(material: &Material<'_>, at: usize, file: &PlanFile, plans: &HashMap<Span, usize>) -> File {
+fn file(
+    material: &Material<'_>,
+    at: usize,
+    file: &PlanFile,
+    plans: &FxHashMap<Span, usize>,
+) -> File {
     let mut read = File { file: file.index, path: file.path.clone(), ..File::default() };
     let heads = material.program.plans.iter().enumerate();
     read.plans = heads.filter(|(_, h)| h.file == at).map(|(at, _)| PlanId::new(at)).collect();
@@ -110,7 +114,7 @@ fn plan(material: &Material<'_>, head: &PlanHead, members: Members, item: String
     let [entry_items, guard_items, element_items] = inner_items(&names);
     let places = Places {
         text: &material.files[head.file].source.text,
-        meanings: material.meanings,
+        meanings: material.meanings.lookup(),
         elements: spans(members.elements.iter().map(|member| member.name.as_ref())),
         entries: spans(entry_names.iter().map(Option::as_ref)),
     };
@@ -209,7 +213,7 @@ fn entry(
 pub(super) struct Places<'a> {
     /// The text of the file.
     text: &'a str,
-    pub meanings: &'a Meanings,
+    pub meanings: Lookup<'a>,
     /// The names of elements, in order, with their places.
     elements: Vec<(Span, usize)>,
     /// The names of entries, in order, with their places.
@@ -248,8 +252,8 @@ impl Places<'_> {
     pub fn in_one_line(&self, span: Span) -> Option<String> {
         let text = self.text.get(span.start as usize..span.end as usize)?;
         let broken = text.bytes().any(|byte| matches!(byte, b'\n' | b'\r' | b'\t'));
-        let apart = |mark: &str| text.contains(mark);
-        (!broken && !apart("  ") && !apart("//") && !apart("/*")).then(|| text.to_owned())
+        let apart = |two: &[u8]| matches!(two, b"  " | b"//" | b"/*");
+        (!broken && !text.as_bytes().windows(2).any(apart)).then(|| text.to_owned())
     }
 
     fn start(&self, start: &ast::Start) -> Start {
@@ -269,11 +273,11 @@ fn find(known: &[(Span, usize)], span: Span) -> Option<usize> {
 
 /// The names of items of one scope in their paths: the second of a name has `#2` behind it.
 fn numbered<'n>(names: impl Iterator<Item = Option<&'n Name>>) -> impl Iterator<Item = String> {
-    let mut seen: HashMap<&str, u32> = HashMap::new();
+    let mut seen: FxHashMap<&str, u32> = FxHashMap::default();
     names.map(move |name| path_name(name, &mut seen))
 }
 
-fn path_name<'n>(name: Option<&'n Name>, seen: &mut HashMap<&'n str, u32>) -> String {
+fn path_name<'n>(name: Option<&'n Name>, seen: &mut FxHashMap<&'n str, u32>) -> String {
     let text = name.map_or("", |name| name.text.as_str());
     let count = seen.entry(text).or_default();
     *count += 1;
@@ -291,7 +295,7 @@ fn inner_items(names: &[Vec<(Option<&Name>, u32)>; 3]) -> [Vec<String>; 3] {
         order.extend(names.iter().enumerate().map(|(at, (_, start))| (*start, list, at)));
     }
     order.sort_unstable();
-    let mut seen = HashMap::new();
+    let mut seen = FxHashMap::default();
     let mut items = [Vec::new(), Vec::new(), Vec::new()];
     for (_, list, at) in order {
         items[list].push(path_name(names[list][at].0, &mut seen));

@@ -1,6 +1,6 @@
 //! Gives each diagnostic to the smallest part of a plan that it lies in.
 
-use super::{Component, Findings, Outline};
+use super::{Component, Findings, Found, Outline};
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::Span;
 
@@ -95,6 +95,6 @@ fn begins_before(span: Span, place: Span) -> bool {
 
 fn give(findings: &mut Findings, list: Vec<u32>, diags: &Diagnostics) {
     let severities = list.iter().filter_map(|number| diags.get(*number));
-    findings.worst = severities.map(|each| each.severity).min();
-    findings.list = list;
+    let worst = severities.map(|each| each.severity).min();
+    findings.0 = worst.map(|worst| Box::new(Found { worst, list }));
 }

@@ -13,9 +13,8 @@ use crate::check::signature::{Signature, SignatureKind};
 use crate::check::{Made, Member};
 use crate::index::Found;
 use crate::types::Type;
-use afp_syntax::ast::{self, Bind};
+use afp_syntax::ast::{self, Bind, Frame};
 use afp_syntax::item::Item;
-use afp_syntax::source::Span;
 
 /// Reads the components of one plan.
 pub(super) struct Reader<'a> {
@@ -27,27 +26,15 @@ pub(super) struct Reader<'a> {
 impl Reader<'_> {
     /// An element without its supervisors.
     pub fn element(&self, node: &ast::Element, member: Member, item: Item) -> Component {
-        Component {
-            doc: node.doc(),
-            note: node.note(),
-            args_span: node.args_span(),
-            end_span: node.end_span(),
-            ..self.component(member, item, node.span())
-        }
+        self.component(member, item, node.frame())
     }
 
     /// A supervisor.
     pub fn guard(&self, node: &ast::Guard, member: Member, item: Item) -> Component {
-        Component {
-            doc: node.doc(),
-            note: node.note(),
-            args_span: node.args_span(),
-            end_span: node.end_span(),
-            ..self.component(member, item, node.span())
-        }
+        self.component(member, item, node.frame())
     }
 
-    fn component(&self, member: Member, item: Item, span: Span) -> Component {
+    fn component(&self, member: Member, item: Item, frame: Frame) -> Component {
         let Member { name, kind, made, written, .. } = member;
         let signature = made.signature.as_ref();
         let (inputs, outputs) = self.ports(&written.binds, &made);
@@ -56,9 +43,9 @@ impl Reader<'_> {
             item,
             kind,
             name,
-            doc: String::new(),
-            note: String::new(),
-            span,
+            doc: frame.doc,
+            note: frame.note,
+            span: frame.span,
             template: written.template.as_ref().map(|reference| {
                 let (span, made_from) = (reference.span(), signature.and_then(made_from));
                 let text = self.places.in_one_line(span);
@@ -75,8 +62,8 @@ impl Reader<'_> {
             exits,
             supervisors: Vec::new(),
             times: made.times,
-            args_span: None,
-            end_span: None,
+            args_span: frame.args_span,
+            end_span: frame.end_span,
             findings: Findings::default(),
         }
     }
@@ -155,7 +142,8 @@ impl Reader<'_> {
             false => (ExitKind::State, ExitKind::Error),
         };
         let special = if supervisor { edges::DEADLINE_MISSED } else { edges::ERROR };
-        let mut exits = Vec::new();
+        let declared = signature.map_or(0, |signature| signature.outcomes.len());
+        let mut exits = Vec::with_capacity(declared.max(edges.len()));
         if let Some(signature) = signature {
             for (at, name) in signature.outcomes.iter().enumerate() {
                 let declared = signature.outcome_span(at);

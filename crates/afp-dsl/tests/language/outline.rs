@@ -60,7 +60,7 @@ fn dump(compiled: &Compiled) -> String {
     let outline = &compiled.outline;
     let mut text = String::new();
     let said = |findings: &Findings| {
-        let codes = findings.list.iter().map(|at| compiled.diags.get(*at).unwrap().code.as_str());
+        let codes = findings.list().iter().map(|at| compiled.diags.get(*at).unwrap().code.as_str());
         codes.map(|code| format!(" !{code}")).collect::<String>()
     };
     for file in &outline.files {
@@ -265,8 +265,8 @@ pub fn examine(text: &str, compiled: &Compiled) {
         let found = outline.span_of(&at.unwrap()).unwrap();
         assert!(span.contains(found) || span.start == found.end, "{identity:?} of\n{text}");
     }
-    let given = outline.files.iter().map(|file| file.findings.list.len()).sum::<usize>()
-        + all_findings(outline).map(|findings| findings.list.len()).sum::<usize>();
+    let given = outline.files.iter().map(|file| file.findings.list().len()).sum::<usize>()
+        + all_findings(outline).map(|findings| findings.list().len()).sum::<usize>();
     let files: BTreeSet<_> = outline.files.iter().map(|file| file.file).collect();
     let said = compiled.diags.iter().filter(|each| files.contains(&each.span.file)).count();
     assert_eq!(given, said, "diagnostics of\n{text}");

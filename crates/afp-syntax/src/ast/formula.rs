@@ -1,9 +1,10 @@
 //! Formulas in the typed view.
 
 use super::{Name, Ref, find_token, token, views};
-use crate::kind::Kind;
+use crate::Node;
+use crate::kind::{Afp, Kind};
 use crate::source::Span;
-use crate::{Node, token_span};
+use rowan::Language;
 
 views! {
     /// A formula.
@@ -91,11 +92,16 @@ impl Formula {
     fn chain(&self) -> FormulaKind {
         let mut first = None;
         let mut rest: Vec<(Sign, Option<Formula>)> = Vec::new();
-        for element in self.node.children_with_tokens() {
-            if let Some(token) = element.as_token() {
-                let span = token_span(token, self.file);
-                rest.extend(operator(token.kind()).map(|operator| (Sign { operator, span }, None)));
-            } else if let Some(node) = element.into_node().filter(|node| is_formula(node.kind())) {
+        let mut nodes = self.node.children();
+        let mut end = u32::from(self.node.text_range().start());
+        for element in self.node.green().children() {
+            let start = end;
+            end += u32::from(element.text_len());
+            if let Some(token) = element.into_token() {
+                let span = Span { file: self.file, start, end };
+                let operator = operator(Afp::kind_from_raw(token.kind()));
+                rest.extend(operator.map(|operator| (Sign { operator, span }, None)));
+            } else if let Some(node) = nodes.next().filter(|node| is_formula(node.kind())) {
                 let operand = Formula::new(node, self.file);
                 match rest.last_mut() {
                     Some((_, place)) => *place = Some(operand),

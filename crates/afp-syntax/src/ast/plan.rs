@@ -1,7 +1,8 @@
 //! Plans in the typed view.
 
 use super::{
-    Formula, Name, Ref, Timing, Type, child, children, keyword, named, note, token, views,
+    Formula, Name, Ref, Timing, Type, child, child_span, children, closing_span, doc, keyword,
+    keyword_as, named, note, span_of, token, views,
 };
 use crate::kind::{Afp, Kind};
 use crate::source::Span;
@@ -59,6 +60,21 @@ pub enum Bind {
         /// What stands in place of an entry.
         formula: Option<Formula>,
     },
+}
+
+/// What stands around the parts of an element or supervisor.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Its `///` lines.
+    pub doc: String,
+    /// The comment above it.
+    pub note: String,
+    /// Its place, without comments around it.
+    pub span: Span,
+    /// The place of the brackets with its bindings.
+    pub args_span: Option<Span>,
+    /// The place of its closing brace.
+    pub end_span: Option<Span>,
 }
 
 impl Plan {
@@ -120,16 +136,16 @@ impl Start {
 impl Element {
     /// What its keyword says.
     pub fn kind(&self) -> ElementKind {
-        match keyword(&self.node).as_str() {
+        keyword_as(&self.node, |word| match word {
             "computation" => ElementKind::Computation,
             "subplan" => ElementKind::SubPlan,
             _ => ElementKind::Actor,
-        }
+        })
     }
 
     /// The place of its keyword.
     pub fn keyword_span(&self) -> Span {
-        token(&self.node, Kind::Keyword, self.file).map_or_else(|| self.span(), |token| token.span)
+        span_of(&self.node, Kind::Keyword, self.file).unwrap_or_else(|| self.span())
     }
 
     /// The comment above it.
@@ -157,14 +173,9 @@ impl Element {
         edges(&self.node, self.file)
     }
 
-    /// The place of the brackets with the bindings.
-    pub fn args_span(&self) -> Option<Span> {
-        child(&self.node, Kind::Args).map(|node| node_span(&node, self.file))
-    }
-
-    /// The place of its closing brace.
-    pub fn end_span(&self) -> Option<Span> {
-        token(&self.node, Kind::CloseBrace, self.file).map(|token| token.span)
+    /// What stands around its parts.
+    pub fn frame(&self) -> Frame {
+        frame(&self.node, self.file)
     }
 }
 
@@ -194,14 +205,9 @@ impl Guard {
         edges(&self.node, self.file)
     }
 
-    /// The place of the brackets with the bindings.
-    pub fn args_span(&self) -> Option<Span> {
-        child(&self.node, Kind::Args).map(|node| node_span(&node, self.file))
-    }
-
-    /// The place of its closing brace.
-    pub fn end_span(&self) -> Option<Span> {
-        token(&self.node, Kind::CloseBrace, self.file).map(|token| token.span)
+    /// What stands around its parts.
+    pub fn frame(&self) -> Frame {
+        frame(&self.node, self.file)
     }
 }
 
@@ -213,7 +219,7 @@ impl Edge {
 
     /// The place of its arrow.
     pub fn arrow(&self) -> Option<Span> {
-        token(&self.node, Kind::Arrow, self.file).map(|token| token.span)
+        span_of(&self.node, Kind::Arrow, self.file)
     }
 
     /// Whether it leads to a word such as `terminate`.
@@ -229,6 +235,16 @@ impl Edge {
     pub fn target(&self) -> Option<Name> {
         let target = child(&self.node, Kind::Target)?;
         token(&target, Kind::Name, self.file)
+    }
+}
+
+fn frame(node: &Node, file: u16) -> Frame {
+    Frame {
+        doc: doc(node),
+        note: note(node),
+        span: node_span(node, file),
+        args_span: child_span(node, Kind::Args, file),
+        end_span: closing_span(node, file),
     }
 }
 
@@ -248,8 +264,8 @@ pub(super) fn binds(node: &Node, file: u16) -> Vec<Bind> {
 fn bind(node: &Node, file: u16) -> Option<Bind> {
     let port = token(node, Kind::Name, file)?;
     let sign = |kinds: &[Kind]| {
-        let sign = kinds.iter().find_map(|kind| token(node, *kind, file));
-        sign.map_or(port.span.after(), |token| token.span)
+        let sign = kinds.iter().find_map(|kind| span_of(node, *kind, file));
+        sign.unwrap_or(port.span.after())
     };
     match node.kind() {
         Kind::BindIn => Some(Bind::In {

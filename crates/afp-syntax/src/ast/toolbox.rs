@@ -1,6 +1,6 @@
 //! Toolboxes in the typed view.
 
-use super::{Formula, Name, Type, child, keyword, named, range, token, tokens, views};
+use super::{Formula, Name, Type, child, keyword_as, named, range, span_of, token, tokens, views};
 use crate::kind::Kind;
 use crate::source::Span;
 
@@ -59,19 +59,18 @@ impl Toolbox {
 impl Template {
     /// What its keyword says.
     pub fn kind(&self) -> TemplateKind {
-        match keyword(&self.node).as_str() {
+        keyword_as(&self.node, |word| match word {
             "supervisor" => TemplateKind::Supervisor,
             "computation" => TemplateKind::Computation,
             _ => TemplateKind::Actor,
-        }
+        })
     }
 
     /// Its parts as written.
     pub fn parts(&self) -> Vec<Part> {
         let file = self.file;
         let part = |node: crate::Node| {
-            let span = token(&node, Kind::Keyword, file).map(|token| token.span);
-            let span = span.unwrap_or_else(|| self.span());
+            let span = span_of(&node, Kind::Keyword, file).unwrap_or_else(|| self.span());
             let name = |kind| token(&node, kind, file);
             Some(match node.kind() {
                 Kind::Icon => Part::Icon(name(Kind::Text), span),
