@@ -18,7 +18,7 @@ mod plans {
 }
 
 /// Scripts for each plan.
-const SCRIPTS: u64 = 5;
+const SCRIPTS: u64 = 10;
 
 #[test]
 fn interpreter_and_generated_code_agree() {

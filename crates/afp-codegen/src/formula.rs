@@ -4,11 +4,11 @@
 //! in the interpreter; what could panic, wrap or round differently is a call into `afp_core::rt`.
 
 use proc_macro2::{Ident, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
 
 use crate::plan::units_name;
 use crate::rust_type::{Home, float, int, variant};
-use afp_dsl::graph::{Formula, FormulaKind, Operator};
+use afp_dsl::graph::{Formula, FormulaKind, Function, Operator};
 use afp_dsl::types::{Conversion, Dimension, Type};
 
 /// How tightly an expression binds.
@@ -58,7 +58,7 @@ impl<'a> Formulas<'a> {
                 Some(text) => text,
                 None => {
                     let text = self.value(formula);
-                    let room = quote::format_ident!("text_{}", self.rooms.len() + 1);
+                    let room = format_ident!("text_{}", self.rooms.len() + 1);
                     self.rooms.push(room.clone());
                     quote!(hold(#room, #text))
                 }
@@ -118,8 +118,26 @@ impl<'a> Formulas<'a> {
                 Type::Int => self.on_ints(*operator, a, b),
                 _ => self.on_quantities(*operator, a, b, dimension(&formula.ty)),
             },
+            FormulaKind::Call(function, operands) => {
+                let value = self.called(*function, operands);
+                atom(self.home.quantity_from(dimension(&formula.ty), value))
+            }
             FormulaKind::Convert(conversion, inner) => self.converted(conversion, inner),
         }
+    }
+
+    /// A function, on ints or on SI values; it goes by the name that it has in `afp_core::rt`.
+    fn called(&self, function: Function, operands: &[Formula]) -> TokenStream {
+        let ints = operands.iter().all(|operand| operand.ty == Type::Int);
+        let of_ints = if ints { "int_" } else { "" };
+        let name = format_ident!("{of_ints}{}", function.name());
+        let fails = function == Function::Clamp || (ints && function == Function::Abs);
+        let question = fails.then(|| quote!(?));
+        let operands = operands.iter().map(|operand| match dimension(&operand.ty) {
+            Dimension::NONE => self.value(operand),
+            _ => self.si(operand),
+        });
+        quote!(#name(#(#operands),*) #question)
     }
 
     /// A text to be looked at within the expression: an `&str`.
@@ -189,6 +207,9 @@ impl<'a> Formulas<'a> {
     fn si(&self, formula: &Formula) -> TokenStream {
         if dimension(&formula.ty) == Dimension::NONE {
             return self.expr(formula).at(Bond::Sign);
+        }
+        if let FormulaKind::Call(function, operands) = &formula.kind {
+            return self.called(*function, operands);
         }
         let value = self.expr(formula).at(Bond::Atom);
         quote!(#value.si())
@@ -283,7 +304,8 @@ pub fn is_literal(formula: &Formula) -> bool {
         FormulaKind::Neg(inner) => is_literal(inner),
         FormulaKind::Bool(_) | FormulaKind::Int(_) | FormulaKind::Float(_) => true,
         FormulaKind::Text(_) | FormulaKind::Choice(_) => true,
-        FormulaKind::Entry(_) | FormulaKind::Binary(..) | FormulaKind::Convert(..) => false,
+        FormulaKind::Entry(_) | FormulaKind::Binary(..) => false,
+        FormulaKind::Call(..) | FormulaKind::Convert(..) => false,
     }
 }
 
@@ -295,6 +317,9 @@ pub fn reads(formula: &Formula, see: &mut dyn FnMut(usize)) {
         FormulaKind::Binary(_, a, b) => {
             reads(a, see);
             reads(b, see);
+        }
+        FormulaKind::Call(_, operands) => {
+            operands.iter().for_each(|operand| reads(operand, see));
         }
         _ => {}
     }

@@ -14,9 +14,10 @@ mod store;
 mod table;
 
 pub use formula::{
-    Scale, Unit, bool_to_float, bool_to_int, float_to_int, int_add, int_mul, int_neg, int_rem,
-    int_sub, int_to_float, join, parse_bool, parse_choice, parse_float, parse_int, parse_quantity,
-    print_quantity, rem,
+    Scale, Unit, abs, atan2, bool_to_float, bool_to_int, clamp, cos, float_to_int, hypot, int_abs,
+    int_add, int_clamp, int_max, int_min, int_mul, int_neg, int_rem, int_sub, int_to_float, join,
+    max, min, parse_bool, parse_choice, parse_float, parse_int, parse_quantity, print_quantity,
+    rem, sin, sqrt,
 };
 pub use names::{ComponentRow, EntryRow, NameTable, NamedPlan};
 pub use native::{

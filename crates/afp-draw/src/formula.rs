@@ -52,6 +52,10 @@ fn printed(formula: &Formula, plan: &Plan) -> String {
             let (left, right) = (operand(left, plan, level), operand(right, plan, level + 1));
             format!("{left} {} {right}", sign(*operator))
         }
+        FormulaKind::Call(function, operands) => {
+            let operands: Vec<_> = operands.iter().map(|each| printed(each, plan)).collect();
+            format!("{}({})", function.name(), operands.join(", "))
+        }
         FormulaKind::Convert(conversion, inner) => converted(conversion, inner, plan),
     }
 }

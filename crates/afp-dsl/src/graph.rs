@@ -13,6 +13,7 @@ use crate::toolbox::{Template, Toolbox};
 use crate::types::{Conversion, Type};
 use afp_syntax::source::Span;
 
+pub use afp_number::Function;
 pub use afp_syntax::ast::Operator;
 
 macro_rules! index {
@@ -262,6 +263,8 @@ pub enum FormulaKind {
     Neg(Box<Formula>),
     /// An operation on two operands; on texts, `+` joins.
     Binary(Operator, Box<Formula>, Box<Formula>),
+    /// A function of as many operands as it takes; those that take any number have two.
+    Call(Function, Vec<Formula>),
     /// A conversion.
     Convert(Conversion, Box<Formula>),
 }

@@ -157,6 +157,8 @@ pub enum Word {
     Type,
     /// `true` or `false`
     Truth,
+    /// A function of formulas, such as `min`.
+    Function,
     /// What a template commands, behind `uses`, where its toolbox declares no such device.
     Resource,
     /// A fault that every sensor has, such as `frozen`, in a scenario.

@@ -43,7 +43,7 @@ fn the_plan_of_the_paper_and_a_scenario_are_canonical() {
 fn white_space_follows_the_structure() {
     becomes(
         "use std use carbot as c enum E{a,b}\n\n\n\nplan P{in a:length/duration ^ - 2=- ( 3cm/s*2 ),\
-         out bb:int const k=3 start go,actor go:c . Forward(distance=a,driven=>bb){supervise t:T \
+         in d=-min ( 1 ,2,clamp(3,(4),5) )out bb:int const k=3 start go,actor go:c . Forward(distance=a,driven=>bb){supervise t:T \
          every 3ms deadline 1 ms{E->go,F->ignore}Done->go,Error->terminate}}",
         "\
 use std
@@ -52,6 +52,7 @@ enum E { a b }
 
 plan P {
     in  a:  length/duration^-2 = -(3 cm/s * 2)
+    in  d = -min(1, 2, clamp(3, (4), 5))
     out bb: int
     const k = 3
     start go

@@ -11,6 +11,7 @@
 mod arithmetic;
 mod decimal;
 mod exact;
+mod function;
 mod read;
 mod text;
 
@@ -20,6 +21,10 @@ pub use arithmetic::{
 };
 pub use decimal::{Decimal, number_length};
 pub use exact::{RADIANS_PER_DEGREE, Scale, exact};
+pub use function::{
+    Function, abs, atan2, clamp, cos, hypot, int_abs, int_clamp, int_max, int_min, max, min, sin,
+    sqrt,
+};
 pub use read::{Quantity, Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};
 pub use text::{Nanoseconds, Rounded};
 
@@ -37,6 +42,8 @@ pub enum Error {
     DivisionByZero,
     /// The result is infinite or not a number.
     NotFinite,
+    /// A range whose least value is above its greatest one.
+    NoRange,
     /// A text of more than [`MAX_TEXT`] bytes.
     TooLong,
     /// A text is no value of the wanted type.
@@ -49,6 +56,7 @@ impl fmt::Display for Error {
             Error::Overflow => "an integer leaves 64 bits",
             Error::DivisionByZero => "a division by zero",
             Error::NotFinite => "the result is not finite",
+            Error::NoRange => "the least value of a range is above its greatest one",
             Error::TooLong => "a text of more than 64 bytes",
             Error::NotAValue => "a text is no value of the wanted type",
         })

@@ -65,6 +65,11 @@ impl Dimension {
         self.zip(self, |own, _| own.checked_mul(exponent))
     }
 
+    /// The dimension whose square this is; `None` when an exponent is odd.
+    pub fn root(self) -> Option<Dimension> {
+        self.zip(self, |exponent, _| (exponent % 2 == 0).then_some(exponent / 2))
+    }
+
     /// A unit in which people write quantities of this dimension; empty for a plain number.
     pub fn usual_unit(self) -> String {
         match NAMED.iter().find(|(_, dimension, ..)| *dimension == self) {
@@ -165,6 +170,13 @@ mod tests {
             let unit = Unit::parse(&dimension.si_unit()).unwrap();
             assert_eq!(unit.dimension, dimension);
         }
+    }
+
+    #[test]
+    fn roots_halve_exponents() {
+        let speed = Dimension::named("speed").unwrap();
+        assert_eq!(speed.power(2).unwrap().root(), Some(speed));
+        assert_eq!((speed.root(), Dimension::NONE.root()), (None, Some(Dimension::NONE)));
     }
 
     #[test]

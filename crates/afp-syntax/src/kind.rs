@@ -199,6 +199,8 @@ kinds! {
     Negation
     /// A formula in brackets.
     Brackets
+    /// `min(a, b)`
+    Call
     /// A number, quantity, text or truth value.
     Literal
 }

@@ -40,7 +40,7 @@ fn leaf(ty: Type, entries: &Entries, dice: &mut Dice) -> String {
 
 fn float(a: &str, b: &str, entries: &Entries, depth: u64, dice: &mut Dice) -> String {
     let changing = dice.pick(&entries.changing(Type::Float));
-    match dice.between(0, 9) {
+    match dice.between(0, 13) {
         0 => format!("{a} + {b}"),
         1 => format!("{a} - ({b})"),
         2 => format!("({a}) * ({b})"),
@@ -49,6 +49,11 @@ fn float(a: &str, b: &str, entries: &Entries, depth: u64, dice: &mut Dice) -> St
         5 => format!("-({a})"),
         6 => formula(Type::Int, entries, depth - 1, dice),
         7 => format!("{} / {}", leaf(Type::Int, entries, dice), dice.pick(&["2", "3", "7"])),
+        8 => format!("{}({a}, {b})", dice.pick(&["min", "max", "hypot"])),
+        9 => format!("clamp({a}, {}, {changing})", dice.pick(&["-3", "0", "1.5"])),
+        10 => format!("{}(({a}) * 1 rad)", dice.pick(&["sin", "cos"])),
+        11 => format!("abs({a}) + sqrt({changing})"),
+        12 => format!("atan2({a}, {b}) / 1 rad"),
         _ => {
             let lengths = entries.changing(Type::Length);
             format!("{} / {}", leaf(Type::Length, entries, dice), dice.pick(&lengths))
@@ -58,23 +63,29 @@ fn float(a: &str, b: &str, entries: &Entries, depth: u64, dice: &mut Dice) -> St
 
 fn int(a: &str, b: &str, entries: &Entries, dice: &mut Dice) -> String {
     let changing = dice.pick(&entries.changing(Type::Int));
-    match dice.between(0, 7) {
+    match dice.between(0, 10) {
         0 => format!("{a} + {b}"),
         1 => format!("{a} - ({b})"),
         2 => format!("({a}) * ({b})"),
         3 => format!("({a}) % {changing}"),
         4 => format!("-({a})"),
         5 => format!("{} + {a}", dice.pick(&entries.changing(Type::Int))),
+        6 => format!("{}({a}, {b}, {changing})", dice.pick(&["min", "max"])),
+        7 => format!("clamp({a}, {}, {changing})", dice.pick(&["-3", "0", "2"])),
+        8 => format!("abs({a})"),
         _ => format!("{changing} * 3037000500"),
     }
 }
 
 fn length(a: &str, b: &str, entries: &Entries, dice: &mut Dice) -> String {
-    match dice.between(0, 5) {
+    match dice.between(0, 8) {
         0 => format!("{a} + {b}"),
         1 => format!("{a} - ({b})"),
         2 => format!("({a}) * {}", leaf(Type::Float, entries, dice)),
         3 => format!("({a}) / {}", dice.pick(&entries.changing(Type::Float))),
+        4 => format!("{}({a}, {b})", dice.pick(&["min", "max", "hypot"])),
+        5 => format!("sqrt({} * ({b}))", dice.pick(&entries.changing(Type::Length))),
+        6 => format!("clamp({a}, {b}, {})", dice.pick(&entries.changing(Type::Length))),
         _ => format!("-({a})"),
     }
 }

@@ -266,6 +266,11 @@ const RULES: &[Rule] = &[
         "overflow, '% 0' and infinite results are faults of the reader",
         &["formula_overflow_is_a_fault"],
     ),
+    (
+        "1.11",
+        "functions keep ints, check dimensions, and are faults where they have no value",
+        &["formula_functions"],
+    ),
     ("1.11", "conversions", &["formula_conversions", "formula_text_that_does_not_read"]),
     (
         "1.11",

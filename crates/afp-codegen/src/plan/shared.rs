@@ -138,6 +138,7 @@ fn walk(formula: &Formula, see: &mut dyn FnMut(&Formula)) {
             walk(a, see);
             walk(b, see);
         }
+        FormulaKind::Call(_, operands) => operands.iter().for_each(|operand| walk(operand, see)),
         _ => {}
     }
 }

@@ -7,6 +7,10 @@ const D: u16 = 3;
 const E: u16 = 4;
 const K: u16 = 5;
 const N: u16 = 6;
+const O: u16 = 7;
+const Q: u16 = 8;
+const R: u16 = 9;
+const S: u16 = 10;
 
 /// The element that is active.
 #[derive(Clone, Default)]
@@ -70,5 +74,50 @@ fn n(config: &Config) -> Result<std_templates::log::Inputs<Text>, Fault> {
                 .as_str(),
             "4",
         )?,
+    })
+}
+
+/// Inputs of `o`.
+fn o(config: &Config) -> Result<std_templates::log::Inputs<i64>, Fault> {
+    Ok(std_templates::log::Inputs {
+        value: int_min(int_min(config.i(), 3), int_neg(config.i())?),
+    })
+}
+
+/// Inputs of `q`.
+fn q(config: &Config) -> Result<std_templates::log::Inputs<i64>, Fault> {
+    Ok(std_templates::log::Inputs {
+        value: int_add(int_clamp(config.i(), int_neg(int_abs(config.i())?)?, 5)?, 1)?,
+    })
+}
+
+/// Inputs of `r`.
+fn r(config: &Config) -> Result<std_templates::log::Inputs<Length>, Fault> {
+    Ok(std_templates::log::Inputs {
+        value: Length::from_si(
+            hypot(config.way().si(), max(config.way().si(), Length::from_si(2.0).si())),
+        ) / 2.0,
+    })
+}
+
+/// Inputs of `s`.
+fn s(config: &Config) -> Result<std_templates::log::Inputs<f64>, Fault> {
+    Ok(std_templates::log::Inputs {
+        value: sin(
+            atan2(
+                Length::from_si(2.0 * config.way().si()).si(),
+                sqrt(
+                    <Quantity<
+                        2,
+                        0,
+                        0,
+                        0,
+                        0,
+                        0,
+                    >>::from_si(config.way().si() * config.way().si())
+                        .si(),
+                ),
+            ),
+        ) * abs(config.f()),
     })
 }

@@ -7,12 +7,17 @@ use afp_number::{Error, Quantity};
 use crate::fault::Fault;
 use crate::value::Text;
 
-pub use afp_number::{Scale, Unit, bool_to_float, bool_to_int, int_to_float};
+pub use afp_number::{
+    Scale, Unit, abs, atan2, bool_to_float, bool_to_int, cos, hypot, int_max, int_min,
+    int_to_float, max, min, sin, sqrt,
+};
 
 impl From<Error> for Fault {
     fn from(error: Error) -> Self {
         match error {
-            Error::Overflow | Error::DivisionByZero | Error::NotFinite => Fault::ARITHMETIC,
+            Error::Overflow | Error::DivisionByZero | Error::NotFinite | Error::NoRange => {
+                Fault::ARITHMETIC
+            }
             Error::TooLong => Fault::TOO_LONG,
             Error::NotAValue => Fault::CONVERSION,
         }
@@ -55,6 +60,21 @@ faulty! {
     /// # Errors
     /// [`Fault::ARITHMETIC`] for the least integer.
     int_neg(a: i64) -> i64;
+    /// `a` without its sign.
+    ///
+    /// # Errors
+    /// [`Fault::ARITHMETIC`] for the least integer.
+    int_abs(a: i64) -> i64;
+    /// `value`, but at least `low` and at most `high`.
+    ///
+    /// # Errors
+    /// [`Fault::ARITHMETIC`] when `low` is above `high`.
+    int_clamp(value: i64, low: i64, high: i64) -> i64;
+    /// `value`, but at least `low` and at most `high`.
+    ///
+    /// # Errors
+    /// [`Fault::ARITHMETIC`] when `low` is above `high`.
+    clamp(value: f64, low: f64, high: f64) -> f64;
     /// `a % b` with the sign of `a`.
     ///
     /// # Errors

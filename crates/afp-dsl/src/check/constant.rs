@@ -10,7 +10,7 @@ use afp_number::{
     parse_int, parse_quantity, rem,
 };
 
-use crate::graph::{Formula, FormulaKind, Operator};
+use crate::graph::{Formula, FormulaKind, Function, Operator};
 use crate::toolbox::Constant;
 use crate::types::readable::readable;
 use crate::types::{Conversion, Type};
@@ -53,6 +53,10 @@ fn part(
             let (left, right) = (part(left, entry)?, part(right, entry)?);
             binary(*operator, left, right)?
         }
+        FormulaKind::Call(function, operands) => {
+            let values = operands.iter().map(|operand| part(operand, entry));
+            call(*function, &values.collect::<Result<Vec<_>, _>>()?)?
+        }
         FormulaKind::Convert(conversion, inner) => match part(inner, entry)? {
             Some(value) => Some(convert(conversion, value)?),
             None => None,
@@ -83,6 +87,27 @@ fn binary(
             }
             Some(Constant::Text(joined))
         }
+        _ => None,
+    })
+}
+
+fn call(function: Function, operands: &[Option<Constant>]) -> Result<Option<Constant>, Error> {
+    // Bounds the wrong way round are wrong for every value.
+    if let (Function::Clamp, [None, low @ Some(_), high]) = (function, operands) {
+        call(function, &[low.clone(), low.clone(), high.clone()])?;
+    }
+    let (mut ints, mut floats) = ([0; 3], [0.0; 3]);
+    let (mut whole, mut broken) = (0, 0);
+    for (place, operand) in operands.iter().enumerate().take(3) {
+        match operand {
+            Some(Constant::Int(value)) => (ints[place], whole) = (*value, whole + 1),
+            Some(Constant::Float(value)) => (floats[place], broken) = (*value, broken + 1),
+            _ => return Ok(None),
+        }
+    }
+    Ok(match (whole == operands.len(), broken == operands.len()) {
+        (true, _) => Some(Constant::Int(function.of_ints(ints)?)),
+        (_, true) => Some(Constant::Float(function.of_floats(floats)?)),
         _ => None,
     })
 }
@@ -169,8 +194,8 @@ fn from_text(text: &str, ty: &Type) -> Result<Constant, Error> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Error, binary};
-    use crate::graph::Operator;
+    use super::{Error, binary, call};
+    use crate::graph::{Function, Operator};
     use crate::toolbox::Constant;
 
     #[test]
@@ -185,5 +210,14 @@ mod tests {
         assert_eq!(binary(Operator::Mul, None, int(0)), Ok(None));
         assert_eq!(binary(Operator::Add, int(i64::MAX), int(1)), Err(Error::Overflow));
         assert_eq!(binary(Operator::Rem, int(-7), int(3)), Ok(int(-1)));
+    }
+
+    #[test]
+    fn bounds_the_wrong_way_round_fail_whatever_is_between() {
+        let int = |value| Some(Constant::Int(value));
+        assert_eq!(call(Function::Clamp, &[None, int(2), int(1)]), Err(Error::NoRange));
+        assert_eq!(call(Function::Clamp, &[None, int(1), int(2)]), Ok(None));
+        assert_eq!(call(Function::Clamp, &[None, None, int(2)]), Ok(None));
+        assert_eq!(call(Function::Clamp, &[int(7), int(1), int(2)]), Ok(int(2)));
     }
 }

@@ -1,5 +1,6 @@
 //! Types of formulas: names become entries, conversions become nodes, dimensions are computed.
 
+mod function;
 mod literal;
 mod operation;
 
@@ -152,6 +153,16 @@ impl Typer<'_> {
                 let inner = self.formula(&inner?, inside, diags)?;
                 Some(Formula { span, ..inner })
             }
+            ast::FormulaKind::Call { name, operands, broken } => {
+                let function = function::named(self.scope, &name, diags);
+                let inside = !function::takes_celsius(function);
+                // Every operand is looked at, so that all errors come at once.
+                let operands = operands.iter().map(|operand| self.formula(operand, inside, diags));
+                let operands: Vec<_> = operands.collect();
+                let operands = operands.into_iter().collect::<Option<Vec<_>>>()?;
+                let call = (function.filter(|_| !broken)?, name.span);
+                function::call(self.scope, call, operands, span, diags)
+            }
             ast::FormulaKind::Number { number, unit, whole, broken } => {
                 if broken {
                     return None;
@@ -184,6 +195,10 @@ impl Typer<'_> {
             }
             ast::FormulaKind::Negation(Some(inner)) | ast::FormulaKind::Brackets(Some(inner)) => {
                 self.names(&inner);
+            }
+            ast::FormulaKind::Call { name, operands, .. } => {
+                function::named(self.scope, &name, &mut Diagnostics::default());
+                operands.iter().for_each(|operand| self.names(operand));
             }
             ast::FormulaKind::Bool(_) => self.scope.record.word(formula.span(), Word::Truth),
             ast::FormulaKind::Ref(reference) => {
@@ -339,6 +354,10 @@ fn fault_diagnostic(error: Error, span: Span) -> Diagnostic {
         Error::NotFinite => {
             Diagnostic::new(Code::E0228, span, "the value is infinite or not a number")
                 .help("do not divide by zero, and keep numbers below 1.8e308")
+        }
+        Error::NoRange => {
+            Diagnostic::new(Code::E0228, span, "the least value is above the greatest one")
+                .help("write 'clamp(value, low, high)' with 'low' at most 'high'")
         }
         Error::NotAValue => Diagnostic::new(Code::E0228, span, "the text is no value of the type")
             .help("write a value of the type, unit included, without the quotes"),

@@ -311,6 +311,7 @@ pub(crate) fn each_entry(
                 open.push(right);
                 open.push(left);
             }
+            FormulaKind::Call(_, operands) => open.extend(operands.iter().rev()),
             _ => {}
         }
     }

@@ -184,6 +184,10 @@ impl Dump<'_> {
                 };
                 format!("({} {sign} {})", self.formula(left), self.formula(right))
             }
+            FormulaKind::Call(function, operands) => {
+                let operands: Vec<_> = operands.iter().map(|each| self.formula(each)).collect();
+                format!("{}({})", function.name(), operands.join(", "))
+            }
             FormulaKind::Convert(conversion, inner) => {
                 format!("{}({})", conversion_name(conversion), self.formula(inner))
             }

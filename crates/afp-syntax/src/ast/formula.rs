@@ -1,6 +1,6 @@
 //! Formulas in the typed view.
 
-use super::{Name, Ref, find_token, token, views};
+use super::{Name, Ref, find_token, token, tokens, views};
 use crate::Node;
 use crate::kind::{Afp, Kind};
 use crate::source::Span;
@@ -20,6 +20,15 @@ pub enum FormulaKind {
     Negation(Option<Formula>),
     /// `(operand)`
     Brackets(Option<Formula>),
+    /// `function(operand, operand)`
+    Call {
+        /// The function.
+        name: Name,
+        /// Its operands from left to right.
+        operands: Vec<Formula>,
+        /// Whether one of them is missing, which is reported.
+        broken: bool,
+    },
     /// A number and, behind it, its unit.
     Number {
         /// The digits.
@@ -85,6 +94,7 @@ impl Formula {
             Kind::Brackets => FormulaKind::Brackets(only()),
             Kind::Ref => FormulaKind::Ref(Ref::new(self.node.clone(), self.file)),
             Kind::Literal => self.literal(),
+            Kind::Call => self.call(),
             _ => FormulaKind::Hole,
         }
     }
@@ -112,6 +122,14 @@ impl Formula {
         FormulaKind::Chain(first, rest)
     }
 
+    fn call(&self) -> FormulaKind {
+        let Some(name) = token(&self.node, Kind::Name, self.file) else { return FormulaKind::Hole };
+        let operands = Formula::children_of(&self.node, self.file);
+        let commas = tokens(&self.node, Kind::Comma, self.file).len();
+        let broken = commas > 0 && operands.len() != commas + 1;
+        FormulaKind::Call { name, operands, broken }
+    }
+
     fn literal(&self) -> FormulaKind {
         let first = find_token(&self.node, self.file, |kind, text, span| {
             (!kind.is_trivia()).then(|| (kind, Name { text: text.to_owned(), span }))
@@ -134,7 +152,13 @@ impl Formula {
 fn is_formula(kind: Kind) -> bool {
     matches!(
         kind,
-        Kind::Sum | Kind::Product | Kind::Negation | Kind::Brackets | Kind::Ref | Kind::Literal
+        Kind::Sum
+            | Kind::Product
+            | Kind::Negation
+            | Kind::Brackets
+            | Kind::Call
+            | Kind::Ref
+            | Kind::Literal
     )
 }
 

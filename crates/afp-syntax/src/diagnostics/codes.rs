@@ -107,6 +107,7 @@ codes! {
     E0240 Warning "entry named like a unit"
     E0241 Error "type that nothing decides"
     E0242 Error "operation that the type does not have"
+    E0243 Error "function that cannot be called so"
     E0301 Warning "input read once from an entry that changes"
     E0302 Warning "element that can never be reached"
     E0303 Error "entry read before it is written"

@@ -93,6 +93,7 @@ impl Parser<'_, '_> {
             Kind::Name if matches!(self.word(0), "true" | "false") && !self.names_something(0) => {
                 self.literal();
             }
+            Kind::Name if self.nth(1) == Kind::OpenParen => self.call(),
             // A name that is bound begins the next item; the operand is missing.
             Kind::Name if !self.names_something(0) || self.nth(1) == Kind::Colon => {
                 self.reference()
@@ -130,6 +131,22 @@ impl Parser<'_, '_> {
         let opened = self.here();
         self.bump();
         self.formula();
+        self.close_bracket(Kind::CloseParen, opened);
+        self.close();
+    }
+
+    /// `FUNCTION "(" formula {"," formula} ")"`
+    fn call(&mut self) {
+        self.open(Kind::Call);
+        self.bump();
+        let opened = self.here();
+        self.bump();
+        if !self.at(Kind::CloseParen) {
+            self.formula();
+            while self.eat(Kind::Comma) {
+                self.formula();
+            }
+        }
         self.close_bracket(Kind::CloseParen, opened);
         self.close();
     }

@@ -9,7 +9,7 @@ mod convert;
 
 use afp_core::rt::{int_add, int_mul, int_neg, int_rem, int_sub, join, rem};
 use afp_core::{Fault, Text, Value};
-use afp_dsl::graph::{self, FormulaKind, Operator};
+use afp_dsl::graph::{self, FormulaKind, Function, Operator};
 use afp_dsl::types::Type;
 
 use super::config::Values;
@@ -41,6 +41,7 @@ enum Node {
     Entry(u16),
     Neg(Box<Formula>),
     Binary(Operator, Box<Formula>, Box<Formula>),
+    Call(Function, Box<[Formula]>),
     Convert(Converter, Box<Formula>),
 }
 
@@ -59,6 +60,9 @@ impl Formula {
             FormulaKind::Entry(entry) => Node::Entry(entry.0),
             FormulaKind::Neg(operand) => Node::Neg(inner(operand)),
             FormulaKind::Binary(operator, a, b) => Node::Binary(*operator, inner(a), inner(b)),
+            FormulaKind::Call(function, operands) => {
+                Node::Call(*function, operands.iter().map(Formula::new).collect())
+            }
             FormulaKind::Convert(conversion, operand) => {
                 Node::Convert(Converter::new(conversion), inner(operand))
             }
@@ -126,6 +130,10 @@ impl Formula {
                     Operator::Div => Err(Fault::INTERNAL),
                 }
             }
+            Node::Call(function, operands) => {
+                let operands = call_with(operands, |operand| operand.int(values))?;
+                Ok(function.of_ints(operands)?)
+            }
             Node::Convert(..) => match self.converted(values)? {
                 Value::Int(value) => Ok(value),
                 _ => Err(Fault::INTERNAL),
@@ -159,6 +167,10 @@ impl Formula {
                     Operator::Div => Ok(a / b),
                     Operator::Rem => rem(a, b),
                 }
+            }
+            Node::Call(function, operands) => {
+                let operands = call_with(operands, |operand| operand.float(values))?;
+                Ok(function.of_floats(operands)?)
             }
             Node::Convert(..) => match self.converted(values)? {
                 Value::Float(value) => Ok(value),
@@ -230,6 +242,18 @@ impl Formula {
             _ => Err(Fault::INTERNAL),
         }
     }
+}
+
+/// The values of the operands of a function.
+fn call_with<T: Copy + Default>(
+    operands: &[Formula],
+    value: impl Fn(&Formula) -> Result<T, Fault>,
+) -> Result<[T; 3], Fault> {
+    let mut values = [T::default(); 3];
+    for (place, operand) in values.iter_mut().zip(operands) {
+        *place = value(operand)?;
+    }
+    Ok(values)
 }
 
 /// Refuses numbers that are not finite.

@@ -64,21 +64,21 @@ fn convert(formula: Formula, conversion: Conversion, ty: Type) -> Formula {
     Formula { kind: FormulaKind::Convert(conversion, Box::new(formula)), ty, span }
 }
 
-fn dimension(formula: &Formula) -> Dimension {
+pub(super) fn dimension(formula: &Formula) -> Dimension {
     match formula.ty {
         Type::Quantity(dimension) => dimension,
         _ => Dimension::NONE,
     }
 }
 
-fn to_float(formula: Formula) -> Formula {
+pub(super) fn to_float(formula: Formula) -> Formula {
     match formula.ty {
         Type::Int => convert(formula, Conversion::IntToFloat, Type::FLOAT),
         _ => formula,
     }
 }
 
-fn to_number(formula: Formula, diags: &mut Diagnostics) -> Option<Formula> {
+pub(super) fn to_number(formula: Formula, diags: &mut Diagnostics) -> Option<Formula> {
     match formula.ty {
         Type::Int | Type::Quantity(_) => Some(formula),
         Type::Bool => {
@@ -115,7 +115,7 @@ fn to_text(formula: Formula, diags: &mut Diagnostics) -> Option<Formula> {
 }
 
 /// Two operands that cannot be added, subtracted or divided with remainder.
-fn different(scope: &Scope<'_>, left: &Formula, right: &Formula) -> Diagnostic {
+pub(super) fn different(scope: &Scope<'_>, left: &Formula, right: &Formula) -> Diagnostic {
     let (a, b) = (dimension(left), dimension(right));
     let (bare, other) = if b == Dimension::NONE {
         (right, left)

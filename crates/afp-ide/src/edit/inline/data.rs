@@ -151,7 +151,7 @@ impl Data {
             )));
         }
         let text = match shape.kind() {
-            Kind::Ref | Kind::Brackets => text,
+            Kind::Ref | Kind::Brackets | Kind::Call => text,
             Kind::Literal if ty == "float" && text.bytes().all(|b| b.is_ascii_digit()) => {
                 text + ".0"
             }

@@ -164,6 +164,7 @@ impl Maker<'_> {
             "FLOAT" => self.write(&format!("{number}.5")),
             "QUANTITY" => self.write(&format!("{number} cm/s")),
             "TIME" => self.write(&format!("{number} ms")),
+            "FUNCTION" => self.write("clamp"),
             "STRING" => self.write("\"text\""),
             rule => {
                 let grammar = self.grammar;

@@ -1,0 +1,138 @@
+//! Functions and the dimensions of their values.
+
+use afp_number::Function;
+
+use super::Scope;
+use super::operation::{different, dimension, to_float, to_number};
+use crate::check::convert::coerce;
+use crate::check::names::unknown;
+use crate::graph::{Formula, FormulaKind};
+use crate::index::Word;
+use crate::types::text::{a_dimension, a_type};
+use crate::types::{Dimension, Type};
+use afp_syntax::ast::Name;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
+
+/// The function of a name; reports one that formulas do not have.
+pub(super) fn named(scope: &Scope<'_>, name: &Name, diags: &mut Diagnostics) -> Option<Function> {
+    let function = Function::named(&name.text);
+    match function {
+        Some(_) => scope.record.word(name.span, Word::Function),
+        None => {
+            scope.record.unknown(name.span);
+            let known = Function::ALL.iter().map(|function| function.name());
+            let message = format!("formulas have no function '{}'", name.text);
+            diags.push(unknown(Code::E0243, name.span, message, &name.text, known, ""));
+        }
+    }
+    function
+}
+
+/// Whether degrees Celsius may be written as an operand: what only compares its operands needs no
+/// zero that means none.
+pub(super) fn takes_celsius(function: Option<Function>) -> bool {
+    matches!(function, Some(Function::Min | Function::Max | Function::Clamp))
+}
+
+/// `function(operands)`, which stands at `span`; its name at `name`.
+pub(super) fn call(
+    scope: &Scope<'_>,
+    (function, name): (Function, Span),
+    operands: Vec<Formula>,
+    span: Span,
+    diags: &mut Diagnostics,
+) -> Option<Formula> {
+    if !takes(function, operands.len()) {
+        diags.push(wrong_number(function, operands.len(), name));
+        return None;
+    }
+    let numbers = operands.into_iter().map(|operand| to_number(operand, diags));
+    let mut numbers = numbers.collect::<Option<Vec<_>>>()?;
+    let ints = numbers.iter().all(|number| number.ty == Type::Int);
+    let ty = match function {
+        Function::Abs | Function::Min | Function::Max | Function::Clamp if ints => Type::Int,
+        Function::Sin | Function::Cos => {
+            let angle = Type::Quantity(Dimension::named("angle")?);
+            let operand = numbers.pop()?;
+            let text = scope.text_of(operand.span);
+            numbers.push(coerce(operand, &angle, text, diags)?);
+            Type::FLOAT
+        }
+        _ => {
+            let dimension = common(scope, &numbers, diags)?;
+            numbers = numbers.into_iter().map(to_float).collect();
+            match function {
+                Function::Atan2 => Type::Quantity(Dimension::named("angle")?),
+                Function::Sqrt => root(dimension, span, diags)?,
+                _ => Type::Quantity(dimension),
+            }
+        }
+    };
+    Some(joined(function, numbers, ty, span))
+}
+
+/// Two operands at a time, from left to right, for functions that take any number of them.
+fn joined(function: Function, operands: Vec<Formula>, ty: Type, span: Span) -> Formula {
+    let call = |operands| {
+        let kind = FormulaKind::Call(function, operands);
+        Formula { kind, ty: ty.clone(), span }
+    };
+    if function.operands().1.is_some() {
+        return call(operands);
+    }
+    let mut operands = operands.into_iter();
+    let first = operands.next().into_iter().chain(operands.next()).collect();
+    operands.fold(call(first), |value, operand| call(vec![value, operand]))
+}
+
+/// The one dimension of all operands.
+fn common(scope: &Scope<'_>, operands: &[Formula], diags: &mut Diagnostics) -> Option<Dimension> {
+    let first = operands.first()?;
+    let other = operands.iter().find(|operand| dimension(operand) != dimension(first));
+    if let Some(other) = other {
+        diags.push(different(scope, first, other));
+        return None;
+    }
+    Some(dimension(first))
+}
+
+fn root(dimension: Dimension, span: Span, diags: &mut Diagnostics) -> Option<Type> {
+    if let Some(root) = dimension.root() {
+        return Some(Type::Quantity(root));
+    }
+    let message = format!("{} has no square root", a_dimension(dimension));
+    let square = dimension
+        .power(2)
+        .map_or_else(String::new, |square| format!(", or of {}", a_type(&Type::Quantity(square))));
+    diags.push(
+        Diagnostic::new(Code::E0242, span, message)
+            .help(format!("take the root of a number{square}")),
+    );
+    None
+}
+
+fn takes(function: Function, operands: usize) -> bool {
+    match function.operands() {
+        (least, Some(most)) => (least..=most).contains(&operands),
+        // Of one value alone there is nothing to choose.
+        (least, None) => operands >= least,
+    }
+}
+
+fn wrong_number(function: Function, given: usize, span: Span) -> Diagnostic {
+    let (least, most) = function.operands();
+    let more = if most.is_none() { " or more" } else { "" };
+    let plural = if least == 1 { "" } else { "s" };
+    let name = function.name();
+    let message = format!("'{name}' takes {least}{more} operand{plural}, not {given}");
+    let operands = match function {
+        Function::Min | Function::Max => "a, b",
+        Function::Clamp => "value, low, high",
+        Function::Atan2 => "y, x",
+        Function::Hypot => "a, b",
+        Function::Abs | Function::Sqrt => "a",
+        Function::Sin | Function::Cos => "angle",
+    };
+    Diagnostic::new(Code::E0243, span, message).help(format!("write '{name}({operands})'"))
+}
