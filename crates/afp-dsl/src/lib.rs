@@ -17,5 +17,5 @@ pub mod toolbox;
 pub mod types;
 pub mod unfold;
 
-pub use check::scenario::outputs;
+pub use check::scenario::{VERBS, outputs};
 pub use compile::{Compiled, compile, compile_plan, compile_unchecked, index_files};

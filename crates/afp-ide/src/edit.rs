@@ -23,6 +23,7 @@ mod refer;
 mod relocate;
 mod remove;
 mod rename;
+mod several;
 mod tree;
 
 use std::fmt;
@@ -35,6 +36,7 @@ use afp_syntax::source::Source;
 
 pub use afp_syntax::diagnostics::Edit as TextEdit;
 pub use positions::follow;
+pub use several::{Made, edit_all};
 
 /// What a port is bound to.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -242,17 +244,32 @@ impl std::error::Error for Refused {}
 /// the change would alter more than it says; the reason tells which. So does a `home` that is none of
 /// the files.
 pub fn edit(files: &[Source], home: usize, change: &Change) -> Result<Vec<TextEdit>, Refused> {
-    if home >= files.len() {
-        return Err(Refused::new("there is no such file"));
-    }
-    let mut workspace = Workspace::new(files, home);
+    let mut workspace = begin(files, home)?;
     let errors = workspace.syntax_errors();
     make(&mut workspace, change)?;
+    end(workspace, files, errors)
+}
+
+fn begin(files: &[Source], home: usize) -> Result<Workspace, Refused> {
+    match home < files.len() {
+        true => Ok(Workspace::new(files, home)),
+        false => Err(Refused::new("there is no such file")),
+    }
+}
+
+/// The edits that a workspace has come to.
+fn end(workspace: Workspace, files: &[Source], errors: usize) -> Result<Vec<TextEdit>, Refused> {
     if workspace.syntax_errors() > errors {
         return Err(Refused::new("the text could not be read any more"));
     }
     let buffers = (0..=u16::MAX).zip(files).zip(workspace.buffers);
     Ok(buffers.flat_map(|((file, source), buffer)| buffer.edits(source.text.len(), file)).collect())
+}
+
+/// A name that none of those taken is equal to, or differs from in case or `_` alone: the name itself,
+/// or with the least number behind it.
+pub fn fresh_name(name: &str, taken: &[String]) -> String {
+    name::fresh(name, taken)
 }
 
 /// The text after the edits of its file, which must be in order and without overlaps, as [`edit`]

@@ -32,6 +32,7 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 use afp_syntax::unquote;
 
+pub use actions::VERBS;
 use paths::Paths;
 use resolve::Resolver;
 use robot::Robot;

@@ -71,17 +71,24 @@ impl Timing {
     }
 }
 
+impl Interruption {
+    /// What the bound is made of, and why it is not proved: `period 1 ms + stop 300 ms`.
+    pub fn terms_in_words(&self) -> String {
+        let terms = self.terms.iter().map(|(name, time)| format!("{name} {}", duration(*time)));
+        let mut terms = terms.collect::<Vec<_>>().join(" + ");
+        if !self.reason.is_empty() {
+            let gap = if terms.is_empty() { "" } else { "; " };
+            terms = format!("{terms}{gap}{}", self.reason);
+        }
+        terms
+    }
+}
+
 fn describe(interruption: &Interruption) -> (String, String) {
     let trust = interruption.trust.as_str();
     let total = interruption.total().map(duration);
     let bound = total.map_or_else(|| trust.to_owned(), |total| format!("{total} {trust}"));
-    let terms = interruption.terms.iter().map(|(name, time)| format!("{name} {}", duration(*time)));
-    let mut terms = terms.collect::<Vec<_>>().join(" + ");
-    if !interruption.reason.is_empty() {
-        let gap = if terms.is_empty() { "" } else { "; " };
-        terms = format!("{terms}{gap}{}", interruption.reason);
-    }
-    (bound, terms)
+    (bound, interruption.terms_in_words())
 }
 
 fn supervisor(row: &SupervisorTiming) -> Value {

@@ -225,12 +225,13 @@ impl Parser<'_, '_> {
     pub(super) fn reference(&mut self) {
         self.open(Kind::Ref);
         self.name("write a name");
-        if self.at(Kind::Dot) && self.nth(1) == Kind::Name {
-            self.bump();
-            self.bump();
-        } else if self.at(Kind::Dot) {
-            self.bump();
-            self.expected("a name", "write a name behind the '.'");
+        if self.eat(Kind::Dot) {
+            // An item on the next line is none of what is still being typed here.
+            if self.at(Kind::Name) && (self.on_same_line() || !self.leaves_body()) {
+                self.bump();
+            } else {
+                self.expected("a name", "write a name behind the '.'");
+            }
         }
         self.close();
     }
@@ -244,6 +245,10 @@ impl Parser<'_, '_> {
         }
         self.name("write the name of an element or entry");
         while self.eat(Kind::Dot) {
+            if !self.on_same_line() && self.at_line() {
+                self.expected("a name", "write a name behind the '.'");
+                break;
+            }
             self.name("write a name behind the '.'");
         }
         self.close();

@@ -4,6 +4,7 @@ use proptest::prelude::*;
 
 use super::parse;
 use crate::diagnostics::{Code, Diagnostics};
+use crate::kind::Kind;
 
 fn errors(text: &str) -> Vec<(Code, String)> {
     let mut diags = Diagnostics::default();
@@ -73,6 +74,16 @@ fn ten_thousand_brackets_do_not_overflow_the_stack() {
     }
     errors(&format!("plan P {{ const a = 1{} }}", "+1".repeat(100_000)));
     errors(&"plan P { actor a: A { supervise b: B {".repeat(3_000));
+}
+
+#[test]
+fn a_point_takes_no_item_of_the_next_line() {
+    let text = "plan P {\n    in side: Side = Side.\n    in far: length\n    actor a: c.\n    \
+                actor b: c.Turn {}\n}\nscenario \"s\" for P {\n    expect a.\n    until 3 s\n}\n";
+    let mut diags = Diagnostics::default();
+    let root = parse(text, 0, &mut diags).root();
+    let count = |kind| root.descendants().filter(|node| node.kind() == kind).count();
+    assert_eq!((count(Kind::Entry), count(Kind::Element), count(Kind::Until)), (2, 2, 1));
 }
 
 #[test]

@@ -13,7 +13,7 @@ use afp_syntax::diagnostics::words;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// Everything that can happen.
-const VERBS: &[&str] = &["press", "release", "fail", "fire", "finish", "idle", "set"];
+pub const VERBS: &[&str] = &["press", "release", "fail", "fire", "finish", "idle", "set"];
 
 impl Checker<'_> {
     pub(super) fn action(&self, node: &ast::Action, diags: &mut Diagnostics) -> Option<Action> {

@@ -1,0 +1,141 @@
+//! What can be done about a place at once: fixes of diagnostics, and changes of meaning.
+
+use crate::View;
+use crate::edit::{Change, TextEdit, edit_all, fresh_name};
+use afp_dsl::outline::{Component, ComponentKind, Plan};
+use afp_syntax::diagnostics::Diagnostic;
+use afp_syntax::source::{Source, Span};
+
+/// Something that can be done.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Action {
+    /// What it does, as an order: lower case.
+    pub title: String,
+    /// What it is.
+    pub kind: ActionKind,
+    /// What it mends: an index into the diagnostics of the compilation.
+    pub mends: Option<usize>,
+    /// The edits; spans are in the files of the compilation.
+    pub edits: Vec<TextEdit>,
+}
+
+/// What an [`Action`] is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ActionKind {
+    /// It mends a diagnostic.
+    Fix,
+    /// It makes a plan of elements.
+    Extract,
+    /// It puts the elements of a plan in place of it.
+    Inline,
+}
+
+/// Everything that can be done about a place, fixes first.
+pub fn actions(view: &View, place: Span) -> Vec<Action> {
+    let mut actions = fixes(view, place);
+    let components = components_at(view, place);
+    actions.extend(components.iter().filter_map(|component| missing_exits(view, component)));
+    if let Some(plan) = view.plan_at(place.start) {
+        actions.extend(extract(view, plan, place));
+        let innermost =
+            components.last().filter(|component| component.kind == ComponentKind::SubPlan);
+        actions.extend(innermost.and_then(|component| inline(view, component)));
+    }
+    actions
+}
+
+/// The fix of each diagnostic that touches a place.
+fn fixes(view: &View, place: Span) -> Vec<Action> {
+    let touches = |diagnostic: &Diagnostic| {
+        let span = diagnostic.span;
+        span.file == view.file && span.start <= place.end && place.start <= span.end
+    };
+    let found = view.compiled.diags.iter().enumerate().filter(|(_, each)| touches(each));
+    let fix = |(index, diagnostic): (usize, &Diagnostic)| {
+        let fix = diagnostic.fix.clone()?;
+        let title = match diagnostic.help.is_empty() {
+            true => diagnostic.message.clone(),
+            false => diagnostic.help.clone(),
+        };
+        Some(Action { title, kind: ActionKind::Fix, mends: Some(index), edits: vec![fix] })
+    };
+    found.filter_map(fix).collect()
+}
+
+/// The elements and supervisors that cover the start of a place, the outermost first.
+fn components_at<'a>(view: &View<'a>, place: Span) -> Vec<&'a Component> {
+    let start = place.before();
+    let plan = view.plan_at(place.start);
+    let all = plan.into_iter().flat_map(|plan| plan.components());
+    all.filter(|component| component.span.contains(start)).collect()
+}
+
+/// Lets the exits that lead nowhere end the plan, those of a supervisor be ignored: whoever wants
+/// something else has their lines to change.
+fn missing_exits(view: &View, component: &Component) -> Option<Action> {
+    let missing = component.exits.iter().filter(|exit| exit.required && exit.edge.is_none());
+    let missing: Vec<_> = missing.map(|exit| exit.name.to_string()).collect();
+    let to = match component.kind {
+        ComponentKind::Supervisor => "ignore",
+        _ => "terminate",
+    };
+    let connect = |outcome: &String| Change::Connect {
+        from: component.item.clone(),
+        outcome: outcome.clone(),
+        to: to.to_owned(),
+    };
+    let changes: Vec<_> = missing.iter().map(connect).collect();
+    let edits = made(view, &changes)?;
+    let names = afp_syntax::diagnostics::words::list(missing.iter().map(String::as_str), "and");
+    let about = |diagnostic: &Diagnostic| {
+        diagnostic.code.as_str() == "E0211" && component.span.contains(diagnostic.span)
+    };
+    let mends = view.compiled.diags.iter().position(about);
+    let title = format!("lead {names} of '{}' to '{to}'", component.item.name());
+    Some(Action { title, kind: ActionKind::Fix, mends, edits })
+}
+
+/// Makes a plan of the elements that a selection touches, of several or of all of one.
+fn extract(view: &View, plan: &Plan, place: Span) -> Option<Action> {
+    let touched =
+        |element: &&Component| element.span.start < place.end && place.start < element.span.end;
+    let elements: Vec<_> = plan.elements.iter().filter(touched).collect();
+    let whole = matches!(elements.as_slice(), [one] if place.contains(one.span));
+    if elements.len() < 2 && !whole {
+        return None;
+    }
+    let plans: Vec<_> = view.plans().map(|plan| plan.item.name().to_owned()).collect();
+    let entries = plan.entries.iter().map(|entry| &entry.item);
+    let inner = entries.chain(plan.supervisors.iter().chain(&plan.elements).map(|it| &it.item));
+    let inner: Vec<_> = inner.map(|item| item.name().to_owned()).collect();
+    let change = Change::Extract {
+        plan: plan.item.name().to_owned(),
+        elements: elements.iter().map(|element| element.item.name().to_owned()).collect(),
+        new_plan: fresh_name("Part", &plans),
+        element: fresh_name("part", &inner),
+    };
+    let edits = made(view, &[change])?;
+    let names = elements.iter().map(|element| element.item.name());
+    let names = afp_syntax::diagnostics::words::list(names, "and");
+    let title = format!("make a plan of {names}");
+    Some(Action { title, kind: ActionKind::Extract, mends: None, edits })
+}
+
+fn inline(view: &View, component: &Component) -> Option<Action> {
+    let name = component.item.name();
+    let plan = component.item.plan_name().to_owned();
+    let edits = made(view, &[Change::Inline { plan, element: name.to_owned() }])?;
+    let title = format!("put the elements of its plan in place of '{name}'");
+    Some(Action { title, kind: ActionKind::Inline, mends: None, edits })
+}
+
+/// The edits of changes of the file; `None` where they are refused or change nothing.
+fn made(view: &View, changes: &[Change]) -> Option<Vec<TextEdit>> {
+    let first = view.compiled.plan_files.start;
+    let home = usize::from(view.file).checked_sub(first)?;
+    let files: Vec<Source> = view.compiled.plan_sources().cloned().collect();
+    let mut edits = edit_all(&files, home, changes).ok()?.edits;
+    let offset = u16::try_from(first).ok()?;
+    edits.iter_mut().for_each(|edit| edit.span.file += offset);
+    (!edits.is_empty()).then_some(edits)
+}

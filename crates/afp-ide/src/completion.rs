@@ -1,0 +1,154 @@
+//! What can be written at a place, best first.
+//!
+//! Where the place is in the grammar is asked of the tree, see [`context`]; what can stand there is
+//! asked of index and outline, so that whatever the check understands is offered.
+
+mod bodies;
+mod context;
+mod plans;
+mod scenarios;
+mod toolboxes;
+mod values;
+
+use crate::View;
+use crate::describe::declaration;
+use crate::edit::TextEdit;
+use afp_dsl::index::{DefinitionId, DefinitionKind};
+use afp_syntax::source::Span;
+
+pub use bodies::{Piece, plain};
+use context::{Context, Place};
+
+/// Something that can be written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Completion {
+    /// Under which name it is offered and found.
+    pub label: String,
+    /// What it is.
+    pub kind: CompletionKind,
+    /// How it is declared, in one line; may be empty.
+    pub detail: String,
+    /// Its help.
+    pub doc: String,
+    /// What is written in place of [`Completion::replaces`], with holes to fill.
+    pub insert: Vec<Piece>,
+    /// The word that it takes the place of.
+    pub replaces: Span,
+    /// Edits elsewhere in the file that it needs: a `use` line.
+    pub with: Vec<TextEdit>,
+    /// Less is better.
+    pub rank: u8,
+}
+
+/// What a [`Completion`] is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum CompletionKind {
+    /// A word of the grammar.
+    Keyword,
+    /// Something that is declared.
+    Definition(DefinitionKind),
+    /// A built-in type.
+    Type,
+    /// A unit.
+    Unit,
+    /// A literal.
+    Value,
+    /// A function of the language.
+    Function,
+}
+
+/// Everything that can be written at a byte, best first; the word that ends there is taken as begun.
+pub fn completions(view: &View, offset: u32) -> Vec<Completion> {
+    let context = Context::at(view, offset);
+    let mut list = List { view, replaces: context.word, all: Vec::new() };
+    match &context.place {
+        Place::Nothing => {}
+        Place::File => match view.is_plan_file() {
+            true => plans::of_file(&mut list),
+            false => toolboxes::of_file(&mut list),
+        },
+        Place::Uses => plans::uses(&mut list),
+        Place::Plan(node) => plans::items(&mut list, view.plan(node), node),
+        Place::Element(node) => plans::of_component(&mut list, view.component(node), true),
+        Place::Supervisor(node) => plans::of_component(&mut list, view.component(node), false),
+        Place::Made(node, home) => plans::templates(&mut list, node, *home),
+        Place::Times => plans::times(&mut list),
+        Place::Ports(node) => values::ports(&mut list, view.component(node)),
+        Place::Target { event } => plans::targets(&mut list, offset, *event),
+        Place::Start => plans::elements(&mut list, offset),
+        Place::Type => values::types(&mut list, offset),
+        Place::Output { component, port } => {
+            values::outputs(&mut list, view.component(component), port, offset)
+        }
+        Place::Value(wanted) => {
+            let wanted = values::wanted(view, wanted, offset);
+            values::formulas(&mut list, wanted.as_ref(), offset);
+        }
+        Place::Unit(wanted) => {
+            let wanted = values::wanted(view, wanted, offset);
+            values::units(&mut list, wanted.as_ref());
+        }
+        Place::Member(home) => scenarios::members(&mut list, *home),
+        Place::Scenario => scenarios::lines(&mut list),
+        Place::Path(word) => scenarios::paths(&mut list, word, offset),
+        Place::PlanName => plans::plan_names(&mut list),
+        Place::Toolbox(kind) => toolboxes::parts(&mut list, *kind),
+    }
+    let mut all = list.all;
+    all.sort_by(|a, b| (a.rank, &a.label).cmp(&(b.rank, &b.label)));
+    all.dedup_by(|a, b| a.label == b.label && a.insert == b.insert);
+    all
+}
+
+/// Completions in the making.
+struct List<'v, 'a> {
+    view: &'v View<'a>,
+    replaces: Span,
+    all: Vec<Completion>,
+}
+
+impl List<'_, '_> {
+    /// Adds a word of the grammar with what is written behind it.
+    fn keyword(&mut self, label: &str, insert: Vec<Piece>, rank: u8) {
+        self.add(label, CompletionKind::Keyword, insert, rank);
+    }
+
+    /// Adds words of the grammar as they are.
+    fn keywords(&mut self, words: &[&str], rank: u8) {
+        words.iter().for_each(|word| self.keyword(word, plain(&format!("{word} ")), rank));
+    }
+
+    fn add(&mut self, label: &str, kind: CompletionKind, insert: Vec<Piece>, rank: u8) {
+        self.all.push(Completion {
+            label: label.to_owned(),
+            kind,
+            detail: String::new(),
+            doc: String::new(),
+            insert,
+            replaces: self.replaces,
+            with: Vec::new(),
+            rank,
+        });
+    }
+
+    /// Adds something declared by its name.
+    fn definition(&mut self, id: DefinitionId, rank: u8) {
+        let name = self.view.name_of(id).to_owned();
+        self.definition_as(id, &name, plain(&name), rank);
+    }
+
+    /// Adds something declared, written as said.
+    fn definition_as(&mut self, id: DefinitionId, label: &str, insert: Vec<Piece>, rank: u8) {
+        let definition = self.view.index().definition(id);
+        self.all.push(Completion {
+            label: label.to_owned(),
+            kind: CompletionKind::Definition(definition.kind),
+            detail: declaration(self.view, id),
+            doc: definition.doc.clone(),
+            insert,
+            replaces: self.replaces,
+            with: Vec::new(),
+            rank,
+        });
+    }
+}

@@ -1,0 +1,330 @@
+//! Where in the grammar a place is.
+
+use crate::View;
+use crate::view::{token, tokens};
+use afp_dsl::index::{DefinitionId, DefinitionKind, Meaning};
+use afp_syntax::kind::Kind;
+use afp_syntax::source::Span;
+use afp_syntax::{Node, Token};
+
+/// A place in the grammar and the word that is being written there.
+#[derive(Debug)]
+pub(super) struct Context {
+    /// The word up to its end; empty where none is begun.
+    pub word: Span,
+    /// What can stand there.
+    pub place: Place,
+}
+
+/// What can stand at a place.
+#[derive(Debug)]
+pub(super) enum Place {
+    /// Nothing that could be foreseen.
+    Nothing,
+    /// Items of a file.
+    File,
+    /// Toolboxes and files behind `use`.
+    Uses,
+    /// Items of a plan.
+    Plan(Node),
+    /// Supervisors and edges of an element.
+    Element(Node),
+    /// Edges of a supervisor.
+    Supervisor(Node),
+    /// What an element or supervisor is made from; behind a point, from that toolbox.
+    Made(Node, Option<DefinitionId>),
+    /// Times behind the template of a supervisor.
+    Times,
+    /// Ports of an element or supervisor.
+    Ports(Node),
+    /// Where an edge leads.
+    Target { event: bool },
+    /// The first element.
+    Start,
+    /// A type.
+    Type,
+    /// The entry that an output goes to.
+    Output { component: Node, port: String },
+    /// A value.
+    Value(Wanted),
+    /// The unit of a number.
+    Unit(Wanted),
+    /// What belongs to something, behind a point.
+    Member(Option<DefinitionId>),
+    /// Lines of a scenario.
+    Scenario,
+    /// What a scenario names, behind a word of it.
+    Path(String),
+    /// The plan that a scenario is for.
+    PlanName,
+    /// Parts of a template or device of a toolbox.
+    Toolbox(Kind),
+}
+
+/// What a value is for.
+#[derive(Debug)]
+pub(super) enum Wanted {
+    /// A port of an element or supervisor.
+    Port(Node, String),
+    /// An entry.
+    Entry(Node),
+    /// A time.
+    Time,
+    /// Something else.
+    Unknown,
+}
+
+impl Context {
+    pub(super) fn at(view: &View, offset: u32) -> Context {
+        let nowhere = view.place(offset);
+        let Some(touched) = view.token_at(offset) else {
+            return Context { word: nowhere, place: Place::File };
+        };
+        if is_closed_text(view, &touched, offset) {
+            return Context { word: nowhere, place: Place::Nothing };
+        }
+        let is_word = matches!(touched.kind(), Kind::Name | Kind::Keyword | Kind::Unit);
+        let word = match is_word {
+            true => Span { end: offset, ..view.token_span(&touched) },
+            false => nowhere,
+        };
+        let place = match view.solid_before(word.start) {
+            None => Place::File,
+            Some(before) => {
+                let gap = view.text().get(before.text_range().end().into()..word.start as usize);
+                let same_line = !gap.unwrap_or_default().contains('\n');
+                behind(view, &before, &touched, same_line, word.start)
+            }
+        };
+        Context { word, place }
+    }
+}
+
+/// Whether a byte lies in a comment or in a text.
+fn is_closed_text(view: &View, touched: &Token, offset: u32) -> bool {
+    let span = view.token_span(touched);
+    match touched.kind() {
+        Kind::Comment | Kind::Doc => !touched.text().ends_with('\n'),
+        Kind::BlockComment => offset < span.end,
+        Kind::Text => {
+            offset < span.end || !touched.text().ends_with('"') || touched.text().len() < 2
+        }
+        _ => false,
+    }
+}
+
+/// What can stand behind a token; `at` is where it would begin.
+fn behind(view: &View, before: &Token, touched: &Token, same_line: bool, at: u32) -> Place {
+    let parent = before.parent();
+    let within = |kinds: &[Kind]| ancestor(before, kinds);
+    match before.kind() {
+        Kind::Dot => member(view, before),
+        Kind::Arrow => match within(&[Kind::Edge, Kind::Claim]) {
+            Some(node) if node.kind() == Kind::Claim => Place::Path("->".to_owned()),
+            Some(edge) => {
+                Place::Target { event: edge.parent().is_some_and(|it| it.kind() == Kind::Guard) }
+            }
+            None => container(before, at),
+        },
+        Kind::FatArrow => match (within(&[Kind::Element, Kind::Guard]), within(&[Kind::BindOut])) {
+            (Some(component), Some(bind)) => Place::Output { component, port: first_name(&bind) },
+            _ => Place::Nothing,
+        },
+        Kind::Colon => match within(&[
+            Kind::Entry,
+            Kind::InPort,
+            Kind::OutPort,
+            Kind::Amount,
+            Kind::Signal,
+            Kind::Element,
+            Kind::Guard,
+            Kind::Stimulus,
+        ]) {
+            Some(node) if matches!(node.kind(), Kind::Element | Kind::Guard) => {
+                Place::Made(node, None)
+            }
+            Some(node) if node.kind() == Kind::Stimulus => Place::Path(":".to_owned()),
+            Some(_) => Place::Type,
+            None => Place::Nothing,
+        },
+        Kind::Int | Kind::Float if touched.kind() == Kind::Unit || same_line => {
+            Place::Unit(wanted(before))
+        }
+        Kind::Keyword if same_line => {
+            keyword(before, parent.as_ref()).unwrap_or_else(|| container(before, at))
+        }
+        Kind::OpenParen | Kind::Comma
+            if within(&[Kind::Args]).is_some() && !in_brackets(before) =>
+        {
+            ports(before)
+        }
+        Kind::Equal
+        | Kind::Plus
+        | Kind::Minus
+        | Kind::Star
+        | Kind::Slash
+        | Kind::Percent
+        | Kind::OpenParen
+        | Kind::EqualEqual
+        | Kind::NotEqual
+        | Kind::Less
+        | Kind::LessEqual
+        | Kind::Greater
+        | Kind::GreaterEqual => Place::Value(wanted(before)),
+        // What has a name and no more yet.
+        Kind::Name if same_line && parent.as_ref().is_some_and(names_item) => Place::Nothing,
+        _ if same_line && is_head(before) => Place::Times,
+        _ => container(before, at),
+    }
+}
+
+/// What follows a word of the grammar on its line.
+fn keyword(word: &Token, parent: Option<&Node>) -> Option<Place> {
+    let kind = parent?.kind();
+    Some(match (word.text(), kind) {
+        ("use", _) => Place::Uses,
+        ("start", Kind::Start) => Place::Start,
+        ("every" | "deadline" | "budget" | "stop", Kind::Timing) => Place::Value(Wanted::Time),
+        ("at", Kind::Stimulus) | ("until", _) | ("within" | "before" | "after", Kind::Bound) => {
+            Place::Value(Wanted::Time)
+        }
+        ("for", Kind::Scenario) => Place::PlanName,
+        ("for", _) => Place::Value(Wanted::Time),
+        ("expect" | "never" | "of" | "by" | "set", _) => Place::Path(word.text().to_owned()),
+        (_, Kind::Action) => Place::Path(word.text().to_owned()),
+        ("from" | "to" | "heading", _) => Place::Value(Wanted::Unknown),
+        // A name or a text of one's own.
+        _ => Place::Nothing,
+    })
+}
+
+/// What belongs to the name before a point.
+fn member(view: &View, dot: &Token) -> Place {
+    let before = view.solid_before(view.token_span(dot).start);
+    let name = before.as_ref().and_then(|name| view.index().name(view.token_span(name)));
+    let id = name.and_then(|name| match name.meaning {
+        Meaning::Ambiguous(several) => view.index().candidates(several).first().copied(),
+        meaning => meaning.definition(),
+    });
+    let id = id.or_else(|| named(view, before.as_ref()?));
+    let definition = id.map(|id| view.index().definition(id));
+    let home = match definition {
+        Some(alias) if alias.kind == DefinitionKind::Alias => alias.made_from,
+        _ => id,
+    };
+    let reference = dot.parent().filter(|node| node.kind() == Kind::Ref);
+    let made = reference.and_then(|reference| reference.parent());
+    match made.filter(|node| matches!(node.kind(), Kind::Element | Kind::Guard)) {
+        Some(component) => Place::Made(component, home),
+        None => Place::Member(home),
+    }
+}
+
+/// What a name before a point probably means, of which the check says nothing while nothing stands
+/// behind the point.
+fn named(view: &View, name: &Token) -> Option<DefinitionId> {
+    use DefinitionKind::{Alias, Component, Device, Enum, Toolbox};
+
+    let index = view.index();
+    let fits = |id: &DefinitionId| {
+        let kind = index.definition(*id).kind;
+        let has_members = matches!(kind, Alias | Component(_) | Device | Enum | Toolbox);
+        has_members && view.name_of(*id) == name.text()
+    };
+    let aliases = index.definitions_in(view.file).map(|(id, _)| id);
+    let aliases = aliases.filter(|id| index.definition(*id).kind == Alias);
+    let visible = index.visible(view.file, view.token_span(name).start).into_iter();
+    let toolboxes = index.definitions().map(|(id, _)| id);
+    let toolboxes = toolboxes.filter(|id| matches!(index.definition(*id).kind, Toolbox | Device));
+    aliases.chain(visible).chain(toolboxes).find(fits)
+}
+
+/// The ports of the component whose brackets a token stands in.
+fn ports(token: &Token) -> Place {
+    match ancestor(token, &[Kind::Element, Kind::Guard, Kind::Action]) {
+        Some(node) if node.kind() != Kind::Action => Place::Ports(node),
+        _ => Place::Value(Wanted::Unknown),
+    }
+}
+
+/// Whether a token stands in the brackets of a formula, not in those of bindings.
+fn in_brackets(token: &Token) -> bool {
+    let nearest = ancestor(token, &[Kind::Args, Kind::Brackets]);
+    nearest.is_some_and(|node| node.kind() == Kind::Brackets)
+}
+
+/// What a value behind a token is for.
+fn wanted(token: &Token) -> Wanted {
+    let Some(node) = ancestor(
+        token,
+        &[Kind::BindIn, Kind::Entry, Kind::Timing, Kind::Stimulus, Kind::Bound, Kind::Until],
+    ) else {
+        return Wanted::Unknown;
+    };
+    match node.kind() {
+        Kind::BindIn => match ancestor(token, &[Kind::Element, Kind::Guard]) {
+            Some(component) => Wanted::Port(component, first_name(&node)),
+            None => Wanted::Unknown,
+        },
+        Kind::Entry => Wanted::Entry(node),
+        _ => Wanted::Time,
+    }
+}
+
+fn first_name(node: &Node) -> String {
+    token(node, Kind::Name).map(|token| token.text().to_owned()).unwrap_or_default()
+}
+
+/// The nearest node of some kinds around a token.
+fn ancestor(token: &Token, kinds: &[Kind]) -> Option<Node> {
+    token.parent_ancestors().find(|node| kinds.contains(&node.kind()))
+}
+
+/// Whether a name directly in that node is the one that it goes by.
+fn names_item(node: &Node) -> bool {
+    use Kind::{Element, Entry, Enum, Guard, Plan, Template, Toolbox, Use};
+    matches!(node.kind(), Element | Entry | Enum | Guard | Plan | Template | Toolbox | Use)
+}
+
+/// Whether a token ends the head of a supervisor, whose body has not begun.
+fn is_head(token: &Token) -> bool {
+    let Some(guard) = ancestor(token, &[Kind::Guard]) else { return false };
+    let inside = ancestor(token, &[Kind::Ref, Kind::Args, Kind::Timing, Kind::Guard]);
+    let open = self::token(&guard, Kind::OpenBrace).map(|brace| brace.text_range().start());
+    let ended = inside.is_some_and(|node| {
+        node.kind() != Kind::Guard && node.text_range().end() >= token.text_range().end()
+    });
+    ended && open.is_none_or(|open| open >= token.text_range().end())
+}
+
+/// What the body of the smallest open item around a place is made of.
+fn container(before: &Token, at: u32) -> Place {
+    let at = rowan::TextSize::from(at);
+    for node in before.parent_ancestors() {
+        if !holds(&node, at) {
+            continue;
+        }
+        return match node.kind() {
+            Kind::Plan => Place::Plan(node),
+            Kind::Element => Place::Element(node),
+            Kind::Guard => Place::Supervisor(node),
+            Kind::Scenario => Place::Scenario,
+            Kind::Template | Kind::Device => Place::Toolbox(node.kind()),
+            Kind::Args => ports(before),
+            Kind::Enum => Place::Nothing,
+            _ => continue,
+        };
+    }
+    Place::File
+}
+
+/// Whether a place lies between the brackets of a node, the closing one perhaps missing.
+fn holds(node: &Node, at: rowan::TextSize) -> bool {
+    let (open, close) = match node.kind() {
+        Kind::Args => (Kind::OpenParen, Kind::CloseParen),
+        _ => (Kind::OpenBrace, Kind::CloseBrace),
+    };
+    let begins = token(node, open).is_some_and(|open| open.text_range().end() <= at);
+    let ends = tokens(node).filter(|token| token.kind() == close).last();
+    begins && ends.is_none_or(|close| close.text_range().start() >= at)
+}

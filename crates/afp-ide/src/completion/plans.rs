@@ -1,0 +1,250 @@
+//! Items of files and plans, edges and where they lead.
+
+use super::List;
+use super::bodies::{Piece, body_of_plan, body_of_template, instance_name, plain};
+use crate::edit::{Change, TextEdit, edit};
+use crate::view::token;
+use afp_dsl::index::{DefinitionId, DefinitionKind};
+use afp_dsl::outline::{Component, ComponentKind, Plan};
+use afp_dsl::toolbox::{Template, Toolbox};
+use afp_syntax::Node;
+use afp_syntax::kind::Kind;
+use afp_syntax::source::Source;
+
+/// Items of a plan file.
+pub(super) fn of_file(list: &mut List) {
+    let text = |text: &str| Piece::Text(text.to_owned());
+    let hole = |text: &str| Piece::Hole(text.to_owned());
+    list.keyword("use", plain("use "), 0);
+    let plan = [text("plan "), hole("Name"), text(" {\n    start "), hole(""), text("\n}")];
+    list.keyword("plan", plan.to_vec(), 0);
+    let choices = [text("enum "), hole("Name"), text(" { "), hole("first second"), text(" }")];
+    list.keyword("enum", choices.to_vec(), 1);
+    let scenario = [
+        text("scenario \""),
+        hole("what it shows"),
+        text("\" for "),
+        hole("Plan"),
+        text(" {\n    expect "),
+        hole("end"),
+        text("\n    until "),
+        hole("60 s"),
+        text("\n}"),
+    ];
+    list.keyword("scenario", scenario.to_vec(), 1);
+}
+
+/// Toolboxes behind `use`.
+pub(super) fn uses(list: &mut List) {
+    let all = list.view.index().definitions();
+    let all = all.filter(|(_, known)| known.kind == DefinitionKind::Toolbox);
+    let all: Vec<_> = all.map(|(id, _)| id).collect();
+    all.into_iter().for_each(|id| list.definition(id, 0));
+}
+
+/// Items of a plan: words, and templates and plans with their whole bodies.
+pub(super) fn items(list: &mut List, plan: Option<&Plan>, node: &Node) {
+    let started = plan.is_some_and(|plan| !plan.starts.is_empty());
+    list.keywords(&["start"], if started { 4 } else { 0 });
+    list.keywords(&["actor", "supervise", "computation", "subplan"], 1);
+    list.keywords(&["in", "out", "var", "const"], 1);
+    let taken = plan.map(names).unwrap_or_default();
+    let own = plan.and_then(|plan| plan.name.as_ref()).map(|name| name.span);
+    let offset = u32::from(node.text_range().start());
+    for made in all_made(list, offset) {
+        if Some(list.view.index().definition(made.id).name) == own {
+            continue;
+        }
+        let name = instance_name(list.view.name_of(made.id), &taken);
+        let mut insert = vec![
+            Piece::Text(format!("{} ", made.kind.keyword())),
+            Piece::Hole(name),
+            Piece::Text(format!(": {}", made.written)),
+        ];
+        insert.extend(made.body.clone());
+        add_made(list, &made, insert, 2);
+    }
+}
+
+/// The names in a plan.
+fn names(plan: &Plan) -> Vec<String> {
+    let entries = plan.entries.iter().filter_map(|entry| entry.name.as_ref());
+    let components = plan.supervisors.iter().chain(&plan.elements);
+    let components = components.filter_map(|component| component.name.as_ref());
+    entries.chain(components).map(|name| name.text.clone()).collect()
+}
+
+/// A template or plan that components can be made from.
+struct Made {
+    id: DefinitionId,
+    kind: ComponentKind,
+    /// How it is written here.
+    written: String,
+    body: Vec<Piece>,
+    /// The toolbox that must be used first.
+    missing: Option<String>,
+}
+
+/// All templates of all toolboxes, and the plans in view.
+fn all_made(list: &List, offset: u32) -> Vec<Made> {
+    let view = list.view;
+    let visible = view.index().visible(view.file, offset);
+    let mut all = Vec::new();
+    for (toolbox, template) in templates_of(list) {
+        let Some(id) = view.index().declared_at(template.span) else { continue };
+        let missing = !visible.contains(&id);
+        let alias = alias(list, toolbox);
+        let several =
+            visible.iter().filter(|other| view.name_of(**other) == template.name).count() > 1;
+        let written = match (alias, several) {
+            (Some(alias), _) => format!("{alias}.{}", template.name),
+            (None, true) => format!("{}.{}", toolbox.name, template.name),
+            (None, false) => template.name.clone(),
+        };
+        all.push(Made {
+            id,
+            kind: crate::describe::component_kind(template.kind),
+            written,
+            body: body_of_template(template),
+            missing: missing.then(|| toolbox.name.clone()),
+        });
+    }
+    for plan in &view.outline().plans {
+        let Some(name) = &plan.name else { continue };
+        let Some(id) = view.index().declared_at(name.span).filter(|id| visible.contains(id)) else {
+            continue;
+        };
+        let body = body_of_plan(view, plan);
+        let written = name.text.clone();
+        all.push(Made { id, kind: ComponentKind::SubPlan, written, body, missing: None });
+    }
+    all
+}
+
+fn templates_of<'l>(list: &'l List) -> impl Iterator<Item = (&'l Toolbox, &'l Template)> {
+    let toolboxes = list.view.toolboxes.iter();
+    toolboxes
+        .flat_map(|toolbox| toolbox.templates.iter().map(move |template| (&**toolbox, template)))
+}
+
+/// The short name of a toolbox in the file.
+fn alias(list: &List, toolbox: &Toolbox) -> Option<String> {
+    let files = &list.view.outline().files;
+    let file = files.iter().find(|file| file.file == list.view.file)?;
+    let line = file
+        .uses
+        .iter()
+        .find(|line| line.toolbox.as_ref().is_some_and(|it| it.text == toolbox.name))?;
+    line.alias.as_ref().map(|alias| alias.text.clone())
+}
+
+fn add_made(list: &mut List, made: &Made, insert: Vec<Piece>, rank: u8) {
+    let label = list.view.name_of(made.id).to_owned();
+    let far = u8::from(made.missing.is_some()) * 4;
+    list.definition_as(made.id, &label, insert, rank + far);
+    if let (Some(toolbox), Some(last)) = (&made.missing, list.all.last_mut()) {
+        last.with = line_of_use(list.view, toolbox);
+    }
+}
+
+/// The edit that brings a toolbox into view.
+pub(super) fn line_of_use(view: &crate::View, toolbox: &str) -> Vec<TextEdit> {
+    let change = Change::AddUse { toolbox: toolbox.to_owned(), alias: None };
+    let mut edits = edit(&[Source::new("", view.text())], 0, &change).unwrap_or_default();
+    edits.iter_mut().for_each(|edit| edit.span.file = view.file);
+    edits
+}
+
+/// What a component can be made from, by its keyword; with a body where there is none yet. Behind the
+/// name of a toolbox and a point, from that alone.
+pub(super) fn templates(list: &mut List, node: &Node, home: Option<DefinitionId>) {
+    let word = token(node, Kind::Keyword).map(|word| word.text().to_owned()).unwrap_or_default();
+    let bare = token(node, Kind::OpenBrace).is_none();
+    let offset = u32::from(node.text_range().start());
+    for made in all_made(list, offset) {
+        let owner = list.view.index().definition(made.id).owner;
+        if made.kind.keyword() != word || (home.is_some() && owner != home) {
+            continue;
+        }
+        let written = if home.is_some() { list.view.name_of(made.id) } else { &made.written };
+        let mut insert = plain(written);
+        if bare {
+            insert.extend(made.body.clone());
+        }
+        add_made(list, &made, insert, 0);
+    }
+}
+
+/// Times behind the template of a supervisor.
+pub(super) fn times(list: &mut List) {
+    list.keywords(&["every", "deadline"], 0);
+}
+
+/// Edges that are not there yet, and in an element supervisors.
+pub(super) fn of_component(list: &mut List, component: Option<&Component>, is_element: bool) {
+    let Some(component) = component else { return };
+    let edge = |name: &str| vec![Piece::Text(format!("{name} -> ")), Piece::Hole(String::new())];
+    for exit in component.exits.iter().filter(|exit| exit.known && exit.edge.is_none()) {
+        let rank = u8::from(!exit.required);
+        match exit.declared.and_then(|span| list.view.index().declared_at(span)) {
+            Some(id) => list.definition_as(id, &exit.name, edge(&exit.name), rank),
+            None => list.keyword(&exit.name, edge(&exit.name), rank),
+        }
+    }
+    let has =
+        |name: &str| component.exits.iter().any(|exit| *exit.name == *name && exit.edge.is_some());
+    let fault =
+        if component.kind == ComponentKind::Supervisor { "DeadlineMissed" } else { "Error" };
+    if !has(fault) && component.kind != ComponentKind::Computation {
+        list.keyword(fault, edge(fault), 2);
+    }
+    if is_element && component.kind != ComponentKind::Computation {
+        list.keywords(&["supervise"], 2);
+        let taken: Vec<_> = component
+            .supervisors
+            .iter()
+            .filter_map(|it| it.name.as_ref())
+            .map(|name| name.text.clone())
+            .collect();
+        for made in all_made(list, component.span.start) {
+            if made.kind != ComponentKind::Supervisor {
+                continue;
+            }
+            let name = instance_name(list.view.name_of(made.id), &taken);
+            let mut insert = vec![
+                Piece::Text("supervise ".to_owned()),
+                Piece::Hole(name),
+                Piece::Text(format!(": {}", made.written)),
+            ];
+            insert.extend(made.body.clone());
+            add_made(list, &made, insert, 3);
+        }
+    }
+}
+
+/// Where an edge can lead.
+pub(super) fn targets(list: &mut List, offset: u32, event: bool) {
+    elements(list, offset);
+    list.keyword("terminate", plain("terminate"), 1);
+    if event {
+        list.keyword("ignore", plain("ignore"), 1);
+    }
+}
+
+/// The elements of the plan.
+pub(super) fn elements(list: &mut List, offset: u32) {
+    let Some(plan) = list.view.plan_at(offset) else { return };
+    let names = plan.elements.iter().filter_map(|element| element.name.as_ref());
+    let ids: Vec<_> = names.filter_map(|name| list.view.index().declared_at(name.span)).collect();
+    ids.into_iter().for_each(|id| list.definition(id, 0));
+}
+
+/// The plans in view.
+pub(super) fn plan_names(list: &mut List) {
+    let visible = list.view.index().visible(list.view.file, 0);
+    for id in visible {
+        if list.view.index().definition(id).kind == DefinitionKind::Plan {
+            list.definition(id, 0);
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! Lines of scenarios, what they name, and what belongs to something behind a point.
+
+use super::List;
+use super::bodies::{Piece, plain};
+use afp_dsl::VERBS;
+use afp_dsl::index::{DefinitionId, DefinitionKind};
+
+/// Lines of a scenario.
+pub(super) fn lines(list: &mut List) {
+    let line = |start: &str, hole: &str, end: &str| {
+        let texts = [Piece::Text(start.to_owned()), Piece::Hole(hole.to_owned())];
+        texts.into_iter().chain((!end.is_empty()).then(|| Piece::Text(end.to_owned()))).collect()
+    };
+    list.keyword("at", line("at ", "1 s", ": "), 0);
+    list.keywords(&["expect", "never"], 0);
+    list.keyword("until", line("until ", "60 s", ""), 1);
+    list.keyword("world", line("world \"", "room.toml", "\""), 1);
+    list.keyword("seed", line("seed ", "1", ""), 1);
+    list.keywords(&["set"], 1);
+    list.keyword("robot", line("robot at (", "0 m, 0 m", ") heading 0 deg"), 1);
+}
+
+/// What can be named behind a word of a scenario.
+pub(super) fn paths(list: &mut List, word: &str, offset: u32) {
+    match word {
+        ":" => list.keywords(VERBS, 0),
+        "press" | "release" => devices(list, &[DefinitionKind::Control]),
+        "fail" => devices(list, &[DefinitionKind::Device]),
+        "expect" | "never" => {
+            list.keyword("end", plain("end"), 1);
+            list.keyword("running", plain("running"), 1);
+            list.keywords(&["interrupt of", "commit of"], 2);
+            of_plan(list, offset, |kind| {
+                matches!(kind, DefinitionKind::Component(_) | DefinitionKind::Entry(_))
+            });
+            devices(list, &[DefinitionKind::Signal, DefinitionKind::Device]);
+        }
+        "set" => of_plan(list, offset, |kind| matches!(kind, DefinitionKind::Entry(_))),
+        "->" => {
+            list.keyword("terminate", plain("terminate"), 1);
+            of_plan(list, offset, |kind| matches!(kind, DefinitionKind::Component(_)));
+        }
+        _ => of_plan(list, offset, |kind| matches!(kind, DefinitionKind::Component(_))),
+    }
+}
+
+/// What the plan of the scenario at a place is made of.
+fn of_plan(list: &mut List, offset: u32, fits: fn(DefinitionKind) -> bool) {
+    let view = list.view;
+    for id in view.index().visible(view.file, offset) {
+        let definition = view.index().definition(id);
+        if definition.owner.is_some() && fits(definition.kind) {
+            list.definition(id, 0);
+        }
+    }
+}
+
+/// What the devices of all toolboxes have.
+fn devices(list: &mut List, kinds: &[DefinitionKind]) {
+    let all = list.view.index().definitions();
+    let all: Vec<_> =
+        all.filter(|(_, known)| kinds.contains(&known.kind)).map(|(id, _)| id).collect();
+    all.into_iter().for_each(|id| list.definition(id, 3));
+}
+
+/// What belongs to something: the templates of a toolbox, the values of an enum, the supervisors and
+/// exits of an element.
+pub(super) fn members(list: &mut List, home: Option<DefinitionId>) {
+    let Some(home) = home else { return };
+    let index = list.view.index();
+    let ids: Vec<_> = index.members(home).map(|(id, _)| id).collect();
+    ids.into_iter().for_each(|id| list.definition(id, 0));
+    let definition = index.definition(home);
+    if let (DefinitionKind::Component(_), Some(made)) = (definition.kind, definition.made_from) {
+        let ids: Vec<_> = index.members(made).map(|(id, _)| id).collect();
+        ids.into_iter().for_each(|id| list.definition(id, 1));
+    }
+}

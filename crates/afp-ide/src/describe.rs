@@ -1,0 +1,136 @@
+//! What something is, in one line, as it would be declared.
+
+use crate::View;
+use afp_dsl::index::{Definition, DefinitionId, DefinitionKind, Meaning, Word};
+use afp_dsl::outline::{Component, ComponentKind, Entry};
+use afp_dsl::toolbox::{Constant, TemplateKind};
+use afp_dsl::types::Type;
+use afp_dsl::types::text::{number, quantity};
+
+/// The declaration of a definition in one line, without its body.
+pub(crate) fn declaration(view: &View, id: DefinitionId) -> String {
+    let definition = view.index().definition(id);
+    let name = view.name_of(id);
+    match definition.kind {
+        DefinitionKind::Component(kind) => match definition.made_from {
+            Some(made) => format!("{} {name}: {}", kind.keyword(), view.name_of(made)),
+            None => format!("{} {name}", kind.keyword()),
+        },
+        DefinitionKind::Template(kind) => format!("{} {name}", template_keyword(kind)),
+        DefinitionKind::Entry(_) => match entry(view, definition) {
+            Some(entry) => entry_line(view, entry),
+            None => one_line(view.text_of(definition.span)),
+        },
+        DefinitionKind::Plan => format!("plan {name}"),
+        DefinitionKind::Enum => format!("enum {name}"),
+        DefinitionKind::Toolbox => format!("toolbox {name}"),
+        DefinitionKind::Scenario => format!("scenario {name}"),
+        DefinitionKind::Value => {
+            format!("{}.{name}", definition.owner.map_or("", |id| view.name_of(id)))
+        }
+        DefinitionKind::Alias => {
+            let made = definition.made_from.map_or("", |id| view.name_of(id));
+            format!("use {made} as {name}")
+        }
+        _ => head(&one_line(view.text_of(definition.span))),
+    }
+}
+
+/// The entry of the outline that a definition is.
+pub(crate) fn entry<'a>(view: &View<'a>, definition: &Definition) -> Option<&'a Entry> {
+    let plans = view.outline().plans.iter();
+    let mut entries = plans.flat_map(|plan| &plan.entries);
+    entries.find(|entry| entry.span == definition.span)
+}
+
+/// The component of the outline that a definition is.
+pub(crate) fn component<'a>(view: &View<'a>, definition: &Definition) -> Option<&'a Component> {
+    let plans = view.outline().plans.iter();
+    let mut all = plans.flat_map(|plan| plan.components());
+    all.find(|component| component.span == definition.span)
+}
+
+fn entry_line(view: &View, entry: &Entry) -> String {
+    let mut line = head(&one_line(view.text_of(entry.span)));
+    // A type that only the value says is worth telling.
+    if let (None, Some(ty), Some(name)) = (&entry.written_type, &entry.ty, &entry.name) {
+        line = line.replacen(&name.text, &format!("{}: {ty}", name.text), 1);
+    }
+    line
+}
+
+/// What stands before a body.
+fn head(line: &str) -> String {
+    line.split('{').next().unwrap_or_default().trim_end().to_owned()
+}
+
+/// A text in one line: what separates its words becomes a blank, comments go.
+pub(crate) fn one_line(text: &str) -> String {
+    let solid = text.lines().map(|line| line.split("//").next().unwrap_or_default());
+    let words: Vec<_> = solid.flat_map(str::split_whitespace).collect();
+    words.join(" ")
+}
+
+/// The word that declares a template.
+pub(crate) fn template_keyword(kind: TemplateKind) -> &'static str {
+    match kind {
+        TemplateKind::Actor => "actor",
+        TemplateKind::Supervisor => "supervisor",
+        TemplateKind::Computation => "computation",
+    }
+}
+
+/// The kind of component that a template makes.
+pub(crate) fn component_kind(kind: TemplateKind) -> ComponentKind {
+    match kind {
+        TemplateKind::Actor => ComponentKind::Actor,
+        TemplateKind::Supervisor => ComponentKind::Supervisor,
+        TemplateKind::Computation => ComponentKind::Computation,
+    }
+}
+
+/// A value in the spelling of literals.
+pub(crate) fn constant(value: &Constant, ty: Option<&Type>) -> String {
+    match (value, ty) {
+        (Constant::Bool(value), _) => value.to_string(),
+        (Constant::Int(value), _) => value.to_string(),
+        (Constant::Float(value), Some(Type::Quantity(dimension))) => quantity(*value, *dimension),
+        (Constant::Float(value), _) => number(*value),
+        (Constant::Text(value), _) => format!("{value:?}"),
+        (Constant::Choice(place), Some(Type::Enum(choices))) => {
+            let variant = choices.variants.get(usize::from(*place));
+            format!("{}.{}", choices.name, variant.map_or("", String::as_str))
+        }
+        (Constant::Choice(place), _) => place.to_string(),
+    }
+}
+
+/// A bound in the spelling of literals.
+pub(crate) fn bound(value: f64, ty: Option<&Type>) -> String {
+    match ty {
+        Some(Type::Quantity(dimension)) => quantity(value, *dimension),
+        _ => number(value),
+    }
+}
+
+/// What a name means that needs no declaration.
+pub(crate) fn word(meaning: Meaning) -> Option<&'static str> {
+    let Meaning::Word(word) = meaning else { return None };
+    Some(match word {
+        Word::Ok => "The sub-plan has ended by one of its own states.",
+        Word::Interrupted => "The sub-plan has been ended by an event of one of its supervisors.",
+        Word::Error => "A fault: what the element does cannot go on.",
+        Word::DeadlineMissed => "The supervisor was not polled in time.",
+        Word::Terminate => "The plan ends.",
+        Word::Ignore => "The event is not taken.",
+        Word::Type => "A type of the language.",
+        Word::Truth => "A truth value.",
+        Word::Resource => "What the template commands: one element at a time may.",
+        Word::Fault => "A fault that every sensor has.",
+        Word::Amount => "How much there is of the fault.",
+        Word::Field => "A part of the signal.",
+        Word::All => "Every actor.",
+        #[allow(unreachable_patterns, reason = "the language grows")]
+        _ => return None,
+    })
+}

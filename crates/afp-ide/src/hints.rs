@@ -1,0 +1,42 @@
+//! What stands behind the text: the bound of each supervisor.
+
+use crate::View;
+use crate::hover::bound;
+use afp_dsl::outline::Component;
+use afp_dsl::timing::timing;
+use afp_syntax::source::Span;
+
+/// A text that is shown behind a place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Hint {
+    /// The empty place behind which it stands.
+    pub at: Span,
+    /// What is shown.
+    pub label: String,
+    /// What it is made of.
+    pub why: String,
+}
+
+/// How long after its condition each supervisor of the file has made the robot stand, in the order of
+/// the text: of the plan that was compiled and of those that it uses, while there are no errors.
+pub fn hints(view: &View) -> Vec<Hint> {
+    let Some(graph) = &view.compiled.graph else { return Vec::new() };
+    let rows = timing(graph, None).supervisors;
+    let supervisors = view.plans().flat_map(|plan| plan.all_supervisors());
+    let hint = |supervisor: &Component| {
+        let name = supervisor.name.as_ref()?.span;
+        let (label, why) = bound(rows.iter().find(|row| row.span == name)?)?;
+        Some(Hint { at: head(supervisor)?.after(), label, why })
+    };
+    let mut hints: Vec<_> = supervisors.filter_map(hint).collect();
+    hints.sort_by_key(|hint| hint.at);
+    hints
+}
+
+/// What stands before the body.
+fn head(supervisor: &Component) -> Option<Span> {
+    let times = supervisor.times.iter().flat_map(|times| [times.every_span, times.deadline_span]);
+    let template = supervisor.template.as_ref()?.span;
+    let parts = times.flatten().chain(supervisor.args_span);
+    Some(parts.fold(template, |head, part| if part.end > head.end { head.to(part) } else { head }))
+}

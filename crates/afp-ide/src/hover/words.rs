@@ -1,0 +1,47 @@
+//! What the words of the grammar do.
+
+use afp_syntax::kind::Kind;
+
+/// The help for a keyword in a node; `None` where the word speaks for itself.
+pub(super) fn help(word: &str, within: Kind) -> Option<&'static str> {
+    let in_toolbox = matches!(within, Kind::Template | Kind::InPort | Kind::OutPort);
+    Some(match word {
+        "use" => "Brings a toolbox, or the plans of another file, into view.",
+        "plan" => {
+            "What a robot does: elements, of which one is active, and what watches over them."
+        }
+        "scenario" => "A test of a plan: what happens from outside, and what is expected of it.",
+        "enum" => "A type whose values are listed.",
+        "toolbox" => "Templates, and the devices of a robot, for plans to use.",
+        "start" => "The element that is active first.",
+        "actor" if in_toolbox => "A template that acts over time and ends in a state.",
+        "actor" => "An element that acts over time and ends in a state.",
+        "computation" => "Computes at once and ends in a state; takes no time.",
+        "subplan" => "A plan used like an actor.",
+        "supervise" => {
+            "Watches while its element is active, or always where it stands in the plan itself; its events interrupt."
+        }
+        "supervisor" => "A template that watches and reports events.",
+        "in" if in_toolbox => "A port that takes a value.",
+        "in" => "An entry that is set from outside; a port where the plan is used as a sub-plan.",
+        "out" if in_toolbox => "A port that gives a value.",
+        "out" => "An entry that is a result; a port where the plan is used as a sub-plan.",
+        "var" => "An entry of the plan's own.",
+        "const" => "An entry that never changes.",
+        "live" => "Read again at every poll.",
+        "every" => "How often it is polled.",
+        "deadline" => "How long after each release its poll must be over.",
+        "budget" => "How long one poll takes at most.",
+        "stop" if within == Kind::Timing => {
+            "How long the robot takes from an interruption to standstill."
+        }
+        "uses" => "What it commands; one element at a time may.",
+        "state" => "A way in which it ends.",
+        "event" => "What it may report.",
+        "expect" => "What must happen.",
+        "never" => "What must not happen.",
+        "until" => "When the run ends at the latest.",
+        "at" if within == Kind::Stimulus => "What happens from outside, and when.",
+        _ => return None,
+    })
+}

@@ -1,0 +1,150 @@
+//! What editors ask about: one file of a compilation, a plan file or a toolbox.
+
+use std::sync::Arc;
+
+use afp_dsl::Compiled;
+use afp_dsl::index::{Definition, DefinitionId, Index, Name};
+use afp_dsl::outline::{Component, Outline, Plan};
+use afp_dsl::toolbox::{Template, Toolbox, Toolboxes};
+use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::kind::Kind;
+use afp_syntax::source::Span;
+use afp_syntax::{Node, Token, parse};
+
+/// A file of a compilation, with its tree.
+#[derive(Clone, Debug)]
+pub struct View<'a> {
+    /// What became of the file's text and of all that it uses.
+    pub compiled: &'a Compiled,
+    /// The toolboxes that the compilation could use.
+    pub toolboxes: &'a Toolboxes,
+    /// The file, as [`Span::file`] says it.
+    pub file: u16,
+    root: Node,
+}
+
+impl<'a> View<'a> {
+    /// A file of a compilation; one that is not there is empty.
+    pub fn new(compiled: &'a Compiled, toolboxes: &'a Toolboxes, file: u16) -> View<'a> {
+        let text = compiled.sources.get(file).map_or("", |source| &source.text);
+        let root = parse(text, file, &mut Diagnostics::default()).root();
+        View { compiled, toolboxes, file, root }
+    }
+
+    /// The text of the file.
+    pub fn text(&self) -> &'a str {
+        self.compiled.sources.get(self.file).map_or("", |source| &source.text)
+    }
+
+    /// Whether it is a plan file; otherwise it is a toolbox.
+    pub fn is_plan_file(&self) -> bool {
+        self.compiled.plan_files.contains(&usize::from(self.file))
+    }
+
+    pub(crate) fn index(&self) -> &'a Index {
+        &self.compiled.index
+    }
+
+    pub(crate) fn outline(&self) -> &'a Outline {
+        &self.compiled.outline
+    }
+
+    pub(crate) fn root(&self) -> &Node {
+        &self.root
+    }
+
+    /// The text of a place of any file.
+    pub(crate) fn text_of(&self, span: Span) -> &'a str {
+        self.compiled.sources.text(span)
+    }
+
+    /// The name of a definition.
+    pub(crate) fn name_of(&self, id: DefinitionId) -> &'a str {
+        self.text_of(self.index().definition(id).name)
+    }
+
+    /// The name at a byte of the file.
+    pub(crate) fn name_at(&self, offset: u32) -> Option<Name> {
+        self.index().at(self.file, offset)
+    }
+
+    /// The empty place at a byte.
+    pub(crate) fn place(&self, offset: u32) -> Span {
+        Span { file: self.file, start: offset, end: offset }
+    }
+
+    /// The place of a token of the file.
+    pub(crate) fn token_span(&self, token: &Token) -> Span {
+        afp_syntax::token_span(token, self.file)
+    }
+
+    /// The place of a node of the file, without comments around it.
+    pub(crate) fn node_span(&self, node: &Node) -> Span {
+        afp_syntax::node_span(node, self.file)
+    }
+
+    /// The plan that covers a byte.
+    pub(crate) fn plan_at(&self, offset: u32) -> Option<&'a Plan> {
+        let place = self.place(offset);
+        self.outline().plans.iter().find(|plan| plan.span.contains(place))
+    }
+
+    /// The plans of the file.
+    pub(crate) fn plans(&self) -> impl Iterator<Item = &'a Plan> {
+        let file = self.file;
+        self.outline().plans.iter().filter(move |plan| plan.file() == file)
+    }
+
+    /// The element or supervisor whose node that is.
+    pub(crate) fn component(&self, node: &Node) -> Option<&'a Component> {
+        let span = self.node_span(node);
+        let plan = self.plan_at(span.start)?;
+        plan.components().find(|component| component.span == span)
+    }
+
+    /// The plan whose node that is.
+    pub(crate) fn plan(&self, node: &Node) -> Option<&'a Plan> {
+        let span = self.node_span(node);
+        self.plans().find(|plan| plan.span == span)
+    }
+
+    /// The template that a definition is, with its toolbox.
+    pub(crate) fn template(
+        &self,
+        definition: &Definition,
+    ) -> Option<(&'a Arc<Toolbox>, &'a Template)> {
+        self.toolboxes.iter().find_map(|toolbox| {
+            let found = toolbox.templates.iter().find(|known| known.span == definition.name)?;
+            Some((toolbox, found))
+        })
+    }
+
+    /// The last solid token that ends at or before a byte.
+    pub(crate) fn solid_before(&self, offset: u32) -> Option<Token> {
+        let at = rowan::TextSize::from(offset.min(u32::from(self.root.text_range().end())));
+        let mut token = self.root.token_at_offset(at).left_biased();
+        while let Some(found) = token {
+            if !found.kind().is_trivia() && found.text_range().end() <= at {
+                return Some(found);
+            }
+            token = found.prev_token();
+        }
+        None
+    }
+
+    /// The token that a byte lies in or ends.
+    pub(crate) fn token_at(&self, offset: u32) -> Option<Token> {
+        let at = rowan::TextSize::from(offset.min(u32::from(self.root.text_range().end())));
+        self.root.token_at_offset(at).left_biased()
+    }
+}
+
+/// The tokens among the children of a node.
+pub(crate) fn tokens(node: &Node) -> impl Iterator<Item = Token> {
+    node.children_with_tokens().filter_map(|each| each.into_token())
+}
+
+/// The first token of a kind among the children of a node.
+pub(crate) fn token(node: &Node, kind: Kind) -> Option<Token> {
+    tokens(node).find(|token| token.kind() == kind)
+}

@@ -1,0 +1,42 @@
+//! What editors ask, case by case: texts with marks `$0` where the cursor is, and behind each text
+//! the answers.
+//!
+//! `AFP_BLESS=1` rewrites the answers; read the diff like code.
+
+mod answers;
+mod prefixes;
+mod support;
+
+use support::{Case, cases, compare};
+
+/// What a feature answers to a case.
+type Answer = fn(&Case) -> String;
+
+/// What each feature answers, by the folder of its cases.
+const FEATURES: &[(&str, Answer)] = &[
+    ("actions", answers::actions),
+    ("colours", answers::colours),
+    ("completion", answers::completion),
+    ("definition", answers::definition),
+    ("folding", answers::folding),
+    ("hints", answers::hints),
+    ("hover", answers::hover),
+    ("lenses", answers::lenses),
+    ("references", answers::references),
+    ("selection", answers::selection),
+    ("signature", answers::signature),
+    ("symbols", answers::symbols),
+];
+
+#[test]
+fn every_case_has_its_answers() {
+    let mut wrong = Vec::new();
+    for (folder, answer) in FEATURES {
+        let cases = cases(folder);
+        assert!(!cases.is_empty(), "no case of '{folder}'");
+        for (path, case) in cases {
+            wrong.extend(compare(&path, &case, &answer(&case)));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
