@@ -182,17 +182,17 @@ impl Enum {
 impl Ref {
     /// The name before the point; `None` without a point.
     pub fn home(&self) -> Option<Name> {
-        let mut names = self.names();
-        if names.len() > 1 { Some(names.swap_remove(0)) } else { None }
+        let last = last_token(&self.node, Kind::Name, self.file, |_, span| span)?;
+        find_token(&self.node, self.file, |kind, text, span| {
+            let before = kind == Kind::Name && span != last;
+            before.then(|| Name { text: text.to_owned(), span })
+        })
     }
 
     /// The name, behind the point if there is one.
     pub fn name(&self) -> Option<Name> {
-        self.names().pop()
-    }
-
-    fn names(&self) -> Vec<Name> {
-        tokens(&self.node, Kind::Name, self.file)
+        let name = |text: &str, span| Name { text: text.to_owned(), span };
+        last_token(&self.node, Kind::Name, self.file, name)
     }
 }
 
@@ -293,16 +293,23 @@ fn child_span(node: &Node, kind: Kind, file: u16) -> Option<Span> {
     })
 }
 
-/// The place of the closing brace of a node.
-fn closing_span(node: &Node, file: u16) -> Option<Span> {
+/// What the last token of a kind gives.
+fn last_token<R>(
+    node: &Node,
+    kind: Kind,
+    file: u16,
+    read: impl FnOnce(&str, Span) -> R,
+) -> Option<R> {
     let mut start = u32::from(node.text_range().end());
-    node.green().children().rev().find_map(|element| {
+    let green = node.green();
+    let (text, span) = green.children().rev().find_map(|element| {
         let end = start;
         start -= u32::from(element.text_len());
         let token = element.into_token()?;
-        let closes = Afp::kind_from_raw(token.kind()) == Kind::CloseBrace;
-        closes.then_some(Span { file, start, end })
-    })
+        let found = Afp::kind_from_raw(token.kind()) == kind;
+        found.then_some((token.text(), Span { file, start, end }))
+    })?;
+    Some(read(text, span))
 }
 
 /// The first token of a kind.

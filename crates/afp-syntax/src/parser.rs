@@ -31,7 +31,7 @@ pub(super) fn parse(tokens: &[Token<'_>], file: u16, diags: &mut Diagnostics) ->
 struct Parser<'t, 'd> {
     tokens: &'t [Token<'t>],
     /// Places of the tokens that are no trivia.
-    solid: Vec<usize>,
+    solid: Vec<u32>,
     /// The next of `solid`.
     at: usize,
     /// The next of `tokens` that is not yet in the tree.
@@ -50,7 +50,8 @@ struct Parser<'t, 'd> {
 impl<'t, 'd> Parser<'t, 'd> {
     fn new(tokens: &'t [Token<'t>], file: u16, diags: &'d mut Diagnostics) -> Parser<'t, 'd> {
         let mut solid = Vec::with_capacity(tokens.len());
-        solid.extend((0..tokens.len()).filter(|place| !tokens[*place].kind.is_trivia()));
+        let places = (0..).zip(tokens).filter(|(_, token)| !token.kind.is_trivia());
+        solid.extend(places.map(|(place, _)| place));
         let builder = GreenNodeBuilder::new();
         Parser {
             tokens,
@@ -68,8 +69,13 @@ impl<'t, 'd> Parser<'t, 'd> {
 
     // Looking.
 
+    /// The place of the token so many ahead; behind the last one the end of all.
+    fn place(&self, ahead: usize) -> usize {
+        self.solid.get(self.at + ahead).map_or(self.tokens.len(), |place| *place as usize)
+    }
+
     fn token(&self, ahead: usize) -> Option<Token<'t>> {
-        self.solid.get(self.at + ahead).map(|place| self.tokens[*place])
+        self.tokens.get(self.place(ahead)).copied()
     }
 
     fn nth(&self, ahead: usize) -> Kind {
@@ -104,14 +110,13 @@ impl<'t, 'd> Parser<'t, 'd> {
     /// Whether the next token stands on the line of the one before it.
     fn on_same_line(&self) -> bool {
         let Some(before) = self.at.checked_sub(1) else { return true };
-        let from = self.solid[before] + 1;
-        let to = self.solid.get(self.at).copied().unwrap_or(self.tokens.len());
-        !self.tokens[from..to].iter().any(|token| token.text.contains('\n'))
+        let from = self.solid[before] as usize + 1;
+        !self.tokens[from..self.place(0)].iter().any(|token| token.text.contains('\n'))
     }
 
     /// Whether no white space stands before the next token.
     fn is_adjacent(&self) -> bool {
-        self.solid.get(self.at).is_some_and(|place| *place == self.built)
+        self.at < self.solid.len() && self.place(0) == self.built
     }
 
     // Places.
@@ -136,7 +141,7 @@ impl<'t, 'd> Parser<'t, 'd> {
 
     /// The empty place behind the last token.
     fn behind(&self) -> Span {
-        let before = self.at.checked_sub(1).map(|before| self.tokens[self.solid[before]]);
+        let before = self.at.checked_sub(1).map(|before| self.tokens[self.solid[before] as usize]);
         before
             .map_or(Span { file: self.file, start: 0, end: 0 }, |token| self.span_of(token).after())
     }
@@ -156,7 +161,7 @@ impl<'t, 'd> Parser<'t, 'd> {
 
     /// Puts everything up to the next token into the tree.
     fn trivia(&mut self) {
-        let to = self.solid.get(self.at).copied().unwrap_or(self.tokens.len());
+        let to = self.place(0);
         self.trivia_to(to, false);
     }
 
@@ -240,7 +245,7 @@ impl<'t, 'd> Parser<'t, 'd> {
 
     /// Opens an item: help text and the comments directly above it belong to it.
     fn open_item(&mut self, kind: Kind) {
-        let to = self.solid.get(self.at).copied().unwrap_or(self.tokens.len());
+        let to = self.place(0);
         let own = own_trivia(&self.tokens[self.built..to]);
         self.trivia_to(self.built + own, false);
         self.builder.start_node(Afp::kind_to_raw(kind));
@@ -250,7 +255,7 @@ impl<'t, 'd> Parser<'t, 'd> {
     /// Closes an item: a comma and a comment on its last line belong to it.
     fn close_item(&mut self) {
         self.eat(Kind::Comma);
-        let to = self.solid.get(self.at).copied().unwrap_or(self.tokens.len());
+        let to = self.place(0);
         let mut own = self.built;
         for place in self.built..to {
             match self.tokens[place].kind {

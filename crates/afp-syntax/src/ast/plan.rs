@@ -1,8 +1,8 @@
 //! Plans in the typed view.
 
 use super::{
-    Formula, Name, Ref, Timing, Type, child, child_span, children, closing_span, doc, keyword,
-    keyword_as, named, note, span_of, token, views,
+    Formula, Name, Ref, Timing, Type, child, child_span, children, doc, keyword, keyword_as,
+    last_token, named, note, span_of, token, views,
 };
 use crate::kind::{Afp, Kind};
 use crate::source::Span;
@@ -244,7 +244,7 @@ fn frame(node: &Node, file: u16) -> Frame {
         note: note(node),
         span: node_span(node, file),
         args_span: child_span(node, Kind::Args, file),
-        end_span: closing_span(node, file),
+        end_span: last_token(node, Kind::CloseBrace, file, |_, span| span),
     }
 }
 
