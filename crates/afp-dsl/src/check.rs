@@ -11,19 +11,20 @@ mod convert;
 pub(crate) mod edges;
 mod endings;
 mod entries;
-pub(crate) mod enums;
-pub(crate) mod formula;
-pub(crate) mod imports;
-pub(crate) mod names;
+mod enums;
+mod formula;
+mod imports;
+mod names;
 mod plan;
 mod recursion;
 mod resources;
 pub(crate) mod scenario;
 mod scope;
 pub(crate) mod signature;
-pub(crate) mod size;
+mod size;
 pub(crate) mod timing;
-pub(crate) mod types;
+pub(crate) mod toolbox;
+mod types;
 
 use std::sync::Arc;
 
@@ -34,7 +35,6 @@ use crate::graph::{self, Graph};
 use crate::index::{self, Declared, Index, Meanings, Recorder};
 use crate::outline::{self, Material, Outline};
 use crate::scenario::Scenario;
-use crate::toolbox::read::names_only;
 use crate::toolbox::{Toolbox, Toolboxes};
 use afp_syntax::ast::{self, Item, Name};
 use afp_syntax::diagnostics::words;
@@ -46,6 +46,7 @@ use names::Places;
 pub(crate) use plan::{Made, Member, Members};
 use scope::FileScope;
 use signature::Signatures;
+use toolbox::names_only;
 
 /// Everything that a compilation has read.
 pub(crate) struct Program<'a> {

@@ -1,7 +1,6 @@
 //! What a toolbox file declares: templates with their ports, timing, help and icons; devices.
 
 pub mod device;
-pub(crate) mod read;
 mod set;
 
 use crate::types::{Enum, Object, Type};

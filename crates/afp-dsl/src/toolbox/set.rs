@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use crate::check::toolbox::read_file;
 use crate::index::{Declared, Meanings};
 use crate::toolbox::Toolbox;
-use crate::toolbox::read::read_file;
 use afp_syntax::ast::Name;
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::{Source, Sources, Span};

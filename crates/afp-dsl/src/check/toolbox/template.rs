@@ -1,10 +1,10 @@
 //! One template: its parts, each where it belongs and as often as it may stand.
 
 use crate::check::names::{Names, unknown};
+use crate::check::toolbox::ports::{self, Site};
 use crate::check::{size, timing};
 use crate::index::Word;
 use crate::rows::{MAX_EVENTS, MAX_ROWS, MAX_STATES};
-use crate::toolbox::read::ports::{self, Site};
 use crate::toolbox::{Outcome, Template, TemplateKind};
 use afp_syntax::ast::{self, Name, Part};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};

@@ -48,7 +48,7 @@ impl Toolbox {
 }
 
 /// What a toolbox file comes to.
-pub(super) struct ToolboxFile {
+pub(crate) struct ToolboxFile {
     /// The toolbox, unless there are errors.
     pub toolbox: Option<Toolbox>,
     /// What it is called, however broken the rest of it is.
@@ -62,7 +62,7 @@ pub(super) struct ToolboxFile {
 }
 
 /// Reads a toolbox file; parameters as of [`Toolbox::parse`].
-pub(super) fn read_file(source: &Source, file: u16, rust_path: &str) -> ToolboxFile {
+pub(crate) fn read_file(source: &Source, file: u16, rust_path: &str) -> ToolboxFile {
     let mut diags = Diagnostics::default();
     let tree = parse(&source.text, file, &mut diags).file();
     let record = Recorder::default();
