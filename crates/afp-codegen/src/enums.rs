@@ -47,6 +47,7 @@ pub fn choices(core: &TokenStream, choices: &Enum, name: &Ident) -> TokenStream 
         }
 
         impl #core::rt::Any for #name {}
+        impl #core::rt::Discrete for #name {}
 
         impl #core::rt::Writable for #name {
             fn from_value(value: &#core::Value) -> ::core::result::Result<Self, #core::WriteError> {

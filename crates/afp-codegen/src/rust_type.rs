@@ -32,7 +32,7 @@ impl Home<'_> {
             }
             Type::Enum(choices) => (self.choice)(choices),
             Type::Object(object) => (self.object)(object),
-            Type::Any | Type::Number => quote!(V),
+            Type::Any | Type::Number | Type::Discrete => quote!(V),
         }
     }
 

@@ -136,15 +136,16 @@ fn implement(core: &TokenStream, template: &Template) -> TokenStream {
     }
 }
 
-/// The bound on the type that stands for `any` or `number`, where the template has such ports.
+/// The bound on the type that stands for `any`, `number` or `discrete`, where the template has such
+/// ports.
 fn bound(template: &Template) -> Option<Ident> {
     let types = || {
         let inputs = template.inputs.iter().map(|port| &port.ty);
         inputs.chain(template.outputs.iter().map(|port| &port.ty))
     };
-    let is = |wanted: &Type| types().any(|ty| ty == wanted);
-    let bound = if is(&Type::Number) { "Number" } else { "Any" };
-    (is(&Type::Number) || is(&Type::Any)).then(|| ident(bound))
+    let bounds = [(Type::Number, "Number"), (Type::Discrete, "Discrete"), (Type::Any, "Any")];
+    let bound = bounds.iter().find(|(wanted, _)| types().any(|ty| ty == wanted));
+    bound.map(|(_, bound)| ident(bound))
 }
 
 /// The inputs read before the start, with their positions among all inputs. A computation reads
@@ -180,7 +181,7 @@ impl Parameters {
             let object = matches!(ty, Type::Object(_));
             all.borrows |= object || *ty == Type::Text;
             all.opaque |= object;
-            all.generic |= matches!(ty, Type::Any | Type::Number);
+            all.generic |= matches!(ty, Type::Any | Type::Number | Type::Discrete);
         }
         all.owns = all.borrows;
         all

@@ -29,7 +29,7 @@ pub(crate) use plan::{Place, StepState};
 pub use ports::{Args, FromArgs, Outcome, Outputs, Ports, Registry};
 pub use probe::{ActorSupported, Probe, SupervisorSupported, Unsupported};
 pub use state::{AtElement, Plan, PlanState, WriteError};
-pub use store::{Any, Choice, Entry, Number, Object, Stored, Writable};
+pub use store::{Any, Choice, Discrete, Entry, Number, Object, Stored, Writable};
 pub use table::{Child, ElementKind, ElementRow, PlanTable, Range, SupervisorRow, Tables, Target};
 
 pub use crate::component::{

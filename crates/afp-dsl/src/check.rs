@@ -6,6 +6,7 @@
 mod assemble;
 mod bindings;
 mod callee;
+mod choices;
 mod constant;
 mod convert;
 pub(crate) mod edges;

@@ -81,6 +81,8 @@ pub struct Plan {
     /// Whether an event or `DeadlineMissed` edge leads to `terminate`, so that the plan can end as
     /// `Interrupted`.
     pub interruptible: bool,
+    /// Whether it is meant to run until something happens to it.
+    pub forever: bool,
     /// The name in the text.
     pub span: Span,
     /// The name behind `start`.

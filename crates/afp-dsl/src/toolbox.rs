@@ -60,6 +60,9 @@ pub struct Template {
     pub outputs: Vec<OutPort>,
     /// States, or a supervisor's events, as written.
     pub outcomes: Vec<Outcome>,
+    /// The port whose values are the states; [`Template::outcomes`] is empty until an enum is bound
+    /// there.
+    pub states_of: Option<StatesOf>,
     /// Poll period in nanoseconds (10 ms where none is written).
     pub every: u64,
     /// Deadline in nanoseconds, where written.
@@ -70,6 +73,15 @@ pub struct Template {
     pub stop: Option<u64>,
     /// The name in the text.
     pub span: Span,
+}
+
+/// The states of a template that has one for each value of an enum.
+#[derive(Clone, Debug)]
+pub struct StatesOf {
+    /// The input port, by position.
+    pub port: u16,
+    /// The enum, in the template as a component of a plan has it.
+    pub home: Option<Arc<Enum>>,
 }
 
 /// An input port.

@@ -30,6 +30,8 @@ pub enum Type {
     Any,
     /// `number`, in ports of toolboxes only
     Number,
+    /// `discrete`, in ports of toolboxes only: what is equal or not, and no measure
+    Discrete,
 }
 
 /// An enum of a toolbox or of a plan file.
@@ -101,6 +103,11 @@ impl Type {
         matches!(self, Type::Int | Type::Quantity(_) | Type::Number)
     }
 
+    /// Whether two values of it are equal or not, and never nearly so.
+    pub fn is_discrete(&self) -> bool {
+        matches!(self, Type::Bool | Type::Int | Type::Text | Type::Enum(_) | Type::Discrete)
+    }
+
     /// The name of its declaration; `None` for a built-in one.
     pub fn declaration(&self) -> Option<Span> {
         match self {
@@ -114,9 +121,12 @@ impl Type {
 /// Names of types that are no dimensions and that plans can write.
 pub(crate) const PLAIN: &[&str] = &["bool", "int", "float", "string"];
 
+/// Names of types that ports of toolboxes alone have.
+pub(crate) const GENERIC: &[&str] = &["any", "number", "discrete"];
+
 /// Whether the language itself has a type of that name.
 pub fn is_built_in(name: &str) -> bool {
-    PLAIN.contains(&name) || matches!(name, "any" | "number") || Dimension::named(name).is_some()
+    PLAIN.contains(&name) || GENERIC.contains(&name) || Dimension::named(name).is_some()
 }
 
 impl fmt::Display for Type {
@@ -131,6 +141,7 @@ impl fmt::Display for Type {
             Type::Object(object) => f.write_str(&object.name),
             Type::Any => f.write_str("any"),
             Type::Number => f.write_str("number"),
+            Type::Discrete => f.write_str("discrete"),
         }
     }
 }

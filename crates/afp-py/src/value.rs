@@ -163,7 +163,7 @@ pub fn to_port(ty: &Type, value: &Bound<'_, PyAny>) -> PyResult<Value> {
                 PyValueError::new_err(format!("no {ty} '{name}'; there are: {known}"))
             })
         }
-        Type::Any | Type::Number => any(value)?.ok_or_else(wrong),
+        Type::Any | Type::Number | Type::Discrete => any(value)?.ok_or_else(wrong),
         Type::Object(_) => Err(wrong()),
     }
 }

@@ -4,19 +4,27 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod assign;
+mod changed;
 mod check_timeout;
 mod check_value;
 mod compare;
 mod count;
+mod every;
+mod is;
 mod log;
+mod switch;
 mod wait;
 
 pub use assign::Assign;
+pub use changed::Changed;
 pub use check_timeout::CheckTimeout;
 pub use check_value::CheckValue;
 pub use compare::Compare;
 pub use count::Count;
+pub use every::Every;
+pub use is::Is;
 pub use log::Log;
+pub use switch::Switch;
 pub use wait::Wait;
 
 /// Registers the templates on a platform, as the macros of this name of other toolboxes do those that it supports.

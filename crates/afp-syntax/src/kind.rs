@@ -141,6 +141,8 @@ kinds! {
     Uses
     /// `state S` or `event E`
     Outcome
+    /// `states of port`
+    StatesOf
     /// `in live port: type = formula from formula to formula`
     InPort
     /// `out port: type on S | T`

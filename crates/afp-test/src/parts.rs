@@ -206,7 +206,7 @@ impl<'a> Parts<'a> {
         let with_port = |out: &Output| {
             let port = ports.get(usize::from(out.port))?;
             let ty = match (&port.ty, generic) {
-                (Type::Any | Type::Number, Some(ty)) => ty.clone(),
+                (Type::Any | Type::Number | Type::Discrete, Some(ty)) => ty.clone(),
                 (ty, _) => ty.clone(),
             };
             let entry = first + u32::from(out.entry.0);
@@ -280,6 +280,6 @@ fn zero(ty: &Type) -> Option<(Constant, String)> {
         Type::Enum(home) => {
             (Constant::Choice(0), format!("{}.{}", home.name, home.variants.first()?))
         }
-        Type::Object(_) | Type::Any | Type::Number => return None,
+        Type::Object(_) | Type::Any | Type::Number | Type::Discrete => return None,
     })
 }

@@ -119,6 +119,19 @@ pub fn guard(name: &str, entries: &Entries, dice: &mut Dice, channels: &mut Vec<
         let call = bindings.call("CheckValue");
         return Made { word: "supervise", call, outcomes: vec!["Below", "Above"] };
     }
+    if dice.percent(10) {
+        bindings.bind("period", dice.pick(&["15 ms", "40 ms", "101 ms"]));
+        return Made { word: "supervise", call: bindings.call("Every"), outcomes: vec!["Due"] };
+    }
+    if dice.percent(10) {
+        let ty = dice.pick(&[Type::Int, Type::Length, Type::Text, Type::Side]);
+        bindings.bind("value", &formula(ty, entries, 2, dice));
+        return Made {
+            word: "supervise",
+            call: bindings.call("Changed"),
+            outcomes: vec!["Changed"],
+        };
+    }
     bindings.bind("name", &format!("\"{name}\""));
     if dice.percent(30) {
         channel(name, &["Seen"], false, channels);
@@ -141,7 +154,7 @@ pub fn guard(name: &str, entries: &Entries, dice: &mut Dice, channels: &mut Vec<
 /// A computation other than those of loops.
 pub fn computation(entries: &Entries, dice: &mut Dice) -> Made {
     let mut bindings = Bindings::new(entries);
-    let (template, outcomes) = match dice.between(0, 8) {
+    let (template, outcomes) = match dice.between(0, 10) {
         0 => {
             let ty = dice.pick(&[Type::Int, Type::Float, Type::Length]);
             let (left, right) = (formula(ty, entries, 2, dice), formula(ty, entries, 2, dice));
@@ -166,6 +179,16 @@ pub fn computation(entries: &Entries, dice: &mut Dice) -> Made {
             ("ReadMap", vec!["Done"])
         }
         4 => {
+            let ty = dice.pick(&[Type::Bool, Type::Int, Type::Text, Type::Side]);
+            bindings.bind("value", &formula(ty, entries, 2, dice));
+            bindings.bind("equals", &formula(ty, entries, 1, dice));
+            ("Is", vec!["Yes", "No"])
+        }
+        5 => {
+            bindings.bind("value", &formula(Type::Side, entries, 1, dice));
+            ("Switch", vec!["left", "right"])
+        }
+        6 => {
             bindings.bind("value", &formula(Type::Text, entries, 2, dice));
             ("Log", vec!["Done"])
         }

@@ -283,6 +283,8 @@ const RULES: &[Rule] = &[
         "objects are known by the commit that wrote them",
         &["object_is_known_by_its_commit", "object_through_a_sub_plan"],
     ),
+    ("6.3", "'Every' reports each whole period, late ones once", &["every_period"]),
+    ("6.5", "'Is' and 'Switch' choose by values that are equal or not", &["choosing"]),
     (
         "1.13",
         "'any' and 'number' are one type for each instance",

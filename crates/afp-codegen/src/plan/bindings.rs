@@ -78,7 +78,7 @@ impl Bound<'_> {
                 .iter()
                 .map(|(port, formula)| {
                     let value = match port.ty {
-                        Type::Any | Type::Number => formulas.value(formula),
+                        Type::Any | Type::Number | Type::Discrete => formulas.value(formula),
                         _ => formulas.input(formula),
                     };
                     let (port, at) = (ident(&snake(&port.name)), at(formula.span));
@@ -201,7 +201,7 @@ impl Bound<'_> {
         let bound = carried.filter_map(|(number, port)| {
             let output = self.outputs.iter().find(|output| output.port == number)?;
             let ty = match &port.ty {
-                Type::Any | Type::Number => self.generic?,
+                Type::Any | Type::Number | Type::Discrete => self.generic?,
                 ty => ty,
             };
             let name = ident(&snake(&port.name));
@@ -239,7 +239,7 @@ pub fn converted(
 }
 
 fn is_generic(ty: &Type) -> bool {
-    matches!(ty, Type::Any | Type::Number)
+    matches!(ty, Type::Any | Type::Number | Type::Discrete)
 }
 
 /// Whether a formula reads anything.

@@ -11,6 +11,9 @@ use afp_dsl::types::{Dimension, Type};
 
 /// The enum, and how its outputs are handed over.
 pub fn outcomes(core: &TokenStream, template: &Template) -> TokenStream {
+    if template.states_of.is_some() {
+        return positions(core);
+    }
     let words = words(template.kind);
     let parameters = Parameters::of(template.outputs.iter().map(|port| &port.ty));
     let name = &words.outcome;
@@ -41,6 +44,25 @@ pub fn outcomes(core: &TokenStream, template: &Template) -> TokenStream {
         }
 
         #implemented
+    }
+}
+
+/// The states of a template that has one for each value of an enum.
+fn positions(core: &TokenStream) -> TokenStream {
+    let about = doc("", "The state: the value's position in its enum.");
+    quote! {
+        #about
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct State(pub u16);
+
+        impl #core::rt::Outcome for State {
+            #[inline]
+            fn index(&self) -> u16 {
+                self.0
+            }
+
+            fn give(self, _: &mut dyn #core::rt::Outputs) {}
+        }
     }
 }
 
@@ -108,7 +130,7 @@ fn give(core: &TokenStream, number: u16, port: &OutPort) -> TokenStream {
         Type::Text => quote!(to.text(#number, &#name);),
         Type::Enum(_) => quote!(to.choice(#number, #core::rt::Choice::index(#name));),
         Type::Object(_) => quote!(to.object(#number, &mut Some(#name));),
-        Type::Any | Type::Number => {
+        Type::Any | Type::Number | Type::Discrete => {
             quote!(to.value(#number, #core::rt::Stored::as_value(&#name).to_owned());)
         }
     }

@@ -149,7 +149,7 @@ fn check(core: &TokenStream, port: &InPort) -> Option<TokenStream> {
                 (home.constant(*dimension, least), home.constant(*dimension, greatest));
             Some(quote!(#core::rt::within(self.#name #si, #least #si, #greatest #si)?;))
         }
-        (Type::Quantity(_) | Type::Any | Type::Number, _) => {
+        (Type::Quantity(_) | Type::Any | Type::Number | Type::Discrete, _) => {
             Some(quote!(#core::rt::within_value(#core::rt::Stored::as_value(&self.#name))?;))
         }
         _ => None,
@@ -207,6 +207,6 @@ fn pull(core: &TokenStream, index: u16, ty: &Type) -> TokenStream {
         Type::Object(_) => quote! {
             args.object(#index)?.downcast_ref().ok_or(#core::Fault::INTERNAL)?
         },
-        Type::Any | Type::Number => quote!(args.value(#index)?),
+        Type::Any | Type::Number | Type::Discrete => quote!(args.value(#index)?),
     }
 }

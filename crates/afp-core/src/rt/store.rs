@@ -24,6 +24,9 @@ pub trait Any: Stored + Clone + PartialEq {}
 /// What stands for a port of type `number`: an `int`, a `float` or a quantity.
 pub trait Number: Any + PartialOrd {}
 
+/// What stands for a port of type `discrete`: a `bool`, an `int`, a text or a value of an enum.
+pub trait Discrete: Any {}
+
 /// What a writer from outside can give.
 pub trait Writable: Stored {
     /// The value, where it fits the type; an `int` given to a `float` becomes one.
@@ -146,6 +149,11 @@ macro_rules! stored {
 }
 
 stored!(bool => Bool, i64 => Int, f64 => Float);
+
+impl Discrete for bool {}
+impl Discrete for i64 {}
+impl Discrete for Text {}
+impl Discrete for Value {}
 
 impl Number for i64 {}
 impl Number for f64 {}

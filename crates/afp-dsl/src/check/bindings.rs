@@ -242,7 +242,7 @@ fn example(ty: Option<&Type>) -> String {
             format!("{}.{}", home.name, home.variants.first().map_or("...", String::as_str))
         }
         Some(Type::Object(_)) => "entry".to_owned(),
-        Some(Type::Int | Type::Any | Type::Number) | None => "1".to_owned(),
+        Some(Type::Int | Type::Any | Type::Number | Type::Discrete) | None => "1".to_owned(),
     }
 }
 

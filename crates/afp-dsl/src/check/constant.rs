@@ -188,7 +188,7 @@ fn from_text(text: &str, ty: &Type) -> Result<Constant, Error> {
             let names = choices.variants.iter().map(String::as_str);
             parse_choice(text, names).map(Constant::Choice)
         }
-        Type::Object(_) | Type::Any | Type::Number => Err(Error::NotAValue),
+        Type::Object(_) | Type::Any | Type::Number | Type::Discrete => Err(Error::NotAValue),
     }
 }
 

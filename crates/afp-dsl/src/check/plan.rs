@@ -160,6 +160,7 @@ fn finish(
         start: start?.0,
         start_span: start?.1,
         interruptible: head.interrupting.is_some(),
+        forever: head.node.forever().is_some(),
         span: name.span,
     })
 }

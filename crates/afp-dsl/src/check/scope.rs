@@ -7,7 +7,7 @@ use crate::check::imports::{self, Import};
 use crate::check::names::Names;
 use crate::check::signature::Signatures;
 use crate::check::types::Types;
-use crate::check::{PlanHead, Program, endings, entries, enums, recursion, shadows};
+use crate::check::{PlanHead, Program, choices, endings, entries, enums, recursion, shadows};
 use crate::gather::PlanFile;
 use crate::index::Recorder;
 use crate::toolbox::{Toolbox, Toolboxes};
@@ -68,6 +68,7 @@ pub(super) fn program<'a>(
             }
         }
     }
+    choices::specialise(&mut linked, files, &scopes);
     let signatures = Signatures::of(&linked, &plans);
     let sub_plans = plans.iter().map(|head| recursion::sub_plans(head, &scopes)).collect();
     Program { toolboxes, linked, files: scopes, plans, sub_plans, signatures, record }

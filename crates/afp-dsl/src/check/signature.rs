@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::check::PlanHead;
 use crate::graph::{Component, EntryKind, PlanId, TemplateId, ToolboxId};
 use crate::toolbox::{Constant, Template, TemplateKind, Toolbox};
-use crate::types::Type;
+use crate::types::{Enum, Type};
 use afp_syntax::source::Span;
 
 /// Ports and outcomes of a template or plan.
@@ -92,6 +92,16 @@ impl Signatures {
     /// That of a template, by toolbox and place in it.
     pub fn template(&self, toolbox: ToolboxId, place: usize) -> Option<&Rc<Signature>> {
         self.templates.get(toolbox.index())?.get(place)
+    }
+
+    /// That of the template of a name whose states are the values of an enum.
+    pub fn of_enum(&self, toolbox: ToolboxId, name: &str, home: &Enum) -> Option<Rc<Signature>> {
+        let is_it = |signature: &&Rc<Signature>| {
+            let states = signature.template().and_then(|template| template.states_of.as_ref());
+            let bound = states.and_then(|states| states.home.as_ref());
+            signature.name == name && bound.is_some_and(|bound| **bound == *home)
+        };
+        self.templates.get(toolbox.index())?.iter().find(is_it).cloned()
     }
 
     /// That of a plan.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::check::names::{ambiguous, unknown};
 use crate::index::{Recorder, Word};
-use crate::types::{Dimension, Enum, Object, PLAIN, Type, is_built_in};
+use crate::types::{Dimension, Enum, GENERIC, Object, PLAIN, Type, is_built_in};
 use afp_syntax::ast::{self, Factor};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
@@ -17,7 +17,7 @@ pub(crate) struct Types {
     pub enums: Vec<(Option<String>, Arc<Enum>)>,
     /// Object types, with the name that qualifies them.
     pub objects: Vec<(Option<String>, Arc<Object>)>,
-    /// Whether `any` and `number` can be written.
+    /// Whether `any`, `number` and `discrete` can be written.
     pub generic: bool,
     /// What qualifies them, with the name that each means.
     pub homes: Vec<(String, Span)>,
@@ -84,7 +84,8 @@ impl Types {
                 "string" => return Some(Type::Text),
                 "any" if self.generic => return Some(Type::Any),
                 "number" if self.generic => return Some(Type::Number),
-                "any" | "number" => {
+                "discrete" if self.generic => return Some(Type::Discrete),
+                generic if GENERIC.contains(&generic) => {
                     let message = format!("'{}' is a type of ports of toolboxes only", name.text);
                     diags.push(
                         Diagnostic::new(Code::E0232, name.span, message)

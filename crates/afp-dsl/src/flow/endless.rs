@@ -1,6 +1,6 @@
 //! Plans that never end, and elements that none of their endings can be reached from.
 
-use crate::flow::view::View;
+use crate::flow::view::{Cause, View};
 use crate::flow::{INTERRUPTED, OK};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
@@ -9,11 +9,15 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [bool; 2] {
     let forth = forward(view);
     let ends = ends(view, &forth);
+    if view.plan.forever {
+        by_itself(view, &forth, diags);
+        return ends;
+    }
     if ends == [false, false] {
         let message = format!("'{}' can never end: nothing leads to 'terminate'", view.plan.name);
         diags.push(
             Diagnostic::new(Code::E0307, view.plan.span, message)
-                .help("lead a state or an event to 'terminate', such as that of an escape button"),
+                .help("lead a state or an event to 'terminate', or write 'plan NAME forever' where it is meant to run on"),
         );
         return ends;
     }
@@ -28,6 +32,21 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [bool; 2] {
         }
     }
     ends
+}
+
+/// Warns where a plan that is meant to run for ever ends although nothing has happened to it.
+fn by_itself(view: &View<'_>, forth: &[bool], diags: &mut Diagnostics) {
+    let ending = [view.end(OK), view.end(INTERRUPTED)];
+    for edge in view.edges.iter().filter(|edge| ending.contains(&edge.to) && forth[edge.from]) {
+        let Cause::State(id, state) = edge.cause else { continue };
+        let element = &view.plan.elements[id.index()];
+        let place = element.edges.outcomes.get(usize::from(state)).copied().flatten();
+        let message = format!("'{}' ends the plan, which is to run forever", element.name);
+        diags.push(
+            Diagnostic::new(Code::E0320, place.unwrap_or(element.span), message)
+                .help("lead the state to an element, or remove 'forever' behind the plan's name"),
+        );
+    }
 }
 
 /// Which endings can come.

@@ -49,6 +49,9 @@ impl Dump<'_> {
         if let Some(file) = &plan.file {
             head += &format!(" of {file}");
         }
+        if plan.forever {
+            head += " (forever)";
+        }
         if plan.interruptible {
             head += " (interruptible)";
         }

@@ -200,7 +200,7 @@ fn made_from(signature: &Rc<Signature>) -> Option<MadeFrom> {
 /// The ports of a template or plan, none of them bound.
 fn declared(signature: &Signature, generic: Option<&Type>) -> (Vec<Input>, Vec<Output>) {
     let actual = |ty: &Option<Type>| match (ty, generic) {
-        (Some(Type::Any | Type::Number), Some(generic)) => Some(generic.clone()),
+        (Some(Type::Any | Type::Number | Type::Discrete), Some(generic)) => Some(generic.clone()),
         (ty, _) => ty.clone(),
     };
     let inputs = signature.inputs.iter().map(|port| Input {

@@ -43,7 +43,7 @@ pub fn parse_value(text: &str, ty: &Type) -> Result<Constant, LiteralError> {
                 .map(Constant::Choice)
                 .ok_or(LiteralError::UnknownChoice)
         }
-        Type::Object(_) | Type::Any | Type::Number => Err(LiteralError::NoLiteral),
+        Type::Object(_) | Type::Any | Type::Number | Type::Discrete => Err(LiteralError::NoLiteral),
     }
 }
 

@@ -216,7 +216,7 @@ fn pull(args: &dyn Args, number: u16, port: &InPort) -> Result<Pulled, Fault> {
         Type::Quantity(_) => Value::Float(args.float(number)?),
         Type::Text => ValueRef::Text(args.text(number)?).to_owned(),
         Type::Enum(_) => Value::Choice(args.choice(number)?),
-        Type::Any | Type::Number => args.value(number)?,
+        Type::Any | Type::Number | Type::Discrete => args.value(number)?,
         Type::Object(_) => {
             let object = args.object(number)?.downcast_ref::<Object>();
             return object.cloned().map(Pulled::Object).ok_or(Fault::INTERNAL);

@@ -2,7 +2,7 @@
 
 use super::{
     Formula, Name, Ref, Timing, Type, child, child_span, children, doc, keyword, keyword_as,
-    last_token, named, note, span_of, token, views,
+    last_token, named, note, span_of, token, tokens, views,
 };
 use crate::kind::{Afp, Kind};
 use crate::source::Span;
@@ -81,6 +81,12 @@ impl Plan {
     /// The comment above it.
     pub fn note(&self) -> String {
         note(&self.node)
+    }
+
+    /// The place of `forever`, where written.
+    pub fn forever(&self) -> Option<Span> {
+        let mut words = tokens(&self.node, Kind::Keyword, self.file).into_iter().skip(1);
+        words.find(|word| word.text == "forever").map(|word| word.span)
     }
 
     /// Its entries as written.

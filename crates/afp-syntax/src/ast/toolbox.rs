@@ -45,6 +45,8 @@ pub enum Part {
     Out(OutPort),
     /// A state or an event.
     Outcome(Outcome),
+    /// `states of port`: the port, and the place of `states`.
+    StatesOf(Option<Name>, Span),
     /// A time.
     Timing(Timing),
 }
@@ -78,6 +80,7 @@ impl Template {
                 Kind::InPort => Part::In(InPort::new(node, file)),
                 Kind::OutPort => Part::Out(OutPort::new(node, file)),
                 Kind::Outcome => Part::Outcome(Outcome::new(node, file)),
+                Kind::StatesOf => Part::StatesOf(name(Kind::Name), span),
                 Kind::Timing => Part::Timing(Timing::new(node, file)),
                 _ => return None,
             })

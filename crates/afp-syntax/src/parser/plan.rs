@@ -13,6 +13,7 @@ impl Parser<'_, '_> {
         self.open_item(Kind::Plan);
         self.keyword();
         self.name("give the plan a name");
+        self.eat_word("forever");
         let opened = self.here();
         if self.expect(Kind::OpenBrace, "put the plan's items in braces") {
             while !self.at_end() && !self.at(Kind::CloseBrace) && !self.at_top_item() {

@@ -3,8 +3,7 @@
 use super::Parser;
 use crate::kind::Kind;
 
-const PART_HELP: &str =
-    "write 'icon', 'uses', 'in', 'out', 'every', 'deadline', 'budget', 'stop', 'state' or 'event'";
+const PART_HELP: &str = "write 'icon', 'uses', 'in', 'out', 'every', 'deadline', 'budget', 'stop', 'state', 'states of' or 'event'";
 
 impl Parser<'_, '_> {
     pub(super) fn toolbox(&mut self) {
@@ -67,6 +66,7 @@ impl Parser<'_, '_> {
                 | "budget"
                 | "stop"
                 | "state"
+                | "states"
                 | "event"
         )
     }
@@ -85,6 +85,15 @@ impl Parser<'_, '_> {
                 self.open_item(Kind::Uses);
                 self.keyword();
                 self.name("name what it commands, such as 'uses navigator'");
+                self.close_item();
+            }
+            "states" => {
+                self.open_item(Kind::StatesOf);
+                self.keyword();
+                if !self.eat_word("of") {
+                    self.expected("'of'", "write 'states of' and the port whose values they are");
+                }
+                self.name("name the port whose values are the states");
                 self.close_item();
             }
             "state" | "event" => {

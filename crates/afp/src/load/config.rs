@@ -245,6 +245,6 @@ fn zero(ty: &Type) -> Value {
         Type::Text => Value::Text(afp_core::Text::new()),
         Type::Enum(_) => Value::Choice(0),
         Type::Object(_) => Value::Object(0),
-        Type::Any | Type::Number => Value::Unset,
+        Type::Any | Type::Number | Type::Discrete => Value::Unset,
     }
 }

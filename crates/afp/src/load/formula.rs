@@ -268,7 +268,7 @@ fn shape(ty: &Type) -> Shape {
     match ty {
         Type::Bool => Shape::Bool,
         Type::Int => Shape::Int,
-        Type::Quantity(_) | Type::Any | Type::Number => Shape::Float,
+        Type::Quantity(_) | Type::Any | Type::Number | Type::Discrete => Shape::Float,
         Type::Text => Shape::Text,
         Type::Enum(_) => Shape::Choice,
         Type::Object(_) => Shape::Object,

@@ -22,7 +22,7 @@ pub(super) enum Generic {
 }
 
 fn is_generic(ty: Option<&Type>) -> bool {
-    matches!(ty, Some(Type::Any | Type::Number))
+    matches!(ty, Some(Type::Any | Type::Number | Type::Discrete))
 }
 
 /// Decides the type of the instance from its inputs, else from its outputs.
@@ -39,7 +39,7 @@ pub(super) fn decide(
     if declared.peek().is_none() {
         return Generic::None;
     }
-    let needs_number = declared.any(|ty| ty == Some(&Type::Number));
+    let wanted = declared.flatten().find(|ty| **ty != Type::Any).unwrap_or(&Type::Any);
     let mut decided: Option<(Type, Span)> = None;
     for (input, formula) in signature.inputs.iter().zip(inferred) {
         let Some(formula) = formula.as_ref().filter(|_| is_generic(input.ty.as_ref())) else {
@@ -70,12 +70,18 @@ pub(super) fn decide(
         // An input without a value is reported as such.
         return if has_inputs || !ports.complete { Generic::Unknown } else { Generic::Undecided };
     };
-    let (wanted, help) = match &ty {
-        ty if needs_number && !ty.is_numeric() => ("a number", "use an int, a float or a quantity"),
-        Type::Object(_) => ("a value", "only the templates of its toolbox take an object"),
+    let help = match (wanted, &ty) {
+        (Type::Number, ty) if ty.is_discrete() && !ty.is_numeric() => {
+            "use an int, a float or a quantity; 'Is' of 'std' compares everything else"
+        }
+        (Type::Number, ty) if !ty.is_numeric() => "use an int, a float or a quantity",
+        (Type::Discrete, Type::Quantity(_)) => {
+            "measures are hardly ever equal: use 'Compare' of 'std'"
+        }
+        (_, Type::Object(_)) => "only the templates of its toolbox take an object",
         _ => return Generic::Is(ty),
     };
-    let message = format!("expected {wanted}, found {}", a_type(&ty));
+    let message = format!("expected {}, found {}", a_type(wanted), a_type(&ty));
     diags.push(Diagnostic::new(Code::E0206, span, message).help(help));
     Generic::Unknown
 }
@@ -83,8 +89,8 @@ pub(super) fn decide(
 /// The type of a port in this instance.
 pub(super) fn actual<'a>(declared: Option<&'a Type>, generic: &'a Generic) -> Option<&'a Type> {
     match (declared, generic) {
-        (Some(Type::Any | Type::Number), Generic::Is(ty)) => Some(ty),
-        (Some(Type::Any | Type::Number) | None, _) => None,
+        (Some(Type::Any | Type::Number | Type::Discrete), Generic::Is(ty)) => Some(ty),
+        (Some(Type::Any | Type::Number | Type::Discrete) | None, _) => None,
         (declared, _) => declared,
     }
 }

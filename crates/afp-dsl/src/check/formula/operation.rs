@@ -99,7 +99,7 @@ pub(super) fn to_number(formula: Formula, diags: &mut Diagnostics) -> Option<For
 fn to_text(formula: Formula, diags: &mut Diagnostics) -> Option<Formula> {
     match &formula.ty {
         Type::Text => Some(formula),
-        Type::Object(_) | Type::Any | Type::Number => {
+        Type::Object(_) | Type::Any | Type::Number | Type::Discrete => {
             let message = format!("{} has no text", a_type(&formula.ty));
             diags.push(
                 Diagnostic::new(Code::E0242, formula.span, message)

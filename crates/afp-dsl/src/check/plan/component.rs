@@ -5,6 +5,7 @@ use std::rc::Rc;
 use crate::check::Context;
 use crate::check::bindings::{self, Site};
 use crate::check::callee::Wanted;
+use crate::check::choices;
 use crate::check::edges::{self, Connected, Elements, Origin, WrittenEdge};
 use crate::check::formula::Scope;
 use crate::check::resources::User;
@@ -95,6 +96,13 @@ impl Components<'_> {
         let broken = diags.syntax_errors_within(node.span()).next().is_some();
         let site = Site { reference: reference.span(), broken };
         let bound = bindings::check(self.scope, &signature, &written.binds, &site, diags);
+        let signatures = &self.context.program.signatures;
+        let (generic, at) = (bound.generic.as_ref(), reference.span());
+        let Some(signature) = choices::chosen(signatures, &signature, generic, at, diags) else {
+            edges::names_only(&written.edges, &[edges::ERROR], self.elements, diags);
+            let made = Made { signature: Some(signature), generic: bound.generic, times: None };
+            return Checked { built: None, user: None, made, written };
+        };
         let span = name.as_ref().map_or_else(|| node.span(), |name| name.span);
         let origin =
             Origin { signature: &signature, name: name.as_ref(), span, broken, supervisor: false };

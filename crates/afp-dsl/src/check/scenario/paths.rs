@@ -264,7 +264,12 @@ pub(super) fn outputs(
         .filter_map(|output| {
             let port = ports.get(usize::from(output.port))?;
             let ty = match (&port.ty, generic) {
-                (crate::types::Type::Any | crate::types::Type::Number, Some(ty)) => ty.clone(),
+                (
+                    crate::types::Type::Any
+                    | crate::types::Type::Number
+                    | crate::types::Type::Discrete,
+                    Some(ty),
+                ) => ty.clone(),
                 (ty, _) => ty.clone(),
             };
             port.on.contains(&outcome).then_some((output.port, port, ty))

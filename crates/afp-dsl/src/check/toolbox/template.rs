@@ -5,7 +5,9 @@ use crate::check::toolbox::ports::{self, Site};
 use crate::check::{size, timing};
 use crate::index::Word;
 use crate::rows::{MAX_EVENTS, MAX_ROWS, MAX_STATES};
-use crate::toolbox::{Outcome, Template, TemplateKind};
+use crate::toolbox::{Outcome, StatesOf, Template, TemplateKind};
+use crate::types::Type;
+use crate::types::text::a_type;
 use afp_syntax::ast::{self, Name, Part};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
 use afp_syntax::source::Span;
@@ -27,6 +29,7 @@ pub(super) fn read(
         inputs: Vec::new(),
         outputs: Vec::new(),
         outcomes: Vec::new(),
+        states_of: None,
         every: timing::DEFAULT_EVERY,
         deadline: None,
         budget: None,
@@ -58,7 +61,13 @@ pub(super) fn read(
                 template.outputs.extend(port);
             }
             Part::Timing(time) => set_time(time, &mut template, &mut seen, diags),
-            Part::Outcome(_) => {}
+            Part::Outcome(_) | Part::StatesOf(..) => {}
+        }
+    }
+    for part in &parts {
+        if let Part::StatesOf(port, span) = part {
+            seen.once("states of", *span, diags);
+            states_of(port.as_ref(), *span, &mut template, site, diags);
         }
     }
     too_large(&template, diags);
@@ -161,6 +170,50 @@ fn outcomes(parts: &[Part], template: &mut Template, diags: &mut Diagnostics) {
     }
 }
 
+/// States that are the values of whatever enum is bound to a port.
+fn states_of(
+    port: Option<&Name>,
+    span: Span,
+    template: &mut Template,
+    site: &Site<'_>,
+    diags: &mut Diagnostics,
+) {
+    if template.kind != TemplateKind::Computation {
+        misfit("states of", "only a computation has one state for each value", span, diags);
+    }
+    if let Some(first) = template.outcomes.first() {
+        diags.push(
+            Diagnostic::new(Code::E0510, first.span, "the states are the values of a port")
+                .note(span, "said here")
+                .help("remove either 'states of' or the other states"),
+        );
+    }
+    if let Some(output) = template.outputs.first() {
+        let message = "a computation whose states are the values of a port has no outputs";
+        diags.push(Diagnostic::new(Code::E0510, output.span, message).help("remove the output"));
+    }
+    let Some(port) = port else { return };
+    let Some(place) = template.inputs.iter().position(|input| input.name == port.text) else {
+        site.record.unknown(port.span);
+        let known = template.inputs.iter().map(|input| input.name.as_str());
+        let message = format!("the template has no input '{}'", port.text);
+        let none = "declare an input of type 'discrete'";
+        diags.push(unknown(Code::E0202, port.span, message, &port.text, known, none));
+        return;
+    };
+    let input = &template.inputs[place];
+    site.record.definition(port.span, input.span);
+    if input.ty != Type::Discrete {
+        let message = format!("'{}' is {}", input.name, a_type(&input.ty));
+        diags.push(
+            Diagnostic::new(Code::E0510, port.span, message)
+                .note(input.span, "declared here")
+                .help("give the port the type 'discrete', to which plans can bind any enum"),
+        );
+    }
+    template.states_of = u16::try_from(place).ok().map(|port| StatesOf { port, home: None });
+}
+
 fn set_time(time: &ast::Timing, template: &mut Template, seen: &mut Seen, diags: &mut Diagnostics) {
     let Some(keyword) = time.keyword() else { return };
     let word = keyword.text.as_str();
@@ -222,7 +275,8 @@ fn deadline(parts: &[Part], template: &Template, diags: &mut Diagnostics) {
 }
 
 fn without_outcomes(node: &ast::Template, template: &Template, diags: &mut Diagnostics) {
-    if !template.outcomes.is_empty() || diags.syntax_errors_within(node.span()).next().is_some() {
+    let any = !template.outcomes.is_empty() || template.states_of.is_some();
+    if any || diags.syntax_errors_within(node.span()).next().is_some() {
         return;
     }
     let (what, help) = match template.kind {

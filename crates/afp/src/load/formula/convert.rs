@@ -50,7 +50,7 @@ impl Converter {
                 &Type::FLOAT => Converter::ReadFloat,
                 Type::Quantity(dimension) => Converter::ReadQuantity(spellings(*dimension)),
                 Type::Enum(choices) => Converter::ReadChoice(choices.variants.clone()),
-                Type::Object(_) | Type::Any | Type::Number => Converter::Never,
+                Type::Object(_) | Type::Any | Type::Number | Type::Discrete => Converter::Never,
             },
         }
     }

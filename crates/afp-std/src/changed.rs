@@ -1,0 +1,45 @@
+//! Report that a value becomes another one.
+
+use afp_core::rt::Any;
+use afp_core::{Events, Fault, Instant, Supervisor};
+
+use crate::templates;
+use crate::templates::changed::{Event, Inputs, Live};
+
+/// The template's only event.
+const CHANGED: u16 = 0;
+
+/// Compares a value with that of the poll before; the first poll takes note of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Changed<V> {
+    before: Option<V>,
+    wanted: Events,
+}
+
+impl<V: Any, E: ?Sized> Supervisor<templates::Changed<V>, E> for Changed<V> {
+    fn start(_: Inputs, wanted: Events, _: &mut E, _: Instant) -> Result<Self, Fault> {
+        Ok(Changed { before: None, wanted })
+    }
+
+    fn poll(&mut self, live: Live<V>, _: &mut E, _: Instant) -> Result<Option<Event>, Fault> {
+        let changed = self.before.as_ref().is_some_and(|before| *before != live.value);
+        self.before = Some(live.value);
+        Ok((changed && self.wanted.contains(CHANGED)).then_some(Event::Changed))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Changed, Event, Events, Inputs, Instant, Live, Supervisor};
+
+    #[test]
+    fn a_change_is_reported_once_and_the_first_value_is_none() {
+        let mut watch: Changed<i64> =
+            Supervisor::start(Inputs {}, Events::from_bits(1), &mut (), Instant::ZERO).unwrap();
+        let mut sees = |value| {
+            let said = watch.poll(Live { value }, &mut (), Instant::ZERO);
+            said == Ok(Some(Event::Changed))
+        };
+        assert_eq!([1, 1, 2, 2, 1].map(&mut sees), [false, false, true, false, true]);
+    }
+}

@@ -1,0 +1,62 @@
+//! Report after each period.
+
+use afp_core::{Duration, Events, Fault, Instant, Supervisor};
+
+use crate::templates;
+use crate::templates::every::{Event, Inputs, Live};
+
+/// The template's only event.
+const DUE: u16 = 0;
+
+/// Reports at the first poll at or behind each whole period since its start, once for all that have
+/// passed meanwhile.
+#[derive(Clone, Copy, Debug)]
+pub struct Every {
+    next: Instant,
+    period: Duration,
+    wanted: Events,
+}
+
+impl<E: ?Sized> Supervisor<templates::Every, E> for Every {
+    fn start(inputs: Inputs, wanted: Events, _: &mut E, now: Instant) -> Result<Self, Fault> {
+        let period = inputs.period.duration();
+        Ok(Every { next: now + period, period, wanted })
+    }
+
+    fn poll(&mut self, _: Live, _: &mut E, now: Instant) -> Result<Option<Event>, Fault> {
+        if now < self.next {
+            return Ok(None);
+        }
+        let (late, period) = (now.since(self.next).as_nanos(), self.period.as_nanos());
+        let rest = late.checked_rem(period).unwrap_or(0);
+        self.next = now + Duration::from_nanos(period - rest);
+        Ok(self.wanted.contains(DUE).then_some(Event::Due))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Event, Events, Every, Inputs, Instant, Live, Supervisor};
+    use afp_core::Duration;
+    use afp_core::quantity::Time;
+
+    #[test]
+    fn each_period_is_reported_once_and_those_that_were_missed_together() {
+        let inputs = Inputs { period: Time::from_si(2.0) };
+        let mut watch: Every =
+            Supervisor::start(inputs, Events::from_bits(1), &mut (), Instant::ZERO).unwrap();
+        let mut at = |ms| {
+            let now = Instant::ZERO + Duration::from_millis(ms);
+            watch.poll(Live {}, &mut (), now) == Ok(Some(Event::Due))
+        };
+        let quiet = [0, 1999, 2010, 4000 - 1, 6000 - 1, 13_999, 14_001];
+        let due = [2000, 4010, 6000, 12_500, 14_000];
+        let mut instants = [0; 12];
+        instants[..7].copy_from_slice(&quiet);
+        instants[7..].copy_from_slice(&due);
+        instants.sort_unstable();
+        for ms in instants {
+            assert_eq!(at(ms), due.contains(&ms), "{ms} ms");
+        }
+    }
+}
