@@ -80,6 +80,10 @@ pub struct Template {
 pub struct StatesOf {
     /// The input port, by position.
     pub port: u16,
+    /// The `///` lines above it.
+    pub doc: String,
+    /// The word `states` in the text.
+    pub span: Span,
     /// The enum, in the template as a component of a plan has it.
     pub home: Option<Arc<Enum>>,
 }

@@ -55,10 +55,10 @@ fn of_enum(template: &Template, home: &Arc<Enum>) -> Template {
     let outcomes = home.variants.iter().zip(spans);
     let outcome =
         |(name, span): (&String, Span)| Outcome { name: name.clone(), doc: String::new(), span };
-    let port = template.states_of.as_ref().map_or(0, |states| states.port);
+    let states = template.states_of.clone();
     Template {
         outcomes: outcomes.map(outcome).collect(),
-        states_of: Some(StatesOf { port, home: Some(home.clone()) }),
+        states_of: states.map(|states| StatesOf { home: Some(home.clone()), ..states }),
         ..template.clone()
     }
 }

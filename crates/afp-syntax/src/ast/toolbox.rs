@@ -1,6 +1,8 @@
 //! Toolboxes in the typed view.
 
-use super::{Formula, Name, Type, child, keyword_as, named, range, span_of, token, tokens, views};
+use super::{
+    Formula, Name, Type, child, doc, keyword_as, named, range, span_of, token, tokens, views,
+};
 use crate::kind::Kind;
 use crate::source::Span;
 
@@ -45,8 +47,8 @@ pub enum Part {
     Out(OutPort),
     /// A state or an event.
     Outcome(Outcome),
-    /// `states of port`: the port, and the place of `states`.
-    StatesOf(Option<Name>, Span),
+    /// `states of port`: the port, the place of `states`, and the help above it.
+    StatesOf(Option<Name>, Span, String),
     /// A time.
     Timing(Timing),
 }
@@ -80,7 +82,7 @@ impl Template {
                 Kind::InPort => Part::In(InPort::new(node, file)),
                 Kind::OutPort => Part::Out(OutPort::new(node, file)),
                 Kind::Outcome => Part::Outcome(Outcome::new(node, file)),
-                Kind::StatesOf => Part::StatesOf(name(Kind::Name), span),
+                Kind::StatesOf => Part::StatesOf(name(Kind::Name), span, doc(&node)),
                 Kind::Timing => Part::Timing(Timing::new(node, file)),
                 _ => return None,
             })

@@ -89,7 +89,8 @@ fn describe(toolbox: &Toolbox, template: &Template, sources: &Sources) -> String
     let inputs = template.inputs.iter().map(|port| (port.span, &port.doc));
     let outputs = template.outputs.iter().map(|port| (port.span, &port.doc));
     let outcomes = template.outcomes.iter().map(|outcome| (outcome.span, &outcome.doc));
-    let all = inputs.chain(outputs).chain(outcomes);
+    let states = template.states_of.iter().map(|states| (states.span, &states.doc));
+    let all = inputs.chain(outputs).chain(outcomes).chain(states);
     let lines: Vec<_> = all.map(|(span, help)| (declared(span, sources), line_of(help))).collect();
     let width = lines.iter().map(|(line, _)| line.chars().count()).max().unwrap_or(0);
     for (line, help) in lines {

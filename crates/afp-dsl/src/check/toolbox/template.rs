@@ -65,9 +65,12 @@ pub(super) fn read(
         }
     }
     for part in &parts {
-        if let Part::StatesOf(port, span) = part {
+        if let Part::StatesOf(port, span, doc) = part {
             seen.once("states of", *span, diags);
-            states_of(port.as_ref(), *span, &mut template, site, diags);
+            if let Some(port) = states_of(port.as_ref(), *span, &template, site, diags) {
+                let states = StatesOf { port, doc: doc.clone(), span: *span, home: None };
+                template.states_of = Some(states);
+            }
         }
     }
     too_large(&template, diags);
@@ -174,10 +177,10 @@ fn outcomes(parts: &[Part], template: &mut Template, diags: &mut Diagnostics) {
 fn states_of(
     port: Option<&Name>,
     span: Span,
-    template: &mut Template,
+    template: &Template,
     site: &Site<'_>,
     diags: &mut Diagnostics,
-) {
+) -> Option<u16> {
     if template.kind != TemplateKind::Computation {
         misfit("states of", "only a computation has one state for each value", span, diags);
     }
@@ -192,14 +195,14 @@ fn states_of(
         let message = "a computation whose states are the values of a port has no outputs";
         diags.push(Diagnostic::new(Code::E0510, output.span, message).help("remove the output"));
     }
-    let Some(port) = port else { return };
+    let port = port?;
     let Some(place) = template.inputs.iter().position(|input| input.name == port.text) else {
         site.record.unknown(port.span);
         let known = template.inputs.iter().map(|input| input.name.as_str());
         let message = format!("the template has no input '{}'", port.text);
         let none = "declare an input of type 'discrete'";
         diags.push(unknown(Code::E0202, port.span, message, &port.text, known, none));
-        return;
+        return None;
     };
     let input = &template.inputs[place];
     site.record.definition(port.span, input.span);
@@ -211,7 +214,7 @@ fn states_of(
                 .help("give the port the type 'discrete', to which plans can bind any enum"),
         );
     }
-    template.states_of = u16::try_from(place).ok().map(|port| StatesOf { port, home: None });
+    u16::try_from(place).ok()
 }
 
 fn set_time(time: &ast::Timing, template: &mut Template, seen: &mut Seen, diags: &mut Diagnostics) {

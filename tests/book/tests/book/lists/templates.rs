@@ -44,7 +44,8 @@ fn describe(template: &Template, sources: &Sources, list: &mut String) {
     let inputs = template.inputs.iter().map(|port| (port.span, &port.doc));
     let outputs = template.outputs.iter().map(|port| (port.span, &port.doc));
     let outcomes = template.outcomes.iter().map(|outcome| (outcome.span, &outcome.doc));
-    for (span, help) in inputs.chain(outputs).chain(outcomes) {
+    let states = template.states_of.iter().map(|states| (states.span, &states.doc));
+    for (span, help) in inputs.chain(outputs).chain(outcomes).chain(states) {
         let _ = writeln!(list, "- `{}`: {}", line(span, sources), sentence(help));
     }
 }
