@@ -3,7 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use crate::shell::{Failure, cargo, output, program, root, run as run_command, target};
+use crate::shell::{
+    Failure, built_plans, cargo, output, program, root, run as run_command, target,
+};
 
 /// Enough time for the robot to bump and back up.
 const UNTIL: [&str; 2] = ["--until", "10s"];
@@ -54,8 +56,8 @@ fn use_it(afpc: &Path, folder: &Path) -> Result<(), Failure> {
     };
     let said = output(here(afpc).args(["run", "mine.afp", "--json"]).args(UNTIL))?;
     // The folder that the twenty seeds use too: the engine is built once.
-    let built = target().join("tmp/built-plans");
-    let path = output(here(afpc).args(["build", "mine.afp"]).env("CARGO_TARGET_DIR", built))?;
+    let build = ["build", "mine.afp"];
+    let path = output(here(afpc).args(build).env("CARGO_TARGET_DIR", built_plans()))?;
     let binary = Path::new(path.lines().last().unwrap_or_default()).to_owned();
     let again = output(here(&binary).arg("--json").args(UNTIL))?;
     if said != again {

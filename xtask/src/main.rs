@@ -4,12 +4,14 @@
 
 mod arm;
 mod book;
+mod emulated;
 mod engine;
 mod fuzz;
 mod gate;
 mod image;
 mod install;
 mod opencv;
+mod pi;
 mod python;
 mod scxml;
 mod shell;

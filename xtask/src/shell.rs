@@ -33,6 +33,21 @@ pub fn program(name: impl AsRef<OsStr>) -> Command {
     command
 }
 
+/// What a command builds goes where all slow tests build, without long optimisation.
+pub fn quickly_built(command: &mut Command) -> &mut Command {
+    command
+        .env("CARGO_TARGET_DIR", built_plans())
+        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1")
+        .env("CARGO_PROFILE_RELEASE_LTO", "off")
+        .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "16")
+        .env("CARGO_PROFILE_RELEASE_DEBUG", "0")
+}
+
+/// Where all slow tests build.
+pub fn built_plans() -> PathBuf {
+    target().join("tmp/built-plans")
+}
+
 /// The cargo that runs this.
 pub fn cargo() -> Command {
     program(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))

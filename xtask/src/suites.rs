@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::install::Profile;
 use crate::shell::{Failure, cargo, run as run_command};
-use crate::{arm, bench, engine, fuzz, gate, install, opencv, python, scxml, vacuum, wasm};
+use crate::{arm, bench, engine, fuzz, gate, install, opencv, pi, python, scxml, vacuum, wasm};
 
 /// A suite by its name.
 type Suite = (&'static str, fn() -> Result<(), Failure>);
@@ -19,6 +19,7 @@ pub const TEST: &[Suite] = &[
     ("web", wasm::run),
     ("install", || install::run(Profile::Debug)),
     ("vacuum", vacuum::test),
+    ("pi", pi::short),
 ];
 
 /// What `cargo xtask nightly` runs.
@@ -28,6 +29,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("random worlds", random_worlds),
     ("single faults", single_faults),
     ("arm", arm::run),
+    ("pi", pi::run),
     ("engine", engine::run),
     ("python", python::run),
     ("python long", python::long),
@@ -126,7 +128,7 @@ fn again(name: &str) -> String {
             "    AFP_ROOMS={FAULTY_ROOMS} cargo test --release -p afp-worlds --test single_faults"
         ),
         "python long" => "    cargo xtask nightly 'python long'".to_owned(),
-        "arm" | "engine" | "opencv" => format!("    cargo xtask nightly {name}"),
+        "arm" | "pi" | "engine" | "opencv" => format!("    cargo xtask nightly {name}"),
         "long run" => {
             format!("    AFP_STEPS={STEPS} cargo test --release -p afp-tests --test no_allocation")
         }

@@ -4,7 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::shell::{Failure, cargo, output, program, root, run as run_command, target};
+use crate::shell::{
+    Failure, cargo, output, program, quickly_built, root, run as run_command, target,
+};
 
 /// Where the project is.
 const FOLDER: &str = "examples/vacuum";
@@ -66,12 +68,6 @@ fn table() -> PathBuf {
 /// A command in the project, which builds where the other slow tests build, without long optimisation.
 fn here(command: &Path) -> Command {
     let mut command = program(command);
-    command
-        .current_dir(root().join(FOLDER))
-        .env("CARGO_TARGET_DIR", target().join("tmp/built-plans"))
-        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1")
-        .env("CARGO_PROFILE_RELEASE_LTO", "off")
-        .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "16")
-        .env("CARGO_PROFILE_RELEASE_DEBUG", "0");
+    quickly_built(command.current_dir(root().join(FOLDER)));
     command
 }

@@ -12,6 +12,7 @@ use afp_run::{RunError, say};
 use serde_json::Value;
 
 use crate::plan_file::NoPlan;
+use crate::toolchain::Toolchain;
 
 pub use blame::{Blame, Generated};
 use message::Message;
@@ -22,6 +23,8 @@ pub struct Job<'a> {
     pub folder: &'a Path,
     /// Where cargo puts what it makes, unless the environment says otherwise; else below the folder.
     pub target: Option<&'a Path>,
+    /// What builds for another machine.
+    pub toolchain: Option<&'a Toolchain>,
     /// Where errors come from.
     pub blame: Blame<'a>,
     /// What to say when there is no cargo.
@@ -39,6 +42,10 @@ pub fn build(job: Job<'_>) -> Result<Option<PathBuf>, NoPlan> {
     command.arg("--manifest-path").arg(job.folder.join("Cargo.toml"));
     if let (Some(target), None) = (job.target, env::var_os("CARGO_TARGET_DIR")) {
         command.arg("--target-dir").arg(target);
+    }
+    if let Some(toolchain) = job.toolchain {
+        command.args(["--target", toolchain.triple]);
+        command.envs(toolchain.environment.iter().map(|(name, value)| (name, value)));
     }
     let started = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn();
     let mut child = started.map_err(|error| match error.kind() {

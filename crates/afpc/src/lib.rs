@@ -11,7 +11,9 @@ mod origin;
 mod picture;
 mod plan_file;
 mod runner;
+mod targets;
 mod toolboxes;
+mod toolchain;
 
 use std::process::ExitCode;
 

@@ -193,6 +193,7 @@ impl Runner {
         let built = cargo::build(Job {
             folder: &self.folder,
             target: Some(&self.target),
+            toolchain: None,
             blame: Blame { generated: None, toolboxes: &parts.toolboxes },
             no_cargo,
         })?;

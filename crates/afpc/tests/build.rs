@@ -32,9 +32,10 @@ fn a_folder_of_somebody_else_is_left_alone() {
 }
 
 #[test]
-fn targets_and_toolboxes_of_later_releases_say_so() {
+fn targets_of_later_releases_and_wrong_project_files_are_refused() {
     let place = Place::with_plan();
-    place.afpc("build wall_following.afp --target pi").fails(2, &["only for 'host'"]);
+    let mcu = place.afpc("build wall_following.afp --target mcu");
+    mcu.fails(2, &["'--target mcu' is not in this release", "name 'host', 'pi' or 'pi32'"]);
     place.write("afp.toml", "[afp]\npath = \"x\"\nversion = \"1\"\n");
     place.afpc("build wall_following.afp").fails(1, &["exactly one of", "afp.toml:1:2"]);
 }

@@ -3,15 +3,19 @@
 use std::path::{Path, PathBuf};
 
 use afp_codegen::{CrateOptions, crate_files};
+use afp_dsl::graph::Graph;
+use afp_dsl::timing::check_target;
 use afp_project::RobotLink;
 use afp_run::{RunError, say};
-use clap::{Args, ValueEnum};
+use afp_syntax::diagnostics::Diagnostics;
+use clap::Args;
 
 use super::print;
 use crate::cargo::{self, Blame, Generated, Job};
 use crate::cli::PlanArgument;
 use crate::plan_file::{NoPlan, PlanFile};
-use crate::{crate_folder, origin};
+use crate::toolchain::{Machine, Toolchain};
+use crate::{crate_folder, origin, targets};
 
 /// Arguments of `afpc build`.
 #[derive(Args, Debug)]
@@ -21,7 +25,7 @@ pub struct Arguments {
 
     /// What the binary runs on
     #[arg(long, default_value = "host")]
-    target: Target,
+    target: Machine,
 
     /// Where the crate goes [default: target/afp/<plan>]
     #[arg(short, long, value_name = "DIR")]
@@ -32,26 +36,11 @@ pub struct Arguments {
     lib: bool,
 }
 
-/// What a binary runs on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Target {
-    /// This machine
-    Host,
-    /// Raspberry Pi, 64 bit (not in this release)
-    #[value(hide = true)]
-    Pi,
-    /// Raspberry Pi, 32 bit (not in this release)
-    #[value(hide = true)]
-    Pi32,
-    /// Cortex-M (not in this release)
-    #[value(hide = true)]
-    Mcu,
-}
-
 pub const EXAMPLES: &str = "\
 Examples:
   afpc build plans/wall_following.afp
   $(afpc build plans/wall_following.afp) --seed 7
+  afpc build plans/wall_following.afp --target pi
   afpc build plans/wall_following.afp -o wall --lib
 
 The last line on standard output is the absolute path of the binary (with --lib, of the crate).
@@ -66,12 +55,16 @@ const BUILDS: &str = "target/afp";
 /// # Errors
 /// The plan is wrong, the folder cannot be written, there is no cargo, cargo fails.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
-    if arguments.target != Target::Host {
-        let message = "'--target' builds only for 'host' in this release";
-        let help = "the other targets come with the Raspberry Pi and microcontroller drivers";
+    if arguments.target == Machine::Mcu {
+        let message = "'--target mcu' is not in this release";
+        let help = "name 'host', 'pi' or 'pi32'; 'mcu' comes with the microcontroller drivers";
         return Err(RunError::usage(message, help).into());
     }
     let (file, graph) = PlanFile::graph(&arguments.plan.plan)?;
+    is_fast_enough(arguments.target, &file, &graph)?;
+    let linux = arguments.target.linux();
+    let build = Path::new(BUILDS).join("build");
+    let toolchain = linux.map(|linux| Toolchain::find(linux, &build.join("zig"))).transpose()?;
     let toolboxes = file.own.used_by(&graph)?;
     let origin = origin::of_afp(&file.own.project)?;
     let stem = file.path.file_stem().unwrap_or("plan".as_ref());
@@ -92,7 +85,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     crate_folder::write(&folder, &texts, &origin)?;
     say(format_args!("generated {}", folder.display()));
     // Plans beside one another share what they are built from.
-    let shared = arguments.output.is_none().then(|| Path::new(BUILDS).join("build"));
+    let shared = arguments.output.is_none().then_some(build);
     let no_cargo = RunError::Missing {
         message: "there is no cargo to build the crate with".to_owned(),
         help:
@@ -104,10 +97,23 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let binary = cargo::build(Job {
         folder: &folder,
         target: shared.as_deref(),
+        toolchain: toolchain.as_ref(),
         blame: Blame { generated: Some(generated), toolboxes: &toolboxes },
         no_cargo,
     })?;
     let made = binary.unwrap_or(folder);
     let made = std::path::absolute(&made).unwrap_or(made);
     print(&format!("{}\n", made.display()))
+}
+
+/// Checks that a machine has the time that the plan needs.
+fn is_fast_enough(machine: Machine, file: &PlanFile, graph: &Graph) -> Result<(), NoPlan> {
+    let mut diags = Diagnostics::default();
+    for target in targets::choose(&file.own.project.project, Some(machine.name()))? {
+        diags.extend(check_target(graph, &target));
+    }
+    if !diags.is_empty() {
+        say(diags.render(&file.compiled.sources, true));
+    }
+    if diags.has_errors() { Err(NoPlan::Wrong) } else { Ok(()) }
 }

@@ -1,6 +1,5 @@
 //! `afpc check`: everything that is wrong with plans and toolboxes.
 
-mod targets;
 mod toolbox;
 
 use std::collections::HashSet;
@@ -17,6 +16,7 @@ use serde_json::json;
 
 use super::print;
 use crate::plan_file::{NoPlan, PlanFile};
+use crate::targets;
 use toolbox::ToolboxFile;
 
 /// Arguments of `afpc check`.

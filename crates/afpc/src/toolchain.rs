@@ -1,0 +1,184 @@
+//! What builds for another machine: Rust's standard library for it, and a compiler of C that links. Found, or one message
+//! that says how to get all that is missing.
+
+mod machine;
+
+use std::env;
+use std::ffi::{OsStr, OsString};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use afp_run::{RunError, write_whole};
+
+use machine::Linux;
+pub use machine::Machine;
+
+/// How cargo builds for another machine.
+#[derive(Debug)]
+pub struct Toolchain {
+    /// The machine, as Rust calls it.
+    pub triple: &'static str,
+    /// What cargo and the compilers that it calls find in their environment.
+    pub environment: Vec<(String, OsString)>,
+}
+
+/// What compiles C and links.
+enum Linker {
+    /// The one that cargo takes anyway: ours is such a machine, or the environment names one.
+    Known,
+    /// A cross compiler of the system.
+    Gcc(String),
+    /// A compiler for every machine.
+    Zig(&'static [&'static str]),
+}
+
+/// Ways to call zig: installed by itself, or by pip.
+const ZIGS: [&[&str]; 2] = [&["zig"], &["python3", "-m", "ziglang"]];
+
+impl Toolchain {
+    /// Looks for what builds for a machine; `folder` is where scripts may go.
+    ///
+    /// # Errors
+    /// Something is missing, or the folder cannot be written.
+    pub fn find(machine: &'static Linux, folder: &Path) -> Result<Toolchain, RunError> {
+        let (library, linker) = (has_library(machine), find_linker(machine));
+        let (true, Some(linker)) = (library, &linker) else {
+            return Err(missing(machine, library, linker.is_some()));
+        };
+        let environment = match linker {
+            Linker::Known => Vec::new(),
+            Linker::Gcc(gcc) => vec![(linker_variable(machine), gcc.into())],
+            Linker::Zig(zig) => zig_environment(machine, zig, folder)?,
+        };
+        Ok(Toolchain { triple: machine.triple, environment })
+    }
+}
+
+/// Whether the compiler that cargo calls has the standard library for a machine. Without any compiler cargo will say so.
+fn has_library(machine: &Linux) -> bool {
+    let folder = answer(&rustc(), &["--print", "target-libdir", "--target", machine.triple]);
+    folder.is_none_or(|folder| Path::new(&folder).is_dir())
+}
+
+fn find_linker(machine: &Linux) -> Option<Linker> {
+    let host = answer(&rustc(), &["-vV"]).unwrap_or_default();
+    let is_host = host.lines().any(|line| line.strip_prefix("host: ") == Some(machine.triple));
+    if is_host || env::var_os(linker_variable(machine)).is_some() {
+        return Some(Linker::Known);
+    }
+    let gcc = format!("{}-gcc", machine.gnu);
+    // The name alone means that there is no C library beside the compiler.
+    let start = answer(gcc.as_ref(), &["-print-file-name=crt1.o"]);
+    if start.is_some_and(|path| Path::new(&path).is_absolute()) {
+        return Some(Linker::Gcc(gcc));
+    }
+    // What calls it is a script of the shell.
+    let zig = ZIGS.into_iter().filter(|_| cfg!(unix)).find(|zig| {
+        let arguments: Vec<_> = zig[1..].iter().copied().chain(["version"]).collect();
+        answer(zig[0].as_ref(), &arguments).is_some()
+    });
+    zig.map(Linker::Zig)
+}
+
+/// The variable by which cargo is told of a linker.
+fn linker_variable(machine: &Linux) -> String {
+    format!("CARGO_TARGET_{}_LINKER", machine.triple.to_uppercase().replace('-', "_"))
+}
+
+/// Scripts that call zig for a machine, and the variables that name them.
+fn zig_environment(
+    machine: &Linux,
+    zig: &[&str],
+    folder: &Path,
+) -> Result<Vec<(String, OsString)>, RunError> {
+    let folder = folder.join(machine.triple);
+    fs::create_dir_all(&folder).map_err(RunError::file("cannot make the folder", &folder))?;
+    let zig = zig.join(" ");
+    // Names of machines as others write them are not understood.
+    let compile = format!(
+        "for word do\n    shift\n    case $word in\n    --target=*) ;;\n    *) set -- \"$@\" \"$word\" ;;\n    \
+         esac\ndone\nexec {zig} cc -target {} \"$@\"\n",
+        machine.gnu
+    );
+    let compiler = script(&folder, "cc", &compile)?;
+    let archiver = script(&folder, "ar", &format!("exec {zig} ar \"$@\"\n"))?;
+    let suffix = machine.triple.replace('-', "_");
+    Ok(vec![
+        (linker_variable(machine), compiler.clone().into()),
+        (format!("CC_{suffix}"), compiler.into()),
+        (format!("AR_{suffix}"), archiver.into()),
+    ])
+}
+
+/// Writes a script of the shell and gives its absolute path.
+fn script(folder: &Path, name: &str, text: &str) -> Result<PathBuf, RunError> {
+    let path = folder.join(name);
+    let text = format!("#!/bin/sh\n{text}");
+    // The same again would have everything linked anew.
+    if fs::read_to_string(&path).is_ok_and(|old| old == text) {
+        return absolute(&path);
+    }
+    write_whole("cannot write", &path, &text)?;
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o755))
+            .map_err(RunError::file("cannot make executable", &path))?;
+    }
+    absolute(&path)
+}
+
+fn absolute(path: &Path) -> Result<PathBuf, RunError> {
+    std::path::absolute(path).map_err(RunError::file("cannot find", path))
+}
+
+/// Says what is missing and the command that gets it.
+fn missing(machine: &Linux, library: bool, linker: bool) -> RunError {
+    let Linux { name, triple, packages: [compiler, c_library], .. } = machine;
+    let (mut things, mut commands) = (Vec::new(), Vec::new());
+    if !library {
+        things.push("Rust's standard library for it");
+        commands.push(format!("rustup target add {triple}"));
+    }
+    if !linker {
+        things.push("a compiler of C that links for it");
+        commands.push(match (is_there("apt-get"), is_there("sudo")) {
+            (true, true) => format!("sudo apt-get install -y {compiler} {c_library}"),
+            (true, false) => format!("apt-get install -y {compiler} {c_library}"),
+            (false, _) => "python3 -m pip install ziglang".to_owned(),
+        });
+    }
+    let command = commands.join(" && ");
+    let help = match library || is_there("rustup") {
+        true => format!("run '{command}', then the same command again"),
+        false => format!("install Rust from https://rustup.rs, then run '{command}'"),
+    };
+    let message = format!("cannot build for {name}: {} missing", are(&things));
+    RunError::Missing { message, help }
+}
+
+/// `a is`, `a and b are`.
+fn are(things: &[&str]) -> String {
+    let verb = if things.len() == 1 { "is" } else { "are" };
+    format!("{} {verb}", things.join(" and "))
+}
+
+/// The compiler that cargo calls.
+fn rustc() -> OsString {
+    env::var_os("RUSTC").unwrap_or_else(|| "rustc".into())
+}
+
+/// What a program prints; nothing if there is no such program or it fails.
+fn answer(program: &OsStr, arguments: &[&str]) -> Option<String> {
+    let mut command = Command::new(program);
+    let output = command.args(arguments).stdin(Stdio::null()).stderr(Stdio::null()).output();
+    let output = output.ok().filter(|output| output.status.success())?;
+    Some(String::from_utf8_lossy(&output.stdout).trim().to_owned())
+}
+
+/// Whether a program of that name can be called.
+fn is_there(name: &str) -> bool {
+    let paths = env::var_os("PATH").unwrap_or_default();
+    env::split_paths(&paths).any(|folder| folder.join(name).is_file())
+}

@@ -1,0 +1,84 @@
+//! Other machines, as this one emulates them: what they need, and how programs for them are run.
+
+use std::path::Path;
+
+use crate::shell::{Failure, output, program, run};
+
+/// A machine whose programs QEMU runs.
+pub struct Emulated {
+    /// What `afpc build --target` calls it.
+    pub name: &'static str,
+    /// What Rust calls it.
+    pub triple: &'static str,
+    /// What compiles C and links for it.
+    pub linker: &'static str,
+    /// What runs its programs.
+    qemu: &'static str,
+    /// Where Debian's packages put its libraries.
+    libraries: &'static str,
+    /// Debian's packages: a linker with its libraries, and the emulator.
+    packages: [&'static str; 3],
+}
+
+/// A Raspberry Pi with a system of 64 bit.
+pub const PI: Emulated = Emulated {
+    name: "pi",
+    triple: "aarch64-unknown-linux-gnu",
+    linker: "aarch64-linux-gnu-gcc",
+    qemu: "qemu-aarch64",
+    libraries: "/usr/aarch64-linux-gnu",
+    packages: ["gcc-aarch64-linux-gnu", "libc6-dev-arm64-cross", "qemu-user"],
+};
+
+/// A Raspberry Pi with a system of 32 bit.
+pub const PI32: Emulated = Emulated {
+    name: "pi32",
+    triple: "armv7-unknown-linux-gnueabihf",
+    linker: "arm-linux-gnueabihf-gcc",
+    qemu: "qemu-arm",
+    libraries: "/usr/arm-linux-gnueabihf",
+    packages: ["gcc-arm-linux-gnueabihf", "libc6-dev-armhf-cross", "qemu-user"],
+};
+
+impl Emulated {
+    /// The words before a program of the machine.
+    pub fn emulator(&self) -> [&'static str; 3] {
+        [self.qemu, "-L", self.libraries]
+    }
+
+    /// The variable by which cargo is told something about the machine.
+    pub fn variable(&self, what: &str) -> String {
+        format!("CARGO_TARGET_{}_{what}", self.triple.to_uppercase().replace('-', "_"))
+    }
+
+    /// The commands that get what is missing on this machine; none if all is there.
+    pub fn missing(&self) -> Vec<String> {
+        let mut commands = Vec::new();
+        let libdir = ["--print", "target-libdir", "--target", self.triple];
+        let library = output(program("rustc").args(libdir));
+        if !library.is_ok_and(|folder| Path::new(folder.trim()).is_dir()) {
+            commands.push(format!("rustup target add {}", self.triple));
+        }
+        let there = |name: &str| program(name).arg("--version").output().is_ok();
+        if !(there(self.linker) && there(self.qemu) && Path::new(self.libraries).is_dir()) {
+            commands.push(format!("apt-get install {}", self.packages.join(" ")));
+        }
+        commands
+    }
+
+    /// Installs what is missing, as root; everybody else is told what to install.
+    ///
+    /// # Errors
+    /// It cannot be installed.
+    pub fn install(&self) -> Result<(), Failure> {
+        let missing = self.missing();
+        if missing.is_empty() {
+            return Ok(());
+        }
+        let options = ["install", "-y", "--no-install-recommends"];
+        let install = run(program("rustup").args(["target", "add", self.triple]))
+            .and_then(|()| run(program("apt-get").arg("update")))
+            .and_then(|()| run(program("apt-get").args(options).args(self.packages)));
+        install.map_err(|why| Failure(format!("{}\nhelp: {}", why.0, missing.join(" && "))))
+    }
+}
