@@ -30,7 +30,7 @@ use crate::options::RunOptions;
 
 pub use error::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, EXIT_USAGE, RunError};
 pub use hash::hash;
-pub use output::write_whole;
+pub use output::{check_writable, write_whole};
 pub use picture::{PictureFormat, Rasterizer};
 pub use report::{event_line, line, quantity, timeline};
 pub use run::{MakeSession, run};

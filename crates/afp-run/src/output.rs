@@ -20,6 +20,6 @@ pub fn write_whole(
 ///
 /// # Errors
 /// As of [`afp_output::check_writable`].
-pub(crate) fn check_writable(what: &'static str, path: &Path) -> Result<(), RunError> {
+pub fn check_writable(what: &'static str, path: &Path) -> Result<(), RunError> {
     afp_output::check_writable(path).map_err(RunError::file(what, path))
 }

@@ -8,7 +8,10 @@ use crate::grid::Sweep;
 use crate::journal::Header;
 use crate::outcome::Outcome;
 use crate::table::to_csv;
-use afp_run::{RunError, hash, write_whole};
+use afp_run::{RunError, check_writable, hash, write_whole};
+
+/// What does not go well where a table cannot be written.
+const WHAT: &str = "cannot write the table";
 
 /// Where tables go unless told otherwise.
 const SWEEPS: &str = "target/afp/sweeps";
@@ -35,7 +38,8 @@ impl Place {
     /// The place that was asked for, or the default for this plan and grid; makes the folder.
     ///
     /// # Errors
-    /// A name that says no format, a folder that cannot be made.
+    /// A name that says no format, a folder that cannot be made, a table that may not be written: after hours of
+    /// runs it would be too late to say so.
     pub fn new(asked: Option<&Path>, plan: &Path, header: &Header) -> Result<Place, RunError> {
         let place = match asked {
             Some(path) => named(path)?,
@@ -50,6 +54,9 @@ impl Place {
         if asked.is_none_or(|path| folder == path) {
             fs::create_dir_all(folder).map_err(RunError::file("cannot make the folder", folder))?;
         }
+        for (path, _) in &place.tables {
+            check_writable(WHAT, path)?;
+        }
         Ok(place)
     }
 
@@ -58,7 +65,6 @@ impl Place {
     /// # Errors
     /// A file that cannot be written.
     pub fn write(&self, sweep: &Sweep, outcomes: &[Outcome]) -> Result<(), RunError> {
-        const WHAT: &str = "cannot write the table";
         for (path, make) in &self.tables {
             let bytes = make(sweep, outcomes).map_err(RunError::file(WHAT, path))?;
             write_whole(WHAT, path, bytes)?;

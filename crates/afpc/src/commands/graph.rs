@@ -90,7 +90,7 @@ Examples:
 /// The options do not fit the format, a file cannot be read or written, a plan with errors shall be
 /// a state chart.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
-    let format = arguments.format();
+    let format = arguments.format()?;
     arguments.fit(format)?;
     let file = PlanFile::read(&arguments.plan.plan)?;
     file.report();
@@ -204,12 +204,18 @@ fn scale(text: &str) -> Result<f32, String> {
 }
 
 impl Arguments {
-    fn format(&self) -> Format {
-        let by_name = || {
-            let extension = self.output.as_deref().and_then(Path::extension)?;
-            Format::from_str(extension.to_str()?, true).ok()
+    /// # Errors
+    /// The name of the file says none.
+    fn format(&self) -> Result<Format, RunError> {
+        let Some(path) = self.output.as_deref().filter(|_| self.format.is_none()) else {
+            return Ok(self.format.unwrap_or(Format::Svg));
         };
-        self.format.or_else(by_name).unwrap_or(Format::Svg)
+        let Some(ending) = path.extension() else { return Ok(Format::Svg) };
+        let format = ending.to_str().and_then(|ending| Format::from_str(ending, true).ok());
+        format.ok_or_else(|| {
+            let help = "end it in '.svg', '.png', '.dot', '.json' or '.scxml', or add '--format'";
+            RunError::usage(format!("'{}' says no format", path.display()), help)
+        })
     }
 
     fn theme(&self, format: Format) -> afp_draw::Theme {
