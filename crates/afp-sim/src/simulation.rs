@@ -100,6 +100,10 @@ pub struct Simulation {
     delayed: bool,
     clock: VirtualClock,
     collisions: Collisions,
+    /// The edge of the map, see [`World::map`].
+    map: Vec<[f64; 2]>,
+    /// When the robot first was beyond it.
+    left_map: Option<Instant>,
 }
 
 impl Simulation {
@@ -147,6 +151,8 @@ impl Simulation {
             delayed: false,
             clock: VirtualClock::default(),
             collisions: Collisions::default(),
+            map: world.map.clone(),
+            left_map: None,
         })
     }
 
@@ -225,6 +231,7 @@ impl Simulation {
             obstacles: &self.obstacles,
             shapes: &self.shapes,
             collisions: &self.collisions,
+            left_map: self.left_map,
             pictures: [self.exposed_before.as_ref(), self.exposure.value.as_ref().ok()]
                 .map(|picture| picture.map(Arc::as_ref)),
         }
@@ -251,6 +258,7 @@ impl Simulation {
         self.battery.step([left.speed(), right.speed()], DT);
         self.now = now;
         self.feel(now);
+        self.look_for_edge(now);
         if self.steps.is_multiple_of(PING_STEPS) {
             self.receive();
             self.ping(now);

@@ -47,6 +47,7 @@ pub struct Truth<'a> {
     pub(crate) obstacles: &'a [Obstacle],
     pub(crate) shapes: &'a [(Isometry, SharedShape)],
     pub(crate) collisions: &'a Collisions,
+    pub(crate) left_map: Option<Instant>,
     /// Metres and radians a second.
     pub(crate) motion: (f64, f64),
     /// What the drive was told last, metres and radians a second.
@@ -92,6 +93,11 @@ impl<'a> Truth<'a> {
     /// Every collision so far, in the order of their beginnings.
     pub fn collisions(&self) -> &'a [Collision] {
         &self.collisions.0
+    }
+
+    /// When the robot's centre first was beyond the edge of the map.
+    pub fn left_map(&self) -> Option<Instant> {
+        self.left_map
     }
 
     /// Distance from the body's right side to the nearest obstacle that is high enough for the

@@ -48,6 +48,9 @@ pub struct World {
     pub patches: Vec<Patch>,
     /// Sources of infrared light.
     pub lights: Vec<Light>,
+    /// The corners of what its map shows, a convex polygon, metres, counter-clockwise; nothing is known beyond it. Empty
+    /// where the world is no map.
+    pub map: Vec<[f64; 2]>,
 }
 
 /// Something that stands or moves on the floor.
@@ -126,6 +129,11 @@ impl World {
         }
     }
 
+    /// Whether a place is beyond what the map shows; never in a world that is no map.
+    pub fn is_beyond(&self, place: [f64; 2]) -> bool {
+        is_beyond(&self.map, place)
+    }
+
     /// The outline of the robot at a pose, metres, counter-clockwise; for pictures.
     pub fn robot_outline(pose: Pose) -> [[f64; 2]; 4] {
         rectangle(pose, [HALF_LENGTH, HALF_WIDTH])
@@ -142,4 +150,10 @@ impl World {
                 .is_ok_and(|test| test.intersecting)
         })
     }
+}
+
+/// Whether a place is outside of a convex polygon whose corners go counter-clockwise; never outside of none.
+pub(crate) fn is_beyond(corners: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).any(|([x0, y0], [x1, y1])| (x1 - x0) * (y - y0) < (y1 - y0) * (x - x0))
 }

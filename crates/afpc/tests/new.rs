@@ -115,7 +115,15 @@ fn templates_are_listed_and_described() {
         assert!(one.out.contains("in distance: length = 100 cm from -1000 m"), "{}", one.out);
         assert!(one.out.contains("uses navigator, every 10 ms, "), "{}", one.out);
     }
-    place.afpc("templates Fly").fails(2, &["no toolbox or template 'Fly'", "lists what there is"]);
+    for (name, help) in [
+        ("Fly", "help: 'afpc templates' lists"),
+        ("Trun", "help: write 'Turn'; 'afpc templates' lists"),
+        ("std.Wiat", "help: write 'Wait'"),
+        ("carbto", "help: write 'carbot'"),
+    ] {
+        let said = place.afpc(&format!("templates {name}"));
+        said.fails(2, &["there is no toolbox or template '", help]);
+    }
     place.afpc("new greeter --toolbox").succeeds();
     let own = in_folder(&place, "greeter", "templates");
     assert!(own.out.contains("greeter: ") && own.out.contains("actor Wag"), "{}", own.out);

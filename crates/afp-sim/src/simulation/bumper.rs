@@ -1,7 +1,8 @@
-//! Contacts: what the bumper feels, and what the judge counts.
+//! Contacts: what the bumper feels, and what the judge counts; and the edge of a map, which nothing feels.
 
 use super::Simulation;
 use crate::vehicle::HALF_LENGTH;
+use crate::world::is_beyond;
 use afp_core::Instant;
 use rapier2d::parry::query;
 
@@ -37,5 +38,13 @@ impl Simulation {
             touched |= f64::from(ahead) > HALF_LENGTH - WRAP;
         }
         self.switch.step(touched);
+    }
+
+    /// Notes when the robot leaves the map.
+    pub(super) fn look_for_edge(&mut self, now: Instant) {
+        let at = self.position().translation;
+        if self.left_map.is_none() && is_beyond(&self.map, [at.x, at.y].map(f64::from)) {
+            self.left_map = Some(now);
+        }
     }
 }

@@ -44,6 +44,8 @@ impl Simulation {
             delayed: self.delayed,
             clock: self.clock.split(),
             collisions: self.collisions.clone(),
+            map: self.map.clone(),
+            left_map: self.left_map,
         }
     }
 }

@@ -110,7 +110,13 @@ impl Robot for Simulation {
             end: collision.end,
         });
         let value = FigureValue::Spans { of: "obstacle", spans: spans.collect() };
-        vec![Figure { name: "contacts", value, text: String::new() }]
+        let contacts = Figure { name: "contacts", value, text: String::new() };
+        let left_map = self.truth().left_map().map(|at| {
+            let at = at.as_secs_f64();
+            let text = format!("at {at:.2} s; nothing stands beyond its edge");
+            Figure { name: "left_map", value: FigureValue::Numbers(vec![("at_s", at)]), text }
+        });
+        [contacts].into_iter().chain(left_map).collect()
     }
 }
 

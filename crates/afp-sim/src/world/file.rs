@@ -56,7 +56,12 @@ pub(super) fn read(text: &str) -> Result<World, WorldError> {
     let patches = patches.map(|(i, patch)| check.patch(&root.nth("patch", i), i, patch));
     let lights = file.infrared.into_iter().enumerate();
     let lights = lights.map(|(i, light)| check.light(&root.nth("infrared", i), i, light));
+    let map = match file.map {
+        Some(map) => check.convex(&root.at("map").at("corners_m"), map.corners_m)?,
+        None => Vec::new(),
+    };
     Ok(World {
+        map,
         name: file.name,
         start,
         charge,

@@ -10,7 +10,7 @@ mod settings;
 use super::{FARTHEST, HALF_LENGTH, HALF_WIDTH, World, WorldError};
 use boxes::{Cells, Rectangle};
 use picture::Grey;
-use settings::Settings;
+use settings::{Cell, Settings};
 use std::fmt::Write;
 
 /// More boxes than this are no map of rooms.
@@ -28,7 +28,7 @@ impl World {
     }
 
     /// The text of a world file for a map: `yaml` is the text of its `.yaml` file, `picture` the
-    /// bytes of its PGM or PNG. What is occupied is 2.5 m high; the robot starts inside of the
+    /// bytes of its PGM or PNG. What is a wall is 2.5 m high; the robot starts inside of the
     /// walls, at the free place nearest to the origin of the map's frame, and looks along x.
     ///
     /// # Errors
@@ -41,7 +41,7 @@ impl World {
             let message = format!("the map reaches farther than {FARTHEST} m");
             return Err(WorldError { span: None, message });
         }
-        let cells = Cells::new(&grey, |value| settings.occupied(value));
+        let cells = Cells::new(&grey, |value| settings.is_wall(value));
         if cells.is_empty() {
             let message = "no cell of the map is occupied: look at 'negate' and 'occupied_thresh'";
             return Err(WorldError { span: None, message: message.to_owned() });
@@ -76,7 +76,7 @@ fn start(settings: &Settings, cells: &Cells, grey: &Grey) -> Option<[f64; 2]> {
     let outside = cells.outside();
     let rank = |row: usize, column: usize| {
         let at = row * cells.width + column;
-        let free = grey.values.get(at).is_some_and(|value| settings.free(*value));
+        let free = grey.values.get(at).is_some_and(|value| settings.cell(*value) == Cell::Free);
         let inside = outside.get(at) == Some(&false);
         u8::from(!free) + u8::from(!(free && inside))
     };
@@ -102,12 +102,18 @@ fn text(
     let name = toml_edit::Value::from(name);
     let mut text =
         format!("version = 1\nname = {name}\n\n[robot]\npose_m_deg = [{x:.4}, {y:.4}, 0.0]\n");
+    let [width, height] = [cells.width, cells.height].map(|count| count as f64);
+    let corners = [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]].map(|[across, up]| {
+        let [x, y] = settings.place(across, up);
+        format!("[{x:.4}, {y:.4}]")
+    });
+    // Writing to a String cannot fail.
+    let _ = write!(text, "\n[map]\ncorners_m = [{}]\n", corners.join(", "));
     let degrees = settings.yaw.to_degrees() % 360.0;
     for Rectangle { left, right, top, bottom } in boxes {
         let (across, up) = ((left + right) as f64 / 2.0, (top + bottom) as f64 / 2.0);
         let [x, y] = settings.place(across, cells.height as f64 - up);
         let size = [right - left, bottom - top].map(|n| n as f64 * settings.resolution);
-        // Writing to a String cannot fail.
         let _ = write!(
             text,
             "\n[[box]]\nname = \"map\"\npose_m_deg = [{x:.4}, {y:.4}, {degrees:.4}]\n\

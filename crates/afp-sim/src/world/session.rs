@@ -40,6 +40,9 @@ impl afp_session::World for World {
     fn started_at(&self, start: Pose) -> Result<Self, String> {
         match self.obstacle_at(start) {
             Some(obstacle) => Err(format!("the robot starts inside of '{}'", obstacle.name)),
+            None if self.is_beyond([start.x, start.y]) => {
+                Err("the robot starts beyond the edge of the map".to_owned())
+            }
             None => Ok(World { start, ..self.clone() }),
         }
     }

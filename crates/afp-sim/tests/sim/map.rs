@@ -1,7 +1,9 @@
 //! Maps of `map_server` become worlds.
 
-use afp_carbot::devices::Ultrasonic;
+use afp_carbot::devices::{Navigator, Ultrasonic};
+use afp_core::quantity::{AngularSpeed, Speed};
 use afp_core::{Duration, Instant};
+use afp_session::Robot;
 use afp_sim::{Pose, Simulation, World};
 
 use crate::world::placed;
@@ -84,7 +86,7 @@ fn what_is_wrong_with_a_map_is_said() {
             YAML.replace("[-1.0, -2.0, 0]", "[-1.0, -2.0]"),
             "line 4, column 1: origin: is to be three",
         ),
-        (YAML.replace("trinary", "raw"), "line 2, column 1: mode: 'raw'"),
+        (format!("{YAML}unknown: wall\n"), "line 8, column 1: unknown: 'wall' is not known"),
         (YAML.replace("trinary", "foo"), "line 2, column 1: mode: 'foo' is not known"),
         (YAML.replace("0.65", "1.5"), "occupied_thresh: is not within 0 and 1"),
         (YAML.replace("0.196", "0.7"), "free_thresh: is more than 'occupied_thresh'"),
@@ -102,4 +104,80 @@ fn what_is_wrong_with_a_map_is_said() {
     }
     let message = World::map_text("m", YAML, b"GIF89a").unwrap_err().to_string();
     assert_eq!(message, "the map's picture is neither PGM nor PNG");
+}
+
+/// How many cells of a row of greys are walls.
+fn walls(settings: &str, greys: &[u8]) -> Vec<usize> {
+    // Around the row of greys is room for the robot, and a wall, without which it is no map.
+    let mut rows = vec![[254; 40]; 40];
+    rows[0] = [0; 40];
+    rows[20][..greys.len()].copy_from_slice(greys);
+    if settings.contains("raw") {
+        rows = rows.iter().map(|row| row.map(|grey| if grey == 254 { 0 } else { grey })).collect();
+        rows[0] = [100; 40];
+    }
+    let picture = [b"P5\n40 40\n255\n".as_slice(), rows.as_flattened()].concat();
+    let yaml = format!("{}{settings}", YAML.replace("mode: trinary\n", ""));
+    let world = World::parse(&World::map_text("m", &yaml, &picture).unwrap()).unwrap();
+    // The middle of cell `i` of the row.
+    let middle = |i: usize| [-0.95 + 0.1 * i as f64, -2.0 + 1.95];
+    let holds = |i: &usize| {
+        world.obstacles.iter().any(|wall| {
+            let corners = wall.outline.corners();
+            let [x, y] = middle(*i);
+            let within = |k: usize, value: f64| {
+                let all = || corners.iter().map(|corner| corner[k]);
+                all().fold(f64::MAX, f64::min) < value && value < all().fold(f64::MIN, f64::max)
+            };
+            within(0, x) && within(1, y)
+        })
+    };
+    (0..greys.len()).filter(holds).collect()
+}
+
+#[test]
+fn each_mode_has_its_walls_and_unknown_cells_are_what_the_map_says() {
+    // Free, unknown, just below and just above the threshold of 0.65, black.
+    let greys = [254, 205, 90, 88, 0];
+    let cases: [(&str, &[u8], &[usize]); 7] = [
+        ("", &greys, &[3, 4]),
+        ("mode: trinary\n", &greys, &[3, 4]),
+        ("mode: scale\n", &greys, &[3, 4]),
+        ("unknown: free\n", &greys, &[3, 4]),
+        ("unknown: walls\n", &greys, &[1, 2, 3, 4]),
+        ("mode: raw\n", &[0, 20, 66, 100, 101, 255], &[2, 3]),
+        ("mode: raw\nunknown: walls\n", &[0, 20, 66, 100, 101, 255], &[1, 2, 3, 4, 5]),
+    ];
+    for (settings, greys, expected) in cases {
+        assert_eq!(walls(settings, greys), expected, "{settings:?}");
+    }
+}
+
+#[test]
+fn who_leaves_the_map_is_told_when() {
+    // A map with a wall on one side only.
+    let open: Vec<u8> =
+        room().iter().enumerate().map(|(i, grey)| if i > 500 { 254 } else { *grey }).collect();
+    let world = World::parse(&World::map_text("m", YAML, &open).unwrap()).unwrap();
+    assert_eq!(world.map, [[-1.0, -2.0], [3.0, -2.0], [3.0, 3.0], [-1.0, 3.0]]);
+    assert!(
+        !world.is_beyond([2.9, 2.9]) && world.is_beyond([3.1, 0.0]) && world.is_beyond([0.0, -2.1])
+    );
+    let mut sim = Simulation::new(&world, 1).unwrap();
+    let mut figures = Vec::new();
+    for tenth in 1..200 {
+        let now = sim.now();
+        sim.drive(Speed::from_si(0.25), AngularSpeed::from_si(0.0), now);
+        sim.advance_to(Instant::ZERO + Duration::from_millis(100 * tenth));
+        assert_eq!(
+            sim.truth().left_map().is_some(),
+            sim.truth().pose().x > 3.0 || !figures.is_empty()
+        );
+        figures = sim.figures();
+        figures.retain(|figure| figure.name == "left_map");
+    }
+    assert_eq!(figures.len(), 1);
+    assert!(figures[0].text.starts_with("at 1"), "{figures:?}");
+    let error = afp_session::World::started_at(&world, Pose { x: 3.5, y: 0.0, heading: 0.0 });
+    assert_eq!(error.unwrap_err(), "the robot starts beyond the edge of the map");
 }

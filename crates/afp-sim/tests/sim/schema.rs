@@ -46,10 +46,12 @@ name = "light"
 position_m = [5, 5]
 height_m = 1
 strength = 2
+[map]
+corners_m = [[-9, -9], [9, -9], [9, 9], [-9, 9]]
 "##;
 
 /// Each table of the schema, and how a file gets a key `KEY` into it.
-const TABLES: [(&str, &str); 9] = [
+const TABLES: [(&str, &str); 10] = [
     ("", "KEY = 1"),
     ("robot", "[robot]\nKEY = 1"),
     ("floor", "[floor]\nKEY = 1"),
@@ -59,6 +61,7 @@ const TABLES: [(&str, &str); 9] = [
     ("path", "[[box]]\npath = { KEY = 1 }"),
     ("patch", "[[patch]]\nKEY = 1"),
     ("infrared", "[[infrared]]\nKEY = 1"),
+    ("map", "[map]\nKEY = 1"),
 ];
 
 fn schema() -> Value {
@@ -104,7 +107,7 @@ fn what_the_schema_requires_is_what_the_reader_misses() {
             let mut document: DocumentMut = FULL.parse().expect("the example is TOML");
             let there = match name {
                 "" => document.as_item_mut(),
-                "robot" | "floor" => &mut document[name],
+                "robot" | "floor" | "map" => &mut document[name],
                 "path" => &mut document["box"][0]["path"],
                 name => &mut document[name][0],
             };

@@ -6,6 +6,7 @@ use std::path::Path;
 use afp_dsl::toolbox::{Template, TemplateKind, Toolbox, Toolboxes};
 use afp_project::ProjectFile;
 use afp_run::{RunError, say};
+use afp_syntax::diagnostics::words::nearest;
 use afp_syntax::source::{Sources, Span};
 use clap::Args;
 
@@ -65,11 +66,23 @@ fn text(toolboxes: &Toolboxes, name: Option<&str>) -> Result<String, RunError> {
         found.map(|(toolbox, template)| describe(toolbox, template, toolboxes.sources())).collect();
     match found.is_empty() {
         false => Ok(found.join("\n")),
-        true => Err(RunError::usage(
-            format!("there is no toolbox or template '{name}'"),
-            "'afpc templates' lists what there is",
-        )),
+        true => Err(unknown(toolboxes, of, name)),
     }
+}
+
+/// Says that nothing has that name, and what may be meant.
+fn unknown(toolboxes: &Toolboxes, of: Option<&str>, name: &str) -> RunError {
+    let message = format!("there is no toolbox or template '{name}'");
+    let templates = || {
+        let all = toolboxes.iter().filter(|toolbox| of.is_none_or(|of| toolbox.name == of));
+        all.flat_map(|toolbox| toolbox.templates.iter().map(|template| &*template.name))
+    };
+    let names = toolboxes.iter().map(|toolbox| &*toolbox.name).chain(templates());
+    let help = match nearest(name, names) {
+        Some(meant) => format!("write '{meant}'; 'afpc templates' lists what there is"),
+        None => "'afpc templates' lists what there is".to_owned(),
+    };
+    RunError::usage(message, help)
 }
 
 /// A toolbox with its templates, a line each.

@@ -22,6 +22,13 @@ pub(super) struct File {
     pub(super) patch: Vec<Patch>,
     #[serde(default)]
     pub(super) infrared: Vec<Infrared>,
+    pub(super) map: Option<Map>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Map {
+    pub(super) corners_m: Vec<[f64; 2]>,
 }
 
 #[derive(Deserialize)]

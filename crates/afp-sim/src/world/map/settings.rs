@@ -18,12 +18,34 @@ pub(super) struct Settings {
     origin: [f64; 2],
     /// How the picture is turned, radians.
     pub(super) yaw: f64,
+    /// How greys are read.
+    mode: Mode,
     /// White is occupied.
     negate: bool,
     /// More than this is occupied: 0 white, 1 black.
     threshold: f64,
     /// Less than this is known to be free.
     free: f64,
+    /// What nobody knows is a wall.
+    unknown_is_wall: bool,
+}
+
+/// What is known of a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Cell {
+    Occupied,
+    Free,
+    Unknown,
+}
+
+/// How greys are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Mode {
+    /// By how dark they are; what is between the thresholds is unknown. So in mode `scale`, where it is a share that
+    /// makes no wall.
+    Dark,
+    /// A value up to 100 says how occupied the cell is in percent, a larger one that nobody knows.
+    Raw,
 }
 
 impl Settings {
@@ -35,14 +57,10 @@ impl Settings {
         let keys = Keys { text: yaml, map: documents.first() };
         let image = keys.get("image").and_then(Yaml::as_str);
         let image = image.ok_or_else(|| keys.error("image", "is to name a picture"))?.to_owned();
-        match keys.get("mode").map(Yaml::as_str) {
-            None | Some(Some("trinary" | "scale")) => {}
-            Some(mode) => {
-                let mode = mode.unwrap_or_default();
-                let what = format!("'{mode}' is not known; 'trinary' and 'scale' are");
-                return Err(keys.error("mode", &what));
-            }
-        }
+        let modes = [("trinary", Mode::Dark), ("scale", Mode::Dark), ("raw", Mode::Raw)];
+        let mode = keys.one_of("mode", &modes)?.unwrap_or(Mode::Dark);
+        let unknown_is_wall =
+            keys.one_of("unknown", &[("free", false), ("walls", true)])?.unwrap_or(false);
         let resolution = keys.number("resolution")?;
         if !(0.001..=10.0).contains(&resolution) {
             return Err(keys.error("resolution", "is not within 0.001 and 10 metres"));
@@ -63,21 +81,43 @@ impl Settings {
         if free > threshold {
             return Err(keys.error("free_thresh", "is more than 'occupied_thresh'"));
         }
-        Ok(Settings { image, resolution, origin: [x, y], yaw, negate, threshold, free })
+        let origin = [x, y];
+        Ok(Settings {
+            image,
+            resolution,
+            origin,
+            yaw,
+            mode,
+            negate,
+            threshold,
+            free,
+            unknown_is_wall,
+        })
     }
 
-    /// Whether a cell of this grey is occupied.
-    pub(super) fn occupied(&self, grey: u8) -> bool {
-        self.dark(grey) > self.threshold
+    /// What is known of a cell of this grey.
+    pub(super) fn cell(&self, grey: u8) -> Cell {
+        let occupied = match self.mode {
+            Mode::Raw if grey > 100 => return Cell::Unknown,
+            Mode::Raw => f64::from(grey) / 100.0,
+            Mode::Dark => f64::from(if self.negate { grey } else { 255 - grey }) / 255.0,
+        };
+        if occupied > self.threshold {
+            Cell::Occupied
+        } else if occupied < self.free {
+            Cell::Free
+        } else {
+            Cell::Unknown
+        }
     }
 
-    /// Whether a cell of this grey is known to be free.
-    pub(super) fn free(&self, grey: u8) -> bool {
-        self.dark(grey) < self.free
-    }
-
-    fn dark(&self, grey: u8) -> f64 {
-        f64::from(if self.negate { grey } else { 255 - grey }) / 255.0
+    /// Whether a cell of this grey is a wall.
+    pub(super) fn is_wall(&self, grey: u8) -> bool {
+        match self.cell(grey) {
+            Cell::Occupied => true,
+            Cell::Free => false,
+            Cell::Unknown => self.unknown_is_wall,
+        }
     }
 
     /// A place of the picture, counted in cells from its lower left corner, in metres.
@@ -101,6 +141,20 @@ impl<'a, 'b> Keys<'a, 'b> {
 
     fn number(&self, key: &str) -> Result<f64, WorldError> {
         self.get(key).and_then(number).ok_or_else(|| self.error(key, "is to be a number"))
+    }
+
+    /// What a word stands for; none where the key is not there.
+    fn one_of<T: Copy>(&self, key: &str, known: &[(&str, T)]) -> Result<Option<T>, WorldError> {
+        let Some(value) = self.get(key) else { return Ok(None) };
+        let word = value.as_str().unwrap_or_default();
+        match known.iter().find(|(name, _)| *name == word) {
+            Some((_, meant)) => Ok(Some(*meant)),
+            None => {
+                let names: Vec<_> = known.iter().map(|(name, _)| format!("'{name}'")).collect();
+                let what = format!("'{word}' is not known; {} are", names.join(" and "));
+                Err(self.error(key, &what))
+            }
+        }
     }
 
     /// A number from 0 to 1.
