@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Why a log cannot be written or read.
 #[derive(Debug)]
@@ -30,6 +30,18 @@ pub enum LogError {
     Mcap(mcap::McapError),
     /// The writing thread died.
     Writer,
+}
+
+impl LogError {
+    /// The same of a log that is being written: a failure of the disk names the file.
+    pub(crate) fn writing(self, path: &Path) -> LogError {
+        match self {
+            LogError::Mcap(mcap::McapError::Io(error)) => {
+                LogError::Create { path: path.to_owned(), error }
+            }
+            other => other,
+        }
+    }
 }
 
 impl fmt::Display for LogError {

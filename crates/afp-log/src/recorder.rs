@@ -146,13 +146,16 @@ impl Recorder {
         names: NameTable,
         when_full: WhenFull,
     ) -> Result<Self, LogError> {
-        let file = LogFile::create(path, about, names)?;
+        let file = LogFile::create(path, about, names).map_err(|error| error.writing(path))?;
         let (queue, items) = RingBuffer::new(CAPACITY);
         let end = Arc::new(End::default());
         let seen = Arc::clone(&end);
         let thread = thread::Builder::new()
             .name("afp-log".into())
-            .spawn(move || write_all(file, items, &seen))
+            .spawn({
+                let path = path.to_owned();
+                move || write_all(file, items, &seen).map_err(|error| error.writing(&path))
+            })
             .map_err(|error| LogError::Create { path: path.to_owned(), error })?;
         Ok(Recorder { queue, when_full, lost: 0, untold: 0, end, thread: Some(thread) })
     }

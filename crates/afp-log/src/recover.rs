@@ -39,6 +39,10 @@ pub fn recovered_name(path: &Path) -> PathBuf {
 /// # Errors
 /// The old log cannot be opened, the new one cannot be written. There is no new one then.
 pub fn recover(from: &Path, to: &Path) -> Result<Recovered, LogError> {
+    copy(from, to).map_err(|error| error.writing(to))
+}
+
+fn copy(from: &Path, to: &Path) -> Result<Recovered, LogError> {
     let bytes = load(from)?;
     // The old log may be the part of the new one. A lock keeps it from being written over; where
     // there are no locks, the one who makes it is done with it.

@@ -1,14 +1,16 @@
 //! The command line's grammar.
 
 use afp_run::options::for_robot;
-use afp_run::{RunError, say};
+use afp_run::{EXIT_OK, RunError, say};
 use afp_session::AnyRobot;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::commands::{
-    build, check, completions, explain, fmt, graph, later, log, new, run, sweep, templates, test,
+    build, check, completions, explain, fmt, graph, later, log, new, print, run, sweep, templates,
+    test,
 };
+use crate::plan_file::NoPlan;
 
 /// Compiles, checks, draws and runs Action Flow Plans.
 #[derive(Parser, Debug)]
@@ -84,6 +86,7 @@ pub fn parse(robot: &dyn AnyRobot) -> Command {
         Ok(matches) => matches,
         Err(error) => match without_command(&error) {
             Some(refusal) => refuse(&refusal),
+            None if !error.use_stderr() => tell(&error),
             None => error.exit(),
         },
     };
@@ -95,6 +98,14 @@ pub fn parse(robot: &dyn AnyRobot) -> Command {
     match Cli::from_arg_matches(&matches) {
         Ok(cli) => cli.command,
         Err(error) => error.exit(),
+    }
+}
+
+/// Prints help where results go, and ends.
+fn tell(help: &clap::Error) -> ! {
+    match print(&help.render().ansi().to_string()) {
+        Err(NoPlan::File(error)) => refuse(&error),
+        _ => std::process::exit(EXIT_OK.into()),
     }
 }
 

@@ -47,7 +47,7 @@ pub fn dispatch(command: &Command, linked: &Linked<'_>) -> ExitCode {
 }
 
 /// Prints a result on standard output; a reader that has seen enough is no error.
-fn print(text: &str) -> Result<u8, NoPlan> {
+pub(crate) fn print(text: &str) -> Result<u8, NoPlan> {
     print_to(anstream::stdout().lock(), text.as_bytes())
 }
 
