@@ -163,8 +163,19 @@ pub fn computation(entries: &Entries, dice: &mut Dice) -> Made {
             ("Compare", vec!["Less", "Equal", "Greater"])
         }
         1 => {
-            let ty = dice.pick(&[Type::Int, Type::Float, Type::Length, Type::Text, Type::Side]);
-            bindings.bind("value", &formula(ty, entries, 2, dice));
+            let ty = dice.pick(&[
+                Type::Int,
+                Type::Float,
+                Type::Length,
+                Type::Text,
+                Type::Side,
+                Type::Map,
+            ]);
+            let value = match ty {
+                Type::Map => dice.pick(&entries.readable(Type::Map)),
+                ty => formula(ty, entries, 2, dice),
+            };
+            bindings.bind("value", &value);
             bindings.output("result", &[ty], dice);
             ("Assign", vec!["Done"])
         }

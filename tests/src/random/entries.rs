@@ -67,7 +67,7 @@ impl Type {
 }
 
 impl Entries {
-    /// Entries for the plan of that number: at least one of each type, and a map.
+    /// Entries for the plan of that number: at least one of each type, and two maps.
     pub fn new(plan: u64, dice: &mut Dice) -> Self {
         let mut entries = Entries { list: Vec::new(), text: String::new() };
         for (index, ty) in (0..).zip(TYPES.iter().chain(&TYPES)) {
@@ -78,7 +78,9 @@ impl Entries {
             };
             entries.add(format!("x{plan}_{index}"), kind, *ty, dice);
         }
-        entries.add(format!("m{plan}"), Kind::Var, Type::Map, dice);
+        for map in ["m", "n"] {
+            entries.add(format!("{map}{plan}"), Kind::Var, Type::Map, dice);
+        }
         entries
     }
 

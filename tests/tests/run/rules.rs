@@ -281,7 +281,7 @@ const RULES: &[Rule] = &[
     (
         "1.12",
         "objects are known by the commit that wrote them",
-        &["object_is_known_by_its_commit", "object_through_a_sub_plan"],
+        &["object_is_known_by_its_commit", "object_through_a_sub_plan", "object_is_copied"],
     ),
     ("6.3", "'Every' reports each whole period, late ones once", &["every_period"]),
     ("6.5", "'Is' and 'Switch' choose by values that are equal or not", &["choosing"]),

@@ -120,15 +120,15 @@ impl Bound<'_> {
     /// The arguments of the type of a template's inputs.
     fn arguments(&self, borrows: bool, generic: bool) -> TokenStream {
         match (borrows, self.generic.filter(|_| generic)) {
-            (true, Some(ty)) => self.context.with_home(|home| {
-                let ty = home.value(ty);
+            (true, Some(ty)) => {
+                let ty = self.context.entry_type(ty);
                 quote!(<'a, #ty>)
-            }),
+            }
             (true, None) => quote!(<'a>),
-            (false, Some(ty)) => self.context.with_home(|home| {
-                let ty = home.value(ty);
+            (false, Some(ty)) => {
+                let ty = self.context.entry_type(ty);
                 quote!(<#ty>)
-            }),
+            }
             (false, None) => TokenStream::new(),
         }
     }
@@ -158,7 +158,7 @@ impl Bound<'_> {
         }
         let generic = self.template.outputs.iter().any(|port| is_generic(&port.ty));
         let arguments = self.generic.filter(|_| generic).map(|ty| {
-            let ty = self.context.value_type(ty);
+            let ty = self.context.entry_type(ty);
             quote!(<#ty>)
         });
         let body = match (arms.as_slice(), self.template.outcomes.len() - arms.len()) {
@@ -200,12 +200,14 @@ impl Bound<'_> {
         let carried = ports.filter(|(_, port)| port.on.is_empty() || port.on.contains(&outcome));
         let bound = carried.filter_map(|(number, port)| {
             let output = self.outputs.iter().find(|output| output.port == number)?;
-            let ty = match &port.ty {
-                Type::Any | Type::Number | Type::Discrete => self.generic?,
-                ty => ty,
-            };
+            let generic = is_generic(&port.ty);
+            let ty = if generic { self.generic? } else { &port.ty };
             let name = ident(&snake(&port.name));
-            let value = self.context.with_home(|home| staged_value(home, output, ty, &name));
+            let value = match (generic, ty) {
+                // It is an entry's object already.
+                (true, Type::Object(_)) => quote!(#name),
+                _ => self.context.with_home(|home| staged_value(home, output, ty, &name)),
+            };
             let entry = &self.context.entries[output.entry.index()];
             Some((name, quote!(staged.#entry = Some(#value);)))
         });

@@ -148,7 +148,7 @@ impl<'a> Context<'a> {
         let name = &self.template(id).name;
         let (camel, snake) = (ident(&camel(name)), ident(&snake(name)));
         let generic = generic.map(|ty| {
-            let ty = self.value_type(ty);
+            let ty = self.entry_type(ty);
             quote!(<#ty>)
         });
         Paths {

@@ -129,6 +129,15 @@ impl<T> Stored for Object<T> {
     }
 }
 
+impl<T> PartialEq for Object<T> {
+    /// Whether one commit wrote both: nobody but its templates knows the inside.
+    fn eq(&self, other: &Self) -> bool {
+        self.commit == other.commit
+    }
+}
+
+impl<T: Clone> Any for Object<T> {}
+
 impl<T> fmt::Debug for Object<T> {
     /// Its number; nobody but its templates knows the inside.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -107,6 +107,8 @@ fn mismatch(formula: &Formula, want: &Type, text: &str) -> Diagnostic {
                 a_dimension(*found)
             ))
         }
+        (_, Type::Object(home)) => Diagnostic::new(Code::E0206, span, expected)
+            .help(format!("name an entry that holds a '{}'", home.name)),
         (_, want) => {
             Diagnostic::new(Code::E0206, span, expected).help(format!("use {}", a_type(want)))
         }

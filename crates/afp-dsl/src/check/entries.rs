@@ -121,15 +121,6 @@ fn initialise(
     let Some(formula) = entry.init() else {
         return missing(own, entry, diags);
     };
-    if let Some(Type::Object(home)) = &ty {
-        site.scope(drafts, &|_| true, "").names_only(&formula);
-        let message = format!("a '{}' cannot be written down", home.name);
-        diags.push(
-            Diagnostic::new(Code::E0242, formula.span(), message)
-                .help("remove the value; a component's output sets the entry"),
-        );
-        return;
-    }
     let readable = |other: usize| match kind {
         EntryKind::Const => drafts[other].kind == EntryKind::Const && other < place,
         EntryKind::In => drafts[other].kind == EntryKind::Const,

@@ -197,6 +197,17 @@ impl Values {
         }
     }
 
+    /// Gives an object entry, without a commit, a copy of what another one holds.
+    pub fn copy(&mut self, from: u16, to: u16) {
+        let places = [usize::from(from), usize::from(to)];
+        let Ok([from, to]) = self.0.get_disjoint_mut(places) else { return };
+        to.value = from.value.clone();
+        to.is_set = true;
+        if let (Some(cell), Some(from)) = (&mut to.object, &from.object) {
+            cell.copy(&**from);
+        }
+    }
+
     /// Makes an entry unset.
     pub fn clear(&mut self, entry: u16) {
         let Some(slot) = self.0.get_mut(usize::from(entry)) else { return };

@@ -89,8 +89,9 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
                 start.map(|()| Started::Running)
             }
             Running::Computation(computation) => {
-                let mut stage = Stage::new(&self.outputs, &mut config.staged);
                 let args = self.inputs.pull(&config.values);
+                let mut stage = Stage::new(&self.outputs, &mut config.staged);
+                stage.passed = Some(&args);
                 let state = cx.show_inputs(|see, _, _| computation.compute(&args, see, &mut stage));
                 state.and_then(|state| stage.result().map(|()| Started::Done(state)))
             }

@@ -37,6 +37,8 @@ pub struct Stage<'a> {
     staged: &'a mut Staged,
     /// The first fault of a conversion.
     fault: Option<Fault>,
+    /// What objects that come out of ports of type `any` can be copies of.
+    pub passed: Option<&'a Pull<'a>>,
 }
 
 impl Binding {
@@ -90,6 +92,15 @@ impl Pull<'_> {
     }
 }
 
+impl Pull<'_> {
+    /// The object among the inputs that a commit wrote.
+    fn numbered(&self, commit: u32) -> Option<&dyn ObjectCell> {
+        let mut entries = self.inputs.formulas.iter().filter_map(Formula::entry);
+        let entry = entries.find(|entry| *self.values.get(*entry) == Value::Object(commit))?;
+        self.values.cell(entry)
+    }
+}
+
 impl Args for Pull<'_> {
     fn bool(&self, port: u16) -> Result<bool, Fault> {
         self.formula(port)?.bool(self.values)
@@ -132,7 +143,7 @@ impl Args for Pull<'_> {
 
 impl<'a> Stage<'a> {
     pub fn new(bindings: &'a [Binding], staged: &'a mut Staged) -> Self {
-        Stage { bindings, staged, fault: None }
+        Stage { bindings, staged, fault: None, passed: None }
     }
 
     /// Stages one output, converted for its entry.
@@ -191,6 +202,10 @@ impl Outputs for Stage<'_> {
     }
 
     fn value(&mut self, port: u16, value: Value) {
-        self.put(port, value);
+        let Value::Object(number) = value else { return self.put(port, value) };
+        match self.passed.and_then(|passed| passed.numbered(number)) {
+            Some(cell) => self.put_object(port, |to| to.copy(cell)),
+            None => self.fault = self.fault.or(Some(Fault::INTERNAL)),
+        }
     }
 }

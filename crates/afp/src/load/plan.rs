@@ -223,9 +223,13 @@ impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {
         for (entry, formula) in &*self.initial {
             let given = self.entries[usize::from(*entry)].kind == EntryKind::In
                 && self.config.values.is_set(*entry);
-            if !given {
-                let value = formula.finite(&self.config.values)?;
-                self.config.values.set(*entry, value, None);
+            if given {
+                continue;
+            }
+            let value = formula.finite(&self.config.values)?;
+            match (formula.entry(), value) {
+                (Some(from), Value::Object(_)) => self.config.values.copy(from, *entry),
+                (_, value) => self.config.values.set(*entry, value, None),
             }
         }
         self.put_carried(|_| true);

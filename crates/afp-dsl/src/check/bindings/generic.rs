@@ -2,8 +2,9 @@
 
 use crate::check::bindings::Ports;
 use crate::check::formula::Scope;
-use crate::check::signature::Signature;
+use crate::check::signature::{Signature, SignatureKind};
 use crate::graph::Formula;
+use crate::toolbox::TemplateKind;
 use crate::types::Type;
 use crate::types::text::a_type;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
@@ -70,6 +71,8 @@ pub(super) fn decide(
         // An input without a value is reported as such.
         return if has_inputs || !ports.complete { Generic::Unknown } else { Generic::Undecided };
     };
+    let carries = signature.outputs.iter().any(|output| is_generic(output.ty.as_ref()));
+    let is_computation = signature.kind == SignatureKind::Template(TemplateKind::Computation);
     let help = match (wanted, &ty) {
         (Type::Number, ty) if ty.is_discrete() && !ty.is_numeric() => {
             "use an int, a float or a quantity; 'Is' of 'std' compares everything else"
@@ -78,7 +81,10 @@ pub(super) fn decide(
         (Type::Discrete, Type::Quantity(_)) => {
             "measures are hardly ever equal: use 'Compare' of 'std'"
         }
-        (_, Type::Object(_)) => "only the templates of its toolbox take an object",
+        // What comes out must be what went in at the same instant.
+        (Type::Any, Type::Object(_)) if !carries || is_computation => return Generic::Is(ty),
+        (Type::Any, Type::Object(_)) => "copy it with 'Assign' of 'std'",
+        (_, Type::Object(_)) => "only the templates of its toolbox look into an object",
         _ => return Generic::Is(ty),
     };
     let message = format!("expected {}, found {}", a_type(wanted), a_type(&ty));
