@@ -65,7 +65,7 @@ fn table() -> PathBuf {
     target().join("xtask/vacuum.csv")
 }
 
-/// A command in the project, which builds where the other slow tests build, without long optimisation.
+/// A command in the project.
 fn here(command: &Path) -> Command {
     let mut command = program(command);
     quickly_built(command.current_dir(root().join(FOLDER)));

@@ -76,7 +76,7 @@ pub fn crate_files(graph: &Graph, options: &CrateOptions) -> Vec<CrateFile> {
 }
 
 fn cargo_toml(graph: &Graph, options: &CrateOptions) -> String {
-    let made_by = format!("build' from {}", base_name(&options.file));
+    let made_by = format!(" build' from {}", base_name(&options.file));
     let package = snake(&graph.main().name).replace('_', "-");
     let profile = "# One unit, optimised as a whole: the scheduler melts into the plan.\n\
                    [profile.release]\n\

@@ -9,11 +9,11 @@ mod enums;
 mod formula;
 mod krate;
 mod layout;
+mod linked;
 mod manifest;
 mod names;
 mod places;
 mod plan;
-mod runner;
 mod rust_type;
 mod toolbox;
 
@@ -22,10 +22,10 @@ use quote::quote;
 
 pub use krate::{CrateFile, CrateOptions, crate_files};
 pub use layout::{code, file};
+pub use linked::{LinkOptions, extension_files, runner_files};
 pub use manifest::{Dependency, MADE_BY, Origin};
 pub use places::Places;
 pub use plan::{Generated, Module, plan};
-pub use runner::{RunnerOptions, runner_files};
 pub use toolbox::{Support, declaration, register_supported, toolbox};
 
 /// How generated code names what it uses.

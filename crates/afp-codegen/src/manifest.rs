@@ -59,7 +59,7 @@ impl Dependency {
     }
 }
 
-/// A manifest: what made it (`build' from x.afp`), the package's name, what it needs, its profiles.
+/// A manifest: what made it (` build' from x.afp`), the package's name, what it needs, its profiles.
 pub(super) fn manifest(
     made_by: &str,
     package: &str,
@@ -70,7 +70,7 @@ pub(super) fn manifest(
     dependencies.dedup();
     let lines: String = dependencies.iter().map(Dependency::line).collect();
     format!(
-        "{MADE_BY} {made_by}.\n\
+        "{MADE_BY}{made_by}.\n\
          [package]\n\
          name = {name}\n\
          version = \"0.1.0\"\n\

@@ -14,6 +14,7 @@ pub mod hints;
 pub mod hover;
 pub mod lenses;
 pub mod references;
+pub mod robot;
 pub mod selection;
 pub mod signature;
 pub mod symbols;

@@ -1,132 +1,43 @@
-//! `Carbot`: the simulated robot without a plan, driven from Python step by step.
+//! The Carbot: the robot of the wheel. What is said of it here nobody else in this crate knows.
 
-use std::sync::{Mutex, MutexGuard, TryLockError};
+mod alone;
+mod robot;
+mod sense;
 
-use afp_carbot::devices::Navigator;
-use afp_core::quantity::{AngularSpeed, Speed};
-use afp_core::{Duration, Environment, Instant};
-use afp_sim::{HALF_LENGTH, HALF_WIDTH, Simulation};
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use afp::load::Registry;
+use afp_sim::Simulation;
 use pyo3::prelude::*;
 
-use crate::errors::error;
-use crate::pause::{Halt, Pause};
-use crate::robot::sense;
-use crate::value::no_pickle;
-use crate::world::World;
+use crate::link::Link;
+pub use alone::Carbot;
+pub use robot::CarbotRobot;
 
-/// Commands are repeated this often, well within the robot's dead-man time.
-const AGAIN: Duration = Duration::from_millis(100);
+/// A room in which nothing is.
+const EMPTY: &str = "version = 1\nname = \"nowhere\"\n[robot]\npose_m_deg = [0, 0, 0]\n";
 
-/// The simulated robot in its world, without a plan.
-#[pyclass(module = "afp", frozen)]
-pub struct Carbot {
-    sim: Mutex<Simulation>,
-    obstacles: Vec<String>,
+/// The Carbot with the built-in toolboxes and others: their names, and what registers their templates.
+pub fn carbot(
+    toolboxes: &'static [&'static str],
+    more: impl Fn(&mut Registry<Simulation>) + Send + Sync + 'static,
+) -> Link<Simulation> {
+    let register = move |registry: &mut Registry<Simulation>| {
+        afp_std::templates::register(registry);
+        afp_carbot::templates::register(registry);
+        more(registry);
+    };
+    Link::built_in(
+        toolboxes,
+        register,
+        (EMPTY, (&sense::SENSORS, sense::named)),
+        CarbotRobot::around,
+    )
 }
 
-#[pymethods]
-impl Carbot {
-    #[new]
-    #[pyo3(signature = (world, seed=0))]
-    fn new(world: &World, seed: u64) -> PyResult<Self> {
-        let room = &world.room;
-        let sim = Simulation::new(room, seed).map_err(|why| error(why.message))?;
-        let obstacles = room.obstacles.iter().map(|obstacle| obstacle.name.clone()).collect();
-        Ok(Carbot { sim: Mutex::new(sim), obstacles })
-    }
-
-    /// Half of the robot's length, metres.
-    #[classattr]
-    fn half_length() -> f64 {
-        HALF_LENGTH
-    }
-
-    /// Half of the robot's width, metres.
-    #[classattr]
-    fn half_width() -> f64 {
-        HALF_WIDTH
-    }
-
-    /// Drives with a speed (m/s) and a turn rate (rad/s, to the left) for some seconds; Ctrl-C interrupts it.
-    fn drive(&self, py: Python<'_>, speed: f64, turn: f64, time: f64) -> PyResult<()> {
-        let good = speed.is_finite() && turn.is_finite() && time.is_finite() && time >= 0.0;
-        if !good {
-            return Err(PyValueError::new_err(
-                "speed, turn and time must be finite, time not negative",
-            ));
-        }
-        let mut sim = self.lock()?;
-        let sim = &mut *sim;
-        py.detach(|| drive(sim, speed, turn, Duration::from_secs_f64(time)))
-    }
-
-    /// Stops the wheels.
-    fn stop(&self) -> PyResult<()> {
-        let mut sim = self.lock()?;
-        let now = sim.now();
-        sim.stop(now);
-        Ok(())
-    }
-
-    /// The time, seconds.
-    #[getter]
-    fn time(&self) -> PyResult<f64> {
-        Ok(self.lock()?.now().as_secs_f64())
-    }
-
-    /// Where the robot truly is: x, y in metres, heading in radians.
-    #[getter]
-    fn pose(&self) -> PyResult<(f64, f64, f64)> {
-        let pose = self.lock()?.truth().pose();
-        Ok((pose.x, pose.y, pose.heading))
-    }
-
-    /// What the robot has run into, in order of time; what it touches at different times counts each time.
-    #[getter]
-    fn touched(&self) -> PyResult<Vec<String>> {
-        let sim = self.lock()?;
-        let truth = sim.truth();
-        let names =
-            truth.collisions().iter().map(|collision| self.obstacles.get(collision.obstacle));
-        Ok(names.map(|name| name.cloned().unwrap_or_default()).collect())
-    }
-
-    /// What a sensor says: see `Robot`.
-    fn sense<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-        let sensed = sense(&*self.lock()?, name)?;
-        sensed.into_bound(py)
-    }
-
-    fn __reduce__(&self) -> PyResult<()> {
-        Err(no_pickle("Carbot", "make it anew from its world and seed"))
-    }
-}
-
-impl Carbot {
-    fn lock(&self) -> PyResult<MutexGuard<'_, Simulation>> {
-        match self.sim.try_lock() {
-            Ok(sim) => Ok(sim),
-            Err(TryLockError::WouldBlock) => {
-                Err(PyRuntimeError::new_err("another thread drives this robot"))
-            }
-            Err(TryLockError::Poisoned(_)) => Err(PyRuntimeError::new_err(
-                "the simulation broke in an earlier call; make a new one",
-            )),
-        }
-    }
-}
-
-fn drive(sim: &mut Simulation, speed: f64, turn: f64, time: Duration) -> PyResult<()> {
-    let mut pause = Pause::of_signals();
-    let end: Instant = sim.now() + time;
-    while sim.now() < end {
-        let now = sim.now();
-        Navigator::drive(sim, Speed::from_si(speed), AngularSpeed::from_si(turn), now);
-        sim.advance_to(end.min(now + AGAIN));
-        if let Some(Halt::Raised(why)) = pause.look() {
-            return Err(why);
-        }
-    }
-    Ok(())
+/// Adds the classes that only the Carbot has.
+///
+/// # Errors
+/// Python has no memory.
+pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<Carbot>()?;
+    module.add_class::<CarbotRobot>()
 }

@@ -1,17 +1,23 @@
-//! The Python face of AFP: the native half of the package `afp` under python/.
+//! The Python face of AFP: the native half of the package `afp` under python/, for any robot.
 //!
 //! What needs the compiler, the scheduler or the simulator is here, one Python type a file; what can be said in
 //! Python is said there. Nothing here borrows from a simulation: arrays and values are copies that outlive it.
 //! While a plan runs, the interpreter's lock is free for other threads.
+//!
+//! An extension is a crate of a few lines that calls [`fill`] with what it links in: `afp-py-wheel` for the Carbot, a
+//! generated one for a project with a robot or toolboxes of its own.
 
+#[cfg(feature = "carbot")]
 mod carbot;
 mod component;
 mod errors;
+mod link;
 mod log;
 mod pause;
 mod plan;
 mod robot;
 mod scenario;
+mod sensed;
 mod simulation;
 mod sweep;
 mod toolbox;
@@ -19,35 +25,45 @@ mod value;
 mod world;
 
 use pyo3::prelude::*;
+use pyo3::wrap_pyfunction;
 
-/// The native half of the package `afp`.
-#[pymodule]
-mod _afp {
-    #[pymodule_export]
-    use crate::carbot::Carbot;
-    #[pymodule_export]
-    use crate::errors::{AfpError, PlanError};
-    #[pymodule_export]
-    use crate::log::read_log;
-    #[pymodule_export]
-    use crate::plan::{Diagnostic, Plan};
-    #[pymodule_export]
-    use crate::robot::Robot;
-    #[pymodule_export]
-    use crate::scenario::{Broken, Scenario, Verdict};
-    #[pymodule_export]
-    use crate::simulation::{Event, Runner, faults};
-    #[pymodule_export]
-    use crate::sweep::Sweeper;
-    #[pymodule_export]
-    use crate::toolbox::Toolbox;
-    #[pymodule_export]
-    use crate::world::World;
+#[cfg(feature = "carbot")]
+pub use carbot::carbot;
+pub use errors::{error, run_error};
+pub use link::{AnyLink, Link, linked};
+pub use pyo3;
 
-    /// Says which version this is.
-    #[pymodule_init]
-    fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {
-        use pyo3::types::PyModuleMethods;
-        module.add("__version__", env!("CARGO_PKG_VERSION"))
+/// Fills the native half of the package `afp` with its classes, for a robot and its templates.
+///
+/// # Errors
+/// Python has no memory.
+pub fn fill(module: &Bound<'_, PyModule>, link: impl AnyLink + 'static) -> PyResult<()> {
+    #[cfg(feature = "carbot")]
+    let is_carbot = link.own_robot().is_none();
+    let own_robot = link.own_robot();
+    link::set(link);
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("own_robot", own_robot)?;
+    let py = module.py();
+    module.add("AfpError", py.get_type::<errors::AfpError>())?;
+    module.add("PlanError", py.get_type::<errors::PlanError>())?;
+    module.add_class::<robot::Robot>()?;
+    module.add_class::<plan::Diagnostic>()?;
+    module.add_class::<plan::Plan>()?;
+    module.add_class::<scenario::Broken>()?;
+    module.add_class::<scenario::Scenario>()?;
+    module.add_class::<scenario::Verdict>()?;
+    module.add_class::<simulation::Event>()?;
+    module.add_class::<simulation::Runner>()?;
+    module.add_class::<sweep::Sweeper>()?;
+    module.add_class::<toolbox::Toolbox>()?;
+    module.add_class::<world::World>()?;
+    module.add_function(wrap_pyfunction!(log::read_log, module)?)?;
+    module.add_function(wrap_pyfunction!(simulation::faults, module)?)?;
+    // Its robot takes the place of the common one.
+    #[cfg(feature = "carbot")]
+    if is_carbot {
+        carbot::fill(module)?;
     }
+    Ok(())
 }

@@ -1,12 +1,10 @@
 //! `Scenario`: a test of a plan, run by the engine of `afpc test`.
 
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
-use afp::load::Registry;
 use afp_dsl::Compiled;
 use afp_dsl::scenario::Scenario as Checked;
-use afp_sim::{Simulation, carbot};
 use afp_syntax::source::Span;
 use afp_test::{Setting, Verdict as Came};
 use pyo3::IntoPyObjectExt;
@@ -14,14 +12,13 @@ use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::{PyTraverseError, PyVisit};
 
-use crate::component::{Host, may_run, register};
+use crate::component::{AnyRegistry, Components, may_run};
 use crate::errors::{error, run_error};
+use crate::link::{fits, link};
 use crate::pause::{Halt, Pause};
 use crate::plan::Plan;
-use crate::robot::Robot;
 use crate::toolbox::Toolbox;
 use crate::value::Pickled;
-use crate::world::ROBOT;
 
 /// A scenario of a file: a world, what happens, what is expected.
 #[pyclass(module = "afp", frozen)]
@@ -114,9 +111,12 @@ impl Scenario {
     fn run(&self, py: Python<'_>, log: Option<PathBuf>) -> PyResult<Verdict> {
         may_run()?;
         let checked = self.checked()?;
-        let setting = Setting::find(checked, &self.file, &ROBOT).map_err(|why| run_error(&why))?;
+        fits(&self.file)?;
+        let setting = Setting::find(checked, &self.file, link().kind());
+        let setting = setting.map_err(|why| run_error(&why))?;
         let components = Components::new(py, &self.toolboxes)?;
-        let robot = carbot(|registry| components.register(registry));
+        let more = |registry: &mut dyn AnyRegistry| components.register(registry);
+        let robot = link().loader(&more);
         let (mut pause, mut raised) = (Pause::of_signals(), None);
         let mut go_on = || {
             if let Some(Halt::Raised(why)) = pause.look() {
@@ -125,7 +125,7 @@ impl Scenario {
             raised.is_none() && !components.is_over()
         };
         let log = log.as_deref();
-        let came = py.detach(|| afp_test::run_while(checked, &setting, &robot, log, &mut go_on));
+        let came = py.detach(|| afp_test::run_while(checked, &setting, &*robot, log, &mut go_on));
         components.raised(py)?;
         if let Some(why) = raised {
             return Err(why);
@@ -169,80 +169,6 @@ pub fn scenarios(py: Python<'_>, plan: &Plan) -> PyResult<Vec<Scenario>> {
         source: source.clone_ref(py),
     };
     Ok((0..compiled.scenarios.len()).map(one).collect())
-}
-
-/// Components in Python for engines that make plans by themselves: each plan gets a robot of its own.
-pub struct Components<'a> {
-    toolboxes: &'a [Py<Toolbox>],
-    hosts: Mutex<Vec<Arc<Host>>>,
-    broken: Mutex<Option<PyErr>>,
-}
-
-impl<'a> Components<'a> {
-    /// For the plans of these toolboxes.
-    ///
-    /// # Errors
-    /// A toolbox that can no longer be read.
-    pub fn new(py: Python<'_>, toolboxes: &'a [Py<Toolbox>]) -> PyResult<Self> {
-        for toolbox in toolboxes {
-            toolbox.bind(py).get().declared()?;
-        }
-        Ok(Components { toolboxes, hosts: Mutex::default(), broken: Mutex::default() })
-    }
-
-    /// Registers what implements the templates, for one plan.
-    pub fn register(&self, registry: &mut Registry<Simulation>) {
-        if self.toolboxes.is_empty() {
-            return;
-        }
-        let registered = Python::attach(|py| {
-            let host = Arc::new(Host::new(Py::new(py, Robot::new()?)?));
-            for toolbox in self.toolboxes {
-                register(py, toolbox.get(), &host, registry)?;
-            }
-            Ok(host)
-        });
-        match registered {
-            Ok(host) => {
-                let mut hosts = self.hosts.lock().unwrap_or_else(PoisonError::into_inner);
-                // Those whose plans are gone have nothing more to tell.
-                hosts.retain(|host| Arc::strong_count(host) > 1 || host.is_aborted());
-                hosts.push(host);
-            }
-            Err(why) => *self.broken.lock().unwrap_or_else(PoisonError::into_inner) = Some(why),
-        }
-    }
-
-    /// Whether there is something to raise.
-    pub fn is_over(&self) -> bool {
-        if self.toolboxes.is_empty() {
-            return false;
-        }
-        let broken = self.broken.lock().unwrap_or_else(PoisonError::into_inner).is_some();
-        let hosts = self.hosts.lock().unwrap_or_else(PoisonError::into_inner);
-        broken || hosts.iter().any(|host| host.is_aborted())
-    }
-
-    /// Interrupts the components that are being called in other threads.
-    ///
-    /// # Errors
-    /// As [`Host::interrupt`].
-    pub fn interrupt(&self, py: Python<'_>) -> PyResult<()> {
-        let hosts = self.hosts.lock().unwrap_or_else(PoisonError::into_inner);
-        hosts.iter().try_for_each(|host| host.interrupt(py))
-    }
-
-    /// Raises what cannot be an outcome: a toolbox that broke, `SystemExit` and the like.
-    ///
-    /// # Errors
-    /// What was raised.
-    pub fn raised(&self, py: Python<'_>) -> PyResult<()> {
-        if let Some(why) = self.broken.lock().unwrap_or_else(PoisonError::into_inner).take() {
-            return Err(why);
-        }
-        let hosts = self.hosts.lock().unwrap_or_else(PoisonError::into_inner);
-        hosts.iter().find_map(|host| host.aborted(py)).map_or(Ok(()), Err)
-    }
 }
 
 fn verdict(compiled: &Compiled, came: Came) -> Verdict {

@@ -10,25 +10,22 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
-use afp::load::{LoadedPlan, Registry};
-use afp_carbot::table::TABLE;
 use afp_core::devices::faults as faults_of;
 use afp_core::trace::{Names, TraceEntryId};
 use afp_core::{Duration, Instant};
 use afp_dsl::Compiled;
-use afp_session::{AnySession, Request, Waypoint};
-use afp_sim::Simulation;
+use afp_session::{Request, SessionError, Waypoint};
 use numpy::PyArray2;
-use pyo3::exceptions::{PyKeyError, PyRuntimeError};
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use pyo3::{PyTraverseError, PyVisit};
 
-use crate::component::{Host, may_run, register};
+use crate::component::{AnyRegistry, Components, Host, may_run};
 use crate::errors::{error, plan_error};
+use crate::link::{devices, fits, link};
 use crate::pause::Pause;
 use crate::plan::Plan;
-use crate::robot::{Robot, sense};
 use crate::value::{Given, no_pickle, to_python};
 use crate::world::{World, table};
 
@@ -62,33 +59,27 @@ impl Runner {
     ) -> PyResult<Self> {
         let compiled = plan.compiled(py);
         let graph = compiled.graph.as_ref().ok_or_else(|| plan_error(py, &compiled))?;
-        let mut registry = Registry::<Simulation>::new();
-        afp_std::templates::register(&mut registry);
-        afp_carbot::templates::register(&mut registry);
-        let host = host(py, plan, &mut registry)?;
-        let loaded = LoadedPlan::new(graph, &registry).map_err(|why| {
-            error(format!("{why}\n  help: implement it in Python (see Toolbox), or run the plan with afpc, which links Rust"))
-        })?;
+        let (file, toolboxes) = (plan.file(), plan.python_toolboxes(py));
+        fits(&file)?;
+        let components = Components::new(py, &toolboxes)?;
+        let more = |registry: &mut dyn AnyRegistry| components.register(registry);
+        let world = &world.loaded;
+        let session = link().loader(&more).session(graph, &*world.world, seed, &[]);
+        let session = session.map_err(|why| no_session(&why))?;
+        let host = components.host(py)?;
         let mut inputs = Vec::new();
         for (name, value) in set {
             let name: String = name.extract()?;
-            let entry = entry(&loaded, &name)?;
-            inputs.push((entry, Given::new(&value)?.for_entry(&loaded, entry)?, name));
+            inputs.push((Given::new(&value)?, name));
         }
-        let file = plan.file();
-        let setting = Setting {
-            graph,
-            world: &world.loaded,
-            room: &world.room,
-            seed,
-            file: &file,
-            texts: compiled.plan_texts(),
-            log: log.as_deref(),
-        };
+        let texts = compiled.plan_texts();
+        let setting = Setting { graph, world, seed, file: &file, texts, log: log.as_deref() };
         let stop = Arc::new(AtomicBool::new(false));
         let pause = Pause::new(host.clone(), Arc::clone(&stop));
-        let mut run = Run::new(loaded, &setting, pause)?;
-        for (entry, value, name) in inputs {
+        let mut run = Run::new(session, &setting, pause)?;
+        for (given, name) in inputs {
+            let entry = run.entry(&name)?;
+            let value = given.for_entry(&*run.session, entry)?;
             run.write(entry, value).map_err(|why| error(format!("'{name}': {why}")))?;
         }
         let session = Mutex::new(run);
@@ -132,7 +123,7 @@ impl Runner {
     /// The time, seconds.
     #[getter]
     fn time(&self) -> PyResult<f64> {
-        Ok(self.lock()?.session.robot().now().as_secs_f64())
+        Ok(self.lock()?.session.now().as_secs_f64())
     }
 
     /// How the plan ended: `ok`, `interrupted`, `error`; `running` before.
@@ -181,7 +172,7 @@ impl Runner {
     fn events(&self, first: usize) -> PyResult<Vec<Event>> {
         let session = self.lock()?;
         let news = session.keeper.records.get(first..).unwrap_or_default();
-        Ok(news.iter().map(|record| Event::new(record, session.session.plan_names())).collect())
+        Ok(news.iter().map(|record| Event::new(record, &session.names)).collect())
     }
 
     /// The timeline as `afpc run` prints it.
@@ -189,7 +180,7 @@ impl Runner {
     fn timeline(&self) -> PyResult<Vec<String>> {
         let session = self.lock()?;
         let records = session.keeper.records.iter();
-        Ok(records.filter_map(|record| line(record, session.session.plan_names())).collect())
+        Ok(records.filter_map(|record| line(record, &session.names)).collect())
     }
 
     /// Where the robot was every 20 ms: time, x, y, heading.
@@ -206,7 +197,7 @@ impl Runner {
     /// Where the robot is: x, y, heading.
     #[getter]
     fn pose(&self) -> PyResult<(f64, f64, f64)> {
-        let pose = self.lock()?.session.robot().truth().pose();
+        let pose = self.lock()?.pose()?;
         Ok((pose.x, pose.y, pose.heading))
     }
 
@@ -218,7 +209,7 @@ impl Runner {
 
     /// What a sensor says.
     fn sense<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-        let sensed = sense(self.lock()?.session.robot(), name)?;
+        let sensed = link().sense(self.lock()?.session.robot(), name, true)?;
         sensed.into_bound(py)
     }
 
@@ -237,12 +228,11 @@ impl Runner {
     /// The value of an entry.
     fn get<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let session = self.lock()?;
-        let number = entry(session.session.plan(), name)?;
-        let value = session.session.plan().get(name).map(|value| value.to_owned());
+        let number = session.entry(name)?;
+        let value = session.session.entry(number).to_owned();
         let id = TraceEntryId(number.into());
-        let names = session.session.plan_names().clone();
+        let names = session.names.clone();
         drop(session);
-        let value = value.unwrap_or_default();
         to_python(py, value.borrow(), |choice| names.choice(id, choice).to_owned())
     }
 
@@ -252,9 +242,8 @@ impl Runner {
         // This may run Python, which must find the simulation free.
         let given = Given::new(value)?;
         let mut session = self.lock()?;
-        let plan = session.session.plan();
-        let number = entry(plan, name)?;
-        let value = given.for_entry(plan, number)?;
+        let number = session.entry(name)?;
+        let value = given.for_entry(&*session.session, number)?;
         if session.session.ending().is_some() {
             let text = "the plan has ended; its entries cannot be set any more";
             return Err(PyRuntimeError::new_err(text));
@@ -267,7 +256,7 @@ impl Runner {
     }
 
     /// Holds a control down for a while.
-    fn hold(&self, control: &str, at: Option<f64>, time: f64) -> PyResult<()> {
+    fn hold(&self, control: Option<&str>, at: Option<f64>, time: f64) -> PyResult<()> {
         let control = self::control(control)?;
         let time = duration(time)?;
         let mut session = self.lock()?;
@@ -402,33 +391,18 @@ impl Runner {
     }
 }
 
-/// Registers the components of the plan's toolboxes; none without any.
-fn host(
-    py: Python<'_>,
-    plan: &Plan,
-    registry: &mut Registry<Simulation>,
-) -> PyResult<Option<Arc<Host>>> {
-    let toolboxes = plan.python_toolboxes(py);
-    if toolboxes.is_empty() {
-        return Ok(None);
+/// What to say of a plan that cannot be loaded.
+fn no_session(why: &SessionError) -> PyErr {
+    match why {
+        SessionError::Load(_) => error(format!(
+            "{why}\n  help: implement it in Python (see Toolbox); Rust of a project is linked by afp.use(\"its folder\"), before anything else"
+        )),
+        _ => error(format!("{why}\n  help: {}", why.help())),
     }
-    let host = Arc::new(Host::new(Py::new(py, Robot::new()?)?));
-    for toolbox in toolboxes {
-        register(py, toolbox.get(), &host, registry)?;
-    }
-    Ok(Some(host))
-}
-
-fn entry(plan: &LoadedPlan<Simulation>, name: &str) -> PyResult<u16> {
-    plan.entry_number(name).ok_or_else(|| {
-        let known: Vec<_> = plan.entry_names().collect();
-        let text = format!("the plan has no entry '{name}'; there are: {}", known.join(", "));
-        PyKeyError::new_err(text)
-    })
 }
 
 /// Every fault that `fail` knows: device and kind.
 #[pyfunction]
 pub fn faults() -> Vec<(&'static str, &'static str)> {
-    faults_of(TABLE).map(|(_, device, row)| (device.name, row.name)).collect()
+    faults_of(devices()).map(|(_, device, row)| (device.name, row.name)).collect()
 }

@@ -18,7 +18,6 @@ use afp_dsl::Compiled;
 use afp_dsl::graph::Graph;
 use afp_run::hash;
 use afp_session::Loader;
-use afp_sim::carbot;
 use afp_sweep::{
     Axis, Cells, Findings, Header, Journal, Outcome, Place, Point, Seeds, Setting, Sweep, columns,
 };
@@ -28,9 +27,10 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use pyo3::{PyTraverseError, PyVisit};
 
+use crate::component::{AnyRegistry, Components};
 use crate::errors::{error, plan_error, run_error};
+use crate::link::{fits, link};
 use crate::plan::Plan;
-use crate::scenario::Components;
 use crate::toolbox::Toolbox;
 use crate::value::no_pickle;
 
@@ -77,6 +77,7 @@ impl Sweeper {
             return Err(PyValueError::new_err(format!("until is {until}; give seconds above 0")));
         }
         let (file, toolboxes) = (plan.file(), plan.python_toolboxes(py));
+        fits(&file)?;
         let mut sweep = Sweep {
             presses: Vec::new(),
             failures: Vec::new(),
@@ -275,7 +276,8 @@ fn with_setting<T>(
     use_it: impl FnOnce(&dyn Loader, &Components<'_>) -> PyResult<T>,
 ) -> PyResult<T> {
     let components = Components::new(py, toolboxes)?;
-    let used = use_it(&carbot(|registry| components.register(registry)), &components);
+    let more = |registry: &mut dyn AnyRegistry| components.register(registry);
+    let used = use_it(&*link().loader(&more), &components);
     components.raised(py)?;
     used
 }

@@ -1,9 +1,9 @@
 //! Values between plans and Python: quantities are floats in SI units.
 
-use afp_core::rt::NamedPlan;
-use afp_core::trace::{Names, TraceEntryId};
+use afp_core::trace::TraceEntryId;
 use afp_core::{Text, Value, ValueRef};
 use afp_dsl::types::Type;
+use afp_session::AnySession;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyException, PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -74,20 +74,21 @@ impl Given {
         }
     }
 
-    /// The value for an entry of a plan.
+    /// The value for an entry of a session's plan.
     ///
     /// # Errors
     /// It does not fit.
-    pub fn for_entry(self, plan: &impl NamedPlan, entry: u16) -> PyResult<Value> {
-        let names = plan.names();
-        let about = names.entry(TraceEntryId(entry.into()));
+    pub fn for_entry(self, session: &dyn AnySession, entry: u16) -> PyResult<Value> {
+        let about = session.names().entry(TraceEntryId(entry.into()));
         let wrong = |what: String| {
             let (path, ty, unit) = (about.path, about.ty, about.unit);
             let link = if unit.is_empty() { "" } else { " in " };
             PyTypeError::new_err(format!("'{path}' is {}{link}{unit}, not {what}", a(ty)))
         };
         match self {
-            Given::Text(text) => plan.read(entry, &text).map_err(|_| wrong(format!("{text:?}"))),
+            Given::Text(text) => {
+                session.read_text(entry, &text).map_err(|_| wrong(format!("{text:?}")))
+            }
             Given::Plain(Value::Bool(_), _) if about.ty != "bool" => {
                 Err(wrong("a bool".to_owned()))
             }

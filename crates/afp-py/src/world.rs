@@ -1,32 +1,19 @@
 //! `World`: a room with its robot's start.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use afp_run::world::{LoadedWorld, find};
-use afp_session::{Kind, kind};
-use afp_sim::{Simulation, World as Room};
 use numpy::{PyArray2, ToPyArray};
 use pyo3::prelude::*;
 
 use crate::errors::{error, run_error};
+use crate::link::{fits, link};
 use crate::value::Pickled;
 
 /// A room: where the robot starts and what stands, lies, shines and moves around it.
 #[pyclass(module = "afp", frozen)]
 pub struct World {
     pub loaded: LoadedWorld,
-    pub room: Room,
-}
-
-/// The robot whose worlds these are.
-pub const ROBOT: Kind<Simulation> = kind();
-
-impl World {
-    fn new(loaded: LoadedWorld) -> PyResult<World> {
-        let room = Room::parse(&loaded.text).map_err(|why| error(why.message))?;
-        Ok(World { loaded, room })
-    }
 }
 
 #[pymethods]
@@ -34,42 +21,43 @@ impl World {
     /// Reads a world file, or a map of map_server (`.yaml`).
     #[staticmethod]
     fn load(path: PathBuf) -> PyResult<World> {
-        let loaded = find(Some(&path), &path, &ROBOT).map_err(|why| run_error(&why))?;
-        World::new(loaded)
+        let loaded = find(Some(&path), &path, link().kind()).map_err(|why| run_error(&why))?;
+        Ok(World { loaded })
     }
 
     /// A room made up from a seed, as `--world random:7` is.
     #[staticmethod]
     fn random(seed: u64) -> PyResult<World> {
         let name = PathBuf::from(format!("random:{seed}"));
-        let loaded = find(Some(&name), &name, &ROBOT).map_err(|why| run_error(&why))?;
-        World::new(loaded)
+        let loaded = find(Some(&name), &name, link().kind()).map_err(|why| run_error(&why))?;
+        Ok(World { loaded })
     }
 
     /// Reads a world from the text of its file.
     #[staticmethod]
     fn parse(text: String) -> PyResult<World> {
-        let room = Room::parse(&text).map_err(|why| match why.span {
+        let world = link().kind().world(&text).map_err(|why| match why.span {
             Some(span) => {
                 let (line, column) = afp_excerpt::line_column(&text, span.start);
                 error(format!("{line}:{column}: {}", why.message))
             }
             None => error(why.message),
         })?;
-        let world = Arc::new(room.clone());
-        Ok(World { loaded: LoadedWorld { world, text, path: None, start: None }, room })
+        Ok(World { loaded: LoadedWorld { world, text, path: None, start: None } })
     }
 
     /// The world that `afpc run` would take for the plan of this file.
     #[staticmethod]
     fn of_plan(path: PathBuf) -> PyResult<World> {
-        World::new(find(None, &path, &ROBOT).map_err(|why| run_error(&why))?)
+        fits(&path)?;
+        let loaded = find(None, &path, link().kind()).map_err(|why| run_error(&why))?;
+        Ok(World { loaded })
     }
 
     /// What it is called.
     #[getter]
     fn name(&self) -> &str {
-        &self.room.name
+        self.loaded.world.name()
     }
 
     /// The text of its file.
@@ -87,24 +75,24 @@ impl World {
     /// Where the robot starts: x and y in metres, heading in radians.
     #[getter]
     fn start(&self) -> (f64, f64, f64) {
-        let start = self.room.start;
+        let start = self.loaded.world.drawing().start;
         (start.x, start.y, start.heading)
     }
 
     /// The names of what stands in it.
     #[getter]
-    fn obstacles(&self) -> Vec<&str> {
-        self.room.obstacles.iter().map(|obstacle| obstacle.name.as_str()).collect()
+    fn obstacles(&self) -> Vec<String> {
+        self.loaded.world.drawing().things.into_iter().map(|thing| thing.name).collect()
     }
 
     /// The corners of everything that stands in it, metres, each an array of n x 2.
     fn outlines<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
-        let corners = self.room.obstacles.iter().map(|each| each.outline.corners());
-        corners.map(|corners| table(py, &corners)).collect()
+        let things = self.loaded.world.drawing().things;
+        things.iter().map(|thing| table(py, &thing.outline)).collect()
     }
 
     fn __repr__(&self) -> String {
-        format!("<World '{}', {} obstacles>", self.name(), self.room.obstacles.len())
+        format!("<World '{}', {} obstacles>", self.name(), self.loaded.world.drawing().things.len())
     }
 
     /// As it was pickled.

@@ -11,8 +11,8 @@ use clap::Args;
 
 use crate::error::RunError;
 
-pub use help::for_robot;
 pub(crate) use help::words;
+pub use help::{for_devices, for_robot};
 pub use parse::{Destination, Failure, Press, Speed, failure, press};
 
 /// How a run goes.

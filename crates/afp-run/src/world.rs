@@ -55,16 +55,65 @@ pub fn find(
     if let Some(path) = &file.project.world {
         return load(&shown(&file.folder.join(path)), robot);
     }
+    let beside = beside(plan);
+    match beside.is_file() {
+        true => load(&tidy(&beside), robot),
+        false => parse(robot.default_world().to_owned(), None, robot),
+    }
+}
+
+/// The worlds that a run of a plan may take place in, as `--world` takes them, each with where it comes from in words: first the
+/// one that [`find`] takes without a word, then the other files in the folders of these, then one that is made up. The
+/// built-in one has no name.
+///
+/// # Errors
+/// The project file is wrong.
+pub fn all(plan: &Path, robot: &dyn AnyRobot) -> Result<Vec<(String, &'static str)>, RunError> {
+    let project = ProjectFile::of_plan(plan)?;
+    let named = project.project.world.as_ref().map(|path| shown(&project.folder.join(path)));
+    let beside = tidy(&beside(plan));
+    let mut all = Vec::new();
+    let mut add = |path: &Path, from| {
+        let name = path.display().to_string();
+        if !all.iter().any(|(known, _)| *known == name) {
+            all.push((name, from));
+        }
+    };
+    if let Some(path) = &named {
+        add(path, "afp.toml");
+    }
+    if beside.is_file() {
+        add(&beside, "beside the plan");
+    }
+    for like in named.iter().chain([&beside]) {
+        files_like(like).iter().for_each(|path| add(path, "a file"));
+    }
+    if all.is_empty() || named.is_none() && !beside.is_file() {
+        all.insert(0, (String::new(), "built in"));
+    }
+    if robot.made_up_world(1).is_some() {
+        all.push((format!("{RANDOM}1"), "made up"));
+    }
+    Ok(all)
+}
+
+/// The files in the folder of a world that end like it, by name.
+fn files_like(world: &Path) -> Vec<PathBuf> {
+    let Some(Ok(entries)) = world.parent().map(fs::read_dir) else { return Vec::new() };
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let mut alike: Vec<_> = paths.filter(|path| path.extension() == world.extension()).collect();
+    alike.sort();
+    alike
+}
+
+/// Where the world of a plan is if nobody says another one.
+fn beside(plan: &Path) -> PathBuf {
     let folder = match plan.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
     let file = Path::new("worlds").join(plan.file_name().unwrap_or_default());
-    let beside = folder.join("..").join(file).with_extension("toml");
-    match beside.is_file() {
-        true => load(&tidy(&beside), robot),
-        false => parse(robot.default_world().to_owned(), None, robot),
-    }
+    folder.join("..").join(file).with_extension("toml")
 }
 
 /// `plans/../worlds/x.toml` as `worlds/x.toml`, as long as the folder is a plain name.
@@ -153,6 +202,44 @@ mod tests {
             let error = find(Some(Path::new(wrong)), plan, &kind::<Simulation>()).unwrap_err();
             assert!(error.to_string().contains("a whole number from 0 on"), "{error}");
         }
+    }
+
+    #[test]
+    fn worlds_to_choose_from_are_those_of_the_project_and_the_plan() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        for name in ["plans", "worlds", "rooms"] {
+            fs::create_dir(path(name)).unwrap();
+        }
+        for name in
+            ["worlds/p.toml", "worlds/other.toml", "worlds/notes.md", "rooms/a.txt", "rooms/b.txt"]
+        {
+            fs::write(path(name), "").unwrap();
+        }
+        let told = |plan: &str| {
+            let all = all(&path(plan), &kind::<Simulation>()).unwrap();
+            let base = folder.path().display().to_string();
+            let each = all.into_iter().map(|(name, from)| {
+                format!("{} ({from})", name.strip_prefix(&format!("{base}/")).unwrap_or(&name))
+            });
+            each.collect::<Vec<_>>().join(", ")
+        };
+        let files = "worlds/other.toml (a file)";
+        assert_eq!(
+            told("plans/p.afp"),
+            format!("worlds/p.toml (beside the plan), {files}, random:1 (made up)")
+        );
+        assert_eq!(
+            told("plans/q.afp"),
+            format!(" (built in), {files}, worlds/p.toml (a file), random:1 (made up)")
+        );
+        fs::write(path("afp.toml"), "[run]\nworld = \"rooms/b.txt\"\n").unwrap();
+        assert_eq!(
+            told("plans/p.afp"),
+            format!(
+                "rooms/b.txt (afp.toml), worlds/p.toml (beside the plan), rooms/a.txt (a file), {files}, random:1 (made up)"
+            )
+        );
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Sessions of any plan over any robot: where types end.
 
+use std::any::Any;
 use std::fmt;
 
 use afp_core::devices::{DeviceRow, SignalId};
@@ -40,6 +41,12 @@ pub trait AnySession: Send {
 
     /// What a signal is now.
     fn read(&self, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>));
+
+    /// The value that a text, `35 cm`, is for an entry.
+    ///
+    /// # Errors
+    /// It is none of the entry's type.
+    fn read_text(&self, entry: u16, text: &str) -> Result<Value, Fault>;
 
     /// Writes an entry as people write it, `35 cm`: before the start an `in` entry, later with the next step. Gives
     /// the value.
@@ -95,6 +102,15 @@ pub trait AnySession: Send {
 
     /// Stops the robot for good and says what the run came to.
     fn end(&mut self) -> Figures;
+
+    /// What the run came to so far.
+    fn figures(&self) -> Figures;
+
+    /// Whether nothing is left to do before `until`, or at it.
+    fn is_over(&self, until: Instant) -> bool;
+
+    /// The robot, for who knows its type.
+    fn robot(&self) -> &dyn Any;
 
     /// The hash of the trace so far, without polls that saw nothing: the same for the same plan, world and seed,
     /// on every machine.

@@ -52,7 +52,7 @@ pub use robot::{ControlOf, FaultOf, Measure, Refused, Robot, Simulated};
 pub use robots::{AnyRobot, Kind, SessionError, kind};
 #[cfg(feature = "load")]
 pub use robots::{Loader, simulated};
-pub use sample::{Image, Pose2, Ranging, SampleRef, Samples, Shape, Transform};
+pub use sample::{Image, Pose2, Ranging, SampleRef, Samples, Shape, Transform, read_signal};
 pub use session::{SAMPLE, Session};
 pub use stimulus::Stimulus;
 pub use track::{Mark, Track, Waypoint};

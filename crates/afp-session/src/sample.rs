@@ -6,6 +6,7 @@ use afp_core::Instant;
 use afp_core::devices::{SignalId, SignalType};
 
 use crate::observer::{Observer, Sampling};
+use crate::robot::Robot;
 
 /// A place and a heading in the plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -137,6 +138,11 @@ enum To<'a, 'o> {
     Observers(&'a mut [&'o mut dyn Observer], Turn),
     /// Somebody who asks for one signal.
     One(SignalId, &'a mut dyn FnMut(SampleRef<'_>)),
+}
+
+/// What a signal of a robot is now; nothing is told where the robot does not say it.
+pub fn read_signal<R: Robot>(robot: &R, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>)) {
+    robot.sample(&mut Samples::of_one(robot.now(), signal, to));
 }
 
 /// Whose turn it is.

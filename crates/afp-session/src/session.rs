@@ -297,6 +297,11 @@ where
     /// Stops the robot for good and says what the run came to.
     pub fn end(&mut self) -> Figures {
         self.robot.emergency_stop();
+        self.figures()
+    }
+
+    /// What the run came to so far.
+    pub fn figures(&self) -> Figures {
         let measured = self.measures.iter().flat_map(|measure| measure.figures());
         Figures(measured.chain(self.robot.figures()).collect())
     }

@@ -1,8 +1,7 @@
 //! The command line's grammar.
 
-use afp_run::options::for_robot;
+use afp_run::options::{for_devices, for_robot};
 use afp_run::{EXIT_OK, RunError, say};
-use afp_session::AnyRobot;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
@@ -11,6 +10,7 @@ use crate::commands::{
     test,
 };
 use crate::plan_file::NoPlan;
+use crate::{Linked, declared};
 
 /// Compiles, checks, draws and runs Action Flow Plans.
 #[derive(Parser, Debug)]
@@ -79,9 +79,16 @@ Examples:
 Exit codes: 0 done, 1 a plan is wrong or a file cannot be read or written, 2 wrong usage, 3 the plan ended in Error";
 
 /// Reads the command line; does not come back when it asks for help or makes no sense. The help of `run` has
-/// the words of the robot.
-pub fn parse(robot: &dyn AnyRobot) -> Command {
-    let command = command().mut_subcommand("run", |run| for_robot(run, robot));
+/// the words of the robot: that of the project, whose program need not be there for it.
+pub fn parse(linked: &Linked<'_>) -> Command {
+    let arguments: Vec<_> = std::env::args_os().skip(1).collect();
+    let asks = |word: &str| arguments.iter().any(|argument| argument == word);
+    let helps = ["--help", "-h", "help"].into_iter().any(asks) && asks("run");
+    let declared = if helps && !linked.is_runner() { declared::devices(&arguments) } else { None };
+    let command = command().mut_subcommand("run", |run| match declared {
+        Some(devices) => for_devices(run, devices),
+        None => for_robot(run, linked.robot.kind()),
+    });
     let matches = match command.try_get_matches() {
         Ok(matches) => matches,
         Err(error) => match without_command(&error) {

@@ -3,16 +3,13 @@
 //! It is a library so that a *runner* can be made: the same program with a robot and toolboxes of one's own linked
 //! in, which `afpc` builds, keeps and becomes when a plan needs them.
 
-mod cargo;
 mod cli;
 mod commands;
-mod crate_folder;
-mod origin;
+mod declared;
 mod picture;
 mod plan_file;
 mod runner;
 mod targets;
-mod toolboxes;
 mod toolchain;
 
 use std::process::ExitCode;
@@ -47,5 +44,5 @@ impl Linked<'_> {
 
 /// The whole program.
 pub fn main(linked: &Linked<'_>) -> ExitCode {
-    commands::dispatch(&cli::parse(linked.robot.kind()), linked)
+    commands::dispatch(&cli::parse(linked), linked)
 }

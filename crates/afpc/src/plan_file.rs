@@ -4,6 +4,7 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use afp_build::{NotBuilt, OwnToolboxes};
 use afp_dsl::files::Files;
 use afp_dsl::graph::Graph;
 use afp_dsl::{Compiled, compile_plan};
@@ -12,8 +13,6 @@ use afp_project::{ProjectError, ProjectFile};
 use afp_run::{RunError, say};
 use afp_session::Recipe;
 use afp_syntax::source::Source;
-
-use crate::toolboxes::OwnToolboxes;
 
 /// A plan that was read and compiled.
 pub struct PlanFile {
@@ -36,6 +35,15 @@ pub enum NoPlan {
 impl From<RunError> for NoPlan {
     fn from(error: RunError) -> Self {
         NoPlan::File(error)
+    }
+}
+
+impl From<NotBuilt> for NoPlan {
+    fn from(why: NotBuilt) -> Self {
+        match why {
+            NotBuilt::Why(error) => NoPlan::File(error),
+            NotBuilt::Told => NoPlan::Wrong,
+        }
     }
 }
 

@@ -9,19 +9,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use afp_build::cargo::Toolchain;
 use afp_run::{RunError, write_whole};
 
 use machine::Linux;
 pub use machine::Machine;
-
-/// How cargo builds for another machine.
-#[derive(Debug)]
-pub struct Toolchain {
-    /// The machine, as Rust calls it.
-    pub triple: &'static str,
-    /// What cargo and the compilers that it calls find in their environment.
-    pub environment: Vec<(String, OsString)>,
-}
 
 /// What compiles C and links.
 enum Linker {
@@ -36,23 +28,21 @@ enum Linker {
 /// Ways to call zig: installed by itself, or by pip.
 const ZIGS: [&[&str]; 2] = [&["zig"], &["python3", "-m", "ziglang"]];
 
-impl Toolchain {
-    /// Looks for what builds for a machine; `folder` is where scripts may go.
-    ///
-    /// # Errors
-    /// Something is missing, or the folder cannot be written.
-    pub fn find(machine: &'static Linux, folder: &Path) -> Result<Toolchain, RunError> {
-        let (library, linker) = (has_library(machine), find_linker(machine));
-        let (true, Some(linker)) = (library, &linker) else {
-            return Err(missing(machine, library, linker.is_some()));
-        };
-        let environment = match linker {
-            Linker::Known => Vec::new(),
-            Linker::Gcc(gcc) => vec![(linker_variable(machine), gcc.into())],
-            Linker::Zig(zig) => zig_environment(machine, zig, folder)?,
-        };
-        Ok(Toolchain { triple: machine.triple, environment })
-    }
+/// Looks for what builds for a machine; `folder` is where scripts may go.
+///
+/// # Errors
+/// Something is missing, or the folder cannot be written.
+pub fn find(machine: &'static Linux, folder: &Path) -> Result<Toolchain, RunError> {
+    let (library, linker) = (has_library(machine), find_linker(machine));
+    let (true, Some(linker)) = (library, &linker) else {
+        return Err(missing(machine, library, linker.is_some()));
+    };
+    let environment = match linker {
+        Linker::Known => Vec::new(),
+        Linker::Gcc(gcc) => vec![(linker_variable(machine), gcc.into())],
+        Linker::Zig(zig) => zig_environment(machine, zig, folder)?,
+    };
+    Ok(Toolchain { triple: machine.triple, environment })
 }
 
 /// Whether the compiler that cargo calls has the standard library for a machine. Without any compiler cargo will say so.

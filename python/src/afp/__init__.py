@@ -8,46 +8,54 @@ False
 'E0203'
 """
 
-from ._afp import (
-    AfpError,
-    Broken,
-    Carbot,
-    Diagnostic,
-    Event,
-    PlanError,
-    Robot,
-    Scenario,
-    Verdict,
-    World,
-    __version__,
-    faults,
-)
-from .components import Toolbox, tick
-from .log import Log
-from .plan import Plan, load, new_plan
-from .result import Collision, ComponentError, Result
-from .simulation import Simulation
-from .sweeps import Runs, sweep
-from .units import (
-    Angle,
-    AngularSpeed,
-    Duration,
-    Length,
-    Quantity,
-    Speed,
-    cm,
-    deg,
-    deg_per_s,
-    kmh,
-    m,
-    m_per_s,
-    minutes,
-    mm,
-    ms,
-    rad,
-    rad_per_s,
-    s,
-)
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+from ._choice import use
+
+if TYPE_CHECKING:
+    from ._afp import (
+        AfpError,
+        Broken,
+        Carbot,
+        Diagnostic,
+        Event,
+        PlanError,
+        Robot,
+        Scenario,
+        Verdict,
+        World,
+        __version__,
+        faults,
+    )
+    from .components import Toolbox, tick
+    from .log import Log
+    from .plan import Plan, load, new_plan
+    from .result import Collision, ComponentError, Result
+    from .simulation import Simulation
+    from .sweeps import Runs, sweep
+    from .units import (
+        Angle,
+        AngularSpeed,
+        Duration,
+        Length,
+        Quantity,
+        Speed,
+        cm,
+        deg,
+        deg_per_s,
+        kmh,
+        m,
+        m_per_s,
+        minutes,
+        mm,
+        ms,
+        rad,
+        rad_per_s,
+        s,
+    )
 
 __all__ = [
     "AfpError",
@@ -92,4 +100,35 @@ __all__ = [
     "s",
     "sweep",
     "tick",
+    "use",
 ]
+
+# What is asked for is loaded then, so that a robot can be chosen before.
+_WHERE = {
+    "_afp": "AfpError Broken Carbot Diagnostic Event PlanError Robot Scenario Verdict World __version__ faults",
+    "units": "Angle AngularSpeed Duration Length Quantity Speed cm deg deg_per_s kmh m m_per_s minutes mm ms rad rad_per_s s",
+    "result": "Collision ComponentError Result",
+    "log": "Log",
+    "plan": "Plan load new_plan",
+    "sweeps": "Runs sweep",
+    "simulation": "Simulation",
+    "components": "Toolbox tick",
+}
+_MODULES = {*_WHERE, "plots", "tables"}
+
+
+def __getattr__(name: str) -> Any:
+    module = next((module for module, names in _WHERE.items() if name in names.split()), None)
+    if module is None and name in _MODULES:
+        return importlib.import_module(f".{name}", __name__)
+    if module is None:
+        raise AttributeError(f"module 'afp' has no attribute '{name}'")
+    found = importlib.import_module(f".{module}", __name__)
+    if not hasattr(found, name):
+        raise AttributeError(f"'afp.{name}' is of the Carbot, and this process has another robot")
+    globals()[name] = getattr(found, name)
+    return globals()[name]
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

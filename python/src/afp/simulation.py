@@ -175,8 +175,11 @@ class Simulation:
 
     # Stimuli
 
-    def press(self, control: str = "escape", *, at: float | None = None, hold: float = 0.2) -> None:
-        """Presses the button `escape` or the bumper, `touch`, now or at a time to come."""
+    def press(self, control: str | None = None, *, at: float | None = None, hold: float = 0.2) -> None:
+        """Presses a control of the robot, now or at a time to come; without a name, the one that ends what runs.
+
+        The Carbot has the button `escape` and the bumper, `touch`.
+        """
         self._runner.hold(control, moment("at", at), seconds("hold", hold))
 
     def bump(self, *, at: float | None = None, hold: float = 0.2) -> None:

@@ -44,7 +44,7 @@ pub(crate) fn read(
         };
         let span = line.span();
         if let Some(name) = line.toolbox() {
-            devices_of_two(&name, &import.toolbox, linked, diags);
+            devices_of_two(&name, &import.toolbox, (toolboxes, linked), diags);
         }
         if let Some((_, first)) =
             imports.iter().find(|(known, _)| known.qualifier == import.qualifier)
@@ -68,17 +68,24 @@ pub(crate) fn read(
     (imports.into_iter().map(|(import, _)| import).collect(), failed)
 }
 
-/// Reports the devices of a toolbox that one before it declares, too.
+/// Reports the devices of a toolbox that one before it declares, too. What the robot's own toolbox declares is what the
+/// robot has: it may have devices of another toolbox, for whose templates it does what they ask.
 fn devices_of_two(
     name: &Name,
     toolbox: &Arc<Toolbox>,
-    linked: &[Arc<Toolbox>],
+    (toolboxes, linked): (&Toolboxes, &[Arc<Toolbox>]),
     diags: &mut Diagnostics,
 ) {
+    let robot = toolboxes.said_robot();
+    let of_robot =
+        |name: &str| robot.is_some_and(|robot| robot.devices.iter().any(|own| own.name == name));
     let before = linked.iter().take_while(|known| !Arc::ptr_eq(known, toolbox));
     let mut devices = before.flat_map(|it| it.devices.iter().map(move |device| (it, device)));
     let both = devices.find_map(|(other, device)| {
         let own = toolbox.devices.iter().find(|own| own.name == device.name)?;
+        if of_robot(&own.name) {
+            return None;
+        }
         Some((&other.name, device, own))
     });
     let Some((other, device, own)) = both else { return };

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::check::toolbox::read_file;
 use crate::index::{Declared, Meanings};
-use crate::toolbox::Toolbox;
+use crate::toolbox::{Device, Toolbox};
 use afp_syntax::ast::Name;
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::{Source, Sources, Span};
@@ -57,8 +57,31 @@ impl Toolboxes {
     }
 
     /// The toolbox that was said to declare the robot's devices.
-    pub(crate) fn robot(&self) -> Option<&str> {
-        self.robot.as_deref()
+    pub(crate) fn said_robot(&self) -> Option<&Arc<Toolbox>> {
+        self.get(self.robot.as_ref()?)
+    }
+
+    /// The toolbox that declares the robot's devices: the one that was said to; else one of those in use that declares
+    /// a robot; else the first that does.
+    pub fn robot<'a>(&'a self, used: &'a [Arc<Toolbox>]) -> Option<&'a Arc<Toolbox>> {
+        let is_robot = |toolbox: &&Arc<Toolbox>| toolbox.declares_robot();
+        match &self.robot {
+            Some(name) => self.get(name),
+            None => used.iter().find(is_robot).or_else(|| self.iter().find(is_robot)),
+        }
+    }
+
+    /// The devices of the robot's toolbox, then of all others in use; of one name the first.
+    pub fn devices<'a>(&'a self, used: &'a [Arc<Toolbox>]) -> Vec<&'a Device> {
+        let mut devices: Vec<&Device> = Vec::new();
+        for toolbox in self.robot(used).into_iter().chain(used) {
+            for device in &toolbox.devices {
+                if !devices.iter().any(|known| known.name == device.name) {
+                    devices.push(device);
+                }
+            }
+        }
+        devices
     }
 
     /// All toolboxes without errors.
@@ -101,5 +124,67 @@ impl<'a> FromIterator<(&'a str, &'a str, &'a str)> for Toolboxes {
             toolboxes.add(Source::new(name, text), rust_path);
         }
         toolboxes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compile_plan;
+
+    const PLAN: &str = "use base\nuse rover\nplan P { start go actor go: Go { Done -> terminate } }\n\
+                        scenario \"the wheels are blocked\" for P { at 1 s: fail wheels.blocked expect end by Error within 1 s after 1 s until 3 s }\n";
+
+    fn toolboxes() -> Toolboxes {
+        let files = [
+            (
+                "base",
+                "toolbox base version \"1\"\ndevice wheels { fault stuck }\nactor Go { uses wheels state Done }\n",
+            ),
+            (
+                "rover",
+                "toolbox rover version \"1\"\ndevice wheels { fault blocked }\nrobot { truth pose: pose }\n",
+            ),
+            ("other", "toolbox other version \"1\"\ndevice lamp { fault dark }\n"),
+        ];
+        files.map(|(name, text)| (name, text, name)).into_iter().collect()
+    }
+
+    /// The codes of what is wrong, and the devices that there are.
+    fn told(robot: Option<&str>) -> (Vec<String>, Vec<String>) {
+        let mut toolboxes = toolboxes();
+        if let Some(robot) = robot {
+            toolboxes.set_robot(robot);
+        }
+        let compiled = compile_plan(
+            &Source::new("p.afp", PLAN),
+            &toolboxes,
+            &|_: &str| Err(String::new()),
+            None,
+        );
+        let codes = compiled.diags.iter().map(|diag| format!("{:?}", diag.code)).collect();
+        let used: Vec<_> =
+            ["base", "rover"].iter().filter_map(|it| toolboxes.get(it).cloned()).collect();
+        let all = toolboxes.devices(&used);
+        let faults = all.iter().map(|device| {
+            let faults: Vec<_> = device.faults.iter().map(|fault| &*fault.name).collect();
+            format!("{} {}", device.name, faults.join(" "))
+        });
+        (codes, faults.map(|text| text.trim_end().to_owned()).collect())
+    }
+
+    #[test]
+    fn a_robot_may_have_devices_of_another_toolbox() {
+        let (codes, devices) = told(Some("rover"));
+        assert_eq!(codes, Vec::<String>::new());
+        assert_eq!(devices, ["wheels blocked", "robot"]);
+    }
+
+    #[test]
+    fn devices_of_two_toolboxes_are_an_error_where_neither_is_the_robots() {
+        for robot in [None, Some("other")] {
+            assert!(told(robot).0.contains(&"E0517".to_owned()), "{robot:?}: {:?}", told(robot).0);
+        }
+        assert_eq!(told(Some("other")).1[0], "lamp dark");
     }
 }

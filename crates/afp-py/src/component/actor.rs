@@ -3,7 +3,7 @@
 use afp::load::{ActorSlot, See};
 use afp_core::rt::{Args, Outputs};
 use afp_core::{Fault, Instant};
-use afp_sim::Simulation;
+use afp_session::Simulated;
 use pyo3::prelude::*;
 
 use super::PyHandle;
@@ -27,12 +27,12 @@ impl PyActor {
     }
 }
 
-impl ActorSlot<Simulation> for PyActor {
+impl<R: Simulated> ActorSlot<R> for PyActor {
     fn start(
         &mut self,
         args: &dyn Args,
         see: See<'_>,
-        env: &mut Simulation,
+        env: &mut R,
         _: Instant,
     ) -> Result<(), Fault> {
         let template = &self.template;
@@ -52,14 +52,14 @@ impl ActorSlot<Simulation> for PyActor {
         &mut self,
         args: &dyn Args,
         to: &mut dyn Outputs,
-        env: &mut Simulation,
+        env: &mut R,
         _: Instant,
     ) -> Result<Option<u16>, Fault> {
         let running = self.running.as_ref().ok_or(Fault::INTERNAL)?;
         self.template.poll(&running.poll, args, to, env)
     }
 
-    fn interrupt(&mut self, env: &mut Simulation, _: Instant) -> Result<(), Fault> {
+    fn interrupt(&mut self, env: &mut R, _: Instant) -> Result<(), Fault> {
         let template = &self.template;
         let running = self.running.as_ref().ok_or(Fault::INTERNAL)?;
         template.host.call_with_robot(env, &template.declared()?.name, |py| {

@@ -7,7 +7,7 @@ use afp_core::rt::{Args, Outputs};
 use afp_core::{Fault, Value, ValueRef};
 use afp_dsl::toolbox::{InPort, Template, Toolbox};
 use afp_dsl::types::Type;
-use afp_sim::Simulation;
+use afp_session::Simulated;
 use pyo3::call::PyCallArgs;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -111,12 +111,12 @@ impl PyTemplate {
     ///
     /// # Errors
     /// As [`PyTemplate::live`]; what the component raised.
-    pub fn poll(
+    pub fn poll<R: Simulated>(
         &self,
         method: &PyHandle,
         args: &dyn Args,
         to: &mut dyn Outputs,
-        env: &mut Simulation,
+        env: &mut R,
     ) -> Result<Option<u16>, Fault> {
         let live = self.live(args)?;
         let outcome = self.host.call_with_robot(env, &self.declared()?.name, |py| {

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use afp_core::{Fault, Instant, Reason};
-use afp_sim::Simulation;
+use afp_session::Simulated;
 use pyo3::exceptions::{PyBaseException, PyException, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 use pyo3::{PyTraverseError, PyVisit};
@@ -63,9 +63,9 @@ impl Host {
     /// # Errors
     /// [`RAISED`] for an exception, which is kept. What ends the whole run, Ctrl-C and the like, unwinds as a panic
     /// does: no `Error` edge takes it, and no component is called again.
-    pub fn call_with_robot<T>(
+    pub fn call_with_robot<R: Simulated, T>(
         &self,
-        env: &mut Simulation,
+        env: &mut R,
         template: &str,
         call: impl FnOnce(Python<'_>) -> PyResult<T>,
     ) -> Result<T, Fault> {

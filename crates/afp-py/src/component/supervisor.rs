@@ -3,7 +3,7 @@
 use afp::load::{See, SupervisorSlot};
 use afp_core::rt::{Args, Outputs};
 use afp_core::{Events, Fault, Instant};
-use afp_sim::Simulation;
+use afp_session::Simulated;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -23,13 +23,13 @@ impl PySupervisor {
     }
 }
 
-impl SupervisorSlot<Simulation> for PySupervisor {
+impl<R: Simulated> SupervisorSlot<R> for PySupervisor {
     fn start(
         &mut self,
         args: &dyn Args,
         wanted: Events,
         see: See<'_>,
-        env: &mut Simulation,
+        env: &mut R,
         _: Instant,
     ) -> Result<(), Fault> {
         let template = &self.template;
@@ -51,7 +51,7 @@ impl SupervisorSlot<Simulation> for PySupervisor {
         &mut self,
         args: &dyn Args,
         to: &mut dyn Outputs,
-        env: &mut Simulation,
+        env: &mut R,
         _: Instant,
     ) -> Result<Option<u16>, Fault> {
         let poll = self.poll.as_ref().ok_or(Fault::INTERNAL)?;

@@ -41,10 +41,14 @@ impl Desk {
     ) -> Result<Desk, RunError> {
         let mut known: Toolboxes = afp_toolboxes::sources().collect();
         if let Some(path) = &path {
-            for file in ProjectFile::of_plan(path)?.toolboxes()? {
+            let project = ProjectFile::of_plan(path)?;
+            for file in project.toolboxes()? {
                 let name = &file.toolbox.name;
                 let krate = file.krate.as_ref().map_or_else(|_| name.clone(), CrateLink::rust_path);
                 known.add(Source::new(shown(&file.path).display().to_string(), &file.text), &krate);
+            }
+            if let Some(toolbox) = project.project.robot.and_then(|robot| robot.toolbox) {
+                known.set_robot(&toolbox);
             }
         }
         for toolbox in toolboxes {

@@ -4,7 +4,8 @@
 
 use std::path::{Path, PathBuf};
 
-use afp::load::{Injection, LoadedPlan, PlanNames};
+use afp::load::{Injection, PlanNames};
+use afp_core::devices::find_signal;
 use afp_core::trace::{ComponentId, Ending, Kind, Names, Record, TraceEntryId};
 use afp_core::{Fault, Instant, Value, WriteError};
 use afp_dsl::graph::Graph;
@@ -12,10 +13,9 @@ use afp_log::{About, NameTable, SessionLog};
 use afp_run::inputs::missing;
 use afp_run::world::LoadedWorld;
 use afp_session::{
-    AnySession, Build, Figures, Go, Observer, Recipe, Request, Robot, Session, TextFile, Track,
+    AnySession, Build, Go, Observer, Pose2, Recipe, Request, SampleRef, TextFile, Track,
 };
-use afp_sim::{Simulation, World as Room};
-use pyo3::exceptions::{PyIsADirectoryError, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyIsADirectoryError, PyKeyError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
 use super::keeper::Keeper;
@@ -27,7 +27,6 @@ use crate::pause::{Halt, Pause};
 pub struct Setting<'a> {
     pub graph: &'a Graph,
     pub world: &'a LoadedWorld,
-    pub room: &'a Room,
     pub seed: u64,
     pub file: &'a Path,
     /// Path and text of the plan's file and of those that it uses.
@@ -37,7 +36,8 @@ pub struct Setting<'a> {
 
 /// A run.
 pub struct Run {
-    pub session: Session<LoadedPlan<Simulation>, Simulation>,
+    pub session: Box<dyn AnySession>,
+    pub names: PlanNames,
     pub keeper: Keeper,
     pub track: Track,
     pub stopped_by: Option<&'static str>,
@@ -49,16 +49,14 @@ pub struct Run {
 
 impl Run {
     /// A run about to start.
-    pub fn new(plan: LoadedPlan<Simulation>, setting: &Setting<'_>, pause: Pause) -> PyResult<Run> {
-        let sim = Simulation::new(setting.room, setting.seed).map_err(|why| error(why.message))?;
-        let session = Session::loaded(plan, sim);
+    pub fn new(session: Box<dyn AnySession>, setting: &Setting<'_>, pause: Pause) -> PyResult<Run> {
         if let Some(folder) = setting.log.filter(|path| path.is_dir()) {
             let text = format!("cannot write the log: it is a folder: '{}'", folder.display());
             return Err(PyIsADirectoryError::new_err(text));
         }
         let world = &setting.world.world;
         let log = setting.log.map(|path| {
-            let (about, names) = (about(setting), NameTable::new(session.plan_names()));
+            let (about, names) = (about(setting), NameTable::new(session.names()));
             SessionLog::create(path, &about, names, session.devices(), world.scene(), false)
         });
         let own_entries = setting.graph.main().entries.len();
@@ -66,6 +64,7 @@ impl Run {
             keeper: Keeper::default(),
             track: Track::new(session.devices()),
             session,
+            names: PlanNames::new(setting.graph),
             stopped_by: None,
             pause,
             own_entries: u32::try_from(own_entries).unwrap_or(u32::MAX),
@@ -113,7 +112,7 @@ impl Run {
         while self.is_running() {
             let due = self.session.due();
             self.tick(Instant::MAX)?;
-            if self.session.robot().now() >= due {
+            if self.session.now() >= due {
                 break;
             }
         }
@@ -139,7 +138,7 @@ impl Run {
             self.tell(|session, to| {
                 session.tick(limit, &mut afp_session::Open, to).map(|_: Go| ())
             })
-            .map_err(|why| run_error(&missing(why, self.session.plan_names())))?;
+            .map_err(|why| run_error(&missing(why, &self.names)))?;
             halt = self.keeper.refused.take().map(Halt::Raised);
         }
         match halt {
@@ -159,15 +158,12 @@ impl Run {
     /// Lets the session do something, and everybody hear of it.
     fn tell<T>(
         &mut self,
-        drive: impl FnOnce(
-            &mut Session<LoadedPlan<Simulation>, Simulation>,
-            &mut [&mut dyn Observer],
-        ) -> T,
+        drive: impl FnOnce(&mut dyn AnySession, &mut [&mut dyn Observer]) -> T,
     ) -> T {
         let Run { session, keeper, track, log, .. } = self;
         match log {
-            Some(log) => drive(session, &mut [keeper, track, log]),
-            None => drive(session, &mut [keeper, track]),
+            Some(log) => drive(&mut **session, &mut [keeper, track, log]),
+            None => drive(&mut **session, &mut [keeper, track]),
         }
     }
 
@@ -190,7 +186,7 @@ impl Run {
 
     /// The instants and components of what components in Python raised, sub-plans that passed it on left out.
     pub fn raised(&self) -> impl Iterator<Item = (Instant, &str)> {
-        let names = self.session.plan_names();
+        let names = &self.names;
         self.keeper.records.iter().filter_map(|record| match record.get() {
             Record::Faulted { component, fault } if fault == RAISED => {
                 let name = names.component(component);
@@ -204,7 +200,7 @@ impl Run {
     /// An instant to come, or now.
     pub fn moment(&self, at: Option<Instant>) -> PyResult<Instant> {
         match self.is_running() {
-            true => Ok(at.unwrap_or(self.session.robot().now())),
+            true => Ok(at.unwrap_or(self.session.now())),
             false => Err(PyRuntimeError::new_err("the plan has ended; nothing happens any more")),
         }
     }
@@ -219,7 +215,7 @@ impl Run {
 
     /// What lets a component report an outcome.
     pub fn injection(&self, path: &str, outcome: &str) -> PyResult<Injection> {
-        let names = self.session.plan_names();
+        let names = &self.names;
         let component = self.find(path, &[Kind::Actor, Kind::Supervisor]).ok_or_else(|| {
             PyValueError::new_err(format!("the plan has no actor or supervisor '{path}'"))
         })?;
@@ -241,23 +237,52 @@ impl Run {
     }
 
     fn find(&self, path: &str, kinds: &[Kind]) -> Option<ComponentId> {
-        let names: &PlanNames = self.session.plan_names();
+        let names: &PlanNames = &self.names;
         (0..names.components()).map(ComponentId).find(|id| {
             let about = names.component(*id);
             about.path == path && kinds.contains(&about.kind)
         })
     }
 
+    /// The number of an entry of the plan.
+    ///
+    /// # Errors
+    /// It has no such entry.
+    pub fn entry(&self, name: &str) -> PyResult<u16> {
+        let known = self.own_entries();
+        let found = (0..).zip(&known).find(|(_, known)| *known == name);
+        found.map(|(number, _)| number).ok_or_else(|| {
+            let known = known.join(", ");
+            PyKeyError::new_err(format!("the plan has no entry '{name}'; there are: {known}"))
+        })
+    }
+
+    /// Where the robot truly is.
+    ///
+    /// # Errors
+    /// It does not say.
+    pub fn pose(&self) -> PyResult<Pose2> {
+        let mut pose = None;
+        if let Some(signal) = find_signal(self.session.devices(), "robot", "pose") {
+            self.session.read(signal, &mut |sample| {
+                if let SampleRef::Pose(frame) = sample {
+                    pose = Some(frame.pose);
+                }
+            });
+        }
+        pose.ok_or_else(|| error("the robot does not say where it is: it declares no 'robot.pose'"))
+    }
+
     /// The names of the plan's own entries.
     pub fn own_entries(&self) -> Vec<String> {
         let ids = (0..self.own_entries).map(TraceEntryId);
-        ids.map(|id| self.session.plan_names().entry(id).path.to_owned()).collect()
+        ids.map(|id| self.names.entry(id).path.to_owned()).collect()
     }
 
     /// The active element of the outermost plan.
     pub fn active(&self) -> Option<String> {
-        let active = AnySession::active(&self.session)?;
-        Some(self.session.plan_names().component(active).path.to_owned())
+        let active = self.session.active()?;
+        Some(self.names.component(active).path.to_owned())
     }
 
     /// How the plan ended.
@@ -280,7 +305,7 @@ impl Run {
 
     /// What the robot touched: obstacle, first and last time.
     pub fn collisions(&self) -> Vec<(String, f64, f64)> {
-        let figures = Figures(self.session.robot().figures());
+        let figures = self.session.figures();
         let told = figures.spans("contacts").iter();
         told.map(|span| (span.name.clone(), span.begin.as_secs_f64(), span.end.as_secs_f64()))
             .collect()
@@ -288,7 +313,7 @@ impl Run {
 
     /// Ends the log; where it is.
     pub fn close(&mut self) -> PyResult<Option<PathBuf>> {
-        let closed = self.log.take().map(|log| log.finish(&self.session)).transpose();
+        let closed = self.log.take().map(|log| log.finish(&*self.session)).transpose();
         closed.map_err(|why| log_error(&why))?;
         Ok(self.log_path.clone())
     }

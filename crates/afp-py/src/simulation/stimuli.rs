@@ -1,8 +1,7 @@
 //! What happens to the robot and the plan from outside, by its names.
 
-use afp_carbot::table::TABLE;
 use afp_core::Value;
-use afp_core::devices::{ControlId, FaultId, faults, find_control};
+use afp_core::devices::{ControlId, FaultId, faults, find_control, find_stop};
 use afp_dsl::graph::Graph;
 use afp_dsl::types::Type;
 use afp_run::requests::{no_control, no_fault};
@@ -10,11 +9,18 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::link::devices;
 use crate::value::to_port;
 
-/// A control by name.
-pub fn control(name: &str) -> PyResult<ControlId> {
-    find_control(TABLE, name).ok_or_else(|| PyValueError::new_err(no_control(TABLE, name)))
+/// A control by name; without one, that which is there to end what runs.
+pub fn control(name: Option<&str>) -> PyResult<ControlId> {
+    let Some(name) = name else {
+        let none =
+            || PyValueError::new_err("the robot has no control that ends what runs; name one");
+        return find_stop(devices()).ok_or_else(none);
+    };
+    let none = || PyValueError::new_err(no_control(devices(), name));
+    find_control(devices(), name).ok_or_else(none)
 }
 
 /// A fault by its names, with its amount in SI units: a delay, seconds, or a share.
@@ -24,8 +30,8 @@ pub fn fault(
     delay: Option<f64>,
     share: Option<f64>,
 ) -> PyResult<(FaultId, Option<f64>)> {
-    let found = faults(TABLE).find(|(_, at, row)| at.name == device && row.name == kind);
-    let unknown = || PyValueError::new_err(no_fault(TABLE, device, kind));
+    let found = faults(devices()).find(|(_, at, row)| at.name == device && row.name == kind);
+    let unknown = || PyValueError::new_err(no_fault(devices(), device, kind));
     let (id, _, row) = found.ok_or_else(unknown)?;
     let of = |unit: &str| row.amount.filter(|of| of.unit == unit);
     for (given, unit, what) in [(delay, "s", "delay"), (share, "", "share")] {

@@ -10,9 +10,8 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use super::{Sweeper, graph, with_setting};
-use crate::component::may_sweep;
+use crate::component::{Components, may_sweep};
 use crate::errors::run_error;
-use crate::scenario::Components;
 
 /// How often signals are looked at while no outcome comes.
 const EVERY: Duration = Duration::from_millis(30);

@@ -8,10 +8,14 @@ use clap::Command;
 ///
 /// [`RunOptions`]: super::RunOptions
 pub fn for_robot(command: Command, robot: &dyn AnyRobot) -> Command {
-    let (press, fail) = (press(robot.devices()), fail(robot.devices()));
     let measures = measures(robot.measures());
+    for_devices(command, robot.devices()).mut_arg("measure", |argument| argument.help(measures))
+}
+
+/// The same with the words of devices alone, where nothing more is known of the robot.
+pub fn for_devices(command: Command, devices: &[DeviceRow]) -> Command {
+    let (press, fail) = (press(devices), fail(devices));
     command
-        .mut_arg("measure", |argument| argument.help(measures))
         .mut_arg("press", |argument| argument.help(press.0).long_help(press.1))
         .mut_arg("fail", |argument| argument.help(fail.0).long_help(fail.1))
 }

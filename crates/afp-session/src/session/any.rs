@@ -1,5 +1,7 @@
 //! Every session as one type.
 
+use std::any::Any;
+
 use afp_core::devices::{DeviceRow, SignalId};
 use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::{ComponentId, Ending, Names, TraceHash};
@@ -60,6 +62,10 @@ where
         self.read(signal, to);
     }
 
+    fn read_text(&self, entry: u16, text: &str) -> Result<Value, Fault> {
+        self.scheduler.plan().read(entry, text)
+    }
+
     fn set(&mut self, entry: &str, text: &str) -> Result<Value, SetError> {
         self.set(entry, text)
     }
@@ -104,6 +110,18 @@ where
 
     fn end(&mut self) -> Figures {
         self.end()
+    }
+
+    fn figures(&self) -> Figures {
+        self.figures()
+    }
+
+    fn is_over(&self, until: Instant) -> bool {
+        self.is_over(until)
+    }
+
+    fn robot(&self) -> &dyn Any {
+        &self.robot
     }
 
     fn trace(&self) -> TraceHash {

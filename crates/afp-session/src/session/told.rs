@@ -11,7 +11,7 @@ use super::Session;
 use crate::observer::{Inside, NamedRecord, Observer, View};
 use crate::record::{Keep, is_clear};
 use crate::robot::Robot;
-use crate::sample::{SampleRef, Samples, Turn};
+use crate::sample::{SampleRef, Samples, Turn, read_signal};
 
 /// What a view of a session shows.
 struct Looked<'a, P: NamedPlan, R> {
@@ -97,6 +97,6 @@ where
 
     /// What a signal is now.
     pub fn read(&self, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>)) {
-        self.robot.sample(&mut Samples::of_one(self.robot.now(), signal, to));
+        read_signal(&self.robot, signal, to);
     }
 }

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use afp_build::cargo::{self, Artifact, Blame, Generated, Job};
+use afp_build::{crate_folder, origin};
 use afp_codegen::{CrateOptions, crate_files};
 use afp_dsl::graph::Graph;
 use afp_dsl::timing::check_target;
@@ -11,11 +13,10 @@ use afp_syntax::diagnostics::Diagnostics;
 use clap::Args;
 
 use super::print;
-use crate::cargo::{self, Blame, Generated, Job};
 use crate::cli::PlanArgument;
 use crate::plan_file::{NoPlan, PlanFile};
-use crate::toolchain::{Machine, Toolchain};
-use crate::{crate_folder, origin, targets};
+use crate::targets;
+use crate::toolchain::{self, Machine};
 
 /// Arguments of `afpc build`.
 #[derive(Args, Debug)]
@@ -64,7 +65,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     is_fast_enough(arguments.target, &file, &graph)?;
     let linux = arguments.target.linux();
     let build = Path::new(BUILDS).join("build");
-    let toolchain = linux.map(|linux| Toolchain::find(linux, &build.join("zig"))).transpose()?;
+    let toolchain = linux.map(|linux| toolchain::find(linux, &build.join("zig"))).transpose()?;
     let toolboxes = file.own.used_by(&graph)?;
     let origin = origin::of_afp(&file.own.project)?;
     let stem = file.path.file_stem().unwrap_or("plan".as_ref());
@@ -98,6 +99,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
         folder: &folder,
         target: shared.as_deref(),
         toolchain: toolchain.as_ref(),
+        artifact: Artifact::Program,
         blame: Blame { generated: Some(generated), toolboxes: &toolboxes },
         no_cargo,
     })?;

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use afp_build::{crate_folder, origin};
 use afp_codegen::Origin;
 use afp_new::{Kind, NameError};
 use afp_project::ProjectFile;
@@ -11,7 +12,6 @@ use clap::Args;
 
 use super::print;
 use crate::plan_file::NoPlan;
-use crate::{crate_folder, origin};
 
 /// Arguments of `afpc new`.
 #[derive(Args, Debug)]

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use afp_build::OwnToolboxes;
 use afp_dsl::toolbox::{Template, TemplateKind, Toolbox, Toolboxes};
 use afp_project::ProjectFile;
 use afp_run::{RunError, say};
@@ -12,7 +13,6 @@ use clap::Args;
 
 use super::print;
 use crate::plan_file::NoPlan;
-use crate::toolboxes::OwnToolboxes;
 
 /// Arguments of `afpc templates`.
 #[derive(Args, Debug)]

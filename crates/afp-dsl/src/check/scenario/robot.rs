@@ -2,11 +2,9 @@
 //!
 //! They come from the toolboxes that the plan uses, and from the robot's own.
 
-use std::sync::Arc;
-
 use crate::check::Program;
 use crate::index::{Recorder, Word};
-use crate::toolbox::{Control, Device, Fault, Signal, Toolbox};
+use crate::toolbox::{Control, Device, Fault, Signal};
 use afp_syntax::ast::Name;
 use afp_syntax::diagnostics::words;
 use afp_syntax::source::Span;
@@ -37,26 +35,9 @@ pub(super) enum Found<'a, T> {
 }
 
 impl<'a> Robot<'a> {
-    /// The devices of the robot's toolbox, then of all others that plans use.
-    ///
-    /// The robot's toolbox is the one that was said to be; else one of those in use that declares a robot; else
-    /// the first that does.
+    /// Those that the plans of a program know.
     pub fn of(program: &'a Program<'_>) -> Robot<'a> {
-        let all = program.toolboxes;
-        let is_robot = |toolbox: &&Arc<Toolbox>| toolbox.declares_robot();
-        let own = match all.robot() {
-            Some(name) => all.get(name),
-            None => program.linked.iter().find(is_robot).or_else(|| all.iter().find(is_robot)),
-        };
-        let mut devices: Vec<&Device> = Vec::new();
-        for toolbox in own.into_iter().chain(&program.linked) {
-            for device in &toolbox.devices {
-                if !devices.iter().any(|known| known.name == device.name) {
-                    devices.push(device);
-                }
-            }
-        }
-        Robot { devices }
+        Robot { devices: program.toolboxes.devices(&program.linked) }
     }
 
     /// The device of that name.

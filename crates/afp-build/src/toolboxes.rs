@@ -78,15 +78,35 @@ impl OwnToolboxes {
     /// # Errors
     /// There is no such crate, or the robot's toolbox is wrong.
     pub fn used_by(&self, graph: &Graph) -> Result<Vec<OwnToolbox>, ProjectError> {
+        self.linked(|name| {
+            let used = graph.toolboxes.iter().find(|toolbox| toolbox.name == name);
+            match used {
+                None if self.of_robot().is_some_and(|robot| robot == name) => {
+                    Ok(self.with_built_in()?.get(name).cloned())
+                }
+                used => Ok(used.cloned()),
+            }
+        })
+    }
+
+    /// All of them, with their crates.
+    ///
+    /// # Errors
+    /// There is no such crate, or a toolbox is wrong.
+    pub fn all(&self) -> Result<Vec<OwnToolbox>, ProjectError> {
+        let known = self.with_built_in()?;
+        self.linked(|name| Ok(known.get(name).cloned()))
+    }
+
+    /// Those that are wanted, with their crates.
+    fn linked(
+        &self,
+        wanted: impl Fn(&str) -> Result<Option<Arc<Toolbox>>, ProjectError>,
+    ) -> Result<Vec<OwnToolbox>, ProjectError> {
         let (mut used, mut mistakes) = (Vec::new(), Vec::new());
         for file in &self.files {
             let name = &file.toolbox.name;
-            let mut declared =
-                graph.toolboxes.iter().find(|toolbox| toolbox.name == *name).cloned();
-            if declared.is_none() && self.of_robot() == Some(name) {
-                declared = self.with_built_in()?.get(name).cloned();
-            }
-            let Some(declared) = declared else { continue };
+            let Some(declared) = wanted(name)? else { continue };
             match file.krate.clone() {
                 Ok(krate) => {
                     let (name, source) = (name.clone(), source(file));

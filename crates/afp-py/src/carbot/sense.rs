@@ -1,59 +1,26 @@
-//! Sensors by name, as values that own what they say.
+//! Sensors of the Carbot by names of their own.
 
 use afp_carbot::devices::{
     Battery, Button, Buttons, Camera, ColorSensor, InfraredSensor, Invalid, Odometry, Reading,
     RotatingTelemetry, TouchSensor, Ultrasonic,
 };
 use afp_sim::Simulation;
-use numpy::{IntoPyArray, PyArrayMethods};
-use pyo3::IntoPyObjectExt;
-use pyo3::exceptions::PyAttributeError;
 use pyo3::prelude::*;
 
 use crate::errors::error;
+use crate::sensed::Sensed;
 
 /// What can be sensed.
-const SENSORS: [&str; 9] =
+pub const SENSORS: [&str; 9] =
     ["distance", "bearing", "odometry", "touched", "escape", "battery", "color", "glow", "camera"];
 
-/// What a sensor said.
-pub enum Sensed {
-    Nothing,
-    Truth(bool),
-    Number(f64),
-    Pair(f64, f64),
-    /// As an array.
-    Numbers(Vec<f64>),
-    Picture {
-        rows: usize,
-        columns: usize,
-        rgb: Vec<u8>,
-    },
-}
-
-impl Sensed {
-    /// The value as Python has it.
-    pub fn into_bound(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
-        match self {
-            Sensed::Nothing => Ok(py.None().into_bound(py)),
-            Sensed::Truth(value) => value.into_bound_py_any(py),
-            Sensed::Number(value) => value.into_bound_py_any(py),
-            Sensed::Pair(first, second) => (first, second).into_bound_py_any(py),
-            Sensed::Numbers(values) => Ok(values.into_pyarray(py).into_any()),
-            Sensed::Picture { rows, columns, rgb } => {
-                Ok(rgb.into_pyarray(py).reshape([rows, columns, 3])?.into_any())
-            }
-        }
-    }
-}
-
 /// Reads a sensor. What has not been measured, yet or in the sensor's range, is nothing; a sensor that is broken is an
-/// error.
+/// error. None for a name that is no sensor's.
 ///
 /// # Errors
-/// No such sensor, or one that is broken.
-pub fn sense(sim: &Simulation, name: &str) -> PyResult<Sensed> {
-    match name {
+/// The sensor is broken.
+pub fn named(sim: &Simulation, name: &str) -> Option<PyResult<Sensed>> {
+    Some(match name {
         "distance" => said(name, sim.echo(), |echo| {
             Sensed::Number(echo.distance.map_or(f64::INFINITY, |distance| distance.si()))
         }),
@@ -79,11 +46,8 @@ pub fn sense(sim: &Simulation, name: &str) -> PyResult<Sensed> {
             columns: frame.width,
             rgb: frame.rgb.to_vec(),
         }),
-        _ => Err(PyAttributeError::new_err(format!(
-            "the robot has no '{name}'; its sensors are: {}",
-            SENSORS.join(", ")
-        ))),
-    }
+        _ => return None,
+    })
 }
 
 fn said<T>(name: &str, reading: Reading<T>, take: impl FnOnce(T) -> Sensed) -> PyResult<Sensed> {

@@ -1,0 +1,145 @@
+//! Calls cargo, finds what it made, and shows its errors where people can mend them.
+
+mod blame;
+mod message;
+
+use std::env;
+use std::ffi::OsString;
+use std::io::{BufRead, BufReader, ErrorKind};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use afp_run::{RunError, say};
+use serde_json::Value;
+
+use crate::NotBuilt;
+
+pub use blame::{Blame, Generated};
+use message::Message;
+
+/// What cargo shall build.
+pub struct Job<'a> {
+    /// The folder of the crate.
+    pub folder: &'a Path,
+    /// Where cargo puts what it makes, unless the environment says otherwise; else below the folder.
+    pub target: Option<&'a Path>,
+    /// What builds for another machine.
+    pub toolchain: Option<&'a Toolchain>,
+    /// What is wanted of it.
+    pub artifact: Artifact,
+    /// Where errors come from.
+    pub blame: Blame<'a>,
+    /// What to say when there is no cargo.
+    pub no_cargo: RunError,
+}
+
+/// How cargo builds for another machine.
+#[derive(Debug)]
+pub struct Toolchain {
+    /// The machine, as Rust calls it.
+    pub triple: &'static str,
+    /// What cargo and the compilers that it calls find in their environment.
+    pub environment: Vec<(String, OsString)>,
+}
+
+/// What is wanted of a crate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Artifact {
+    /// Its binary, if it has one.
+    Program,
+    /// Its library as Python loads it.
+    Extension,
+}
+
+/// What pyo3 reads to build an extension for any Python without asking one.
+const FOR_ANY_PYTHON: [(&str, &str); 2] =
+    [("PYO3_NO_PYTHON", "1"), ("PYO3_BUILD_EXTENSION_MODULE", "1")];
+
+/// Builds a crate and gives the path of the artifact that is wanted.
+///
+/// # Errors
+/// There is no cargo, or it fails; standard error has been told why.
+pub fn build(job: Job<'_>) -> Result<Option<PathBuf>, NotBuilt> {
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = Command::new(&cargo);
+    command.args(["build", "--release", "--message-format=json-diagnostic-rendered-ansi"]);
+    command.arg("--manifest-path").arg(job.folder.join("Cargo.toml"));
+    if let (Some(target), None) = (job.target, env::var_os("CARGO_TARGET_DIR")) {
+        command.arg("--target-dir").arg(target);
+    }
+    if let Some(toolchain) = job.toolchain {
+        command.args(["--target", toolchain.triple]);
+        command.envs(toolchain.environment.iter().map(|(name, value)| (name, value)));
+    }
+    if job.artifact == Artifact::Extension {
+        command.envs(FOR_ANY_PYTHON);
+    }
+    let started = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn();
+    let mut child = started.map_err(|error| match error.kind() {
+        ErrorKind::NotFound => job.no_cargo,
+        _ => RunError::file("cannot start", cargo.as_ref())(error),
+    })?;
+    let (mut built, mut messages) = (None, Vec::new());
+    if let Some(out) = child.stdout.take() {
+        let lines = BufReader::new(out).lines().map_while(Result::ok);
+        for line in lines.filter_map(|line| serde_json::from_str::<Value>(&line).ok()) {
+            built = job.artifact.path(&line).or(built);
+            messages.extend(Message::read(&line));
+        }
+    }
+    let status = child.wait().map_err(RunError::file("cannot wait for", cargo.as_ref()))?;
+    // Only now, so that cargo's progress and the errors do not run into one another.
+    messages.iter().for_each(|message| job.blame.tell(message));
+    match status.success() {
+        true => Ok(built),
+        false => {
+            let folder = job.folder.display();
+            say(format_args!("error: cargo could not build the crate in '{folder}'"));
+            Err(NotBuilt::Told)
+        }
+    }
+}
+
+impl Artifact {
+    /// Where it is, if a message of cargo tells of it.
+    fn path(self, line: &Value) -> Option<PathBuf> {
+        match self {
+            Artifact::Program => line.get("executable")?.as_str().map(PathBuf::from),
+            Artifact::Extension => {
+                let kinds = line.get("target")?.get("crate_types")?.as_array()?;
+                if !kinds.iter().any(|kind| kind == "cdylib") {
+                    return None;
+                }
+                let files = line.get("filenames")?.as_array()?;
+                files.iter().filter_map(Value::as_str).map(PathBuf::from).find(|file| {
+                    let ending = file.extension().and_then(|ending| ending.to_str());
+                    matches!(ending, Some("so" | "dylib" | "dll"))
+                })
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn artifacts_are_found_in_what_cargo_says() {
+        let library = json!({ "reason": "compiler-artifact", "executable": null,
+            "target": { "crate_types": ["cdylib"] },
+            "filenames": ["/t/libx.so", "/t/libx.rlib"] });
+        let program = json!({ "reason": "compiler-artifact", "executable": "/t/x",
+            "target": { "crate_types": ["bin"] }, "filenames": ["/t/x"] });
+        let end = json!({ "reason": "build-finished" });
+        for (line, a_program, an_extension) in [
+            (&library, None, Some("/t/libx.so")),
+            (&program, Some("/t/x"), None),
+            (&end, None, None),
+        ] {
+            assert_eq!(Artifact::Program.path(line), a_program.map(PathBuf::from));
+            assert_eq!(Artifact::Extension.path(line), an_extension.map(PathBuf::from));
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! What is built once and kept.
+
+mod folder;
+mod fresh;
+
+use std::path::{Path, PathBuf};
+
+use afp_codegen::{LinkOptions, extension_files, runner_files};
+use afp_project::RobotLink;
+use afp_run::{RunError, hash, say};
+
+use crate::cargo::{self, Artifact, Blame, Job};
+use crate::parts::Parts;
+use crate::{NotBuilt, crate_folder, origin};
+
+/// What parts are linked into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Product {
+    /// The command line.
+    Runner,
+    /// The native half of the Python package.
+    Extension,
+}
+
+impl Product {
+    /// What it is called in the names of folders and packages.
+    fn name(self) -> &'static str {
+        match self {
+            Product::Runner => "runner",
+            Product::Extension => "extension",
+        }
+    }
+
+    /// What it is called in messages.
+    fn words(self) -> &'static str {
+        match self {
+            Product::Runner => "a runner",
+            Product::Extension => "a Python extension",
+        }
+    }
+}
+
+/// The product with these parts, built if need be.
+///
+/// # Errors
+/// No folder that can be written, no cargo, a crate that does not build.
+pub fn product(parts: &Parts<'_>, product: Product) -> Result<PathBuf, NotBuilt> {
+    let kept = Kept::new(parts, product)?;
+    match fresh::program(&kept.folder, &parts.manifests()) {
+        Some(built) => Ok(built),
+        None => kept.build(parts),
+    }
+}
+
+/// A product and where it is kept.
+struct Kept {
+    product: Product,
+    options: LinkOptions,
+    folder: PathBuf,
+    /// Where cargo builds.
+    target: PathBuf,
+}
+
+impl Kept {
+    fn new(parts: &Parts<'_>, product: Product) -> Result<Kept, RunError> {
+        let mut options = LinkOptions {
+            package: String::new(),
+            origin: origin::of_afp(parts.project)?,
+            robot: parts.robot.as_ref().map(RobotLink::rust_type),
+            toolboxes: Vec::new(),
+            dependencies: parts.crates().map(origin::dependency).collect(),
+        };
+        for own in &parts.toolboxes {
+            options.toolboxes.push((own.name.clone(), own.krate.rust_path()));
+        }
+        let (inputs, name) =
+            (hash(&format!("{} {options:?}", env!("CARGO_PKG_VERSION"))), product.name());
+        options.package = format!("afp-{name}-{inputs}");
+        let below = Path::new(name).join(&inputs);
+        let folder::Folder { kept, build } = folder::find(&parts.project.folder, &below)?;
+        Ok(Kept { product, options, folder: kept.join(below), target: build })
+    }
+
+    fn build(&self, parts: &Parts<'_>) -> Result<PathBuf, NotBuilt> {
+        let names = parts.names();
+        let no_cargo = RunError::Missing {
+            message: format!(
+                "the plan needs {names}, whose Rust has to be built first: there is no cargo"
+            ),
+            help:
+                "install Rust from https://rustup.rs, then run the same command again; plans that \
+                   use built-in toolboxes alone run without it"
+                    .to_owned(),
+        };
+        let files = match self.product {
+            Product::Runner => runner_files(&self.options),
+            Product::Extension => extension_files(&self.options),
+        };
+        let files = files.map_err(|path| {
+            RunError::usage(format!("'{path}' is no path of a module"), "mend 'module' in afp.toml")
+        })?;
+        let texts: Vec<_> = files.iter().map(|(path, text)| (&**path, &**text)).collect();
+        crate_folder::write(&self.folder, &texts, &self.options.origin)?;
+        say(format_args!("building {} for {names} (once) ...", self.product.words()));
+        let begun = fresh::begin(&self.folder)?;
+        let built = cargo::build(Job {
+            folder: &self.folder,
+            target: Some(&self.target),
+            toolchain: None,
+            artifact: match self.product {
+                Product::Runner => Artifact::Program,
+                Product::Extension => Artifact::Extension,
+            },
+            blame: Blame { generated: None, toolboxes: &parts.toolboxes },
+            no_cargo,
+        })?;
+        let built = built.ok_or(NotBuilt::Told)?;
+        fresh::done(&self.folder, &built, begun)?;
+        Ok(built)
+    }
+}

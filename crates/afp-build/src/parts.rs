@@ -1,0 +1,142 @@
+//! What is linked: the robot of a project, and toolboxes.
+
+use std::path::PathBuf;
+
+use afp_dsl::graph::Graph;
+use afp_project::{CrateLink, ProjectFile, RobotLink};
+use afp_run::RunError;
+
+use crate::NotBuilt;
+use crate::kept::{self, Product};
+use crate::toolboxes::{OwnToolbox, OwnToolboxes};
+
+/// What is linked into one program or extension.
+pub struct Parts<'a> {
+    pub(crate) project: &'a ProjectFile,
+    pub(crate) robot: Option<RobotLink>,
+    pub(crate) toolboxes: Vec<OwnToolbox>,
+}
+
+impl<'a> Parts<'a> {
+    /// What some plans need; none for no plans.
+    ///
+    /// # Errors
+    /// A robot or a toolbox without a crate, two robots, two toolboxes of one name.
+    pub fn of_plans(
+        plans: impl IntoIterator<Item = (&'a OwnToolboxes, &'a Graph)>,
+    ) -> Result<Option<Self>, RunError> {
+        let mut parts: Option<Parts<'a>> = None;
+        for (own, graph) in plans {
+            let (robot, toolboxes) = (own.project.robot()?, own.used_by(graph)?);
+            let robot_of_first = || Parts::new(&own.project, robot.clone());
+            parts.get_or_insert_with(robot_of_first).add(robot.as_ref(), toolboxes)?;
+        }
+        Ok(parts)
+    }
+
+    /// The robot of a project.
+    ///
+    /// # Errors
+    /// It has no crate.
+    pub fn of_robot(project: &'a ProjectFile) -> Result<Self, RunError> {
+        Ok(Parts::new(project, project.robot()?))
+    }
+
+    /// All that a project has of its own.
+    ///
+    /// # Errors
+    /// A robot or a toolbox without a crate, a toolbox file that is wrong.
+    pub fn of_project(own: &'a OwnToolboxes) -> Result<Self, RunError> {
+        let robot = own.project.robot()?;
+        let mut parts = Parts::new(&own.project, robot.clone());
+        parts.add(robot.as_ref(), own.all()?)?;
+        Ok(parts)
+    }
+
+    fn new(project: &'a ProjectFile, robot: Option<RobotLink>) -> Self {
+        Parts { project, robot, toolboxes: Vec::new() }
+    }
+
+    /// Adds the toolboxes of a plan for a robot.
+    fn add(
+        &mut self,
+        robot: Option<&RobotLink>,
+        toolboxes: Vec<OwnToolbox>,
+    ) -> Result<(), RunError> {
+        if self.robot.as_ref() != robot {
+            let name = |robot: Option<&RobotLink>| {
+                robot.map_or("the Carbot".to_owned(), |robot| format!("'{}'", robot.rust_type()))
+            };
+            let (one, other) = (name(self.robot.as_ref()), name(robot));
+            return Err(RunError::usage(
+                format!("these plans are for two robots: {one} and {other}"),
+                "run those of each project apart",
+            ));
+        }
+        for toolbox in toolboxes {
+            match self.toolboxes.iter().find(|known| known.name == toolbox.name) {
+                None => self.toolboxes.push(toolbox),
+                Some(known) if known.krate == toolbox.krate => {}
+                Some(known) => return Err(two_of_one_name(known, &toolbox)),
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether there is nothing beside the Carbot and the built-in toolboxes.
+    pub fn is_empty(&self) -> bool {
+        self.robot.is_none() && self.toolboxes.is_empty()
+    }
+
+    /// Whether a program with a robot (none for the Carbot) and toolboxes has all of it.
+    pub fn are_in(&self, robot: Option<&str>, toolboxes: &[&str]) -> bool {
+        let own = self.robot.as_ref().map(RobotLink::rust_type);
+        let has = |own: &OwnToolbox| toolboxes.contains(&&*own.name);
+        own.as_deref() == robot && self.toolboxes.iter().all(has)
+    }
+
+    /// The file that has them linked in: what was kept of an earlier build if nothing has changed since, else built now.
+    ///
+    /// # Errors
+    /// No folder that can be written, no cargo, a crate that does not build.
+    pub fn product(mut self, product: Product) -> Result<PathBuf, NotBuilt> {
+        // The same whatever the order of the plans.
+        self.toolboxes.sort_by(|one, other| one.name.cmp(&other.name));
+        kept::product(&self, product)
+    }
+
+    pub(crate) fn crates(&self) -> impl Iterator<Item = &CrateLink> {
+        let robot = self.robot.iter().map(|robot| &robot.krate);
+        self.toolboxes.iter().map(|own| &own.krate).chain(robot)
+    }
+
+    /// What they are built from beside Rust: the manifests of their crates.
+    pub(crate) fn manifests(&self) -> Vec<PathBuf> {
+        let folders = self.crates().filter_map(|krate| krate.folder.as_ref());
+        folders.map(|folder| folder.join("Cargo.toml")).collect()
+    }
+
+    /// `the toolbox 'a'`, `the robot 'b' with the toolboxes 'c' and 'd'`.
+    pub fn names(&self) -> String {
+        let names: Vec<_> = self.toolboxes.iter().map(|own| format!("'{}'", own.name)).collect();
+        let toolboxes = match names.as_slice() {
+            [] => String::new(),
+            [one] => format!("the toolbox {one}"),
+            _ => format!("the toolboxes {}", names.join(" and ")),
+        };
+        let robot = self.robot.as_ref().map(|robot| format!("the robot '{}'", robot.rust_type()));
+        match (robot, toolboxes.is_empty()) {
+            (None, _) => toolboxes,
+            (Some(robot), true) => robot,
+            (Some(robot), false) => format!("{robot} with {toolboxes}"),
+        }
+    }
+}
+
+fn two_of_one_name(one: &OwnToolbox, other: &OwnToolbox) -> RunError {
+    let (path, another) = (&one.source.name, &other.source.name);
+    RunError::usage(
+        format!("'{path}' and '{another}' are two toolboxes called '{}'", one.name),
+        "one program cannot have both: run what uses them apart",
+    )
+}

@@ -1,0 +1,161 @@
+//! The crates that link a project's robot and toolboxes: the command line with them, and the Python extension.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::layout::file;
+use crate::manifest::{Dependency, Origin, manifest};
+
+/// What is linked.
+#[derive(Clone, Debug)]
+pub struct LinkOptions {
+    /// The name of the package and of its program.
+    pub package: String,
+    /// Where the `afp` crates come from.
+    pub origin: Origin,
+    /// The path of the robot's type; without one it is the Carbot.
+    pub robot: Option<String>,
+    /// The toolboxes: the name behind `use`, and the path of the module that has `templates`.
+    pub toolboxes: Vec<(String, String)>,
+    /// The crates of the robot and of the toolboxes.
+    pub dependencies: Vec<Dependency>,
+}
+
+/// A plan is interpreted here: what counts is that the build is done soon.
+const PROFILE: &str = "[profile.release]\n\
+                       debug = \"line-tables-only\"\n";
+
+/// The files of a runner: path below its folder, and text.
+///
+/// # Errors
+/// A path that Rust cannot say; it is given back.
+pub fn runner_files(options: &LinkOptions) -> Result<Vec<(String, String)>, String> {
+    let dependencies = dependencies(options, Dependency::ours("afpc", &options.origin));
+    let manifest = manifest(" run' as a runner", &options.package, dependencies, PROFILE);
+    Ok(vec![("Cargo.toml".to_owned(), manifest), ("src/main.rs".to_owned(), program(options)?)])
+}
+
+/// The files of a Python extension: path below its folder, and text.
+///
+/// # Errors
+/// A path that Rust cannot say; it is given back.
+pub fn extension_files(options: &LinkOptions) -> Result<Vec<(String, String)>, String> {
+    let ours = Dependency::ours("afp-py", &options.origin);
+    // The Carbot is a feature of it.
+    let ours = if options.robot.is_some() { ours.without_defaults() } else { ours };
+    let library = format!("[lib]\ncrate-type = [\"cdylib\"]\n\n{PROFILE}");
+    let manifest =
+        manifest("' for Python", &options.package, dependencies(options, ours), &library);
+    Ok(vec![
+        ("Cargo.toml".to_owned(), manifest),
+        ("build.rs".to_owned(), build_script()),
+        ("src/lib.rs".to_owned(), extension(options)?),
+    ])
+}
+
+/// What the crate needs beside the one that does everything.
+fn dependencies(options: &LinkOptions, ours: Dependency) -> Vec<Dependency> {
+    let mut dependencies = options.dependencies.clone();
+    dependencies.push(ours);
+    if options.robot.is_some() {
+        let built_in = ["afp-carbot", "afp-std"];
+        dependencies.extend(built_in.map(|name| Dependency::ours(name, &options.origin)));
+    }
+    dependencies
+}
+
+/// What is linked in, for the heads of files.
+fn about(options: &LinkOptions) -> String {
+    let names = options.toolboxes.iter().map(|(name, _)| name).chain(&options.robot);
+    let names: Vec<_> = names.map(|name| format!("`{name}`")).collect();
+    names.join(", ")
+}
+
+/// A closure that registers the templates, those of the built-in toolboxes too for a robot of one's own.
+fn register(options: &LinkOptions) -> Result<TokenStream, String> {
+    let own = options.toolboxes.iter().map(|(_, path)| {
+        let home = tokens(path)?;
+        Ok(quote!(#home::templates::register(registry);))
+    });
+    let own = own.collect::<Result<TokenStream, String>>()?;
+    Ok(match options.robot.as_deref().map(tokens).transpose()? {
+        None => quote!(|registry| { #own }),
+        // Templates of the Carbot need its devices, which another robot may have in part.
+        Some(ty) => quote!(|registry| {
+            afp_std::register!(registry, #ty);
+            afp_carbot::register!(registry, #ty);
+            #own
+        }),
+    })
+}
+
+fn program(options: &LinkOptions) -> Result<String, String> {
+    let about = format!(" The command line with {} linked in.", about(options));
+    let register = register(options)?;
+    let toolboxes = options.toolboxes.iter().map(|(name, _)| name);
+    let (robot, own_robot) = match &options.robot {
+        None => (quote!(afpc::carbot(#register)), quote!(None)),
+        Some(name) => {
+            let ty = tokens(name)?;
+            (quote!(afpc::simulated::<#ty, _>(#register)), quote!(Some(#name)))
+        }
+    };
+    Ok(file(quote! {
+        #![doc = #about]
+        use std::process::ExitCode;
+
+        use afpc::Linked;
+
+        fn main() -> ExitCode {
+            let robot = #robot;
+            afpc::main(&Linked {
+                robot: &robot,
+                own_robot: #own_robot,
+                toolboxes: &[#(#toolboxes),*],
+            })
+        }
+    }))
+}
+
+fn extension(options: &LinkOptions) -> Result<String, String> {
+    let about =
+        format!(" The native half of the Python package with {} linked in.", about(options));
+    let register = register(options)?;
+    let toolboxes = options.toolboxes.iter().map(|(name, _)| name);
+    let toolboxes = quote!(&[#(#toolboxes),*]);
+    let link = match &options.robot {
+        None => quote!(afp_py::carbot(#toolboxes, #register)),
+        Some(name) => {
+            let ty = tokens(name)?;
+            quote!(afp_py::linked::<#ty>(#name, #toolboxes, #register))
+        }
+    };
+    Ok(file(quote! {
+        #![doc = #about]
+        use afp_py::pyo3::prelude::*;
+
+        #[pymodule]
+        #[pyo3(crate = "afp_py::pyo3")]
+        fn _afp(module: &Bound<'_, PyModule>) -> PyResult<()> {
+            afp_py::fill(module, #link)
+        }
+    }))
+}
+
+/// Lets the linker of a Mac leave to Python what Python brings.
+fn build_script() -> String {
+    file(quote! {
+        #![doc = " What Python brings is not there when the extension is linked."]
+        fn main() {
+            if std::env::var("CARGO_CFG_TARGET_VENDOR").is_ok_and(|vendor| vendor == "apple") {
+                println!("cargo::rustc-cdylib-link-arg=-undefined");
+                println!("cargo::rustc-cdylib-link-arg=dynamic_lookup");
+            }
+        }
+    })
+}
+
+/// The tokens of a path in Rust.
+fn tokens(path: &str) -> Result<TokenStream, String> {
+    path.parse().map_err(|_| path.to_owned())
+}

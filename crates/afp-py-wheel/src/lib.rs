@@ -1,0 +1,35 @@
+//! The native half of the Python package as wheels have it: the Carbot, and the way to the extensions of projects.
+
+use std::path::{Path, PathBuf};
+
+use afp_build::{NotBuilt, OwnToolboxes, Parts, Product};
+use afp_project::ProjectFile;
+use afp_py::pyo3;
+use afp_py::pyo3::prelude::*;
+
+/// The native half of the package `afp`.
+#[pymodule]
+#[pyo3(crate = "afp_py::pyo3")]
+fn _afp(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    afp_py::fill(module, afp_py::carbot(&[], |_| {}))?;
+    module.add_function(pyo3::wrap_pyfunction!(extension, module)?)
+}
+
+/// The extension with the robot and the toolboxes of the project in a folder, built if need be; `None` where the project
+/// has nothing of its own.
+#[pyfunction]
+#[pyo3(crate = "afp_py::pyo3")]
+fn extension(py: Python<'_>, folder: PathBuf) -> PyResult<Option<PathBuf>> {
+    py.detach(|| build(&folder)).map_err(|why| match why {
+        NotBuilt::Why(why) => afp_py::run_error(&why),
+        NotBuilt::Told => {
+            afp_py::error("the project's Rust does not compile; standard error says why")
+        }
+    })
+}
+
+fn build(folder: &Path) -> Result<Option<PathBuf>, NotBuilt> {
+    let own = OwnToolboxes::read(ProjectFile::find(folder)?)?;
+    let parts = Parts::of_project(&own)?;
+    if parts.is_empty() { Ok(None) } else { parts.product(Product::Extension).map(Some) }
+}

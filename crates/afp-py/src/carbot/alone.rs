@@ -1,0 +1,133 @@
+//! `Carbot`: the simulated robot without a plan, driven from Python step by step.
+
+use std::sync::{Mutex, MutexGuard, TryLockError};
+
+use afp_carbot::devices::Navigator;
+use afp_core::quantity::{AngularSpeed, Speed};
+use afp_core::{Duration, Environment, Instant};
+use afp_sim::{HALF_LENGTH, HALF_WIDTH, Simulation, World as Room};
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::errors::error;
+use crate::link::link;
+use crate::pause::{Halt, Pause};
+use crate::value::no_pickle;
+use crate::world::World;
+
+/// Commands are repeated this often, well within the robot's dead-man time.
+const AGAIN: Duration = Duration::from_millis(100);
+
+/// The simulated robot in its world, without a plan.
+#[pyclass(module = "afp", frozen)]
+pub struct Carbot {
+    sim: Mutex<Simulation>,
+    obstacles: Vec<String>,
+}
+
+#[pymethods]
+impl Carbot {
+    #[new]
+    #[pyo3(signature = (world, seed=0))]
+    fn new(world: &World, seed: u64) -> PyResult<Self> {
+        let other = || error("the world is that of another robot");
+        let room = world.loaded.world.as_any().downcast_ref::<Room>().ok_or_else(other)?;
+        let sim = Simulation::new(room, seed).map_err(|why| error(why.message))?;
+        let obstacles = room.obstacles.iter().map(|obstacle| obstacle.name.clone()).collect();
+        Ok(Carbot { sim: Mutex::new(sim), obstacles })
+    }
+
+    /// Half of the robot's length, metres.
+    #[classattr]
+    fn half_length() -> f64 {
+        HALF_LENGTH
+    }
+
+    /// Half of the robot's width, metres.
+    #[classattr]
+    fn half_width() -> f64 {
+        HALF_WIDTH
+    }
+
+    /// Drives with a speed (m/s) and a turn rate (rad/s, to the left) for some seconds; Ctrl-C interrupts it.
+    fn drive(&self, py: Python<'_>, speed: f64, turn: f64, time: f64) -> PyResult<()> {
+        let good = speed.is_finite() && turn.is_finite() && time.is_finite() && time >= 0.0;
+        if !good {
+            return Err(PyValueError::new_err(
+                "speed, turn and time must be finite, time not negative",
+            ));
+        }
+        let mut sim = self.lock()?;
+        let sim = &mut *sim;
+        py.detach(|| drive(sim, speed, turn, Duration::from_secs_f64(time)))
+    }
+
+    /// Stops the wheels.
+    fn stop(&self) -> PyResult<()> {
+        let mut sim = self.lock()?;
+        let now = sim.now();
+        sim.stop(now);
+        Ok(())
+    }
+
+    /// The time, seconds.
+    #[getter]
+    fn time(&self) -> PyResult<f64> {
+        Ok(self.lock()?.now().as_secs_f64())
+    }
+
+    /// Where the robot truly is: x, y in metres, heading in radians.
+    #[getter]
+    fn pose(&self) -> PyResult<(f64, f64, f64)> {
+        let pose = self.lock()?.truth().pose();
+        Ok((pose.x, pose.y, pose.heading))
+    }
+
+    /// What the robot has run into, in order of time; what it touches at different times counts each time.
+    #[getter]
+    fn touched(&self) -> PyResult<Vec<String>> {
+        let sim = self.lock()?;
+        let truth = sim.truth();
+        let names =
+            truth.collisions().iter().map(|collision| self.obstacles.get(collision.obstacle));
+        Ok(names.map(|name| name.cloned().unwrap_or_default()).collect())
+    }
+
+    /// What a sensor says: see `Robot`.
+    fn sense<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let sensed = link().sense(&*self.lock()?, name, true)?;
+        sensed.into_bound(py)
+    }
+
+    fn __reduce__(&self) -> PyResult<()> {
+        Err(no_pickle("Carbot", "make it anew from its world and seed"))
+    }
+}
+
+impl Carbot {
+    fn lock(&self) -> PyResult<MutexGuard<'_, Simulation>> {
+        match self.sim.try_lock() {
+            Ok(sim) => Ok(sim),
+            Err(TryLockError::WouldBlock) => {
+                Err(PyRuntimeError::new_err("another thread drives this robot"))
+            }
+            Err(TryLockError::Poisoned(_)) => Err(PyRuntimeError::new_err(
+                "the simulation broke in an earlier call; make a new one",
+            )),
+        }
+    }
+}
+
+fn drive(sim: &mut Simulation, speed: f64, turn: f64, time: Duration) -> PyResult<()> {
+    let mut pause = Pause::of_signals();
+    let end: Instant = sim.now() + time;
+    while sim.now() < end {
+        let now = sim.now();
+        Navigator::drive(sim, Speed::from_si(speed), AngularSpeed::from_si(turn), now);
+        sim.advance_to(end.min(now + AGAIN));
+        if let Some(Halt::Raised(why)) = pause.look() {
+            return Err(why);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,92 @@
+//! Components in Python for whoever makes plans: an engine makes many, each with a robot of its own.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use pyo3::prelude::*;
+
+use super::{AnyRegistry, Host, register};
+use crate::link::link;
+use crate::toolbox::Toolbox;
+
+/// Components in Python for engines that make plans by themselves: each plan gets a robot of its own.
+pub struct Components<'a> {
+    toolboxes: &'a [Py<Toolbox>],
+    hosts: Mutex<Vec<Arc<Host>>>,
+    broken: Mutex<Option<PyErr>>,
+}
+
+impl<'a> Components<'a> {
+    /// For the plans of these toolboxes.
+    ///
+    /// # Errors
+    /// A toolbox that can no longer be read.
+    pub fn new(py: Python<'_>, toolboxes: &'a [Py<Toolbox>]) -> PyResult<Self> {
+        for toolbox in toolboxes {
+            toolbox.bind(py).get().declared()?;
+        }
+        Ok(Components { toolboxes, hosts: Mutex::default(), broken: Mutex::default() })
+    }
+
+    /// Registers what implements the templates, for one plan.
+    pub fn register(&self, registry: &mut dyn AnyRegistry) {
+        if self.toolboxes.is_empty() {
+            return;
+        }
+        let registered = Python::attach(|py| {
+            let host = Arc::new(Host::new(link().robot(py)?));
+            for toolbox in self.toolboxes {
+                register(py, toolbox.get(), &host, registry)?;
+            }
+            Ok(host)
+        });
+        match registered {
+            Ok(host) => {
+                let mut hosts = self.hosts.lock().unwrap_or_else(PoisonError::into_inner);
+                // Those whose plans are gone have nothing more to tell.
+                hosts.retain(|host| Arc::strong_count(host) > 1 || host.is_aborted());
+                hosts.push(host);
+            }
+            Err(why) => *self.broken.lock().unwrap_or_else(PoisonError::into_inner) = Some(why),
+        }
+    }
+
+    /// What the components of the one plan share that was registered; nothing without components.
+    ///
+    /// # Errors
+    /// As [`Components::raised`].
+    pub fn host(self, py: Python<'_>) -> PyResult<Option<Arc<Host>>> {
+        self.raised(py)?;
+        Ok(self.hosts.into_inner().unwrap_or_else(PoisonError::into_inner).pop())
+    }
+
+    /// Whether there is something to raise.
+    pub fn is_over(&self) -> bool {
+        if self.toolboxes.is_empty() {
+            return false;
+        }
+        let broken = self.broken.lock().unwrap_or_else(PoisonError::into_inner).is_some();
+        let hosts = self.hosts.lock().unwrap_or_else(PoisonError::into_inner);
+        broken || hosts.iter().any(|host| host.is_aborted())
+    }
+
+    /// Interrupts the components that are being called in other threads.
+    ///
+    /// # Errors
+    /// As [`Host::interrupt`].
+    pub fn interrupt(&self, py: Python<'_>) -> PyResult<()> {
+        let hosts = self.hosts.lock().unwrap_or_else(PoisonError::into_inner);
+        hosts.iter().try_for_each(|host| host.interrupt(py))
+    }
+
+    /// Raises what cannot be an outcome: a toolbox that broke, `SystemExit` and the like.
+    ///
+    /// # Errors
+    /// What was raised.
+    pub fn raised(&self, py: Python<'_>) -> PyResult<()> {
+        if let Some(why) = self.broken.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            return Err(why);
+        }
+        let hosts = self.hosts.lock().unwrap_or_else(PoisonError::into_inner);
+        hosts.iter().find_map(|host| host.aborted(py)).map_or(Ok(()), Err)
+    }
+}
