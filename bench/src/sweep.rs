@@ -52,6 +52,7 @@ pub fn run(rounds: u32, report: &mut Report) {
     let compiled = afp_dsl::compile(&source, &toolboxes, &Texts::default());
     let Some(graph) = &compiled.graph else { panic!("{}", compiled.render(false)) };
     let mut sweep = Sweep {
+        caveat: None,
         presses: Vec::new(),
         failures: Vec::new(),
         plan: source.name.clone(),

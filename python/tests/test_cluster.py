@@ -83,7 +83,7 @@ def creeping(kept: Any) -> afp.Plan:
     """A plan with an actor that is known to nobody else, and that leads back to its toolbox."""
     tools = afp.Toolbox("tools", doc="Sent along.")
 
-    @tools.actor(states={"There": {"went": afp.Length}}, uses=["drive"])
+    @tools.actor(states={"There": {"went": afp.Length}}, uses=["navigator"])
     async def Creep(robot: afp.Robot, far: afp.Length) -> Any:
         assert kept is not None and "Creep" in tools.implemented
         while robot.odometry[0] < far:

@@ -27,6 +27,7 @@ def test_a_class_for_a_declared_template() -> None:
             in side: Side = Side.left
             in live speed: speed = 0.2 m/s
             out went: length on There
+            uses navigator
             every 20 ms
             state There
             state Blocked
@@ -60,7 +61,7 @@ def test_a_class_for_a_declared_template() -> None:
 def test_decorators_declare_templates() -> None:
     tools = afp.Toolbox("tools", doc="Made in Python.")
 
-    @tools.actor(states={"There": {"went": afp.Length}, "Blocked": {}}, every="20 ms")
+    @tools.actor(states={"There": {"went": afp.Length}, "Blocked": {}}, uses="navigator", every="20 ms")
     async def Creep(robot: afp.Robot, far: afp.Length, speed: afp.Speed = 0.2) -> object:
         """Creeps ahead."""
         while robot.odometry[0] < far:
@@ -122,7 +123,11 @@ def test_an_exception_becomes_error_with_its_traceback() -> None:
         ("('Told', {'value': 'x'})", "expected a float, not a str"),
         ("('Told', {'value': afp.deg(3)})", "not a quantity in rad"),
         ("('Done', {'value': 1.0})", "carries no output 'value'"),
-        ("('Done',)", "length"),
+        ("('Done',)", "one of Done, Told, or a pair"),
+        ("('Done', {}, 3)", "one of Done, Told, or a pair"),
+        ("('Told', {'value': float('nan')})", "the output 'value' of 'Says' is NaN; outputs are finite numbers"),
+        ("robot.drive(0.1)", "'Says' commands 'navigator' without saying so"),
+        ("robot.point(0.1)", "'Says' commands 'rotator' without saying so"),
         ("robot.smell", "no attribute 'smell'"),
         ("robot.drive(float('inf'))", "finite"),
     ],
@@ -143,7 +148,7 @@ def test_interruption_cancels_a_coroutine() -> None:
     tools = afp.Toolbox("tools")
     ends: list[str] = []
 
-    @tools.actor(states=["Done"])
+    @tools.actor(states=["Done"], uses="navigator")
     async def Forever(robot: afp.Robot) -> str:
         try:
             while True:

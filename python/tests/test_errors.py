@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from functools import partial
+from typing import Any, Optional
 
 import numpy as np
 import pytest
@@ -36,6 +37,11 @@ SAID: list[tuple[str, type[Exception], str]] = [
     ("plan.bind('backupCollision', 'distance', None)", TypeError, "expected a text, a number or a quantity, not None"),
     ("tools.actor(states='Done')", TypeError, "'Done' is one name; states and events are a list: ['Done']"),
     ("tools.computation(states=['Done'])(lambda: 'Done')", TypeError, "has no name of its own: give name="),
+    ("tools.supervisor(events=['Seen'])(looks)", TypeError, "'looks' is 'async def'; a supervisor is a plain function"),
+    ("tools.actor(states=['Done'])(yields)", TypeError, "'yields' yields; an 'async def' actor awaits afp.tick()"),
+    ("tools.computation(states=['Done'])(partial)", TypeError, "is no function of its own: write one that calls it"),
+    ("tools.actor(states=['Done'])(hidden)", TypeError, "names 'Decimal', which is not there while the program runs"),
+    ("tools.actor(states=['Done'])(maybe)", TypeError, "has the hint Optional[float], and no type of the language is like it"),
     ("tools.implement(3)", TypeError, "a component is a class or a function, not 3"),
 ]
 
@@ -45,7 +51,17 @@ def test_an_error_says_what_to_do(tried: str, kind: type[Exception], said: str, 
     def simulate(**options: Any) -> afp.Simulation:
         return afp.Simulation(wall_following, **options)
 
-    names = {"afp": afp, "plan": wall_following, "sim": simulate(), "simulate": simulate, "tools": afp.Toolbox("tools")}
+    async def looks(robot: afp.Robot) -> None: ...
+
+    async def yields(robot: afp.Robot) -> Any:
+        yield "Done"
+
+    async def hidden(robot: afp.Robot, far: "Decimal") -> None: ...  # type: ignore[name-defined]  # noqa: F821
+
+    async def maybe(robot: afp.Robot, far: Optional[float]) -> None: ...
+
+    components = {"looks": looks, "yields": yields, "hidden": hidden, "maybe": maybe, "partial": partial(looks, 1)}
+    names = components | {"afp": afp, "plan": wall_following, "sim": simulate(), "simulate": simulate, "tools": afp.Toolbox("tools")}
     with pytest.raises(kind) as error:
         eval(tried, names)
     assert said in str(error.value)

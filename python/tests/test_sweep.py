@@ -172,3 +172,32 @@ def test_tables(tmp_path: Path) -> None:
     assert runs.plot("seed", "distance_m").get_ylabel() == "distance [m]"
     with pytest.raises(KeyError, match="no column"):
         runs.plot("nothing")
+
+
+def test_a_command_says_when_it_does_something_else(wall_following: afp.Plan) -> None:
+    def command(plan: afp.Plan) -> str:
+        runs = afp.sweep(plan, worlds="random:1", until=0.5, progress=False)
+        [row] = list(runs)
+        return str(row["command"])
+
+    assert "#" not in command(wall_following)
+    wall_following.set_entry_value("walldist", afp.cm(31))
+    assert command(wall_following).endswith("  # the plan has been changed and not saved")
+    assert command(afp.Plan(wall_following.text)).endswith("  # the plan has no file")
+    tools = afp.Toolbox("tools")
+    with_python = afp.Plan(wall_following.text, toolboxes=(tools,))
+    assert command(with_python).endswith("  # components are in Python: run it there")
+
+
+def test_the_bar_is_drawn_ten_times_a_second_and_at_the_end() -> None:
+    from afp.sweeps import Bar
+
+    shown: list[tuple[str, bool]] = []
+    clock = iter(number / 100 for number in range(10_000))
+    bar = Bar(lambda line, last: shown.append((line, last)), lambda: next(clock))
+    for done in range(1, 201):
+        bar(done, 200)
+    bar(-1, 200)
+    assert 15 <= len(shown) <= 40
+    assert shown[0][0].endswith(" 1 of 200 runs") and shown[-1] == ("█" * 30 + " 200 of 200 runs", True)
+    assert [last for _, last in shown[:-1]] == [False] * (len(shown) - 1)

@@ -21,6 +21,7 @@ def test_tables_agree(result: afp.Result) -> None:
     polars, pyarrow = pytest.importorskip("polars"), pytest.importorskip("pyarrow")
     pytest.importorskip("pandas")
     frame = result.to_pandas()
+    assert not any(kind == object for kind in [*frame.dtypes, *afp.sweep(afp.load(ROOT / "plans/wall_following.afp"), until=0.5, progress=False).to_pandas().dtypes])
     assert list(frame["kind"]) == [event.kind for event in result.events]
     assert result.to_polars()["time"].to_list() == list(frame["time"])
     assert result.to_arrow().num_rows == len(frame)

@@ -96,12 +96,15 @@ pub fn fits(plan: &Path) -> PyResult<()> {
 /// another name.
 type Named<R> = (&'static [&'static str], fn(&R, &str) -> Option<PyResult<Sensed>>);
 
+/// What registers the templates that plans for a robot may use.
+type Register<R> = Box<dyn Fn(&mut Registry<R>) + Send + Sync>;
+
 /// A robot and its templates.
 pub struct Link<R: Simulated> {
     kind: Kind<R>,
     own_robot: Option<&'static str>,
     toolboxes: &'static [&'static str],
-    register: Box<dyn Fn(&mut Registry<R>) + Send + Sync>,
+    register: Register<R>,
     /// The text of a world for the robot that stands in while nobody may use the true one.
     nowhere: &'static str,
     named: Option<Named<R>>,

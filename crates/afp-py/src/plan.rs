@@ -231,6 +231,18 @@ impl Plan {
         self.toolboxes.iter().map(|toolbox| toolbox.clone_ref(py)).collect()
     }
 
+    /// Why 'afpc run' with the plan's file does something else than the plan does; none where it does the same.
+    pub fn caveat(&self) -> Option<&'static str> {
+        if !self.toolboxes.is_empty() {
+            return Some("components are in Python: run it there");
+        }
+        let desk = self.lock();
+        let Some(path) = desk.path() else { return Some("the plan has no file") };
+        let same = std::fs::read_to_string(path).is_ok_and(|text| text == desk.text());
+        let others = desk.others();
+        (!same || !others.is_empty()).then_some("the plan has been changed and not saved")
+    }
+
     /// Where the plan stands, for logs and for the world beside it.
     pub fn file(&self) -> PathBuf {
         self.lock().file()

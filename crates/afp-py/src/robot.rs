@@ -2,7 +2,7 @@
 
 use std::any::Any;
 use std::mem;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use afp_core::Instant;
 use afp_session::Simulated;
@@ -24,7 +24,16 @@ pub struct Robot {
 /// The robot while a component is called; one that stands in for it otherwise.
 struct Slot {
     robot: Box<dyn Held>,
-    in_call: bool,
+    caller: Option<Arc<Caller>>,
+}
+
+/// A template in Python, whose component has the robot for the time of a call.
+#[derive(Debug)]
+pub struct Caller {
+    /// Its name.
+    pub name: String,
+    /// The devices that it may command.
+    pub uses: Vec<String>,
 }
 
 /// A simulated robot of any type.
@@ -54,18 +63,21 @@ impl<R: Simulated> Held for R {
     }
 }
 
+/// What to say outside of calls.
+const NO_CALL: &str = "the robot can be used only while a component is being called";
+
 impl Robot {
     /// A robot for which another one stands in.
     pub fn new(stand_in: Box<dyn Held>) -> Robot {
-        Robot { slot: Mutex::new(Slot { robot: stand_in, in_call: false }) }
+        Robot { slot: Mutex::new(Slot { robot: stand_in, caller: None }) }
     }
 
-    /// Takes the robot or gives it back.
-    pub fn exchange<R: Simulated>(&self, env: &mut R, in_call: bool) {
+    /// Takes the robot for a caller, or gives it back for none.
+    pub fn exchange<R: Simulated>(&self, env: &mut R, caller: Option<&Arc<Caller>>) {
         let mut slot = self.lock();
         if let Some(held) = slot.robot.as_any_mut().downcast_mut::<R>() {
             mem::swap(env, held);
-            slot.in_call = in_call;
+            slot.caller = caller.cloned();
         }
     }
 
@@ -76,20 +88,27 @@ impl Robot {
     /// Uses the robot, without a call of Python meanwhile.
     fn with<T>(&self, use_it: impl FnOnce(&mut dyn Held) -> T) -> PyResult<T> {
         let mut slot = self.lock();
-        match slot.in_call {
-            true => Ok(use_it(&mut *slot.robot)),
-            false => Err(PyRuntimeError::new_err(
-                "the robot can be used only while a component is being called",
-            )),
+        match slot.caller {
+            Some(_) => Ok(use_it(&mut *slot.robot)),
+            None => Err(PyRuntimeError::new_err(NO_CALL)),
         }
     }
 
-    /// Uses a robot of known type, as [`Robot::with`].
+    /// Commands a device of a robot of known type, which the template must have said to use.
     #[cfg(feature = "carbot")]
-    pub(crate) fn with_typed<R: Simulated, T>(
+    pub(crate) fn command<R: Simulated, T>(
         &self,
+        device: &str,
         use_it: impl FnOnce(&mut R) -> T,
     ) -> PyResult<T> {
+        if let Some(caller) = &self.lock().caller
+            && !caller.uses.iter().any(|used| used == device)
+        {
+            let name = &caller.name;
+            return Err(PyRuntimeError::new_err(format!(
+                "'{name}' commands '{device}' without saying so: an actor says uses=[\"{device}\"]; supervisors command nothing"
+            )));
+        }
         let used = self.with(|robot| robot.as_any_mut().downcast_mut::<R>().map(use_it))?;
         used.ok_or_else(|| error("the robot is of another kind"))
     }

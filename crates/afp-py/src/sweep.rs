@@ -79,6 +79,7 @@ impl Sweeper {
         let (file, toolboxes) = (plan.file(), plan.python_toolboxes(py));
         fits(&file)?;
         let mut sweep = Sweep {
+            caveat: plan.caveat(),
             presses: Vec::new(),
             failures: Vec::new(),
             plan: file.display().to_string(),

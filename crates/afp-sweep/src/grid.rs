@@ -25,6 +25,8 @@ pub struct Sweep {
     pub failures: Vec<Failure>,
     /// When each run is stopped.
     pub until: Duration,
+    /// Why the command of a run does something else than the run did; none where it does the same.
+    pub caveat: Option<&'static str>,
 }
 
 /// Something that is varied.
@@ -110,6 +112,9 @@ impl Sweep {
             let _ = write!(command, " --fail {}", quoted(&failure.to_string()));
         }
         let _ = write!(command, " --until {}", spelled(self.until));
+        if let Some(caveat) = self.caveat {
+            let _ = write!(command, "  # {caveat}");
+        }
         command
     }
 
@@ -158,6 +163,7 @@ mod tests {
 
     fn sweep() -> Sweep {
         Sweep {
+            caveat: None,
             plan: "my plan.afp".to_owned(),
             worlds: vec![None, Some("random:7".to_owned())],
             axes: vec![axis("a=1,2,3").unwrap(), axis("b=20cm..30cm:5cm").unwrap()],
@@ -184,5 +190,8 @@ mod tests {
         let sweep = sweep();
         let wanted = "afpc run 'my plan.afp' --world random:7 --seed 8 --set a=3 --set b=30cm --press touch@2s --fail wheels.slip=0.2@3s..5s --until 1.5s";
         assert_eq!(sweep.command(&sweep.row(71)), wanted);
+        let changed = Sweep { caveat: Some("the plan has been changed"), ..sweep };
+        let wanted = format!("{wanted}  # the plan has been changed");
+        assert_eq!(changed.command(&changed.row(71)), wanted);
     }
 }

@@ -37,6 +37,7 @@ mod tests {
 
     pub(super) fn sweep() -> Sweep {
         Sweep {
+            caveat: None,
             presses: Vec::new(),
             failures: Vec::new(),
             plan: "a.afp".to_owned(),

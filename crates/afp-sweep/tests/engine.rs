@@ -63,6 +63,7 @@ fn compiled() -> Compiled {
 
 fn sweep() -> Sweep {
     Sweep {
+        caveat: None,
         presses: Vec::new(),
         failures: Vec::new(),
         plan: "either.afp".to_owned(),

@@ -1,5 +1,5 @@
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NoReturn, final
 
@@ -71,7 +71,7 @@ class Plan:
         path: str | os.PathLike[str] | None = None,
         *,
         name: str | None = None,
-        toolboxes: list[Toolbox] = ...,
+        toolboxes: Sequence[Toolbox] = ...,
     ) -> Self: ...
     @property
     def text(self) -> str: ...

@@ -20,6 +20,7 @@ computation Parity {
 
 from __future__ import annotations
 
+import functools
 import inspect
 import os
 import re
@@ -150,6 +151,7 @@ class Toolbox(_afp.Toolbox):
 
         def declare(component: Component) -> Component:
             template = name or _name(component)
+            _fits(kind, template, component)
             devices = [uses] if isinstance(uses, str) else uses
             text = _declaration(kind, template, component, outcomes, devices, timing, icon)
             self._declare(template, text)
@@ -167,11 +169,25 @@ def _again(kind: type[Toolbox], text: str, path: str | os.PathLike[str] | None) 
 
 def _name(component: Callable[..., Any]) -> str:
     name = getattr(component, "__name__", None)
+    if isinstance(component, functools.partial):
+        raise TypeError(f"{component!r} is no function of its own: write one that calls it, with its ports as parameters")
     if not callable(component) or not isinstance(name, str):
         raise TypeError(f"a component is a class or a function, not {component!r}")
     if not name.isidentifier():
         raise TypeError(f"the component {component!r} has no name of its own: give name=")
     return name
+
+
+def _fits(kind: str, name: str, component: Callable[..., Any]) -> None:
+    """Says so at once if a component can never work."""
+    steps = component.__dict__.get("poll", component) if isinstance(component, type) else component
+    if inspect.isasyncgenfunction(steps):
+        raise TypeError(f"'{name}' yields; an 'async def' actor awaits afp.tick() and returns its state")
+    if inspect.isgeneratorfunction(steps):
+        raise TypeError(f"'{name}' yields; a component returns what it has to say")
+    if inspect.iscoroutinefunction(steps) and (kind != "actor" or isinstance(component, type)):
+        what = "a 'poll'" if isinstance(component, type) else f"a {kind}"
+        raise TypeError(f"'{name}' is 'async def'; {what} is a plain function, called at each poll")
 
 
 def _timing(**times: str | float | None) -> str:
@@ -207,7 +223,13 @@ def _type(hint: Any, where: str) -> str:
     if isinstance(hint, str):
         return hint
     known = "bool, int, float, str, afp.Length, afp.Angle, afp.Duration, afp.Speed, afp.AngularSpeed"
+    if hint is not None:
+        raise TypeError(f"{where} has the hint {_shown(hint)}, and no type of the language is like it; there are: {known}")
     raise TypeError(f"{where} needs a type hint: one of {known}, or Annotated[float, 'force'] and the like")
+
+
+def _shown(hint: Any) -> str:
+    return hint.__name__ if isinstance(hint, type) else str(hint).replace("typing.", "")
 
 
 _UNITS = {
@@ -240,8 +262,17 @@ def _constant(value: Any, type: str, where: str) -> str:
     return f"{float(value)!r} {unit}".rstrip()
 
 
+def _hints(function: Callable[..., Any]) -> dict[str, Any]:
+    """The hints of a function, those that are written as texts too."""
+    try:
+        return get_type_hints(function, include_extras=True)
+    except NameError as error:
+        what = f"a hint of '{function.__qualname__}' names '{error.name}', which is not there while the program runs"
+        raise TypeError(f"{what}: import it outside of 'if TYPE_CHECKING'") from None
+
+
 def _ports(function: Callable[..., Any], live: bool) -> list[str]:
-    hints = get_type_hints(function, include_extras=True)
+    hints = _hints(function)
     lines = []
     for name, parameter in inspect.signature(function).parameters.items():
         if name in _GIVEN or name == "self":

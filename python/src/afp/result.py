@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import plots, tables
-from ._afp import Event
+from ._afp import AfpError, Event
 
 if TYPE_CHECKING:
     from .simulation import Simulation
@@ -119,9 +119,14 @@ class Result(tables.Events):
         return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
 
     def check(self) -> Result:
-        """Raises the exception of the component that ended the plan, if one did; gives the result otherwise."""
+        """Raises what ended the plan in `Error`: the exception of the component, or `AfpError` with another fault.
+
+        Gives the result otherwise.
+        """
         if self.fault == "python-exception" and self.errors:
             raise self.errors[-1].error
+        if self.fault is not None:
+            raise AfpError(f"the plan ended in Error after {self.time:.3f} s: {self.fault_text} ({self.fault})")
         return self
 
     def plot_path(self, ax: Any = None) -> Any:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import html
+import importlib
 import math
 import operator
 import os
 import sys
-from collections.abc import Callable, Iterable, Mapping
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
 from . import plots, tables
@@ -157,17 +159,49 @@ def _teller(progress: bool | Callable[[int, int], Any], total: int) -> Callable[
     """What is told how many runs are done; -1 at the end."""
     if callable(progress):
         return lambda done, all: progress(done, all) if done >= 0 else None
-    shows = progress and (sys.stderr.isatty() or "ipykernel" in sys.modules)
-    return _bar if shows else lambda done, all: None
+    if progress and "ipykernel" in sys.modules:
+        return Bar(_in_notebook())
+    return Bar(_on_terminal) if progress and sys.stderr.isatty() else lambda done, all: None
 
 
-def _bar(done: int, total: int) -> None:
-    width = 30
-    if done < 0:
-        print(file=sys.stderr)
-        return
-    full = width * done // max(total, 1)
-    print(f"\r{'█' * full}{'░' * (width - full)} {done} of {total} runs", end="", file=sys.stderr, flush=True)
+class Bar:
+    """Shows how many runs are done, at most ten times a second, and at the end."""
+
+    EVERY = 0.1
+    WIDTH = 30
+
+    def __init__(self, show: Callable[[str, bool], None], clock: Callable[[], float] = time.monotonic) -> None:
+        self._show = show
+        self._clock = clock
+        self._next = -math.inf
+        self._line = ""
+
+    def __call__(self, done: int, total: int) -> None:
+        if done >= 0:
+            full = self.WIDTH * done // max(total, 1)
+            self._line = f"{'█' * full}{'░' * (self.WIDTH - full)} {done} of {total} runs"
+        if done < 0 or self._clock() >= self._next:
+            self._next = self._clock() + self.EVERY
+            self._show(self._line, done < 0)
+
+
+def _on_terminal(line: str, last: bool) -> None:
+    print(f"\r{line}", end="\n" if last else "", file=sys.stderr, flush=True)
+
+
+def _in_notebook() -> Callable[[str, bool], None]:
+    """One output of the cell, which is replaced: lines on standard error would pile up in an executed notebook."""
+    display = importlib.import_module("IPython.display").display
+    shown: list[Any] = []
+
+    def show(line: str, last: bool) -> None:
+        bundle = {"text/plain": line}
+        if shown:
+            shown[0].update(bundle, raw=True)
+        else:
+            shown.append(display(bundle, raw=True, display_id=True))
+
+    return show
 
 
 class Runs:
@@ -190,6 +224,9 @@ class Runs:
     def __getitem__(self, row: int) -> dict[str, Any]:
         return {name: cells[row] for name, cells in self.columns.items()}
 
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        return (self[row] for row in range(len(self)))
+
     @property
     def endings(self) -> dict[str, int]:
         """How many runs ended in each way."""
@@ -203,8 +240,9 @@ class Runs:
 
     def to_pandas(self) -> Any:
         """The table as a pandas data frame; needs pandas."""
-        numbers = {name: "float64" for name, kind in self._kinds.items() if kind == "number"}
-        return tables.need("pandas").DataFrame(self.columns).astype(numbers)
+        kinds = {"count": "uint64", "number": "float64", "text": "string"}
+        types = {name: kinds[kind] for name, kind in self._kinds.items()}
+        return tables.need("pandas").DataFrame(self.columns).astype(types)
 
     def to_polars(self) -> Any:
         """The table as a polars data frame; needs polars."""

@@ -25,6 +25,10 @@ COLUMNS = (
 )
 
 
+NUMBERS = ("time", "lateness", "value")
+"""The columns of numbers; all others are of texts."""
+
+
 def need(module: str) -> Any:
     """A module of another package."""
     try:
@@ -45,23 +49,23 @@ def columns(events: Sequence[Event]) -> dict[str, list[Any]]:
 
 def to_pandas(events: Sequence[Event]) -> Any:
     """The events as a pandas data frame."""
-    return need("pandas").DataFrame(columns(events))
+    table = columns(events)
+    types = {name: "float64" if name in NUMBERS else "string" for name in table}
+    return need("pandas").DataFrame(table).astype(types)
 
 
 def to_polars(events: Sequence[Event]) -> Any:
     """The events as a polars data frame."""
     polars = need("polars")
-    numbers = {"time", "lateness", "value"}
     table = columns(events)
-    return polars.DataFrame(table, schema={name: polars.Float64 if name in numbers else polars.String for name in table})
+    return polars.DataFrame(table, schema={name: polars.Float64 if name in NUMBERS else polars.String for name in table})
 
 
 def to_arrow(events: Sequence[Event]) -> Any:
     """The events as an Arrow table."""
     arrow = need("pyarrow")
-    numbers = {"time", "lateness", "value"}
     table = columns(events)
-    types = {name: arrow.float64() if name in numbers else arrow.string() for name in table}
+    types = {name: arrow.float64() if name in NUMBERS else arrow.string() for name in table}
     return arrow.table(table, schema=arrow.schema(list(types.items())))
 
 

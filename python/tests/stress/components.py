@@ -163,7 +163,7 @@ def toolbox(machine: Stress, actions: list[str]) -> afp.Toolbox:
     script = Script(machine, actions)
     tools = afp.Toolbox("tools")
 
-    @tools.actor(states={"Done": {}, "Told": {"told": float}})
+    @tools.actor(states={"Done": {}, "Told": {"told": float}}, uses=["navigator", "rotator"])
     class Act:
         def __init__(self, robot: afp.Robot, far: afp.Length) -> None:
             self.robot, self.tools = robot, tools
@@ -178,7 +178,7 @@ def toolbox(machine: Stress, actions: list[str]) -> afp.Toolbox:
         def __del__(self) -> None:
             machine.gone += 1
 
-    @tools.actor(states={"Done": {}, "Told": {"told": float}})
+    @tools.actor(states={"Done": {}, "Told": {"told": float}}, uses=["navigator", "rotator"])
     async def Ask(robot: afp.Robot) -> Any:
         try:
             while True:

@@ -41,7 +41,7 @@ def circular(number: int) -> None:
     tools = afp.Toolbox("tools")
     kept: list[object] = [tools, bytes(10_000)]
 
-    @tools.actor(states=["Done"])
+    @tools.actor(states=["Done"], uses=["navigator"])
     async def Go(robot: afp.Robot) -> str:
         while robot.time < 0.05 or number % 3:
             assert kept

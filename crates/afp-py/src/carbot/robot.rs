@@ -22,9 +22,13 @@ impl CarbotRobot {
     }
 }
 
-/// Uses the simulation, without a call of Python meanwhile.
-fn with(robot: &Bound<'_, CarbotRobot>, use_it: impl FnOnce(&mut Simulation)) -> PyResult<()> {
-    robot.as_super().get().with_typed(use_it)
+/// Commands a device, without a call of Python meanwhile.
+fn command(
+    robot: &Bound<'_, CarbotRobot>,
+    device: &str,
+    use_it: impl FnOnce(&mut Simulation),
+) -> PyResult<()> {
+    robot.as_super().get().command(device, use_it)
 }
 
 fn sensed<'py>(robot: &Bound<'py, CarbotRobot>, name: &str) -> PyResult<Bound<'py, PyAny>> {
@@ -37,7 +41,7 @@ impl CarbotRobot {
     #[pyo3(signature = (speed, turn=0.0))]
     fn drive(slf: &Bound<'_, Self>, speed: f64, turn: f64) -> PyResult<()> {
         let (speed, turn) = (finite(speed)?, finite(turn)?);
-        with(slf, |sim| {
+        command(slf, "navigator", |sim| {
             let now = sim.now();
             Navigator::drive(sim, Speed::from_si(speed), AngularSpeed::from_si(turn), now);
         })
@@ -46,7 +50,7 @@ impl CarbotRobot {
     /// Points the range sensor, radians to the left of the heading.
     fn point(slf: &Bound<'_, Self>, bearing: f64) -> PyResult<()> {
         let bearing = finite(bearing)?;
-        with(slf, |sim| {
+        command(slf, "rotator", |sim| {
             let now = sim.now();
             sim.point(Angle::from_si(bearing), now);
         })

@@ -37,7 +37,7 @@ impl<R: Simulated> ActorSlot<R> for PyActor {
     ) -> Result<(), Fault> {
         let template = &self.template;
         let inputs = template.inputs(args, see)?;
-        let running = template.host.call_with_robot(env, &template.declared()?.name, |py| {
+        let running = template.host.call_with_robot(env, &template.caller, |py| {
             let robot = template.host.robot.clone_ref(py);
             let actor = template.make(py, (robot, inputs.dict(py)?))?;
             let method =
@@ -62,7 +62,7 @@ impl<R: Simulated> ActorSlot<R> for PyActor {
     fn interrupt(&mut self, env: &mut R, _: Instant) -> Result<(), Fault> {
         let template = &self.template;
         let running = self.running.as_ref().ok_or(Fault::INTERNAL)?;
-        template.host.call_with_robot(env, &template.declared()?.name, |py| {
+        template.host.call_with_robot(env, &template.caller, |py| {
             running.interrupt.get(py)?.call0().map(drop)
         })
     }

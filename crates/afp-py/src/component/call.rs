@@ -14,6 +14,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple};
 
 use super::{Host, Object, PyHandle};
+use crate::robot::Caller;
 use crate::value::{to_port, to_python};
 
 /// A template and what implements it.
@@ -22,6 +23,7 @@ pub struct PyTemplate {
     pub host: Arc<Host>,
     toolbox: Arc<Toolbox>,
     index: usize,
+    pub caller: Arc<Caller>,
     maker: Arc<PyHandle>,
     has_live: bool,
 }
@@ -41,12 +43,18 @@ pub struct Outcome {
 impl PyTemplate {
     pub fn new(host: &Arc<Host>, toolbox: &Arc<Toolbox>, index: usize, maker: Py<PyAny>) -> Self {
         let live = |template: &Template| template.inputs.iter().any(|port| port.live);
+        let declared = toolbox.templates.get(index);
+        let caller = Caller {
+            name: declared.map(|template| template.name.clone()).unwrap_or_default(),
+            uses: declared.map(|template| template.uses.clone()).unwrap_or_default(),
+        };
         PyTemplate {
             host: Arc::clone(host),
             toolbox: Arc::clone(toolbox),
             index,
+            caller: Arc::new(caller),
             maker: Arc::new(host.handles.put(maker)),
-            has_live: toolbox.templates.get(index).is_some_and(live),
+            has_live: declared.is_some_and(live),
         }
     }
 
@@ -119,7 +127,7 @@ impl PyTemplate {
         env: &mut R,
     ) -> Result<Option<u16>, Fault> {
         let live = self.live(args)?;
-        let outcome = self.host.call_with_robot(env, &self.declared()?.name, |py| {
+        let outcome = self.host.call_with_robot(env, &self.caller, |py| {
             let method = method.get(py)?;
             let said = match live.is_empty() {
                 true => method.call0(),
@@ -141,7 +149,9 @@ impl PyTemplate {
         let template = self.declared().map_err(|why| PyTypeError::new_err(why.to_string()))?;
         let none = PyDict::new(said.py());
         let (name, outputs) = match said.cast::<PyTuple>() {
-            Ok(pair) => pair.extract::<(Bound<'_, PyString>, Bound<'_, PyDict>)>()?,
+            Ok(pair) => pair
+                .extract::<(Bound<'_, PyString>, Bound<'_, PyDict>)>()
+                .map_err(|_| unknown(template, said))?,
             Err(_) => (said.cast::<PyString>().map_err(|_| unknown(template, said))?.clone(), none),
         };
         let name = name.to_cow()?;
@@ -253,7 +263,7 @@ fn outputs_of(
         })?;
         let value = match &port.ty {
             Type::Object(_) => Pulled::Object(Arc::new(host.handles.put(value.unbind()))),
-            ty => Pulled::Value(to_port(ty, &value)?),
+            ty => Pulled::Value(finite(to_port(ty, &value)?, template, &port.name)?),
         };
         outputs.push((number, value));
     }
@@ -267,6 +277,17 @@ fn outputs_of(
         }
     }
     Ok(outputs)
+}
+
+/// A value that a plan can go on with.
+fn finite(value: Value, template: &Template, output: &str) -> PyResult<Value> {
+    match value {
+        Value::Float(number) if !number.is_finite() => Err(PyValueError::new_err(format!(
+            "the output '{output}' of '{}' is {number}; outputs are finite numbers",
+            template.name
+        ))),
+        value => Ok(value),
+    }
 }
 
 fn unknown(template: &Template, said: &Bound<'_, PyAny>) -> PyErr {

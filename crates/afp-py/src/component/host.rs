@@ -14,7 +14,7 @@ use pyo3::{PyTraverseError, PyVisit};
 
 use super::depth::inside;
 use super::handles::PyHandles;
-use crate::robot::Robot;
+use crate::robot::{Caller, Robot};
 
 /// What a plan sees of an exception.
 pub const RAISED: Fault = Fault::new(&Reason {
@@ -66,16 +66,16 @@ impl Host {
     pub fn call_with_robot<R: Simulated, T>(
         &self,
         env: &mut R,
-        template: &str,
+        caller: &Arc<Caller>,
         call: impl FnOnce(Python<'_>) -> PyResult<T>,
     ) -> Result<T, Fault> {
         let now = env.now();
         Python::attach(|py| {
             let robot = self.robot.get();
-            robot.exchange(env, true);
+            robot.exchange(env, Some(caller));
             let done = self.inside(py, call);
-            robot.exchange(env, false);
-            done.map_err(|error| self.keep(py, now, template, error))
+            robot.exchange(env, None);
+            done.map_err(|error| self.keep(py, now, &caller.name, error))
         })
         .map_err(Raised::fault)
     }

@@ -37,7 +37,7 @@ impl<R: Simulated> SupervisorSlot<R> for PySupervisor {
         let declared = template.declared()?;
         let events = (0..).zip(&declared.outcomes).filter(|(event, _)| wanted.contains(*event));
         let events: Vec<_> = events.map(|(_, event)| event.name.as_str()).collect();
-        let poll = template.host.call_with_robot(env, &declared.name, |py| {
+        let poll = template.host.call_with_robot(env, &template.caller, |py| {
             let robot = template.host.robot.clone_ref(py);
             let wanted = PyTuple::new(py, &events)?;
             let supervisor = template.make(py, (robot, inputs.dict(py)?, wanted))?;

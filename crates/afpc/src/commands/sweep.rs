@@ -138,6 +138,7 @@ impl Arguments {
             worlds: if worlds.is_empty() { vec![None] } else { worlds },
             axes: self.vary.clone(),
             seeds: self.seeds.clone(),
+            caveat: None,
             presses: self.press.clone(),
             failures: self.fail.clone(),
             until: self.until,

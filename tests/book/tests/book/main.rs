@@ -7,6 +7,7 @@ mod excerpts;
 mod grammar;
 mod lists;
 mod pages;
+mod public_names;
 mod rust_blocks;
 mod toml_blocks;
 
