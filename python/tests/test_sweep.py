@@ -29,7 +29,7 @@ def test_every_combination_is_a_row_with_its_command() -> None:
     assert len(runs) == 12 and runs.columns["run"] == list(range(12))
     assert runs.columns["way"][::2] == ["0.1m", "0.2m", "30cm"] * 2
     assert runs.columns["way_si"][:6:2] == [0.1, 0.2, 0.3]
-    wanted = "afpc run plan.afp --world random:2 --seed 4 --set way=30cm --until 5s"
+    wanted = "afpc run plan.afp --world random:2 --seed 4 --set way=30cm --until 5s  # the plan has no file"
     assert runs[11]["command"] == wanted
     assert sum(runs.endings.values()) == 12 and sum(group["count"] for group in runs.groups) == 12
 
