@@ -225,6 +225,7 @@ impl Simulation {
     pub fn truth(&self) -> Truth<'_> {
         let body = &self.physics.bodies[self.body];
         Truth {
+            now: self.now,
             motion: (f64::from(body.linvel().length()), f64::from(body.angvel())),
             asked: self.drive.asked(),
             position: self.position(),

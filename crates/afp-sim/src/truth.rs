@@ -4,6 +4,7 @@
 
 use crate::devices::camera::{self, Exposure};
 use crate::devices::sonar;
+use crate::simulation::STEP;
 use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
 use crate::world::Obstacle;
 use afp_core::Instant;
@@ -38,11 +39,17 @@ impl Collisions {
             _ => self.0.push(Collision { obstacle, begin: now, end: now }),
         }
     }
+
+    /// Those that last at `now`. A touch lasts to the end of the physics step that found it.
+    fn lasting(&self, now: Instant) -> impl DoubleEndedIterator<Item = &Collision> {
+        self.0.iter().filter(move |touch| now.since(touch.end) < STEP)
+    }
 }
 
 /// The truth about a running simulation.
 #[derive(Clone, Copy, Debug)]
 pub struct Truth<'a> {
+    pub(crate) now: Instant,
     pub(crate) position: &'a Isometry,
     pub(crate) obstacles: &'a [Obstacle],
     pub(crate) shapes: &'a [(Isometry, SharedShape)],
@@ -100,6 +107,11 @@ impl<'a> Truth<'a> {
         self.left_map
     }
 
+    /// The collisions that last now, in the order of their beginnings.
+    pub fn touching(&self) -> impl DoubleEndedIterator<Item = &'a Collision> {
+        self.collisions.lasting(self.now)
+    }
+
     /// Distance from the body's right side to the nearest obstacle that is high enough for the
     /// range sensor, metres; none in an empty world.
     pub fn right_side_gap(&self) -> Option<f64> {
@@ -111,5 +123,32 @@ impl<'a> Truth<'a> {
             high.then(|| query::distance(self.position, &side, at, &**shape).ok()).flatten()
         });
         gaps.map(|gap| f64::from(gap.distance)).reduce(f64::min)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_of_two_touches_outlasts_the_second() {
+        let at = |step: u64| Instant::from_nanos(step * STEP.as_nanos());
+        let mut touches = Collisions::default();
+        let lasting = |touches: &Collisions, now| -> Vec<usize> {
+            touches.lasting(now).map(|touch| touch.obstacle).collect()
+        };
+        assert_eq!(lasting(&touches, at(0)), []);
+        touches.touch(7, at(1));
+        touches.touch(7, at(2));
+        touches.touch(3, at(2));
+        assert_eq!(lasting(&touches, at(2)), [7, 3]);
+        touches.touch(7, at(3));
+        assert_eq!(lasting(&touches, at(3)), [7], "the one that began last is over");
+        let between = at(3) + afp_core::Duration::from_nanos(STEP.as_nanos() - 1);
+        assert_eq!(lasting(&touches, between), [7], "until the next step looks");
+        assert_eq!(lasting(&touches, at(4)), []);
+        touches.touch(3, at(5));
+        assert_eq!(lasting(&touches, at(5)), [3], "as one collision with that before");
+        assert_eq!(touches.0.len(), 2);
     }
 }

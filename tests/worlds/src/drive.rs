@@ -8,7 +8,7 @@ use afp::load::{LoadedPlan, Registry};
 use afp_core::rt::NamedPlan;
 use afp_core::trace::{Ending, Line, Observe, Record, TraceHash, Verdict};
 use afp_core::{Duration, Instant, Scheduler, Wake};
-use afp_sim::{STEP, Simulation};
+use afp_sim::Simulation;
 
 use crate::case::Case;
 use crate::watch::Watch;
@@ -104,9 +104,7 @@ pub fn run(case: &Case) -> Outcome {
 /// Whether the robot touches something while its drive is told to move.
 fn is_pushing(sim: &Simulation) -> bool {
     let truth = sim.truth();
-    // A touch lasts to the end of the physics step that found it.
-    let touches = truth.collisions().iter().any(|touch| sim.now().since(touch.end) < STEP);
-    touches && !truth.is_halted()
+    truth.touching().next().is_some() && !truth.is_halted()
 }
 
 /// The longest stop time that a template of the plan's toolboxes declares.

@@ -128,10 +128,8 @@ impl Simulation {
         }
         to.put(signal::HALTED, SampleRef::Bool(truth.is_halted()));
         to.put(signal::STANDING, SampleRef::Bool(truth.is_standing()));
-        // A touch lasts to the end of the physics step that found it.
-        let touching = truth.collisions().last().is_some_and(|last| last.end == self.now());
-        to.put(signal::COLLISION, SampleRef::Bool(touching));
-        let touched = truth.collisions().last().filter(|_| touching);
+        let touched = truth.touching().last();
+        to.put(signal::COLLISION, SampleRef::Bool(touched.is_some()));
         let contact = touched.and_then(|last| self.obstacles.get(last.obstacle));
         to.put(signal::CONTACT, SampleRef::Text(contact.map_or("", |it| &it.name)));
     }
