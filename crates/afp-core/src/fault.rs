@@ -56,6 +56,8 @@ faults! {
     LIVELOCK = "livelock", "the plan takes edge after edge without time passing";
     /// A component panicked.
     PANIC = "panic", "a component panicked";
+    /// A test made a component fail.
+    INJECTED = "injected", "a test made the component fail";
     /// The run time met a state that the compiler rules out.
     INTERNAL = "internal", "the run time met an impossible state";
 }

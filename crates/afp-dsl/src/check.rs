@@ -109,7 +109,7 @@ pub(crate) enum Flow {
     Unchecked,
 }
 
-/// What plan files come to; without graph and scenarios where there are errors.
+/// What plan files come to; without graph and scenarios where anything but scenarios has errors.
 #[derive(Default)]
 pub(crate) struct Checked {
     /// The graph of the plan that runs.
@@ -160,7 +160,7 @@ pub(crate) fn check(
     let material = Material { program: &program, files, members, meanings: &meanings, main };
     let outline = outline::build(material);
     let index = index::build(&outline, &meanings, declared);
-    let Some(main) = main.filter(|_| !diags.has_errors()) else {
+    let Some(main) = main.filter(|_| outline.excuses(diags)) else {
         return Checked { outline, index, ..Checked::default() };
     };
     Checked { graph: assemble::graph(&program, plans, &order, main), scenarios, outline, index }

@@ -8,19 +8,22 @@ use crate::gather;
 use crate::graph::Graph;
 use crate::index::Index;
 use crate::outline::Outline;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, Unsound};
 use crate::timing;
 use crate::toolbox::Toolboxes;
-use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::diagnostics::{Diagnostics, Severity};
 use afp_syntax::source::{Source, Sources};
+use afp_syntax::unquote;
 
 /// What became of a text.
 #[derive(Clone, Debug)]
 pub struct Compiled {
     /// The static graph; `None` exactly when there are errors.
     pub graph: Option<Graph>,
-    /// The scenarios of the file; none while there are errors.
+    /// The scenarios of the file that can be run; none while anything but scenarios has errors.
     pub scenarios: Vec<Scenario>,
+    /// The others; none either while anything else has errors.
+    pub unsound: Vec<Unsound>,
     /// What stands in the plan files, with or without errors.
     pub outline: Outline,
     /// What every name means, with or without errors.
@@ -112,7 +115,37 @@ fn compile_with(
     diags.sort();
     outline.attach(&diags);
     let plan_files = first..sources.len();
+    let (scenarios, unsound) = match graph.is_some() && outline.excuses(&diags) {
+        true => sorted_out(scenarios, &outline, &diags),
+        false => (Vec::new(), Vec::new()),
+    };
     let graph = graph.filter(|_| !diags.has_errors());
-    let scenarios = if graph.is_some() { scenarios } else { Vec::new() };
-    Compiled { graph, scenarios, outline, index, diags, sources, plan_files }
+    Compiled { graph, scenarios, unsound, outline, index, diags, sources, plan_files }
+}
+
+/// The scenarios of the first file without errors, and those with errors.
+fn sorted_out(
+    mut scenarios: Vec<Scenario>,
+    outline: &Outline,
+    diags: &Diagnostics,
+) -> (Vec<Scenario>, Vec<Unsound>) {
+    let heads = outline.files.first().map_or(&[][..], |file| &file.scenarios);
+    let wrong = heads.iter().filter(|head| diags.error_within(head.span));
+    let mut unsound = Vec::new();
+    for head in wrong {
+        scenarios.retain(|scenario| !head.span.contains(scenario.span));
+        let mut errors = diags.clone();
+        errors.retain(|each| each.severity == Severity::Error && head.span.contains(each.span));
+        let name = head.name.as_ref();
+        unsound.push(Unsound {
+            name: name.map_or(String::new(), |name| unquote(name, &mut Diagnostics::default())),
+            span: name.map_or(head.span, |name| name.span),
+            plan: head
+                .plan
+                .and_then(|plan| outline.plan(plan).name.as_ref())
+                .map_or(String::new(), |name| name.text.clone()),
+            errors,
+        });
+    }
+    (scenarios, unsound)
 }

@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use crate::graph::Graph;
 use crate::toolbox::{Constant, SignalType};
+use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::Span;
 
 /// How long a scenario lasts unless it says otherwise, nanoseconds.
@@ -18,7 +19,7 @@ pub const DEFAULT_UNTIL: u64 = 60_000_000_000;
 /// One scenario.
 #[derive(Clone, Debug)]
 pub struct Scenario {
-    /// Its name.
+    /// Its name; where it is over several seeds or worlds, with those of this run behind it.
     pub name: String,
     /// The name in the text.
     pub span: Span,
@@ -65,6 +66,19 @@ impl Scenario {
             until,
         }
     }
+}
+
+/// A scenario that cannot be run as it is written, or as its plan is now.
+#[derive(Clone, Debug)]
+pub struct Unsound {
+    /// Its name.
+    pub name: String,
+    /// The name in the text.
+    pub span: Span,
+    /// The name of the plan that it is for, as written.
+    pub plan: String,
+    /// What is wrong with it, at least one error.
+    pub errors: Diagnostics,
 }
 
 /// Where the robot starts.
@@ -145,8 +159,8 @@ pub enum Field {
 pub struct Injection {
     /// The supervisor or actor.
     pub component: u32,
-    /// Its event or state, by position.
-    pub outcome: u16,
+    /// Its event or state; the special one is `Error` of an actor, `DeadlineMissed` of a supervisor.
+    pub outcome: Outcome,
     /// The outputs that come with it, by position among the template's, each of its port's type.
     pub outputs: Vec<(u16, Constant)>,
 }

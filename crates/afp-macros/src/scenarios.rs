@@ -91,7 +91,7 @@ fn of_file(path: &str, input: &Input) -> Result<Option<TokenStream>, TokenStream
     }
     let available = sources::toolboxes(&[]).map_err(|text| error(&text))?;
     let compiled = afp_dsl::compile(&file.source, &available.toolboxes, &sources::used);
-    if compiled.graph.is_none() {
+    if compiled.graph.is_none() && compiled.unsound.is_empty() {
         return Err(errors(&compiled.diags, &compiled.sources));
     }
     let full = sources::root().join(Path::new(path)).to_string_lossy().into_owned();
@@ -108,11 +108,24 @@ fn of_file(path: &str, input: &Input) -> Result<Option<TokenStream>, TokenStream
         }
     });
     let tests: TokenStream = tests.collect();
+    // A scenario that is wrong, or that its plan cannot meet any more, is a test that fails.
+    let unsound = compiled.unsound.iter().map(|each| {
+        let name = free(&slug(&each.name), &mut taken);
+        let text = format!("\n{}", each.errors.render(&compiled.sources, false));
+        quote! {
+            #[test]
+            fn #name() {
+                panic!("{}", #text);
+            }
+        }
+    });
+    let unsound: TokenStream = unsound.collect();
     let texts = compiled.plan_sources().map(|source| sources::included(&source.name));
     let texts: Vec<_> = texts.chain(available.texts).collect();
     // Cargo watches the files only because something includes them.
     Ok(Some(quote! {
         #tests
+        #unsound
         const _: &[&str] = &[#(#texts),*];
     }))
 }

@@ -36,7 +36,7 @@ impl LoadedWorld {
 }
 
 /// What asks for a room made up instead of a file, before the seed.
-const RANDOM: &str = "random:";
+pub const RANDOM: &str = "random:";
 
 /// The world of a plan: the file asked for, which may also be a map (`.yaml`) or `random:SEED`, else `[run] world` of `afp.toml`, else
 /// `worlds/<plan file>.toml` beside the plan's folder, else the built-in room.

@@ -137,7 +137,7 @@ mod tests {
         let lasting = |touches: &Collisions, now| -> Vec<usize> {
             touches.lasting(now).map(|touch| touch.obstacle).collect()
         };
-        assert_eq!(lasting(&touches, at(0)), []);
+        assert_eq!(lasting(&touches, at(0)), [0; 0]);
         touches.touch(7, at(1));
         touches.touch(7, at(2));
         touches.touch(3, at(2));
@@ -146,7 +146,7 @@ mod tests {
         assert_eq!(lasting(&touches, at(3)), [7], "the one that began last is over");
         let between = at(3) + afp_core::Duration::from_nanos(STEP.as_nanos() - 1);
         assert_eq!(lasting(&touches, between), [7], "until the next step looks");
-        assert_eq!(lasting(&touches, at(4)), []);
+        assert_eq!(lasting(&touches, at(4)), [0; 0]);
         touches.touch(3, at(5));
         assert_eq!(lasting(&touches, at(5)), [3], "as one collision with that before");
         assert_eq!(touches.0.len(), 2);

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use afp_core::Instant;
 use afp_session::{AnySession, Counts, Go, Observer, Track};
 
-use crate::outcome::{Ending, Outcome, numbers};
+use crate::outcome::{CONTACTS, Ending, Outcome, numbers, touched};
 
 /// Runs a plan as `afpc run` does; `None` when it was called off.
 pub(crate) fn drive(
@@ -62,7 +62,8 @@ fn outcome(
         why,
         time_s: session.now().as_secs_f64(),
         distance_m,
-        collisions: figures.spans("contacts").len() as u64,
+        collisions: figures.spans(CONTACTS).len() as u64,
+        touched: touched(&figures),
         interruptions: counts.interruptions,
         deadline_misses: session.misses(),
         figures: numbers(&figures),

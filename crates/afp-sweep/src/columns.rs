@@ -68,6 +68,7 @@ pub fn columns(sweep: &Sweep, outcomes: &[Outcome]) -> Vec<Column> {
         numbers(&Measure::Time),
         numbers(&Measure::Distance),
         counts("collisions", |it| it.collisions),
+        column("touched", Cells::Texts(outcomes.iter().map(Outcome::touched_text).collect())),
         counts("interruptions", |it| it.interruptions),
         counts("deadline_misses", |it| it.deadline_misses),
     ]);

@@ -12,8 +12,23 @@ pub struct Findings {
     /// Runs that ended in the same way at the same place for the same reason: failures last, the most
     /// frequent first.
     pub groups: Vec<Group>,
+    /// What was touched, the longest first.
+    pub touched: Vec<Touched>,
     /// The measures of the runs that started.
     pub measures: Vec<(Measure, Spread)>,
+}
+
+/// Something that robots touched.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Touched {
+    /// Its name.
+    pub name: String,
+    /// In how many runs.
+    pub runs: u64,
+    /// For how long altogether, seconds.
+    pub lasted_s: f64,
+    /// The run in which it was touched longest.
+    pub longest: u64,
 }
 
 /// Runs that ended alike.
@@ -125,6 +140,7 @@ impl Findings {
         Findings {
             endings: endings.filter(|(_, count)| *count > 0).collect(),
             groups: groups(outcomes),
+            touched: touched(outcomes),
             measures: all.filter_map(spread).collect(),
         }
     }
@@ -151,6 +167,29 @@ fn groups(outcomes: &[Outcome]) -> Vec<Group> {
         (group.ending.is_failure(), std::cmp::Reverse(group.count), group.run)
     });
     groups
+}
+
+fn touched(outcomes: &[Outcome]) -> Vec<Touched> {
+    let mut sorted: Vec<&Outcome> = outcomes.iter().collect();
+    sorted.sort_by_key(|outcome| outcome.run);
+    let mut all: BTreeMap<&str, (Touched, f64)> = BTreeMap::new();
+    for outcome in sorted {
+        for (name, lasted) in &outcome.touched {
+            let none = || {
+                let name = name.clone();
+                (Touched { name, runs: 0, lasted_s: 0.0, longest: outcome.run }, 0.0)
+            };
+            let (sum, most) = all.entry(name).or_insert_with(none);
+            sum.runs += 1;
+            sum.lasted_s += lasted;
+            if lasted > most {
+                (*most, sum.longest) = (*lasted, outcome.run);
+            }
+        }
+    }
+    let mut all: Vec<_> = all.into_values().map(|(touched, _)| touched).collect();
+    all.sort_by(|a, b| b.lasted_s.total_cmp(&a.lasted_s).then_with(|| a.name.cmp(&b.name)));
+    all
 }
 
 #[cfg(test)]
@@ -183,6 +222,23 @@ mod tests {
         let mut reversed = all.to_vec();
         reversed.reverse();
         assert_eq!(Findings::new(&reversed), findings);
+    }
+
+    #[test]
+    fn what_was_touched_is_summed_up_over_the_runs() {
+        let run = |run, touched: &[(&str, f64)]| Outcome {
+            touched: touched.iter().map(|(name, s)| ((*name).to_owned(), *s)).collect(),
+            ..outcome(run, Ending::TimeLimit, "", 60.0)
+        };
+        let all = [run(2, &[("step", 4.0)]), run(0, &[("crate", 1.5), ("step", 0.5)]), run(1, &[])];
+        let touched = |name: &str, runs, lasted_s, longest| Touched {
+            name: name.to_owned(),
+            runs,
+            lasted_s,
+            longest,
+        };
+        let wanted = [touched("step", 2, 4.5, 2), touched("crate", 1, 1.5, 0)];
+        assert_eq!(Findings::new(&all).touched, wanted);
     }
 
     #[test]

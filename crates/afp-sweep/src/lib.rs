@@ -24,7 +24,7 @@ mod table;
 
 pub use columns::{Cells, Column, columns};
 pub use engine::{Engine, Maker};
-pub use findings::{Findings, Group, Measure, Spread};
+pub use findings::{Findings, Group, Measure, Spread, Touched};
 pub use grid::{Axis, Point, Row, Sweep};
 pub use journal::{Header, Journal};
 pub use outcome::{Ending, Outcome};

@@ -70,6 +70,9 @@ pub struct Outcome {
     pub distance_m: f64,
     /// How often it ran into something.
     pub collisions: u64,
+    /// What it touched, and for how long altogether, seconds.
+    #[serde(default)]
+    pub touched: BTreeMap<String, f64>,
     /// How often an actor was interrupted.
     pub interruptions: u64,
     /// Deadlines that were missed.
@@ -83,6 +86,9 @@ pub struct Outcome {
     /// How long it took by the wall clock, seconds.
     pub took_s: f64,
 }
+
+/// The figure of what was touched.
+pub(crate) const CONTACTS: &str = "contacts";
 
 /// Figures as numbers with names: a count by the figure's own, each of its numbers with that before it, stretches of time
 /// by their sum in seconds.
@@ -105,7 +111,23 @@ pub(crate) fn numbers(figures: &Figures) -> BTreeMap<String, f64> {
     all
 }
 
+/// What the robot touched, and for how long altogether, seconds.
+pub(crate) fn touched(figures: &Figures) -> BTreeMap<String, f64> {
+    let mut all = BTreeMap::new();
+    for span in figures.spans(CONTACTS) {
+        let lasted = span.end.since(span.begin).as_secs_f64();
+        *all.entry(span.name.clone()).or_insert(0.0) += lasted;
+    }
+    all
+}
+
 impl Outcome {
+    /// What it touched, in words: `crate 1.3 s, wall 0.2 s`.
+    pub(crate) fn touched_text(&self) -> String {
+        let each = self.touched.iter().map(|(name, lasted)| format!("{name} {lasted:.1} s"));
+        each.collect::<Vec<_>>().join(", ")
+    }
+
     /// A run that has no more to tell than why it failed.
     pub(crate) fn failed(run: u64, ending: Ending, why: String) -> Self {
         Outcome {
@@ -116,6 +138,7 @@ impl Outcome {
             time_s: 0.0,
             distance_m: 0.0,
             collisions: 0,
+            touched: BTreeMap::new(),
             interruptions: 0,
             deadline_misses: 0,
             figures: BTreeMap::new(),
@@ -143,12 +166,15 @@ mod tests {
             figure("contacts", FigureValue::Spans { of: "obstacle", spans }),
             figure("dirt", FigureValue::Numbers(vec![("left_m2", 0.5)])),
         ]);
+        let touched = touched(&figures);
+        assert_eq!(touched, [("crate".to_owned(), 3.0)].into());
         let figures = numbers(&figures);
         let pairs: Vec<_> = figures.iter().map(|(name, number)| (name.as_str(), *number)).collect();
         assert_eq!(pairs, [("contacts_s", 3.0), ("dirt_left_m2", 0.5), ("drops", 2.0)]);
-        let outcome = Outcome { figures, ..Outcome::failed(3, Ending::Ok, String::new()) };
+        let outcome = Outcome { figures, touched, ..Outcome::failed(3, Ending::Ok, String::new()) };
         let line = serde_json::to_string(&outcome).unwrap();
         assert!(line.contains("\"dirt_left_m2\":0.5"), "{line}");
+        assert_eq!(outcome.touched_text(), "crate 3.0 s");
         assert_eq!(serde_json::from_str::<Outcome>(&line).unwrap(), outcome);
     }
 }

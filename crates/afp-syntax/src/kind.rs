@@ -169,6 +169,8 @@ kinds! {
     World
     /// `seed 7`
     Seed
+    /// `over seeds 0..20` or `over worlds "file", "file"`
+    Over
     /// `set path = formula`
     Set
     /// `robot at (x, y) heading angle`

@@ -9,6 +9,7 @@ mod coverage;
 mod drive;
 mod generate;
 mod macros;
+pub mod mutate;
 mod parts;
 mod setting;
 mod stimuli;

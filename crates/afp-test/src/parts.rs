@@ -5,7 +5,7 @@ use afp_dsl::graph::{
     Component, Element, ElementId, Graph, Output, Plan, PlanId, Supervisor, SupervisorId,
     TemplateId,
 };
-use afp_dsl::scenario::Injection;
+use afp_dsl::scenario::{Injection, Outcome};
 use afp_dsl::toolbox::{Constant, OutPort};
 use afp_dsl::types::Type;
 use afp_dsl::unfold::{Goal, Place, Unfolded, places, unfold};
@@ -240,6 +240,7 @@ impl<'a> Parts<'a> {
             if texts.is_empty() { String::new() } else { format!("({})", texts.join(", ")) };
         let text =
             format!("{verb} {}.{}{values}", self.path(number), self.outcome(number, outcome));
+        let outcome = Outcome::Declared(outcome);
         Some((Injection { component: number, outcome, outputs }, text))
     }
 }

@@ -43,6 +43,9 @@ impl Setting {
 
 /// The file of a world that is written in a scenario.
 fn place(written: &str, file: &Path) -> Result<PathBuf, RunError> {
+    if written.starts_with(world::RANDOM) {
+        return Ok(PathBuf::from(written));
+    }
     let beside = file.parent().unwrap_or(Path::new("")).join(written);
     if beside.is_file() {
         return Ok(beside);

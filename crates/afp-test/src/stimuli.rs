@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use afp::load::Injection;
 use afp_core::devices::{find_control, find_fault};
-use afp_core::trace::ComponentId;
+use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR, Kind, Names};
 use afp_core::{Duration, Instant, Text, Value};
-use afp_dsl::scenario::{self, Action, Failure, Part, Scenario};
+use afp_dsl::scenario::{self, Action, Failure, Outcome, Part, Scenario};
 use afp_dsl::toolbox::Constant;
 use afp_session::{AnySession, HOLD, Request, RequestError, RequestId};
 
@@ -55,7 +55,9 @@ fn requests(
             vec![(at, Request::Break(id, *amount, lasting))]
         }
         Action::Idle(element) => vec![(at, Request::Idle(element.map(ComponentId)))],
-        Action::Inject(injection) => vec![(at, Request::Inject(injected(injection)))],
+        Action::Inject(injection) => {
+            vec![(at, Request::Inject(injected(injection, session.names())))]
+        }
     })
 }
 
@@ -71,10 +73,15 @@ pub(crate) fn owned(value: &Constant) -> Value {
     }
 }
 
-fn injected(injection: &scenario::Injection) -> Injection {
+fn injected(injection: &scenario::Injection, names: &dyn Names) -> Injection {
+    let component = ComponentId(injection.component);
     Injection {
-        component: ComponentId(injection.component),
-        outcome: injection.outcome,
+        component,
+        outcome: match (injection.outcome, names.component(component).kind) {
+            (Outcome::Declared(outcome), _) => outcome,
+            (Outcome::Special, Kind::Supervisor) => DEADLINE_MISSED,
+            (Outcome::Special, _) => ERROR,
+        },
         outputs: injection.outputs.iter().map(|(port, value)| (*port, owned(value))).collect(),
     }
 }

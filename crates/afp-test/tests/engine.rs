@@ -172,6 +172,94 @@ fn outcomes_are_injected_at_the_next_poll_and_traced() {
     assert_eq!(traced, 2);
 }
 
+/// A plan that goes on where something fails or is late.
+const CAREFUL: &str = r#"
+use carbot
+
+plan Ahead {
+    start go
+    actor go: Forward(distance = 1 m) {
+        supervise touch: CheckTouchSensor { TouchSensorPressed -> terminate, DeadlineMissed -> slow }
+        ForwardSuccessful -> terminate
+        Error -> back
+    }
+    actor back: Forward(distance = -10 cm) { ForwardSuccessful -> terminate }
+    actor slow: Forward(distance = 10 cm) { ForwardSuccessful -> terminate }
+}
+"#;
+
+#[test]
+fn errors_and_missed_deadlines_are_fired() {
+    let run = |lines: &str| {
+        let compiled = compiled(CAREFUL, &format!("{FREE} {lines}"));
+        let scenario = &compiled.scenarios[0];
+        let setting = Setting::find(scenario, Path::new("case.afp"), robot().kind()).unwrap();
+        afp_test::run(scenario, &setting, &robot(), None).unwrap()
+    };
+    let missed = "at 500 ms: fire go.touch.DeadlineMissed
+        expect go -> slow by touch.DeadlineMissed once within 20 ms after 500 ms
+        expect interrupt of go once within 20 ms after 500 ms
+        expect end by slow";
+    let failed = "at 500 ms: fire go.Error
+        expect go -> back by Error once within 20 ms after 500 ms
+        never slow active
+        expect end by back";
+    for (lines, word) in [(missed, "DeadlineMissed"), (failed, "a test made the component fail")] {
+        let verdict = run(lines);
+        assert!(verdict.passed(), "{}", verdict.report());
+        let text: String = verdict.timeline.iter().map(|(_, line)| format!("{line}\n")).collect();
+        assert!(text.contains("(injected)") && text.contains(word), "{text}");
+        let (_, expected) = lines.split_once('\n').unwrap();
+        assert!(!run(expected).passed(), "it does not happen by itself");
+    }
+}
+
+#[test]
+fn one_scenario_runs_over_seeds_and_worlds() {
+    let both = compiled(
+        PLAN,
+        "over seeds 3..5\n over worlds \"random:7..9\"\n set way = 8 m\n expect running before 100 ms\n until 30 s",
+    );
+    let names: Vec<_> = both.scenarios.iter().map(|scenario| scenario.name.as_str()).collect();
+    assert_eq!(
+        names,
+        [
+            "it (random:7, seed 3)",
+            "it (random:7, seed 4)",
+            "it (random:8, seed 3)",
+            "it (random:8, seed 4)"
+        ]
+    );
+    let traces = both.scenarios.iter().map(|scenario| {
+        let setting = Setting::find(scenario, Path::new("tests/case.afp"), robot().kind()).unwrap();
+        let verdict = afp_test::run(scenario, &setting, &robot(), None).unwrap();
+        assert!(verdict.passed(), "{}", verdict.report());
+        verdict.trace
+    });
+    let traces: std::collections::BTreeSet<_> = traces.collect();
+    assert!(traces.len() >= 3, "they are different runs");
+}
+
+#[test]
+fn what_a_plan_cannot_meet_any_more_fails_alone() {
+    let gone = "expect go -> back by escape\n}\nscenario \"other\" for Ahead {\n expect end";
+    let compiled = compiled(PLAN, gone);
+    assert!(compiled.graph.is_none(), "the file has an error");
+    let [sound] = compiled.scenarios.as_slice() else { panic!("{}", compiled.render(false)) };
+    let [unsound] = compiled.unsound.as_slice() else { panic!("{}", compiled.render(false)) };
+    assert_eq!((&*sound.name, &*unsound.name, &*unsound.plan), ("other", "it", "Ahead"));
+    let why = unsound.errors.render(&compiled.sources, false);
+    assert!(
+        why.contains("E0603") && why.contains("'escape' does not lead from 'go' to 'back'"),
+        "{why}"
+    );
+    let wrong = PLAN.replace("-> nested,", "-> nowhere,");
+    let text = format!("{wrong}\nscenario \"it\" for Ahead {{ {gone} }}\n");
+    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+    let compiled = afp_dsl::compile(&Source::new("case.afp", text), &toolboxes, &Texts::default());
+    assert!(compiled.scenarios.is_empty() && compiled.unsound.is_empty(), "the plan is wrong");
+}
+
 #[test]
 fn what_is_not_active_cannot_be_made_to_report() {
     let idle = "expect go active\n until 2 s";

@@ -23,6 +23,9 @@ use crate::Linked;
 use crate::cli::Command;
 use crate::plan_file::NoPlan;
 
+/// The exit code of what does many runs and was stopped before all of them were done.
+const EXIT_STOPPED: u8 = 130;
+
 /// Runs a command.
 pub fn dispatch(command: &Command, linked: &Linked<'_>) -> ExitCode {
     let result = match command {

@@ -125,7 +125,7 @@ impl PlanFile {
 }
 
 /// The text of a file that a plan file uses.
-fn read_used(path: &str) -> Result<String, String> {
+pub fn read_used(path: &str) -> Result<String, String> {
     fs::read_to_string(path).map_err(|error| match error.kind() {
         ErrorKind::NotFound => "there is no such file".to_owned(),
         _ => error.to_string().to_lowercase(),

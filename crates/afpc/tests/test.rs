@@ -99,7 +99,65 @@ fn generated_scenarios_find_their_plan_from_where_they_are_written() {
 fn a_wrong_scenario_does_not_hide_the_others() {
     let place = place();
     place.write("tests/wrong.afp", "use \"../wall_following.afp\"\n\nscenario \"x\" for WallFollowing { expect nobody active }\n");
-    place.afpc("test bump").fails(1, &["E0602", "tests/wrong.afp:3"]);
-    let said = place.afpc("test bump");
-    assert!(said.out.contains("a bump leads back"), "{}", said.out);
+    let said = place.afpc("test");
+    assert_eq!(said.code, 3, "{}", said.out);
+    assert!(said.out.contains("ok    ") && said.out.contains("a bump leads back"), "{}", said.out);
+    assert!(said.out.contains("FAILED    0.000 s  x  tests/wrong.afp:3"), "{}", said.out);
+    assert!(said.out.contains("error[E0602]: 'WallFollowing' has no element"), "{}", said.out);
+    place.afpc("test bump").succeeds();
+    // What is wrong beside the scenarios hides them.
+    place.write("tests/wrong.afp", "use \"../wall_following.afp\"\nuse nothing\n\nscenario \"x\" for WallFollowing { expect running }\n");
+    place.afpc("test bump").fails(1, &["E0238", "tests/wrong.afp:2"]);
+}
+
+const SHORT: &str = r#"use carbot
+
+plan Short {
+    start go
+    supervise escape: CheckEscapeButton { EscapeButtonPressed -> terminate }
+    actor go: Forward(distance = 20 cm) { ForwardSuccessful -> back }
+    actor back: Forward(distance = -10 cm) { ForwardSuccessful -> terminate }
+}
+"#;
+
+#[test]
+fn mutants_are_made_and_those_that_nobody_notices_are_told() {
+    let place = Place::new();
+    place.write("short.afp", SHORT);
+    let scenarios = "use \"../short.afp\"\n\nscenario \"ends\" for Short { expect go -> back  expect end by back before 20 s }\n";
+    place.write("tests/short.afp", scenarios);
+    let said = place.afpc("test --mutate");
+    said.succeeds();
+    for text in [
+        "short.afp: ",
+        "sign      20 cm becomes -20 cm",
+        "NOBODY noticed",
+        "-> back becomes -> ",
+        "noticed by 'ends'",
+        " mutants that change a run are noticed (",
+    ] {
+        assert!(said.out.contains(text), "no {text:?} in {}", said.out);
+    }
+    assert_eq!(
+        said.out,
+        place.afpc("test --mutate --seed 0").out,
+        "the same seed, the same mutants"
+    );
+    assert_eq!(place.afpc("test --mutate --at-least 99").code, 3);
+    let json = place.afpc("test --mutate --json").last_json();
+    assert_eq!(json["mutated"], "short.afp");
+    let share = json["share"].as_f64().unwrap();
+    assert!(share > 0.2 && share < 0.99, "{json}");
+    // Who says where it comes to stand notices the signs, too.
+    let told = scenarios.replace(
+        "before 20 s",
+        "before 20 s  never robot.pose.x < 2.39 m  expect robot.pose.x > 2.55 m",
+    );
+    place.write(
+        "tests/short.afp",
+        &told.replace("for Short {", "for Short { robot at (2.4 m, 2.4 m) heading 0 deg "),
+    );
+    let better = place.afpc("test --mutate --json").last_json()["share"].as_f64().unwrap();
+    assert!(better > share, "{better}");
+    place.afpc("test --mutate nothing").fails(2, &["takes files", "no file 'nothing'"]);
 }

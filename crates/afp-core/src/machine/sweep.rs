@@ -188,11 +188,16 @@ impl<P: PlanState> Level<P> {
         if let Some(slot) = self.slots.as_mut().get_mut(usize::from(row.slot)) {
             slot.next = release.next;
         }
-        let late = poll.end > release.at + row.deadline || release.skipped > 0;
+        let deadline = release.at + row.deadline;
+        let (event, end) = match poll.fired.position() {
+            Some(DEADLINE_MISSED) => (None, poll.end.max(deadline + Duration::from_nanos(1))),
+            event => (event, poll.end),
+        };
+        let late = end > deadline || release.skipped > 0;
         if late {
-            trace_miss(t, (supervisor, row), &release, poll.begin, poll.end, cx);
+            trace_miss(t, (supervisor, row), &release, poll.begin, end, cx);
         }
-        if let Some(event) = poll.fired.position() {
+        if let Some(event) = event {
             let target = t.table().edge(row.events, event);
             if takes(t, supervisor, event, target, moment, cx) {
                 return Err(poll.fired.fault.map_or(What::Event(event, target), What::Fault));
@@ -277,7 +282,7 @@ impl Fired {
     }
 
     fn verdict(self) -> Verdict {
-        match (self.position(), self.fault) {
+        match (self.position().filter(|event| *event != DEADLINE_MISSED), self.fault) {
             (Some(event), _) => Verdict::Event(event),
             (None, Some(fault)) => Verdict::Fault(fault),
             (None, None) => Verdict::Clear,

@@ -11,7 +11,7 @@ use crate::rt::state::Plan;
 use crate::rt::store::{Entry, Stored};
 use crate::rt::table::Child;
 use crate::time::Instant;
-use crate::trace::{Author, ComponentId, Ending, Record, Sink, TraceEntryId};
+use crate::trace::{Author, ComponentId, DEADLINE_MISSED, Ending, Record, Sink, TraceEntryId};
 use crate::value::ValueRef;
 
 /// When a supervisor is due.
@@ -116,6 +116,11 @@ impl Fired {
     pub fn event(event: u16, staged: Result<(), Fault>) -> Self {
         let event = NonZeroU32::MIN.saturating_add(u32::from(event));
         Fired { event: Some(event), fault: staged.err() }
+    }
+
+    /// The poll counts as one that ended after its deadline: for tests.
+    pub fn missed() -> Self {
+        Fired::event(DEADLINE_MISSED, Ok(()))
     }
 
     /// The event, by position in the template.

@@ -10,6 +10,7 @@ mod compare;
 mod devices;
 mod names;
 mod often;
+mod over;
 mod paths;
 mod resolve;
 mod robot;
@@ -33,6 +34,7 @@ use afp_syntax::source::Span;
 use afp_syntax::unquote;
 
 pub use actions::VERBS;
+use over::Over;
 use paths::Paths;
 use resolve::Resolver;
 use robot::Robot;
@@ -64,7 +66,7 @@ pub(super) fn check(
                 twice(&name, &mut named, diags);
             }
             let scenario = scenario(context, (files, &robot), plans, &node, diags);
-            checked.extend(scenario.filter(|_| place == 0));
+            checked.extend(scenario.into_iter().flatten().filter(|_| place == 0));
         }
     }
     checked
@@ -79,10 +81,11 @@ pub fn outputs(graph: &graph::Graph, component: &str, outcome: u16) -> Vec<(u16,
     outputs.map(|(place, port, ty)| (place, port.name.clone(), ty)).collect()
 }
 
-/// The plan that the first scenario of a file is for: what runs where the file has no plan.
+/// The plan that the first scenario of a file with a plan that is there is for: what runs where the file has no plan.
 pub(super) fn first_plan(program: &Program<'_>, file: &PlanFile) -> Option<usize> {
-    let reference = nodes(&file.tree).first()?.plan()?.name()?;
-    program.files.first()?.plans.get(&reference.text)?.first().copied()
+    let known = &program.files.first()?.plans;
+    let plan = |node: &ast::Scenario| known.get(&node.plan()?.name()?.text)?.first().copied();
+    nodes(&file.tree).iter().find_map(plan)
 }
 
 fn nodes(file: &ast::File) -> Vec<ast::Scenario> {
@@ -124,7 +127,7 @@ fn scenario(
     plans: &Plans<'_>,
     node: &ast::Scenario,
     diags: &mut Diagnostics,
-) -> Option<Scenario> {
+) -> Option<Vec<Scenario>> {
     let place = node.plan().and_then(|reference| plan(context, &reference, diags));
     let program = context.program;
     let resolver = Resolver { program, members: plans.members };
@@ -147,16 +150,17 @@ fn scenario(
         ..Scenario::quiet(unquote(&name, diags), graph.clone(), plan_file, until)
     };
     checker.lines(&lines, &mut scenario, diags);
+    let over = Over::of(&lines, diags);
     let broken = diags.error_within(node.span());
     if scenario.expectations.is_empty() && !broken {
         diags.push(
             Diagnostic::new(Code::E0609, name.span, "the scenario expects nothing")
-                .help("add a line such as 'expect end' or 'never collision'"),
+                .help("add a line such as 'expect end' or 'never end'"),
         );
     }
     checker.inputs(&scenario, node, &name, diags);
     scenario.stimuli.sort_by_key(|stimulus| stimulus.at);
-    Some(scenario)
+    Some(over.runs(scenario))
 }
 
 /// The plan that a scenario is for, by its place.
@@ -208,12 +212,18 @@ impl Checker<'_> {
             let key = match line.kind() {
                 LineKind::Stimulus(..) | LineKind::Expect { .. } => None,
                 LineKind::Set(path, _) => path.map(|path| format!("set {}", path.text())),
+                LineKind::OverSeeds(..) => Some("over seeds".to_owned()),
+                LineKind::OverWorlds(_) => Some("over worlds".to_owned()),
                 _ => Some(line.keyword()),
             };
             if let Some(key) = key {
-                if let Some((_, first)) = once.iter().find(|(known, _)| *known == key) {
+                if let Some((known, first)) = once.iter().find(|(known, _)| excludes(known, &key)) {
+                    let message = match *known == key {
+                        true => format!("'{key}' stands twice"),
+                        false => format!("'{key}' does not go with '{known}'"),
+                    };
                     diags.push(
-                        Diagnostic::new(Code::E0601, line.span(), format!("'{key}' stands twice"))
+                        Diagnostic::new(Code::E0601, line.span(), message)
                             .note(*first, "first written here")
                             .help("remove one of the lines"),
                     );
@@ -246,7 +256,8 @@ impl Checker<'_> {
             LineKind::Expect { never, claim: Some(claim), bounds } => {
                 scenario.expectations.extend(self.expectation(line, never, &claim, &bounds, diags));
             }
-            LineKind::Until(_) | LineKind::Set(..) | LineKind::Stimulus(..) => {}
+            LineKind::OverSeeds(..) | LineKind::OverWorlds(_) | LineKind::Until(_) => {}
+            LineKind::Set(..) | LineKind::Stimulus(..) => {}
             LineKind::Expect { claim: None, .. } => {}
         }
     }
@@ -362,6 +373,12 @@ impl Checker<'_> {
                 .help(format!("add 'set {} = ...'", first.name)),
         );
     }
+}
+
+/// Whether of two lines one alone can stand.
+fn excludes(one: &str, other: &str) -> bool {
+    let both = |a, b| [(a, b), (b, a)].contains(&(one, other));
+    one == other || both("seed", "over seeds") || both("world", "over worlds")
 }
 
 fn seed(number: &Name, diags: &mut Diagnostics) -> Option<u64> {

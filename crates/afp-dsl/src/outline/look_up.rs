@@ -5,11 +5,19 @@ use std::sync::Arc;
 use super::{Component, ComponentKind, MadeFrom, Outline, Plan, PlanId};
 use crate::toolbox::{Template, Toolbox};
 use afp_syntax::ast::ElementKind;
+use afp_syntax::diagnostics::{Diagnostics, Severity};
 
 impl Outline {
     /// A plan by index.
     pub fn plan(&self, id: PlanId) -> &Plan {
         &self.plans[id.index()]
+    }
+
+    /// Whether every error lies in a scenario, so that the plans are sound.
+    pub(crate) fn excuses(&self, diags: &Diagnostics) -> bool {
+        let scenarios = || self.files.iter().flat_map(|file| &file.scenarios);
+        let errors = diags.iter().filter(|each| each.severity == Severity::Error);
+        { errors }.all(|error| scenarios().any(|scenario| scenario.span.contains(error.span)))
     }
 }
 

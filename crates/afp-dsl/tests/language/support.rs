@@ -36,6 +36,7 @@ pub fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
         return Compiled {
             graph: None,
             scenarios: Vec::new(),
+            unsound: Vec::new(),
             outline: Default::default(),
             index: Default::default(),
             diags,

@@ -27,6 +27,10 @@ pub enum LineKind {
     World(Option<Name>),
     /// `seed 7`
     Seed(Option<Name>),
+    /// `over seeds 0..20`: the first one and the one behind the last.
+    OverSeeds(Option<Name>, Option<Name>),
+    /// `over worlds "file", "file"`, quotes included.
+    OverWorlds(Vec<Name>),
     /// `set path = formula`
     Set(Option<Path>, Option<Formula>),
     /// `robot at (x, y) heading angle`, the angle perhaps missing.
@@ -99,6 +103,7 @@ impl Scenario {
                 node.kind(),
                 Kind::World
                     | Kind::Seed
+                    | Kind::Over
                     | Kind::Set
                     | Kind::Robot
                     | Kind::Stimulus
@@ -117,6 +122,13 @@ impl Line {
         match self.node.kind() {
             Kind::World => LineKind::World(self.token(Kind::Text)),
             Kind::Seed => LineKind::Seed(self.token(Kind::Int)),
+            Kind::Over if self.is_over("worlds") => {
+                LineKind::OverWorlds(tokens(&self.node, Kind::Text, self.file))
+            }
+            Kind::Over => {
+                let mut seeds = tokens(&self.node, Kind::Int, self.file).into_iter();
+                LineKind::OverSeeds(seeds.next(), seeds.next())
+            }
             Kind::Set => LineKind::Set(path(&self.node, self.file), first()),
             Kind::Robot => LineKind::Robot(Formula::children_of(&self.node, self.file)),
             Kind::Stimulus => LineKind::Stimulus(
@@ -141,6 +153,10 @@ impl Line {
 
     fn token(&self, kind: Kind) -> Option<Name> {
         token(&self.node, kind, self.file)
+    }
+
+    fn is_over(&self, word: &str) -> bool {
+        tokens(&self.node, Kind::Keyword, self.file).iter().any(|token| token.text == word)
     }
 }
 

@@ -3,7 +3,8 @@
 use super::Parser;
 use crate::kind::Kind;
 
-const LINE_HELP: &str = "write 'world', 'seed', 'set', 'robot', 'at', 'expect', 'never' or 'until'";
+const LINE_HELP: &str =
+    "write 'world', 'seed', 'over', 'set', 'robot', 'at', 'expect', 'never' or 'until'";
 
 impl Parser<'_, '_> {
     pub(super) fn scenario(&mut self) {
@@ -34,10 +35,7 @@ impl Parser<'_, '_> {
     }
 
     pub(super) fn at_line(&self) -> bool {
-        matches!(
-            self.word(0),
-            "world" | "seed" | "set" | "robot" | "at" | "expect" | "never" | "until"
-        )
+        is_line(self.word(0))
     }
 
     fn line(&mut self) {
@@ -52,6 +50,7 @@ impl Parser<'_, '_> {
                 self.keyword();
                 self.expect(Kind::Int, "write a whole number");
             }
+            "over" => self.over(),
             "set" => {
                 self.open_item(Kind::Set);
                 self.set();
@@ -72,6 +71,27 @@ impl Parser<'_, '_> {
             _ => self.expectation(),
         }
         self.close_item();
+    }
+
+    /// `over seeds 0..20` or `over worlds "a.toml", "b.toml"`
+    fn over(&mut self) {
+        self.open_item(Kind::Over);
+        self.keyword();
+        if self.eat_word("seeds") {
+            let whole = self.expect(Kind::Int, "write the first seed, such as '0..20'");
+            if whole && self.eat(Kind::Dot) && self.expect(Kind::Dot, "write '0..20'") {
+                self.expect(Kind::Int, "write the seed behind the last one");
+            } else if whole {
+                self.expected("'..'", "write the seeds as '0..20', of which the last is 19");
+            }
+        } else if self.eat_word("worlds") {
+            self.expect(Kind::Text, "write the worlds' files in double quotes");
+            while self.eat(Kind::Comma) {
+                self.expect(Kind::Text, "write the next world's file in double quotes");
+            }
+        } else {
+            self.expected("'seeds' or 'worlds'", "write 'over seeds 0..20'");
+        }
     }
 
     fn set(&mut self) {
@@ -114,7 +134,10 @@ impl Parser<'_, '_> {
                 self.quantity("write a time such as '500 ms'");
             }
         } else {
-            self.expected("an action", "write what happens, such as 'press touch'");
+            self.expected(
+                "an action",
+                "write what happens, such as 'idle all' or 'press' and a control",
+            );
         }
         self.close();
     }
@@ -122,6 +145,7 @@ impl Parser<'_, '_> {
     fn expectation(&mut self) {
         self.open_item(Kind::Expect);
         self.keyword();
+        self.misplaced_word();
         self.open(Kind::Claim);
         self.claim();
         self.close();
@@ -146,6 +170,22 @@ impl Parser<'_, '_> {
                 }
                 _ => break,
             }
+        }
+    }
+
+    /// Reports a word in front of a claim that belongs elsewhere: `expect never end`.
+    fn misplaced_word(&mut self) {
+        let help = match self.word(0) {
+            "never" | "not" => "write 'never' in place of 'expect'",
+            "always" | "once" => "write it behind the claim",
+            "expect" => "write either 'expect' or 'never'",
+            _ => return,
+        };
+        let goes_on = ["active", "always", "once", "within", "before", "after", "by"];
+        let claimed = self.nth(1) == Kind::Name && !is_line(self.word(1));
+        if claimed && self.on_same_line() && !goes_on.contains(&self.word(1)) {
+            self.expected("a claim", help);
+            self.keyword();
         }
     }
 
@@ -191,4 +231,12 @@ impl Parser<'_, '_> {
             self.path();
         }
     }
+}
+
+/// Whether a line of a scenario begins with this word.
+fn is_line(word: &str) -> bool {
+    matches!(
+        word,
+        "world" | "seed" | "over" | "set" | "robot" | "at" | "expect" | "never" | "until"
+    )
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use afp_core::rt::{Child, Cx, Flow, Machine, Plan, PlanState, Polled, Started};
-use afp_core::trace::Sink;
+use afp_core::trace::{ERROR, Sink};
 use afp_core::{Clock, Environment, Fault};
 use afp_dsl::graph;
 
@@ -135,7 +135,7 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
         }
     }
 
-    /// Reaches a state that was put there; the scheduler then interrupts what runs.
+    /// Reaches a state that was put there, or fails; the scheduler then interrupts what runs.
     #[cold]
     #[inline(never)]
     pub fn finish<S: Sink, C: Clock>(
@@ -146,6 +146,9 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
     ) -> Polled {
         let Some(injected) = self.injected.take() else { return Polled::Pending };
         cx.show_injected(element.into(), injected.outcome);
+        if injected.outcome == ERROR {
+            return Polled::Failed(Fault::INJECTED);
+        }
         let mut stage = Stage::new(&self.outputs, &mut config.staged);
         injected.stage(&mut stage);
         match stage.result() {

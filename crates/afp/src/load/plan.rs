@@ -10,7 +10,7 @@ use afp_core::rt::{
     Committer, Cx, Events, Fired, NamedPlan, Plan, Polled, Scale, Slot, Started, Tables, Unit,
     int_to_float,
 };
-use afp_core::trace::Sink;
+use afp_core::trace::{DEADLINE_MISSED, Sink};
 use afp_core::{Clock, Environment, Fault, PlanState, Value, ValueRef, WriteError};
 use afp_dsl::graph::{self, EntryKind, Graph};
 use afp_dsl::types::Type;
@@ -151,9 +151,12 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
         }) else {
             return Fired::NOTHING;
         };
+        cx.show_injected(part, injected.outcome);
+        if injected.outcome == DEADLINE_MISSED {
+            return Fired::missed();
+        }
         let mut stage = Stage::new(&watch.outputs, &mut self.config.staged);
         injected.stage(&mut stage);
-        cx.show_injected(part, injected.outcome);
         Fired::event(injected.outcome, stage.result())
     }
 

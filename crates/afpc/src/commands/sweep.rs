@@ -13,6 +13,7 @@ use afp_sweep::{Axis, Engine, Findings, Header, Journal, Outcome, Place, Seeds, 
 use clap::Args;
 
 use crate::cli::PlanArgument;
+use crate::commands::EXIT_STOPPED;
 use crate::plan_file::{NoPlan, PlanFile};
 use crate::{Linked, runner};
 
@@ -76,9 +77,6 @@ Examples:
 A sweep that was stopped or killed goes on with the same command.
 Exit codes: 0 done, 1 a file is wrong, 2 wrong usage, 3 a run ended in Error or could not begin,
 130 stopped before all runs were done";
-
-/// The exit code of a sweep that somebody stopped.
-const EXIT_STOPPED: u8 = 130;
 
 /// A sweep keeps its outcomes in memory too, some hundred bytes each.
 const MOST_RUNS: u64 = 20_000_000;

@@ -3,14 +3,16 @@
 mod cover;
 mod find;
 mod generate;
+mod mutate;
 mod tell;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant as Wall;
 
-use afp_dsl::scenario::Scenario;
+use afp_dsl::scenario::{Scenario, Unsound};
 use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, RunError, say};
 use afp_session::Loader;
+use afp_syntax::source::Span;
 use afp_test::{Coverage, Hits, Setting, Verdict};
 use clap::Args;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
@@ -48,6 +50,18 @@ pub struct Arguments {
     /// Writes scenarios for plans: every event at five points of each actor's run
     #[arg(long, group = "told")]
     generate: bool,
+
+    /// Changes plans a little (signs, targets, constants, swapped branches) and tells which scenarios notice it
+    #[arg(long, group = "told", conflicts_with = "output")]
+    mutate: bool,
+
+    /// With '--mutate' chooses among the ways to change something
+    #[arg(long, default_value_t = 0, requires = "mutate")]
+    seed: u64,
+
+    /// With '--mutate' fails when fewer of the mutants that change a run are noticed
+    #[arg(long, value_name = "PERCENT", requires = "mutate")]
+    at_least: Option<f64>,
 }
 
 pub const EXAMPLES: &str = "\
@@ -58,9 +72,11 @@ Examples:
   afpc test --coverage            and what none of them made use of
   afpc test --coverage -o cover   the same as drawings, one for each plan
   afpc test --generate plans/wall_following.afp
+  afpc test --mutate --at-least 95
 
 A failed scenario is run again with a log: target/afp/tests/<name>.mcap.
-Exit codes: 0 all passed, 1 a file is wrong, 2 nothing to run, 3 a scenario failed";
+Exit codes: 0 all passed, 1 a file is wrong, 2 nothing to run, 3 a scenario failed or too few mutants are noticed,
+130 stopped";
 
 /// A scenario to run.
 struct Case<'a> {
@@ -70,14 +86,31 @@ struct Case<'a> {
     file: &'a Path,
     /// The line of its name.
     line: usize,
-    scenario: &'a Scenario,
+    /// The scenario, or what is wrong with it.
+    scenario: Result<&'a Scenario, &'a Unsound>,
 }
 
 /// What became of a case.
 struct Done {
-    verdict: Result<Verdict, RunError>,
+    verdict: Result<Verdict, Failure>,
     /// The log of a failed one.
     log: Option<PathBuf>,
+}
+
+/// Why a case was not run.
+enum Failure {
+    /// It is wrong, or its plan has changed: what the compiler says.
+    Unsound(String),
+    /// Its world is not there, and the like.
+    Run(RunError),
+}
+
+/// What the scenarios of a plan used.
+struct Used<'a> {
+    plan_file: &'a PlanFile,
+    /// One of them.
+    scenario: &'a Scenario,
+    coverage: Coverage,
 }
 
 /// Runs scenarios; gives the exit code.
@@ -95,13 +128,22 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     let mut read = Vec::new();
     for file in &files {
         let file = PlanFile::read(&file.display().to_string())?;
-        if file.compiled.diags.has_errors() {
+        // Scenarios that are wrong fail alone.
+        if file.compiled.diags.has_errors() && file.compiled.unsound.is_empty() {
             say(file.compiled.render(true));
             code = EXIT_FAILED;
         }
         read.push(file);
     }
     link(&read, linked)?;
+    if arguments.mutate {
+        if let Some(word) = filters.first() {
+            let message = format!("'--mutate' takes files, and there is no file '{word}'");
+            return Err(RunError::usage(message, "name the files of the scenarios").into());
+        }
+        let Arguments { seed, at_least, json, .. } = *arguments;
+        return mutate::run(&read, &mutate::Wanted { seed, at_least, json }, linked);
+    }
     let cases: Vec<_> =
         read.iter().flat_map(cases).filter(|case| matches(case, &filters)).collect();
     if cases.is_empty() && code == EXIT_OK {
@@ -120,21 +162,35 @@ fn link(files: &[PlanFile], linked: &Linked<'_>) -> Result<(), NoPlan> {
 }
 
 fn cases(file: &PlanFile) -> impl Iterator<Item = Case<'_>> {
-    let line = |scenario: &Scenario| {
-        let source = file.compiled.sources.get(scenario.span.file);
-        source.map_or(0, |source| source.line_column(scenario.span.start).0)
+    let line = |span: Span| {
+        let source = file.compiled.sources.get(span.file);
+        source.map_or(0, |source| source.line_column(span.start).0)
     };
-    let scenarios = file.compiled.scenarios.iter();
-    scenarios.map(move |scenario| Case {
+    let case = move |scenario, span| Case {
         plan_file: file,
         file: &file.path,
-        line: line(scenario),
+        line: line(span),
         scenario,
-    })
+    };
+    let unsound = file.compiled.unsound.iter().map(move |each| case(Err(each), each.span));
+    let sound = file.compiled.scenarios.iter().map(move |each| case(Ok(each), each.span));
+    sound.chain(unsound)
+}
+
+impl<'a> Case<'a> {
+    /// The scenario's name.
+    fn name(&self) -> &'a str {
+        self.scenario.map_or_else(|unsound| &*unsound.name, |scenario| &scenario.name)
+    }
+
+    /// The name of its plan.
+    fn plan(&self) -> &'a str {
+        self.scenario.map_or_else(|unsound| &*unsound.plan, |it| &it.graph.main().name)
+    }
 }
 
 fn matches(case: &Case<'_>, filters: &[String]) -> bool {
-    let name = case.scenario.name.to_lowercase();
+    let name = case.name().to_lowercase();
     filters.is_empty() || filters.iter().any(|filter| name.contains(&filter.to_lowercase()))
 }
 
@@ -154,7 +210,7 @@ fn run_all(cases: &[Case<'_>], arguments: &Arguments, linked: &Linked<'_>) -> Re
     teller.end(cases, &done, begun.elapsed().as_secs_f64())?;
     if arguments.coverage {
         let plans = coverage(cases, &done, &arguments.add_log)?;
-        tell::coverage(&plans.iter().map(|(_, used)| used).collect::<Vec<_>>(), arguments.json)?;
+        tell::coverage(&plans, arguments.json)?;
         if let Some(output) = &arguments.output {
             cover::draw_all(&plans, output)?;
         }
@@ -167,24 +223,24 @@ fn coverage<'a>(
     cases: &'a [Case<'a>],
     done: &[Done],
     logs: &[PathBuf],
-) -> Result<Vec<(&'a Case<'a>, Coverage)>, RunError> {
-    let mut plans: Vec<(&Case<'_>, Hits)> = Vec::new();
+) -> Result<Vec<Used<'a>>, RunError> {
+    let mut plans: Vec<(&PlanFile, &Scenario, Hits)> = Vec::new();
     for (case, done) in cases.iter().zip(done) {
-        let Ok(verdict) = &done.verdict else { continue };
+        let (Ok(verdict), Ok(scenario)) = (&done.verdict, case.scenario) else { continue };
         let key = |scenario: &Scenario| {
             let plan = scenario.graph.main();
             (scenario.plan_file.clone(), plan.name.clone())
         };
-        match plans.iter_mut().find(|(known, _)| key(known.scenario) == key(case.scenario)) {
-            Some((_, hits)) => hits.add(&verdict.hits),
-            None => plans.push((case, verdict.hits.clone())),
+        match plans.iter_mut().find(|(_, known, _)| key(known) == key(scenario)) {
+            Some((.., hits)) => hits.add(&verdict.hits),
+            None => plans.push((case.plan_file, scenario, verdict.hits.clone())),
         }
     }
     for path in logs {
         let log = afp_log::read(path)?;
         let name = log.facts.get("plan").map_or("", String::as_str);
-        let known = plans.iter_mut().find(|(case, _)| case.scenario.graph.main().name == name);
-        if !known.is_some_and(|(_, hits)| hits.add_log(&log)) {
+        let known = plans.iter_mut().find(|(_, known, _)| known.graph.main().name == name);
+        if !known.is_some_and(|(.., hits)| hits.add_log(&log)) {
             let message = format!("'{}' is no log of a plan with scenarios here", path.display());
             return Err(RunError::usage(
                 message,
@@ -192,9 +248,11 @@ fn coverage<'a>(
             ));
         }
     }
-    let cover =
-        |(case, hits): (&'a Case<'a>, Hits)| (case, Coverage::new(&case.scenario.graph, &hits));
-    Ok(plans.into_iter().map(cover).collect())
+    let used = plans.into_iter().map(|(plan_file, scenario, hits)| {
+        let coverage = Coverage::new(&scenario.graph, &hits);
+        Used { plan_file, scenario, coverage }
+    });
+    Ok(used.collect())
 }
 
 impl Done {
@@ -204,19 +262,26 @@ impl Done {
 }
 
 fn run_one(case: &Case<'_>, robot: &dyn Loader) -> Done {
-    let setting = match Setting::find(case.scenario, case.file, robot.kind()) {
-        Ok(setting) => setting,
-        Err(error) => return Done { verdict: Err(error), log: None },
+    let failed = |failure| Done { verdict: Err(failure), log: None };
+    let scenario = match case.scenario {
+        Ok(scenario) => scenario,
+        Err(unsound) => {
+            let said = unsound.errors.render(&case.plan_file.compiled.sources, true);
+            return failed(Failure::Unsound(said));
+        }
     };
-    let verdict = afp_test::run(case.scenario, &setting, robot, None);
+    let setting = match Setting::find(scenario, case.file, robot.kind()) {
+        Ok(setting) => setting,
+        Err(error) => return failed(Failure::Run(error)),
+    };
+    let verdict = afp_test::run(scenario, &setting, robot, None).map_err(Failure::Run);
     let failed = verdict.as_ref().is_ok_and(|verdict| !verdict.passed());
     if !failed {
         return Done { verdict, log: None };
     }
     // The same run once more, since passing ones need no log.
-    let path = find::log_of(case.file, &case.scenario.name);
-    let log = path.and_then(|path| {
-        afp_test::run(case.scenario, &setting, robot, Some(&path)).ok().map(|_| path)
-    });
+    let path = find::log_of(case.file, &scenario.name);
+    let log = path
+        .and_then(|path| afp_test::run(scenario, &setting, robot, Some(&path)).ok().map(|_| path));
     Done { verdict, log }
 }

@@ -15,6 +15,9 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 /// Everything that can happen.
 pub const VERBS: &[&str] = &["press", "release", "fail", "fire", "finish", "idle", "set"];
 
+/// How to make a computation bring something.
+const COMPUTES: &str = "a computation takes no time; set the entries that it reads";
+
 impl Checker<'_> {
     pub(super) fn action(&self, node: &ast::Action, diags: &mut Diagnostics) -> Option<Action> {
         let (verb, path) = (node.verb()?, node.path()?);
@@ -71,24 +74,37 @@ impl Checker<'_> {
 
     fn fire(&self, path: &ast::Path, binds: &[Bind], diags: &mut Diagnostics) -> Option<Action> {
         let (found, name) = self.outcome_of(path, diags)?;
-        if !matches!(found.part, Part::Supervisor(_)) {
-            diags.push(
-                Diagnostic::new(Code::E0602, path.span(), "'fire' is for events of supervisors")
-                    .help(format!("write 'finish {}' for a state", path.text())),
-            );
-            return None;
-        }
-        self.injection(path, found, &name, binds, diags)
+        let fails = name.text == self.paths.special(found);
+        let help = match self.paths.component(found) {
+            None => return self.injection(path, found, &name, binds, diags),
+            Some(Component::Actor(_)) if fails => {
+                return self.injection(path, found, &name, binds, diags);
+            }
+            Some(Component::SubPlan(_)) if fails => {
+                "fire the 'Error' of the actor that is active inside".to_owned()
+            }
+            Some(Component::Computation(_)) => COMPUTES.to_owned(),
+            Some(Component::SubPlan(_)) => "finish the actor that is active inside".to_owned(),
+            Some(Component::Actor(_)) => format!("write 'finish {}' for a state", path.text()),
+        };
+        let what = match fails {
+            true => "'fire' is for errors of actors, not of other elements",
+            false => "'fire' is for events of supervisors",
+        };
+        diags.push(Diagnostic::new(Code::E0602, path.span(), what).help(help));
+        None
     }
 
     fn finish(&self, path: &ast::Path, binds: &[Bind], diags: &mut Diagnostics) -> Option<Action> {
         let (found, name) = self.outcome_of(path, diags)?;
+        let fails = name.text == self.paths.special(found);
         let help = match self.paths.component(found) {
-            Some(Component::Actor(_)) => return self.injection(path, found, &name, binds, diags),
-            None => format!("write 'fire {}' for an event", path.text()),
-            Some(Component::Computation(_)) => {
-                "a computation takes no time; set the entries that it reads".to_owned()
+            Some(Component::Actor(_)) if !fails => {
+                return self.injection(path, found, &name, binds, diags);
             }
+            Some(Component::Actor(_)) => format!("write 'fire {}' for an error", path.text()),
+            None => format!("write 'fire {}' for an event", path.text()),
+            Some(Component::Computation(_)) => COMPUTES.to_owned(),
             Some(Component::SubPlan(_)) => "finish the actor that is active inside".to_owned(),
         };
         diags.push(
@@ -103,9 +119,9 @@ impl Checker<'_> {
         let names = path.names();
         let found = match self.paths.find(self.paths.main(), &names) {
             Ok((found, [])) => found,
-            Ok(_) => {
+            Ok((_, [more, ..])) => {
                 let error = Diagnostic::new(Code::E0602, path.span(), "'idle' is for actors");
-                diags.push(error.help("name the actor alone"));
+                diags.push(error.help(format!("remove '.{}'", more.text)));
                 return None;
             }
             Err(_) if path.text() == "all" => return Some(Action::Idle(None)),
@@ -119,7 +135,7 @@ impl Checker<'_> {
                 return Some(Action::Idle(Some(self.paths.number(found))));
             }
             Some(Component::Computation(_)) => "a computation does nothing to the robot anyway",
-            None => "a supervisor watches only; name the actor",
+            None => "a supervisor does nothing to the robot; name the actor that it watches over",
         };
         let error = Diagnostic::new(Code::E0602, path.span(), "'idle' is for actors and sub-plans");
         diags.push(error.help(help));
@@ -155,16 +171,21 @@ impl Checker<'_> {
         binds: &[Bind],
         diags: &mut Diagnostics,
     ) -> Option<Action> {
-        let outcome = self.paths.outcome(found, &name.text);
-        let Some(Outcome::Declared(outcome)) = outcome else {
+        let Some(outcome) = self.paths.outcome(found, &name.text) else {
             diags.push(self.no_outcome(found, name));
             return None;
         };
-        if self.paths.target(found, Outcome::Declared(outcome)) == Some(Target::Ignore) {
-            let message = format!("'{}' is ignored, so it is never reported", path.text());
+        let target = self.paths.target(found, outcome);
+        let missed = outcome == Outcome::Special && matches!(found.part, Part::Supervisor(_));
+        if target == Some(Target::Ignore) || (missed && target.is_none()) {
+            let (message, note) = match missed {
+                true => ("leads nowhere, so that nothing would follow", "this has no such edge"),
+                false => ("is ignored, so it is never reported", "ignored here"),
+            };
+            let message = format!("'{}' {message}", path.text());
             diags.push(
                 Diagnostic::new(Code::E0603, path.span(), message)
-                    .note(self.paths.edge(found, Outcome::Declared(outcome)), "ignored here")
+                    .note(self.paths.edge(found, outcome), note)
                     .help("fire an event that leads somewhere"),
             );
             return None;
@@ -177,10 +198,7 @@ impl Checker<'_> {
     pub(super) fn no_outcome(&self, found: Found, name: &Name) -> Diagnostic {
         let owner = self.paths.name(found);
         let what = if matches!(found.part, Part::Supervisor(_)) { "event" } else { "state" };
-        let message = match name.text == self.paths.special(found) {
-            true => format!("'{}' of '{owner}' comes from the run time alone", name.text),
-            false => format!("'{owner}' has no {what} '{}'", name.text),
-        };
+        let message = format!("'{owner}' has no {what} '{}'", name.text);
         let known = self.paths.outcomes(found);
         unknown(Code::E0210, name.span, message, &name.text, known, "write another name")
     }
@@ -190,11 +208,15 @@ impl Checker<'_> {
         &self,
         path: &ast::Path,
         found: Found,
-        outcome: u16,
+        outcome: Outcome,
         binds: &[Bind],
         diags: &mut Diagnostics,
     ) -> Option<Vec<(u16, Constant)>> {
-        let wanted = self.paths.outputs(found, outcome);
+        let wanted = match outcome {
+            Outcome::Declared(outcome) => self.paths.outputs(found, outcome),
+            // What fails or is late brings nothing.
+            Outcome::Special => Vec::new(),
+        };
         let mut values: Vec<Option<Constant>> = vec![None; wanted.len()];
         let mut sound = true;
         for bind in binds {

@@ -51,10 +51,14 @@ impl Checker<'_> {
             return Some(found);
         }
         let message = format!("'{}' is no element", path.text());
-        diags.push(
-            Diagnostic::new(Code::E0602, path.span(), message)
-                .help("write the name of an actor, a computation or a sub-plan"),
-        );
+        let help = match (rest, self.paths.outcomes(found).first()) {
+            ([more, ..], _) => format!("remove '.{}'", more.text),
+            ([], Some(event)) => {
+                format!("expect one of its events, such as '{}.{event}'", path.text())
+            }
+            ([], None) => "write the name of an element".to_owned(),
+        };
+        diags.push(Diagnostic::new(Code::E0602, path.span(), message).help(help));
         None
     }
 
@@ -166,7 +170,7 @@ impl Checker<'_> {
             ),
         };
         let help = match others.as_slice() {
-            [] => "look at the plan's edges, or expect another element".to_owned(),
+            [] => self.goals(from, from_path, &causes),
             others => {
                 let list = words::list(others.iter().map(String::as_str), "or");
                 format!("what leads there is {list}")
@@ -174,6 +178,27 @@ impl Checker<'_> {
         };
         diags.push(Diagnostic::new(Code::E0603, span, message).help(help));
         None
+    }
+
+    /// Where the edges out of an element lead, for a help.
+    fn goals(&self, from: Found, path: &Path, causes: &[(Found, Outcome)]) -> String {
+        let home = path.text();
+        let home = home.rsplit_once('.').map_or(String::new(), |(home, _)| format!("{home}."));
+        let name = |target| match target {
+            Target::Element(id) => {
+                let found = Found { home: from.home, part: Part::Element(id) };
+                Some(format!("{home}{}", self.paths.name(found)))
+            }
+            Target::Terminate => Some("terminate".to_owned()),
+            Target::Ignore => None,
+        };
+        let goals =
+            causes.iter().filter_map(|(found, outcome)| self.paths.target(*found, *outcome));
+        let goals: std::collections::BTreeSet<_> = goals.filter_map(name).collect();
+        match goals.is_empty() {
+            true => format!("no edge leads out of '{}'; expect another element", path.text()),
+            false => format!("it leads to {}", words::list(goals.iter().map(String::as_str), "or")),
+        }
     }
 
     /// How an outcome is named behind `by`.
@@ -297,15 +322,35 @@ impl Checker<'_> {
         if main && all.filter(|each| outcome.is_none_or(|wanted| wanted == *each)).any(ends) {
             return Some(());
         }
-        let message = format!("'{}' does not end '{}'", path.text(), self.paths.graph.main().name);
-        let error = Diagnostic::new(Code::E0603, path.span(), message);
+        let plan = &self.paths.graph.main().name;
+        let message = format!("'{}' does not end '{plan}'", path.text());
+        let error = Diagnostic::new(Code::E0603, path.span(), message).help(self.endings());
         diags.push(match outcome.filter(|_| main) {
-            Some(outcome) => error
-                .note(self.paths.edge(found, outcome), "it leads elsewhere")
-                .help("name what leads to 'terminate'"),
-            None => error.help("name a component of the outermost plan that leads to 'terminate'"),
+            Some(outcome) => error.note(self.paths.edge(found, outcome), "it leads elsewhere"),
+            None => error,
         });
         None
+    }
+
+    /// What ends the plan, for a help.
+    fn endings(&self) -> String {
+        let paths = &self.paths;
+        let ending = paths.components().flat_map(|(name, found)| {
+            let outcomes = paths.outcomes(found).into_iter().chain([paths.special(found)]);
+            outcomes.filter_map(move |outcome| {
+                let target = paths.target(found, paths.outcome(found, outcome)?);
+                (target == Some(Target::Terminate)).then(|| format!("{name}.{outcome}"))
+            })
+        });
+        let ending: Vec<_> = ending.collect();
+        match ending.is_empty() {
+            true => {
+                "nothing leads to 'terminate'; only an error ends it: 'end by Error'".to_owned()
+            }
+            false => {
+                format!("what ends it is {}", words::list(ending.iter().map(String::as_str), "or"))
+            }
+        }
     }
 
     /// Reports that there is nothing of a name, neither in the plan nor of the robot.

@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::fmt::Write;
 
 use afp_run::say;
-use afp_sweep::{Ending, Findings, Group, Measure, Outcome, Place, Spread, Sweep};
+use afp_sweep::{Ending, Findings, Group, Measure, Outcome, Place, Spread, Sweep, Touched};
 use anstyle::{AnsiColor, Style};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use serde_json::{Value, json};
@@ -90,6 +90,7 @@ impl<'a> Teller<'a> {
             "runs": outcomes.len(), "of": self.sweep.len(),
             "endings": endings.collect::<serde_json::Map<_, _>>(),
             "measures": measures.collect::<serde_json::Map<_, _>>(),
+            "touched": findings.touched.iter().map(|it| self.touched_object(it)).collect::<Vec<_>>(),
             "groups": findings.groups.iter().map(|group| self.group_object(group)).collect::<Vec<_>>(),
         });
         text += &format!("{}\n", json!({ "summary": summary }));
@@ -113,6 +114,12 @@ impl<'a> Teller<'a> {
         object
     }
 
+    fn touched_object(&self, touched: &Touched) -> Value {
+        let Touched { name, runs, lasted_s, longest } = touched;
+        let command = self.sweep.command(&self.sweep.row(*longest));
+        json!({ "name": name, "runs": runs, "lasted_s": lasted_s, "command": command })
+    }
+
     fn group_object(&self, group: &Group) -> Value {
         let Group { ending, place, why, count, run } = group;
         let command = self.sweep.command(&self.sweep.row(*run));
@@ -131,6 +138,7 @@ impl<'a> Teller<'a> {
             let command = self.sweep.command(&self.sweep.row(group.run));
             let _ = writeln!(text, "{}\n        {QUIET}again:{QUIET:#} {command}", line(group));
         }
+        text += &self.touched(&findings.touched);
         if !findings.measures.is_empty() {
             let _ =
                 writeln!(text, "\n{QUIET}{:>31} {:>10} {:>10}{QUIET:#}", "min", "median", "max");
@@ -144,6 +152,24 @@ impl<'a> Teller<'a> {
         let _ = writeln!(text, "\n{}", self.last_line(outcomes, findings));
         for (path, _) in &place.tables {
             let _ = writeln!(text, "{QUIET}table:{QUIET:#} {}", path.display());
+        }
+        text
+    }
+
+    /// What was touched, for how long, in how many runs.
+    fn touched(&self, touched: &[Touched]) -> String {
+        let mut text = String::new();
+        if !touched.is_empty() {
+            text += &format!("\n{QUIET}{:>31} {:>10}{QUIET:#}\n", "runs", "time, s");
+        }
+        for Touched { name, runs, lasted_s, .. } in touched.iter().take(GROUPS) {
+            let name = format!("touched {name}");
+            text += &format!("{name:>20} {runs:>10} {lasted_s:>10.1}\n");
+        }
+        // The worst of it, to be looked at.
+        if let Some(first) = touched.first() {
+            let command = self.sweep.command(&self.sweep.row(first.longest));
+            text += &format!("        {QUIET}longest:{QUIET:#} {command}\n");
         }
         text
     }

@@ -6,11 +6,12 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use afp_core::Ending;
-use afp_test::{Coverage, Verdict};
+use afp_test::Verdict;
+use anstream::adapter::strip_str;
 use anstyle::{AnsiColor, Style};
 use serde_json::json;
 
-use super::{Case, Done};
+use super::{Case, Done, Failure, Used};
 use crate::commands::print;
 use crate::plan_file::NoPlan;
 
@@ -89,8 +90,8 @@ impl Teller {
 }
 
 /// What the runs of each plan used.
-pub(super) fn coverage(plans: &[&Coverage], json: bool) -> Result<(), NoPlan> {
-    for plan in plans {
+pub(super) fn coverage(plans: &[Used<'_>], json: bool) -> Result<(), NoPlan> {
+    for plan in plans.iter().map(|used| &used.coverage) {
         if !json {
             print(&format!("\n{}", plan.text()))?;
             continue;
@@ -105,22 +106,22 @@ pub(super) fn coverage(plans: &[&Coverage], json: bool) -> Result<(), NoPlan> {
 }
 
 fn line(case: &Case<'_>, done: &Done) -> String {
-    let Case { file, line, scenario, .. } = case;
+    let (Case { file, line, .. }, name) = (case, case.name());
     let (style, word) = if done.passed() { (GOOD, "ok") } else { (BAD, "FAILED") };
     let length = done.verdict.as_ref().map_or(0.0, |verdict| verdict.length().as_secs_f64());
     format!(
-        "{style}{word:>6}{style:#} {length:>8.3} s  {}  {QUIET}{}:{line}{QUIET:#}",
-        scenario.name,
+        "{style}{word:>6}{style:#} {length:>8.3} s  {name}  {QUIET}{}:{line}{QUIET:#}",
         file.display()
     )
 }
 
 fn broken(case: &Case<'_>, done: &Done) -> String {
-    let Case { file, line, scenario, .. } = case;
-    let mut text = format!("{BAD}{}{BAD:#}\n  --> {}:{line}\n", scenario.name, file.display());
+    let (Case { file, line, .. }, name) = (case, case.name());
+    let mut text = format!("{BAD}{name}{BAD:#}\n  --> {}:{line}\n", file.display());
     match &done.verdict {
         Ok(verdict) => text += &verdict.report(),
-        Err(error) => text += &format!("{}\n", error.styled()),
+        Err(Failure::Unsound(said)) => text += said,
+        Err(Failure::Run(error)) => text += &format!("{}\n", error.styled()),
     }
     if let Some(log) = &done.log {
         let _ = writeln!(text, "  log: {}", log.display());
@@ -129,15 +130,16 @@ fn broken(case: &Case<'_>, done: &Done) -> String {
 }
 
 fn object(case: &Case<'_>, done: &Done) -> serde_json::Value {
-    let Case { file, line, scenario, .. } = case;
-    let (name, plan) = (&scenario.name, &scenario.graph.main().name);
+    let Case { file, line, .. } = case;
+    let (name, plan) = (case.name(), case.plan());
     let head = json!({
         "file": file.display().to_string(), "line": line, "scenario": name, "plan": plan,
         "passed": done.passed(), "log": done.log.as_ref().map(|log| log.display().to_string()),
     });
     let more = match &done.verdict {
         Ok(verdict) => verdict_object(verdict),
-        Err(error) => json!({ "error": error.to_string() }),
+        Err(Failure::Unsound(said)) => json!({ "error": strip_str(said).to_string() }),
+        Err(Failure::Run(error)) => json!({ "error": error.to_string() }),
     };
     merged(head, more)
 }

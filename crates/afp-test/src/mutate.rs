@@ -1,0 +1,112 @@
+//! How much scenarios notice: the plan is changed a little, and they should break.
+//!
+//! [`mutants`] makes the changed texts, [`Bench`] knows the scenarios of a plan and says of each mutant who
+//! notices it. Nothing here prints or starts a thread; whoever calls it does several mutants at once.
+
+mod bench;
+mod edits;
+mod site;
+
+use afp_syntax::source::Source;
+
+pub use bench::{Bench, Fate, Judged, Suite, Tally};
+pub use site::MutantKind;
+
+/// A plan's text with one small change.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mutant {
+    /// What kind of change it is.
+    pub kind: MutantKind,
+    /// The line of the change, from 1.
+    pub line: usize,
+    /// What stood there.
+    pub was: String,
+    /// What stands there now.
+    pub is: String,
+    /// The whole text.
+    pub text: String,
+}
+
+/// The mutants of all plans in a text, in order of their places: signs, targets, constants, swapped branches. Where
+/// there are several ways to change something, the seed chooses.
+///
+/// They need not compile; [`Bench::judge`] tells those apart.
+pub fn mutants(text: &str, seed: u64) -> Vec<Mutant> {
+    let source = Source::new("", text);
+    let mut found = Vec::new();
+    for site in edits::sites(text, seed) {
+        let Some(first) = site.edits.first() else { continue };
+        let (mut changed, mut at) = (String::with_capacity(text.len() + 16), 0);
+        for (place, new) in &site.edits {
+            changed.push_str(text.get(at..place.start).unwrap_or_default());
+            changed.push_str(new);
+            at = place.end;
+        }
+        changed.push_str(text.get(at..).unwrap_or_default());
+        let line = source.line_column(first.0.start as u32).0;
+        found.push(Mutant { kind: site.kind, line, was: site.was, is: site.is, text: changed });
+    }
+    found.sort_by_key(|mutant| mutant.line);
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLAN: &str = "use carbot
+
+plan P {
+    in way: length = 1 m
+    start go
+    supervise escape: CheckEscapeButton every 20 ms { EscapeButtonPressed -> terminate }
+    actor go: Forward(distance = -way + 20 cm) {
+        ForwardSuccessful -> back
+        Error -> terminate
+    }
+    actor back: Turn(angle = 60 deg) { TurnSuccessful -> go }
+}
+
+scenario \"x\" for P { expect end within 3 s }
+";
+
+    fn told(seed: u64) -> Vec<String> {
+        let told = mutants(PLAN, seed);
+        told.iter().map(|it| format!("{}: {} => {}", it.line, it.was, it.is)).collect()
+    }
+
+    #[test]
+    fn signs_targets_constants_and_branches_are_changed() {
+        let told = told(0).join("\n");
+        for wanted in [
+            "4: 1 m => -1 m",
+            "5: start go => start back",
+            "7: -way => way",
+            "7: + => -",
+            "7: 20 cm => -20 cm",
+            "8: -> back => -> ",
+            "8: -> back, -> terminate => -> terminate, -> back",
+            "11: 60 deg => -60 deg",
+        ] {
+            assert!(told.contains(wanted), "no {wanted:?} in\n{told}");
+        }
+        let number = |one: &str, other: &str| told.contains(one) || told.contains(other);
+        assert!(number("11: 60 deg => 120 deg", "11: 60 deg => 30 deg"), "{told}");
+        assert!(number("6: 20 ms => 40 ms", "6: 20 ms => 10 ms"), "{told}");
+        assert!(!told.contains("3 s"), "scenarios stay as they are\n{told}");
+    }
+
+    #[test]
+    fn a_seed_makes_the_same_mutants_and_others_make_others() {
+        assert_eq!(told(3), told(3));
+        assert!((1..9).any(|seed| told(seed) != told(0)));
+    }
+
+    #[test]
+    fn each_mutant_differs_from_the_plan_and_from_the_others() {
+        let all = mutants(PLAN, 0);
+        let texts: std::collections::BTreeSet<_> = all.iter().map(|each| &each.text).collect();
+        assert_eq!(texts.len(), all.len());
+        assert!(all.iter().all(|each| each.text != PLAN && each.was != each.is));
+    }
+}

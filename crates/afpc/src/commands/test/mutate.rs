@@ -1,0 +1,187 @@
+//! `afpc test --mutate`: changes plans a little and says which scenarios notice it.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::io::{IsTerminal, Write as _};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use afp_run::{EXIT_OK, EXIT_PLAN_ERROR, RunError, StopFlag};
+use afp_test::mutate::{Bench, Fate, Judged, Mutant, Suite, Tally, mutants};
+use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
+use serde_json::json;
+
+use crate::Linked;
+use crate::commands::{EXIT_STOPPED, print};
+use crate::plan_file::{NoPlan, PlanFile, read_used};
+
+/// So many scenarios are named in a line of the table.
+const NAMED: usize = 3;
+
+/// What is wanted.
+pub(super) struct Wanted {
+    /// Chooses among the ways to change something.
+    pub seed: u64,
+    /// The least share of noticed mutants, percent.
+    pub at_least: Option<f64>,
+    pub json: bool,
+}
+
+/// Mutates the plans that the scenarios of some files are for; gives the exit code.
+///
+/// # Errors
+/// A scenario that cannot be run, a table that cannot be printed.
+pub(super) fn run(files: &[PlanFile], wanted: &Wanted, linked: &Linked<'_>) -> Result<u8, NoPlan> {
+    let stop =
+        StopFlag::on_signals().map_err(RunError::file("cannot handle", "signals".as_ref()))?;
+    let mut plans: BTreeMap<&str, Vec<&PlanFile>> = BTreeMap::new();
+    for file in files {
+        for scenario in &file.compiled.scenarios {
+            let known = plans.entry(&scenario.plan_file).or_default();
+            if !known.iter().any(|known| std::ptr::eq(*known, file)) {
+                known.push(file);
+            }
+        }
+    }
+    if plans.is_empty() {
+        let help = "write scenarios first; 'afpc test --generate' makes some";
+        return Err(
+            RunError::usage("there are no scenarios that could notice anything", help).into()
+        );
+    }
+    let mut code = EXIT_OK;
+    for (plan, suites) in plans {
+        let Some(share) = one_plan(plan, &suites, wanted, linked, &stop)? else {
+            return Ok(stop.exit_code().unwrap_or(EXIT_STOPPED));
+        };
+        if wanted.at_least.is_some_and(|least| share * 100.0 < least) {
+            code = EXIT_PLAN_ERROR;
+        }
+    }
+    Ok(code)
+}
+
+/// Mutates one plan file; gives the share that is noticed, `None` when it was called off.
+fn one_plan(
+    plan: &str,
+    files: &[&PlanFile],
+    wanted: &Wanted,
+    linked: &Linked<'_>,
+    stop: &StopFlag,
+) -> Result<Option<f64>, NoPlan> {
+    let Some(first) = files.first() else { return Ok(None) };
+    let toolboxes = first.own.with_built_in()?;
+    let mut sources = files.iter().flat_map(|file| file.compiled.plan_sources());
+    let Some(source) = sources.find(|source| source.name == plan) else { return Ok(None) };
+    let suites = files.iter().filter_map(|file| {
+        let source = file.compiled.plan_sources().next()?.clone();
+        Some(Suite { file: file.path.clone(), source })
+    });
+    let mut go_on = || !stop.is_raised();
+    let with = (&toolboxes, &read_used as &(dyn afp_dsl::files::Files + Sync));
+    let Some(bench) = Bench::new(plan, suites.collect(), with, linked.robot, &mut go_on)? else {
+        return Ok(None);
+    };
+    let mutants = mutants(&source.text, wanted.seed);
+    let Some(judged) = judge_all(&bench, mutants, stop) else { return Ok(None) };
+    let tally = Tally::of(&judged);
+    let text = match wanted.json {
+        true => judged.iter().map(|each| format!("{}\n", object(plan, each))).collect(),
+        false => table(plan, &bench, &judged),
+    };
+    print(&format!("{text}{}", sum(plan, &tally, wanted.json)))?;
+    Ok(Some(tally.share()))
+}
+
+/// Judges mutants on all cores.
+fn judge_all(bench: &Bench<'_>, mutants: Vec<Mutant>, stop: &StopFlag) -> Option<Vec<Judged>> {
+    let (all, done) = (mutants.len(), AtomicUsize::new(0));
+    let shown = std::io::stderr().is_terminal();
+    let judge = |mutant| {
+        let judged = bench.judge(mutant, &mut || !stop.is_raised());
+        let number = done.fetch_add(1, Ordering::Relaxed) + 1;
+        if shown {
+            // Nothing is lost where nobody sees it.
+            let _ = write!(std::io::stderr(), "\r\x1b[K{number} of {all} mutants");
+        }
+        judged
+    };
+    let judged = mutants.into_par_iter().with_max_len(1).map(judge).collect();
+    if shown {
+        let _ = write!(std::io::stderr(), "\r\x1b[K");
+    }
+    judged
+}
+
+/// What became of each mutant, those that nobody noticed first.
+fn table(plan: &str, bench: &Bench<'_>, judged: &[Judged]) -> String {
+    let mut text = format!("{plan}: {} mutants, {} scenarios\n", judged.len(), bench.judges());
+    for name in &bench.failing {
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "  '{name}' fails anyway and judges nothing");
+    }
+    let change = |mutant: &Mutant| format!("{} becomes {}", mutant.was, mutant.is);
+    let widest = judged.iter().map(|each| change(&each.mutant).chars().count()).max().unwrap_or(0);
+    let mut sorted: Vec<_> = judged.iter().collect();
+    sorted.sort_by_key(|each| order(&each.fate));
+    for Judged { mutant, fate } in sorted {
+        let (line, kind) = (mutant.line, mutant.kind.to_string());
+        let change = change(mutant);
+        let _ = writeln!(text, "{line:>5}  {kind:<8}  {change:<widest$}  {}", word(fate));
+    }
+    text
+}
+
+fn order(fate: &Fate) -> u8 {
+    match fate {
+        Fate::Missed { changed: true } => 0,
+        Fate::Missed { changed: false } => 1,
+        Fate::Noticed(_) => 2,
+        Fate::Refused => 3,
+    }
+}
+
+fn word(fate: &Fate) -> String {
+    match fate {
+        Fate::Refused => "does not compile".to_owned(),
+        Fate::Missed { changed: true } => "NOBODY noticed".to_owned(),
+        Fate::Missed { changed: false } => "changes no run".to_owned(),
+        Fate::Noticed(names) => {
+            let named: Vec<_> = names.iter().take(NAMED).map(|name| format!("'{name}'")).collect();
+            let more = match names.len().saturating_sub(NAMED) {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            format!("noticed by {}{more}", named.join(", "))
+        }
+    }
+}
+
+fn sum(plan: &str, tally: &Tally, json: bool) -> String {
+    let Tally { noticed, missed, unchanged, refused } = *tally;
+    let percent = tally.share() * 100.0;
+    if json {
+        let line = json!({
+            "mutated": plan, "noticed": noticed, "missed": missed, "unchanged": unchanged,
+            "refused": refused, "share": tally.share(),
+        });
+        return format!("{line}\n");
+    }
+    let all = noticed + missed;
+    format!(
+        "{noticed} of {all} mutants that change a run are noticed ({percent:.1} %); {unchanged} change none, {refused} do not compile\n"
+    )
+}
+
+fn object(plan: &str, judged: &Judged) -> serde_json::Value {
+    let Judged { mutant, fate } = judged;
+    let (word, by) = match fate {
+        Fate::Refused => ("refused", &[][..]),
+        Fate::Missed { changed: true } => ("missed", &[][..]),
+        Fate::Missed { changed: false } => ("unchanged", &[][..]),
+        Fate::Noticed(names) => ("noticed", names.as_slice()),
+    };
+    json!({
+        "file": plan, "line": mutant.line, "kind": mutant.kind.to_string(), "was": mutant.was,
+        "is": mutant.is, "fate": word, "noticed_by": by,
+    })
+}
