@@ -1,0 +1,70 @@
+//! The scenarios of the plans that are shipped notice nearly every mutant of them.
+
+use std::fs;
+use std::path::PathBuf;
+use std::sync::Mutex;
+
+use afp_dsl::toolbox::Toolboxes;
+use afp_syntax::source::Source;
+use afp_test::mutate::{Bench, Fate, Judged, Suite, Tally, mutants};
+
+/// The share of mutants that change a run that shall be noticed.
+const SHARE: f64 = 0.95;
+
+fn read(path: &str) -> Result<String, String> {
+    fs::read_to_string(path).map_err(|error| error.to_string())
+}
+
+fn judged(plan: &str) -> Vec<Judged> {
+    let robot = afp_sim::carbot(|_| {});
+    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+    // Tests run in their crate's folder.
+    let (path, tests) =
+        (format!("../../plans/{plan}.afp"), format!("../../plans/tests/{plan}.afp"));
+    let source = Source::new(&*tests, read(&tests).unwrap());
+    let suite = Suite { file: PathBuf::from(&tests), source };
+    let bench = Bench::new(&path, vec![suite], (&toolboxes, &read), &robot, &mut || true);
+    let bench = bench.unwrap().unwrap();
+    assert_eq!(bench.failing, [""; 0]);
+    let mutants = Mutex::new(mutants(&read(&path).unwrap(), 0));
+    let judged = Mutex::new(Vec::new());
+    let cores = std::thread::available_parallelism().map_or(1, |cores| cores.get());
+    std::thread::scope(|threads| {
+        for _ in 0..cores {
+            threads.spawn(|| {
+                loop {
+                    let Some(mutant) = mutants.lock().unwrap().pop() else { return };
+                    let one = bench.judge(mutant, &mut || true).unwrap();
+                    judged.lock().unwrap().push(one);
+                }
+            });
+        }
+    });
+    judged.into_inner().unwrap()
+}
+
+fn is_noticed(plan: &str) {
+    let judged = judged(plan);
+    let tally = Tally::of(&judged);
+    let missed = judged.iter().filter(|each| matches!(each.fate, Fate::Missed { changed: true }));
+    let missed: Vec<_> = missed
+        .map(|each| format!("{}: {} => {}", each.mutant.line, each.mutant.was, each.mutant.is))
+        .collect();
+    assert!(tally.noticed > 5, "{tally:?}");
+    assert!(tally.share() >= SHARE, "{plan}: {tally:?}, nobody noticed {missed:#?}");
+}
+
+#[test]
+fn mutants_of_wall_following_are_noticed() {
+    is_noticed("wall_following");
+}
+
+#[test]
+fn mutants_of_find_infrared_are_noticed() {
+    is_noticed("find_infrared");
+}
+
+#[test]
+fn mutants_of_patterns_are_noticed() {
+    is_noticed("patterns");
+}
