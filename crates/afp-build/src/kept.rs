@@ -13,6 +13,8 @@ use crate::cargo::{self, Artifact, Blame, Job};
 use crate::parts::Parts;
 use crate::{NotBuilt, crate_folder, origin};
 
+pub use folder::cache;
+
 /// What parts are linked into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Product {

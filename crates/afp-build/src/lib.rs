@@ -16,7 +16,7 @@ mod toolboxes;
 use afp_project::ProjectError;
 use afp_run::RunError;
 
-pub use kept::Product;
+pub use kept::{Product, cache};
 pub use parts::Parts;
 pub use toolboxes::{OwnToolbox, OwnToolboxes};
 

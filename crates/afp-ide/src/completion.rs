@@ -3,7 +3,7 @@
 //! Where the place is in the grammar is asked of the tree, see [`context`]; what can stand there is
 //! asked of index and outline, so that whatever the check understands is offered.
 
-mod bodies;
+pub(crate) mod bodies;
 mod context;
 mod plans;
 mod scenarios;

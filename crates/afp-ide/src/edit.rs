@@ -25,6 +25,7 @@ mod remove;
 mod rename;
 mod several;
 mod tree;
+mod wire;
 
 use std::fmt;
 
@@ -33,13 +34,16 @@ use project::Workspace;
 
 use afp_syntax::item::Item;
 use afp_syntax::source::Source;
+use serde::{Deserialize, Serialize};
 
 pub use afp_syntax::diagnostics::Edit as TextEdit;
 pub use positions::follow;
 pub use several::{Made, edit_all};
+pub use wire::{item, path};
 
 /// What a port is bound to.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub enum Binding {
     /// `port = formula`
     In(String),
@@ -48,7 +52,11 @@ pub enum Binding {
 }
 
 /// A change of meaning. Fragments of text are checked before anything is changed.
-#[derive(Clone, Debug, PartialEq, Eq)]
+///
+/// In messages each is an object under its name in camel case, with items as paths:
+/// `{"connect": {"from": "Patrol.go", "outcome": "ForwardSuccessful", "to": "turn"}}`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase", rename_all_fields = "camelCase", deny_unknown_fields)]
 pub enum Change {
     /// Adds `use toolbox as alias` below the other `use` lines.
     AddUse {
@@ -77,11 +85,13 @@ pub enum Change {
     /// names it, with an entry the outputs that are bound to it.
     Remove {
         /// The item.
+        #[serde(with = "wire")]
         item: Item,
     },
     /// Gives an item another name wherever the files refer to it, scenarios included.
     Rename {
         /// The item.
+        #[serde(with = "wire")]
         item: Item,
         /// Its new name.
         to: String,
@@ -89,6 +99,7 @@ pub enum Change {
     /// Connects a state or event, or leads its edge elsewhere.
     Connect {
         /// The element or supervisor.
+        #[serde(with = "wire")]
         from: Item,
         /// The state or event.
         outcome: String,
@@ -98,6 +109,7 @@ pub enum Change {
     /// Removes the edge of a state or event.
     Disconnect {
         /// The element or supervisor.
+        #[serde(with = "wire")]
         from: Item,
         /// The state or event.
         outcome: String,
@@ -112,6 +124,7 @@ pub enum Change {
     /// Moves an item above another one of its list, or below its like.
     Reorder {
         /// The item.
+        #[serde(with = "wire")]
         item: Item,
         /// The item that it shall stand above.
         before: Option<String>,
@@ -119,6 +132,7 @@ pub enum Change {
     /// Binds a port, or changes what it is bound to.
     Bind {
         /// The element or supervisor.
+        #[serde(with = "wire")]
         component: Item,
         /// The port.
         port: String,
@@ -128,6 +142,7 @@ pub enum Change {
     /// Removes the binding of a port.
     Unbind {
         /// The element or supervisor.
+        #[serde(with = "wire")]
         component: Item,
         /// The port.
         port: String,
@@ -135,6 +150,7 @@ pub enum Change {
     /// Makes an element or supervisor from another template; bindings and edges stay.
     SetTemplate {
         /// The element or supervisor.
+        #[serde(with = "wire")]
         component: Item,
         /// `Name` or `home.Name`
         template: String,
@@ -142,6 +158,7 @@ pub enum Change {
     /// Sets, or without a value removes, `every` or `deadline` of a supervisor.
     SetTiming {
         /// The supervisor.
+        #[serde(with = "wire")]
         supervisor: Item,
         /// `every` or `deadline`
         keyword: String,
@@ -151,6 +168,7 @@ pub enum Change {
     /// Makes an entry an `in`, `out`, `var` or `const`.
     SetEntryKind {
         /// The entry.
+        #[serde(with = "wire")]
         entry: Item,
         /// The keyword.
         keyword: String,
@@ -158,6 +176,7 @@ pub enum Change {
     /// Sets or removes the type of an entry.
     SetEntryType {
         /// The entry.
+        #[serde(with = "wire")]
         entry: Item,
         /// The type.
         ty: Option<String>,
@@ -165,6 +184,7 @@ pub enum Change {
     /// Sets or removes the initial value of an entry.
     SetEntryValue {
         /// The entry.
+        #[serde(with = "wire")]
         entry: Item,
         /// A formula.
         value: Option<String>,
@@ -172,6 +192,7 @@ pub enum Change {
     /// Sets or removes the help text above an item.
     SetDoc {
         /// The item.
+        #[serde(with = "wire")]
         item: Item,
         /// Its lines, without the slashes; empty for none.
         text: String,
@@ -182,6 +203,7 @@ pub enum Change {
     /// removed: their states and events are unconnected then.
     Move {
         /// The item.
+        #[serde(with = "wire")]
         item: Item,
         /// The plan that it is put into.
         plan: String,

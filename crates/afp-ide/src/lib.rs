@@ -5,6 +5,7 @@
 //! answer for any text, however broken.
 
 pub mod actions;
+pub mod candidates;
 pub mod completion;
 pub mod definition;
 mod describe;
@@ -13,6 +14,7 @@ pub mod folding;
 pub mod hints;
 pub mod hover;
 pub mod lenses;
+pub mod palette;
 pub mod references;
 pub mod robot;
 pub mod selection;

@@ -6,8 +6,8 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::commands::{
-    build, check, completions, explain, fmt, graph, later, log, new, print, run, sweep, templates,
-    test,
+    build, check, completions, explain, fmt, graph, later, log, lsp, new, print, run, sweep,
+    templates, test,
 };
 use crate::plan_file::NoPlan;
 use crate::{Linked, declared};
@@ -55,6 +55,9 @@ pub enum Command {
     /// Shows, checks and repairs the log of a run
     #[command(after_help = log::EXAMPLES)]
     Log(log::Arguments),
+    /// Serves editors over standard input and output: the Language Server Protocol
+    #[command(after_help = lsp::EXAMPLES)]
+    Lsp,
     /// Prints completions for a shell
     #[command(after_help = completions::EXAMPLES)]
     Completions(completions::Arguments),

@@ -8,6 +8,7 @@ pub mod fmt;
 pub mod graph;
 pub mod later;
 pub mod log;
+pub mod lsp;
 pub mod new;
 pub mod run;
 pub mod sweep;
@@ -38,6 +39,7 @@ pub fn dispatch(command: &Command, linked: &Linked<'_>) -> ExitCode {
         Command::Sweep(arguments) => sweep::run(arguments, linked),
         Command::Build(arguments) => build::run(arguments),
         Command::Log(arguments) => log::run(arguments, linked),
+        Command::Lsp => lsp::run(),
         Command::New(arguments) => new::run(arguments),
         Command::Templates(arguments) => templates::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),

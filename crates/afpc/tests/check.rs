@@ -157,7 +157,7 @@ fn a_wrong_plan_is_neither_charted_nor_run_nor_built() {
 #[test]
 fn commands_of_later_releases_say_so() {
     let place = Place::new();
-    for name in ["lsp", "replay", "deploy", "attach", "studio"] {
+    for name in ["replay", "deploy", "attach", "studio"] {
         let said = place.afpc(&format!("{name} some --option"));
         said.fails(2, &[&format!("'afpc {name}' is not in release"), "it comes with"]);
         assert!(!place.afpc("--help").out.contains(&format!("\n  {name} ")));

@@ -26,8 +26,25 @@ pub struct Folder {
 /// # Errors
 /// It can be made in none.
 pub fn find(project: &Path, below: &Path) -> Result<Folder, RunError> {
-    let variable = |name: &str| env::var_os(name).filter(|value| !value.is_empty());
-    first(candidates(project, &|name| variable(name).map(PathBuf::from)), below)
+    first(candidates(project, &variable), below)
+}
+
+/// The folder of ours in the cache of this user; `None` where no variable says where that is.
+pub fn cache() -> Option<PathBuf> {
+    cache_of(&variable)
+}
+
+fn cache_of(variable: &dyn Fn(&str) -> Option<PathBuf>) -> Option<PathBuf> {
+    let cache = variable("XDG_CACHE_HOME").or_else(|| Some(variable("HOME")?.join(".cache")))?;
+    Some(whole(cache).join("afp"))
+}
+
+fn variable(name: &str) -> Option<PathBuf> {
+    env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from)
+}
+
+fn whole(path: PathBuf) -> PathBuf {
+    std::path::absolute(&path).unwrap_or(path)
 }
 
 /// The first in which a folder can be made.
@@ -45,13 +62,11 @@ fn first(all: Vec<Folder>, below: &Path) -> Result<Folder, RunError> {
 
 /// The folders in question, the best first.
 fn candidates(project: &Path, variable: &dyn Fn(&str) -> Option<PathBuf>) -> Vec<Folder> {
-    let whole = |path: PathBuf| std::path::absolute(&path).unwrap_or(path);
     let with_build = |kept: PathBuf| Folder { build: kept.join("build"), kept };
     if let Some(target) = variable("CARGO_TARGET_DIR").map(whole) {
         return vec![Folder { kept: target.join("afp"), build: target }];
     }
-    let cache = variable("XDG_CACHE_HOME").or_else(|| Some(variable("HOME")?.join(".cache")));
-    let cache = cache.map(|cache| with_build(whole(cache).join("afp")));
+    let cache = cache_of(variable).map(with_build);
     cache.into_iter().chain([with_build(project.join(IN_PROJECT))]).collect()
 }
 

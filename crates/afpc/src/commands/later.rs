@@ -4,7 +4,6 @@ use afp_run::RunError;
 
 /// Name and what it waits for.
 const LATER: &[(&str, &str)] = &[
-    ("lsp", "the language server"),
     ("replay", "replay of logs"),
     ("deploy", "the Raspberry Pi driver"),
     ("attach", "the live server"),

@@ -1,0 +1,113 @@
+//! What a plan can be made of: templates of all toolboxes and plans in view, each with what is written
+//! for it.
+
+use crate::View;
+use crate::completion::Piece;
+use crate::completion::bodies::{body_of_plan, body_of_template, instance_name};
+use crate::describe::{component_kind, declaration};
+use afp_dsl::index::{DefinitionId, DefinitionKind};
+use afp_dsl::outline::ComponentKind;
+
+/// A template or plan.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Offer {
+    /// Its name.
+    pub name: String,
+    /// What it makes.
+    pub kind: ComponentKind,
+    /// Its toolbox; `None` for a plan.
+    pub toolbox: Option<String>,
+    /// The name of its icon.
+    pub icon: Option<String>,
+    /// Its help.
+    pub help: String,
+    /// Its ports as they are declared.
+    pub ports: Vec<String>,
+    /// Its states or events.
+    pub exits: Vec<String>,
+    /// The item that is written for it, with holes for its name, what it needs and where it leads.
+    pub insert: Vec<Piece>,
+    /// The toolbox that must be used first.
+    pub missing_use: Option<String>,
+}
+
+/// All offers for the file whose name or help holds a text, the best first: those in view before others,
+/// names that begin so before names that hold it before helps.
+pub fn palette(view: &View, query: &str) -> Vec<Offer> {
+    let query = query.to_lowercase();
+    let visible = view.index().visible(view.file, 0);
+    let mut ranked: Vec<(u8, Offer)> = Vec::new();
+    for (id, definition) in view.index().definitions() {
+        let seen = visible.contains(&id);
+        let offer = match definition.kind {
+            DefinitionKind::Template(_) => of_template(view, id, seen),
+            DefinitionKind::Plan if seen => of_plan(view, id),
+            _ => None,
+        };
+        let Some(offer) = offer else { continue };
+        let name = offer.name.to_lowercase();
+        let fit = match () {
+            () if name.starts_with(&query) => 0,
+            () if name.contains(&query) => 1,
+            () if offer.help.to_lowercase().contains(&query) => 2,
+            () => continue,
+        };
+        ranked.push((fit + 3 * u8::from(!seen), offer));
+    }
+    ranked.sort_by(|(a, one), (b, other)| (a, &one.name).cmp(&(b, &other.name)));
+    ranked.into_iter().map(|(_, offer)| offer).collect()
+}
+
+fn of_template(view: &View, id: DefinitionId, seen: bool) -> Option<Offer> {
+    let definition = view.index().definition(id);
+    let (toolbox, template) = view.template(definition)?;
+    let kind = component_kind(template.kind);
+    Some(Offer {
+        name: template.name.clone(),
+        kind,
+        toolbox: Some(toolbox.name.clone()),
+        icon: template.icon.clone(),
+        help: template.doc.clone(),
+        ports: ports(view, id),
+        exits: template.outcomes.iter().map(|outcome| outcome.name.clone()).collect(),
+        insert: item(kind, &template.name, body_of_template(template)),
+        missing_use: (!seen).then(|| toolbox.name.clone()),
+    })
+}
+
+fn of_plan(view: &View, id: DefinitionId) -> Option<Offer> {
+    let definition = view.index().definition(id);
+    let plan = view.outline().plans.iter().find(|plan| plan.span == definition.span)?;
+    let name = view.name_of(id).to_owned();
+    let interrupted = plan.interruptible.then(|| "Interrupted".to_owned());
+    Some(Offer {
+        kind: ComponentKind::SubPlan,
+        toolbox: None,
+        icon: None,
+        help: plan.doc.clone(),
+        ports: ports(view, id),
+        exits: std::iter::once("OK".to_owned()).chain(interrupted).collect(),
+        insert: item(ComponentKind::SubPlan, &name, body_of_plan(view, plan)),
+        missing_use: None,
+        name,
+    })
+}
+
+fn ports(view: &View, id: DefinitionId) -> Vec<String> {
+    use DefinitionKind::{Entry, Input, Output};
+    use afp_dsl::graph::EntryKind::{In, Out};
+
+    let is_port = |kind| matches!(kind, Input | Output | Entry(In | Out));
+    let members = view.index().members(id).filter(|(_, member)| is_port(member.kind));
+    members.map(|(id, _)| declaration(view, id)).collect()
+}
+
+fn item(kind: ComponentKind, template: &str, body: Vec<Piece>) -> Vec<Piece> {
+    let mut pieces = vec![
+        Piece::Text(format!("{} ", kind.keyword())),
+        Piece::Hole(instance_name(template, &[])),
+        Piece::Text(format!(": {template}")),
+    ];
+    pieces.extend(body);
+    pieces
+}

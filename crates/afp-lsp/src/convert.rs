@@ -1,0 +1,134 @@
+//! From places of the compiler to those of the protocol, and back.
+
+use afp_dsl::Compiled;
+use afp_ide::edit::TextEdit;
+use afp_syntax::source::{Encoding, LineColumn, Lines, Span};
+use gen_lsp_types::{
+    DocumentChange, Edit, Location, OptionalVersionedTextDocumentIdentifier, Position, Range,
+    TextDocumentEdit, TextDocumentIdentifier, Uri, WorkspaceEdit,
+};
+
+use crate::uri::uri;
+use crate::workspace::Workspace;
+
+/// The lines of a text, counted as the client counts.
+pub(crate) struct Places<'t> {
+    lines: Lines<'t>,
+    encoding: Encoding,
+}
+
+impl<'t> Places<'t> {
+    pub fn new(text: &'t str, encoding: Encoding) -> Places<'t> {
+        Places { lines: Lines::new(text), encoding }
+    }
+
+    pub fn position(&self, offset: u32) -> Position {
+        let LineColumn { line, column } = self.lines.position(offset, self.encoding);
+        Position { line, character: column }
+    }
+
+    pub fn range(&self, span: Span) -> Range {
+        Range { start: self.position(span.start), end: self.position(span.end) }
+    }
+
+    pub fn offset(&self, position: Position) -> u32 {
+        let at = LineColumn { line: position.line, column: position.character };
+        self.lines.offset(at, self.encoding)
+    }
+}
+
+/// Edits of one file.
+pub(crate) struct FileEdits {
+    pub path: String,
+    /// The text that they are made on.
+    pub text: String,
+    pub edits: Vec<TextEdit>,
+}
+
+impl Workspace {
+    /// The place of a span of a compilation.
+    pub fn location(&self, compiled: &Compiled, span: Span) -> Option<Location> {
+        let source = compiled.sources.get(span.file)?;
+        let range = Places::new(&source.text, self.encoding).range(span);
+        Some(Location { uri: self.uri(&source.name), range })
+    }
+
+    /// The address of a path, as the client writes it where it has it open.
+    pub fn uri(&self, path: &str) -> Uri {
+        self.documents.get(path).map_or_else(|| uri(path), |document| document.uri.clone())
+    }
+
+    /// Edits of a compilation's files, each with the text that it is made on.
+    pub fn by_file(&self, compiled: &Compiled, edits: Vec<TextEdit>) -> Vec<FileEdits> {
+        let mut files: Vec<(u16, FileEdits)> = Vec::new();
+        for edit in edits {
+            let file = edit.span.file;
+            if let Some((_, known)) = files.iter_mut().find(|(known, _)| *known == file) {
+                known.edits.push(edit);
+            } else if let Some(source) = compiled.sources.get(file) {
+                let (path, text) = (source.name.clone(), source.text.clone());
+                files.push((file, FileEdits { path, text, edits: vec![edit] }));
+            }
+        }
+        files.into_iter().map(|(_, file)| file).collect()
+    }
+
+    /// Edits as the protocol has them, with the versions that they are made on.
+    pub fn edit(&self, files: &[FileEdits]) -> WorkspaceEdit {
+        let change = |file: &FileEdits| {
+            let places = Places::new(&file.text, self.encoding);
+            let edits = file.edits.iter().map(|edit| text_edit(&places, edit));
+            let id = TextDocumentIdentifier { uri: self.uri(&file.path) };
+            let version = self.documents.get(&file.path).map(|document| document.version);
+            let text_document =
+                OptionalVersionedTextDocumentIdentifier { version, text_document_identifier: id };
+            DocumentChange::TextDocumentEdit(TextDocumentEdit {
+                text_document,
+                edits: edits.map(Edit::TextEdit).collect(),
+            })
+        };
+        let changes = files.iter().map(change).collect();
+        WorkspaceEdit { document_changes: Some(changes), ..WorkspaceEdit::default() }
+    }
+}
+
+/// An edit of a text as the protocol has it.
+pub(crate) fn text_edit(places: &Places<'_>, edit: &TextEdit) -> gen_lsp_types::TextEdit {
+    gen_lsp_types::TextEdit { range: places.range(edit.span), new_text: edit.text.clone() }
+}
+
+/// The one edit that makes a text another one; `None` where they are the same. It begins and ends at
+/// borders of lines.
+pub(crate) fn difference(before: &str, after: &str) -> Option<TextEdit> {
+    if before == after {
+        return None;
+    }
+    let same = |lines: &mut dyn Iterator<Item = (&str, &str)>| {
+        lines.take_while(|(a, b)| a == b).map(|(a, _)| a.len()).sum::<usize>()
+    };
+    let start = same(&mut before.split_inclusive('\n').zip(after.split_inclusive('\n')));
+    let (rest, new) = (&before[start..], &after[start..]);
+    let mut back = rest.split_inclusive('\n').rev().zip(new.split_inclusive('\n').rev());
+    let end = same(&mut back);
+    let number = |at| u32::try_from(at).unwrap_or(u32::MAX);
+    let span = Span { file: 0, start: number(start), end: number(before.len() - end) };
+    Some(TextEdit { span, text: new[..new.len() - end].to_owned() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::difference;
+    use afp_ide::edit::apply;
+
+    #[test]
+    fn the_difference_makes_one_text_the_other() {
+        let texts =
+            ["", "a\n", "a\nb\nc\n", "a\nx\nc\n", "a\nc\n", "a\nb\nc", "a\na\na\n", "a\na\n"];
+        for before in texts {
+            for after in texts {
+                let edits: Vec<_> = difference(before, after).into_iter().collect();
+                assert_eq!(apply(before, &edits), after);
+            }
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! Requests of our own: drawings, changes of meaning, what can be offered.
+
+pub(crate) mod drawing;
+pub(crate) mod edit;
+pub(crate) mod export;
+pub(crate) mod items;
+pub(crate) mod offers;
+mod scene;
+
+pub(crate) use drawing::Subscription;
+
+use serde::Deserialize;
+
+/// Those that clients may ask for, by name.
+pub(crate) const METHODS: &[&str] = &[
+    "afp/drawing",
+    "afp/edit",
+    "afp/place",
+    "afp/paste",
+    "afp/itemAt",
+    "afp/spanOf",
+    "afp/palette",
+    "afp/candidates",
+    "afp/timing",
+    "afp/export",
+];
+
+/// A document, by its address.
+#[derive(Clone, Debug, Deserialize)]
+pub(crate) struct Document {
+    pub uri: gen_lsp_types::Uri,
+}

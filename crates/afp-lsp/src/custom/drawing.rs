@@ -1,0 +1,199 @@
+//! The drawing of a plan, and what changes of it.
+
+use afp_draw::layout_file::Layout;
+use afp_draw::{Options, Scene};
+use afp_dsl::outline::{Outline, Plan, PlanId};
+use afp_dsl::toolbox::Toolbox;
+use lsp_server::{Message, Notification};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use super::Document;
+use super::scene::Shown;
+use crate::answer::{Answer, Failure, ok};
+use crate::server::Server;
+use crate::uri;
+use crate::workspace::{Analysis, Workspace};
+
+/// A plan of a document.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Drawing {
+    text_document: Document,
+    /// Without one, the first plan.
+    #[serde(default)]
+    plan: Option<String>,
+    /// Whether the client wants to hear what changes; `false` ends that.
+    #[serde(default)]
+    subscribe: Option<bool>,
+}
+
+/// A drawing that a client has and hears the changes of.
+#[derive(Clone, Debug)]
+pub(crate) struct Subscription {
+    plan: Option<String>,
+    /// The scene, from which the next one is made.
+    scene: Scene,
+    shown: Shown,
+    /// What the drawing was made from: the document, and the file of its positions.
+    made_from: [u64; 2],
+}
+
+/// The whole drawing.
+pub(crate) fn drawing(server: &mut Server, params: Drawing) -> Answer {
+    let path = uri::path(&params.text_document.uri);
+    let known = server.subscriptions.remove(&path);
+    let before = known.as_ref().filter(|known| known.plan == params.plan).map(|known| &known.scene);
+    let drawn = draw(server, &path, params.plan.as_deref(), before)?;
+    let version = server.workspace.documents.get(&path).map(|document| document.version);
+    let Drawn { scene, shown, plan, plans, symbols, .. } = &drawn;
+    let answer = json!({
+        "version": version,
+        "plan": plan,
+        "plans": plans,
+        "bounds": shown.bounds,
+        "elements": shown.elements.values().collect::<Vec<_>>(),
+        "edges": shown.edges.values().collect::<Vec<_>>(),
+        "entries": shown.entries,
+        "symbols": symbols,
+    });
+    if params.subscribe.unwrap_or(known.is_some()) {
+        let (scene, shown) = (scene.clone(), shown.clone());
+        let made_from = drawn.made_from;
+        let subscription = Subscription { plan: params.plan, scene, shown, made_from };
+        server.subscriptions.insert(path, subscription);
+    }
+    ok(answer)
+}
+
+struct Drawn {
+    scene: Scene,
+    shown: Shown,
+    plan: Option<String>,
+    plans: Vec<String>,
+    symbols: Value,
+    made_from: [u64; 2],
+}
+
+fn draw(
+    server: &mut Server,
+    path: &str,
+    plan: Option<&str>,
+    before: Option<&Scene>,
+) -> Result<Drawn, Failure> {
+    let made_from = server.workspace.drawn_from(path);
+    let analysis = server.workspace.analysis(path);
+    let analysis =
+        analysis.ok_or_else(|| Failure::Refused("there is no such plan file".to_owned()))?;
+    let outline = &analysis.compiled.outline;
+    let id = find(outline, analysis.file, plan)?;
+    let positions = server.workspace.positions(&analysis);
+    let icons = |toolbox: &Toolbox, name: &str| server.workspace.icon(&analysis.set, toolbox, name);
+    let options = Options {
+        plan: id,
+        icons: Some(&icons),
+        positions: &positions,
+        sub_plans: false,
+        warnings: true,
+        ..Options::default()
+    };
+    let scene = match id {
+        Some(_) => Scene::new(outline, &options, before),
+        None => Scene::default(),
+    };
+    let main: Option<&Plan> = id.map(|id| outline.plan(id));
+    let shown = match (scene.plans.first(), main) {
+        (Some(drawn), Some(plan)) => Shown::new(drawn, plan, outline),
+        _ => Shown::default(),
+    };
+    let own = outline.plans.iter().filter(|plan| plan.file() == analysis.file);
+    let plans = own.map(|plan| plan.item.name().to_owned()).collect();
+    let symbols = scene.symbols.iter().map(|it| json!({ "id": it.id, "svg": it.svg })).collect();
+    let plan = main.map(|plan| plan.item.name().to_owned());
+    Ok(Drawn { scene, shown, plan, plans, symbols, made_from })
+}
+
+/// A plan of a file by name, its first one without a name.
+fn find(outline: &Outline, file: u16, name: Option<&str>) -> Result<Option<PlanId>, Failure> {
+    let mut own = (0..).map(PlanId).zip(&outline.plans).filter(|(_, plan)| plan.file() == file);
+    match name {
+        None => Ok(own.next().map(|(id, _)| id)),
+        Some(name) => {
+            let found = own.find(|(_, plan)| plan.item.name() == name).map(|(id, _)| id);
+            let none = || Failure::Refused(format!("there is no plan '{name}'"));
+            found.map(Some).ok_or_else(none)
+        }
+    }
+}
+
+impl Workspace {
+    /// The positions of the plans of a compilation, by file.
+    pub(crate) fn positions(&self, analysis: &Analysis) -> Vec<Layout> {
+        let plan_files = analysis.compiled.plan_files.clone();
+        let read = |(file, source): (usize, &afp_syntax::source::Source)| match plan_files
+            .contains(&file)
+        {
+            true => self.text(&format!("{}.layout", source.name)).unwrap_or_default(),
+            false => String::new(),
+        };
+        let texts = analysis.compiled.sources.iter().enumerate().map(read);
+        texts.map(|text| Layout::read(&text).0).collect()
+    }
+
+    /// What changes whenever a drawing of a document may have changed.
+    fn drawn_from(&self, path: &str) -> [u64; 2] {
+        [self.documents.newest(), self.documents.stamp(&format!("{path}.layout"))]
+    }
+}
+
+impl Server {
+    /// What has changed of the drawings that the client wants to hear of.
+    pub(crate) fn changed_drawings(&mut self) -> Vec<Message> {
+        let stale = |(path, known): (&String, &Subscription)| {
+            (known.made_from != self.workspace.drawn_from(path)).then(|| path.clone())
+        };
+        let stale: Vec<_> = self.subscriptions.iter().filter_map(stale).collect();
+        stale.into_iter().filter_map(|path| self.changed_drawing(&path)).collect()
+    }
+
+    fn changed_drawing(&mut self, path: &str) -> Option<Message> {
+        let known = self.subscriptions.remove(path)?;
+        let drawn = draw(self, path, known.plan.as_deref(), Some(&known.scene));
+        // A plan that is gone while its name is typed comes back.
+        let Ok(Drawn { scene, shown, plan, plans, symbols, made_from }) = drawn else {
+            self.subscriptions.insert(path.to_owned(), known);
+            return None;
+        };
+        let message = (shown != known.shown).then(|| {
+            let mut params = difference(&known.shown, &shown);
+            let document = self.workspace.documents.get(path);
+            params["textDocument"] = json!({ "uri": self.workspace.uri(path) });
+            params["version"] = json!(document.map(|document| document.version));
+            params["plan"] = json!(plan);
+            params["plans"] = json!(plans);
+            params["symbols"] = symbols;
+            Notification::new("afp/drawingChanged".to_owned(), params).into()
+        });
+        let subscription = Subscription { plan: known.plan, scene, shown, made_from };
+        self.subscriptions.insert(path.to_owned(), subscription);
+        message
+    }
+}
+
+/// What is new or different, and the ids of what is gone.
+fn difference(before: &Shown, after: &Shown) -> Value {
+    let set = |before: &std::collections::BTreeMap<String, Value>,
+               after: &std::collections::BTreeMap<String, Value>| {
+        let new = after.iter().filter(|(id, value)| before.get(*id) != Some(value));
+        new.map(|(_, value)| value.clone()).collect::<Vec<_>>()
+    };
+    let elements = before.elements.keys().filter(|id| !after.elements.contains_key(*id));
+    let edges = before.edges.keys().filter(|id| !after.edges.contains_key(*id));
+    json!({
+        "elements": set(&before.elements, &after.elements),
+        "edges": set(&before.edges, &after.edges),
+        "gone": elements.chain(edges).collect::<Vec<_>>(),
+        "entries": after.entries,
+        "bounds": after.bounds,
+    })
+}

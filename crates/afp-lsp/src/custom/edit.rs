@@ -1,0 +1,202 @@
+//! Changes of meaning and of places, answered with the edits that make them.
+
+use std::collections::BTreeMap;
+
+use afp_draw::layout_file::Position;
+use afp_ide::edit::{Change, Made, edit_all, item, path};
+use afp_syntax::ast::Item as AstItem;
+use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::item::Item;
+use gen_lsp_types as lsp;
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use super::Document;
+use super::items::no_item;
+use crate::answer::{Answer, Failure, ok};
+use crate::convert::FileEdits;
+use crate::server::Server;
+use crate::uri;
+
+/// Where items are put; `null` gives them back to the automatic layout.
+type Places = BTreeMap<String, Option<[f64; 2]>>;
+
+/// Changes of a document, all or none.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Edit {
+    text_document: Document,
+    changes: Vec<Change>,
+    #[serde(default)]
+    places: Places,
+}
+
+/// The edits that make the changes of the document as the server has it, whatever version the client
+/// names: the answer says on which version they are made.
+pub(crate) fn edit(server: &mut Server, params: Edit) -> Answer {
+    changed(server, &params.text_document, &params.changes, &params.places)
+}
+
+fn changed(
+    server: &mut Server,
+    document: &Document,
+    changes: &[Change],
+    places: &Places,
+) -> Answer {
+    let home_path = uri::path(&document.uri);
+    let analysis = server.analysis(&document.uri);
+    let analysis =
+        analysis.ok_or_else(|| Failure::Refused("there is no such plan file".to_owned()))?;
+    let files = server.sources(&analysis);
+    let home = files.iter().position(|file| file.name == home_path);
+    let home =
+        home.ok_or_else(|| Failure::Refused("a toolbox has no plans to change".to_owned()))?;
+    let made = edit_all(&files, home, changes);
+    let made = made.map_err(|refused| Failure::Refused(refused.reason))?;
+    let Made { edits, changes: done, names, added } = made;
+    let mut all = server.grouped(&files, edits);
+    let given: BTreeMap<_, _> = names.into_iter().collect();
+    let placed = positions(places, &given)?;
+    all.extend(server.placed(&home_path, |layout| {
+        done.iter().for_each(|change| afp_ide::edit::follow(layout, change));
+        put(layout, &placed);
+    }));
+    ok(json!({
+        "label": label(&done),
+        "edit": whole(server, &all),
+        "select": added.iter().map(path).collect::<Vec<_>>(),
+        "names": given,
+    }))
+}
+
+/// Items with their places, under the names that they were given.
+fn positions(
+    places: &Places,
+    given: &BTreeMap<String, String>,
+) -> Result<Vec<(Item, Option<Position>)>, Failure> {
+    let place = |(path, at): (&String, &Option<[f64; 2]>)| {
+        let wanted = item(path).ok_or_else(|| no_item(path))?;
+        let item = match (&wanted, given.get(wanted.name())) {
+            (Item::Inner { plan, .. }, Some(name)) => Item::inner(plan, name),
+            _ => wanted,
+        };
+        let number = |value: f64| value.round() as i32;
+        Ok((item, at.map(|[x, y]| Position { x: number(x), y: number(y) })))
+    };
+    places.iter().map(place).collect()
+}
+
+fn put(layout: &mut afp_draw::layout_file::Layout, places: &[(Item, Option<Position>)]) {
+    for (item, position) in places {
+        match position {
+            Some(position) => layout.set(item.clone(), *position),
+            None => layout.remove(item),
+        }
+    }
+}
+
+/// What the history of an editor calls changes.
+fn label(changes: &[Change]) -> String {
+    let Some(last) = changes.iter().find(|change| !matches!(change, Change::AddUse { .. })) else {
+        return "change".to_owned();
+    };
+    match last {
+        Change::Add { .. } | Change::AddPlan { .. } | Change::AddUse { .. } => "add".to_owned(),
+        Change::Remove { item } => format!("remove '{}'", item.name()),
+        Change::Rename { item, .. } => format!("rename '{}'", item.name()),
+        Change::Connect { outcome, .. } => format!("connect '{outcome}'"),
+        Change::Disconnect { outcome, .. } => format!("disconnect '{outcome}'"),
+        Change::SetStart { to, .. } => format!("start with '{to}'"),
+        Change::Reorder { item, .. } | Change::Move { item, .. } => {
+            format!("move '{}'", item.name())
+        }
+        Change::Bind { port, .. } => format!("set '{port}'"),
+        Change::Unbind { port, .. } => format!("unset '{port}'"),
+        Change::SetTemplate { component: item, .. }
+        | Change::SetTiming { supervisor: item, .. }
+        | Change::SetEntryKind { entry: item, .. }
+        | Change::SetEntryType { entry: item, .. }
+        | Change::SetEntryValue { entry: item, .. }
+        | Change::SetDoc { item, .. } => format!("change '{}'", item.name()),
+        Change::Extract { new_plan, .. } => format!("make the plan '{new_plan}'"),
+        Change::Inline { element, .. } => format!("put the elements in place of '{element}'"),
+    }
+}
+
+/// Edits with the files that must be there first.
+fn whole(server: &Server, files: &[FileEdits]) -> lsp::WorkspaceEdit {
+    let mut edit = server.edit(files);
+    let new = files.iter().filter(|file| server.workspace.text(&file.path).is_err());
+    if let Some(changes) = &mut edit.document_changes {
+        for file in new {
+            let create = lsp::CreateFile::new(server.workspace.uri(&file.path), None, None);
+            changes.insert(0, lsp::DocumentChange::CreateFile(create));
+        }
+    }
+    edit
+}
+
+/// Places for items of a document.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Place {
+    text_document: Document,
+    places: Places,
+}
+
+/// The edit of the file of positions.
+pub(crate) fn place(server: &mut Server, params: Place) -> Answer {
+    let placed = positions(&params.places, &BTreeMap::new())?;
+    let file = server.placed(&uri::path(&params.text_document.uri), |layout| put(layout, &placed));
+    ok(whole(server, &file.into_iter().collect::<Vec<_>>()))
+}
+
+/// Items that are put into a plan, or supervisors put onto an element.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Paste {
+    text_document: Document,
+    plan: String,
+    #[serde(default)]
+    owner: Option<String>,
+    text: String,
+    /// The place of the first item.
+    #[serde(default)]
+    at: Option<[f64; 2]>,
+}
+
+/// The edits that put in a text of items, with the `use` lines above it and names of their own.
+pub(crate) fn paste(server: &mut Server, params: Paste) -> Answer {
+    let Paste { text_document, plan, owner, text, at } = params;
+    let (mut changes, rest) = uses(&text);
+    changes.push(Change::Add { plan: plan.clone(), owner, text: rest, before: None });
+    let answer = changed(server, &text_document, &changes, &Places::new())?;
+    let first = answer.pointer("/select/0").and_then(Value::as_str).map(str::to_owned);
+    match (first, at) {
+        (Some(first), Some(at)) => {
+            let name = item(&first).map(|item| item.name().to_owned()).unwrap_or_default();
+            // Under the name that was wished for, as clients say it.
+            let wished = answer["names"].as_object().into_iter().flatten();
+            let wished = wished.into_iter().find(|(_, given)| **given == json!(name));
+            let wished = wished.map_or(name.clone(), |(wanted, _)| wanted.clone());
+            let places = Places::from([(format!("{plan}.{wished}"), Some(at))]);
+            changed(server, &text_document, &changes, &places)
+        }
+        _ => Ok(answer),
+    }
+}
+
+/// The `use` lines of a text as changes, and what stands below them.
+fn uses(text: &str) -> (Vec<Change>, String) {
+    let items = afp_syntax::parse(text, 0, &mut Diagnostics::default()).file().items();
+    let mut changes = Vec::new();
+    let mut end = 0;
+    for item in items {
+        let AstItem::Use(line) = item else { break };
+        let Some(toolbox) = line.toolbox() else { break };
+        let alias = line.alias().map(|alias| alias.text);
+        end = line.span().end as usize;
+        changes.push(Change::AddUse { toolbox: toolbox.text, alias });
+    }
+    (changes, text.get(end..).unwrap_or_default().to_owned())
+}

@@ -1,0 +1,63 @@
+//! What is known of time, and pictures of plans.
+
+use afp_draw::{Options, Theme};
+use afp_dsl::toolbox::Toolbox;
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use super::Document;
+use crate::answer::{Answer, Failure, ok};
+use crate::server::Server;
+
+/// A document.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Timing {
+    text_document: Document,
+}
+
+/// The bounds of the first plan and of all that it uses, as `afpc check --timing --json` has them;
+/// nothing while there are errors.
+pub(crate) fn timing(server: &mut Server, params: Timing) -> Answer {
+    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let graph = analysis.compiled.graph.as_ref();
+    ok(graph.map(|graph| afp_dsl::timing::timing(graph, None).json()))
+}
+
+/// A picture of a plan.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Export {
+    text_document: Document,
+    format: String,
+}
+
+/// The first plan of a document as a picture or for another program.
+pub(crate) fn export(server: &mut Server, params: Export) -> Answer {
+    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let icons = |toolbox: &Toolbox, name: &str| server.workspace.icon(&analysis.set, toolbox, name);
+    let positions = server.workspace.positions(&analysis);
+    let options = Options {
+        sources: Some(&analysis.compiled.sources),
+        icons: Some(&icons),
+        positions: &positions,
+        theme: Theme::Auto,
+        ..Options::default()
+    };
+    let outline = &analysis.compiled.outline;
+    let text = match params.format.as_str() {
+        "svg" => afp_draw::svg(outline, &options),
+        "dot" => afp_draw::dot(outline, &options),
+        "json" => afp_draw::json(outline, &options),
+        "scxml" => {
+            let graph = analysis.compiled.graph.as_ref();
+            let graph = graph.ok_or_else(|| Failure::Refused("the plan has errors".to_owned()))?;
+            afp_draw::scxml(graph, &options)
+        }
+        other => {
+            let known = "write 'svg', 'dot', 'json' or 'scxml'; 'afpc graph' makes pixels";
+            return Err(Failure::Refused(format!("there is no format '{other}': {known}")));
+        }
+    };
+    ok(json!({ "text": text }))
+}

@@ -1,0 +1,81 @@
+//! From places in the text to items and back, so that selection and cursor follow each other.
+
+use afp_dsl::outline::{Identity, Part};
+use afp_ide::edit::{item, path};
+use gen_lsp_types as lsp;
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use super::Document;
+use crate::answer::{Answer, Failure, ok};
+use crate::server::Server;
+
+/// The smallest item, or part of one, at a place of the text.
+pub(crate) fn item_at(server: &mut Server, params: lsp::TextDocumentPositionParams) -> Answer {
+    let Some((analysis, offset)) = server.at(&params) else { return Ok(Value::Null) };
+    let found = analysis.compiled.outline.identity_at(analysis.file, offset);
+    ok(found.map(|found| json!({ "item": path(&found.item), "part": part(&found.part) })))
+}
+
+/// An item of a document, or a part of one.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct SpanOf {
+    text_document: Document,
+    item: String,
+    #[serde(default)]
+    part: Option<PartOf>,
+}
+
+/// A part of an item, as [`part`] says it.
+#[derive(Clone, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct PartOf {
+    kind: String,
+    #[serde(default)]
+    name: String,
+    #[serde(default = "first")]
+    nth: u16,
+}
+
+fn first() -> u16 {
+    1
+}
+
+/// The place of an item or part.
+pub(crate) fn span_of(server: &mut Server, params: SpanOf) -> Answer {
+    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let item = item(&params.item).ok_or_else(|| no_item(&params.item))?;
+    let part = params.part.map_or(Some(Part::Whole), meant);
+    let part = part.ok_or_else(|| Failure::Malformed("there is no such part".to_owned()))?;
+    let identity = Identity { file: analysis.file, item, part };
+    let span = analysis.compiled.outline.span_of(&identity);
+    ok(span.map(|span| server.places(&analysis).range(span)))
+}
+
+pub(crate) fn no_item(path: &str) -> Failure {
+    Failure::Malformed(format!("'{path}' is no path of an item"))
+}
+
+/// A part of an item in messages: what it is, and under which name.
+pub(crate) fn part(part: &Part) -> Value {
+    match part {
+        Part::Whole => json!({ "kind": "whole" }),
+        Part::Start(nth) => json!({ "kind": "start", "nth": nth }),
+        Part::Input { name, nth } => json!({ "kind": "input", "name": name, "nth": nth }),
+        Part::Output { name, nth } => json!({ "kind": "output", "name": name, "nth": nth }),
+        Part::Exit { name, nth } => json!({ "kind": "exit", "name": name, "nth": nth }),
+    }
+}
+
+fn meant(part: PartOf) -> Option<Part> {
+    let PartOf { kind, name, nth } = part;
+    Some(match kind.as_str() {
+        "whole" => Part::Whole,
+        "start" => Part::Start(nth),
+        "input" => Part::Input { name, nth },
+        "output" => Part::Output { name, nth },
+        "exit" => Part::Exit { name, nth },
+        _ => return None,
+    })
+}

@@ -1,0 +1,89 @@
+//! What a plan can be made of, and what fits an exit or port.
+
+use afp_ide::candidates::{Candidate, of_exit, of_port};
+use afp_ide::edit::item;
+use afp_ide::palette::Offer;
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use super::{Document, items::no_item};
+use crate::answer::{Answer, Failure, ok};
+use crate::server::Server;
+use crate::standard::completion::snippet;
+
+/// What is looked for among templates.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Palette {
+    text_document: Document,
+    #[serde(default)]
+    query: String,
+}
+
+/// Templates and plans, best first.
+pub(crate) fn palette(server: &mut Server, params: Palette) -> Answer {
+    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let offers = afp_ide::palette::palette(&analysis.view(), &params.query);
+    let shown = |offer: &Offer| {
+        let toolbox = offer.toolbox.as_ref().and_then(|name| analysis.set.toolboxes.get(name));
+        let icon = offer.icon.as_ref().zip(toolbox);
+        let icon =
+            icon.and_then(|(name, toolbox)| server.workspace.icon(&analysis.set, toolbox, name));
+        json!({
+            "template": offer.name,
+            "kind": offer.kind.keyword(),
+            "toolbox": offer.toolbox,
+            "icon": icon,
+            "help": offer.help,
+            "ports": offer.ports,
+            "exits": offer.exits,
+            "snippet": snippet(&offer.insert),
+            "missingUse": offer.missing_use,
+        })
+    };
+    ok(offers.iter().map(shown).collect::<Vec<_>>())
+}
+
+/// An exit or port of an element or supervisor.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Candidates {
+    text_document: Document,
+    item: String,
+    #[serde(default)]
+    outcome: Option<String>,
+    #[serde(default)]
+    port: Option<String>,
+}
+
+/// What fits, best first, and what does not with the reason.
+pub(crate) fn candidates(server: &mut Server, params: Candidates) -> Answer {
+    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let view = analysis.view();
+    let item = item(&params.item).ok_or_else(|| no_item(&params.item))?;
+    let none = |what: &str| Failure::Refused(format!("'{}' has no '{what}'", params.item));
+    match (&params.outcome, &params.port) {
+        (Some(outcome), None) => {
+            let list = of_exit(&view, &item, outcome).ok_or_else(|| none(outcome))?;
+            ok(json!({ "candidates": list.iter().map(shown).collect::<Vec<_>>() }))
+        }
+        (None, Some(port)) => {
+            let found = of_port(&view, &item, port).ok_or_else(|| none(port))?;
+            ok(json!({
+                "candidates": found.list.iter().map(shown).collect::<Vec<_>>(),
+                "type": found.ty,
+                "value": found.value,
+                "default": found.default,
+                "range": found.range,
+                "step": found.step,
+                "unit": found.unit,
+                "units": found.units,
+            }))
+        }
+        _ => Err(Failure::Malformed("name either 'outcome' or 'port'".to_owned())),
+    }
+}
+
+fn shown(candidate: &Candidate) -> Value {
+    json!({ "text": candidate.text, "refused": candidate.refused })
+}

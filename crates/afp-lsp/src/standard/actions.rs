@@ -1,0 +1,56 @@
+//! What can be done about a place at once.
+
+use afp_ide::actions::{Action, ActionKind, actions as of_place};
+use afp_syntax::source::Span;
+use gen_lsp_types as lsp;
+use serde_json::Value;
+
+use crate::answer::{Answer, ok};
+use crate::diagnostics;
+use crate::server::Server;
+use crate::workspace::Analysis;
+
+/// Everything that can be done about a selection, of the kinds that the client wants.
+pub(crate) fn actions(server: &mut Server, params: lsp::CodeActionParams) -> Answer {
+    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let places = server.places(&analysis);
+    let (start, end) = (places.offset(params.range.start), places.offset(params.range.end));
+    let place = Span { file: analysis.file, start, end: end.max(start) };
+    let wanted = |action: &Action| {
+        let own = kind(action.kind);
+        let own = own.as_str();
+        params.context.only.as_ref().is_none_or(|only| {
+            only.iter().any(|kind| {
+                let kind = kind.as_str();
+                kind.is_empty()
+                    || own == kind
+                    || own.strip_prefix(kind).is_some_and(|rest| rest.starts_with('.'))
+            })
+        })
+    };
+    let all = of_place(&analysis.view(), place).into_iter().filter(wanted);
+    ok(all.map(|action| shown(server, &analysis, action)).collect::<Vec<_>>())
+}
+
+fn shown(server: &Server, analysis: &Analysis, action: Action) -> lsp::CodeAction {
+    let places = server.places(analysis);
+    let mended = action.mends.and_then(|place| analysis.compiled.diags.iter().nth(place));
+    let mended = mended.map(|it| diagnostics::one(&server.workspace, analysis, &places, it));
+    let files = server.workspace.by_file(&analysis.compiled, action.edits);
+    lsp::CodeAction {
+        title: action.title,
+        kind: Some(kind(action.kind)),
+        is_preferred: (action.kind == ActionKind::Fix && mended.is_some()).then_some(true),
+        diagnostics: mended.map(|diagnostic| vec![diagnostic]),
+        edit: Some(server.edit(&files)),
+        ..lsp::CodeAction::default()
+    }
+}
+
+fn kind(kind: ActionKind) -> lsp::CodeActionKind {
+    match kind {
+        ActionKind::Fix => lsp::CodeActionKind::QuickFix,
+        ActionKind::Extract => lsp::CodeActionKind::RefactorExtract,
+        ActionKind::Inline => lsp::CodeActionKind::RefactorInline,
+    }
+}

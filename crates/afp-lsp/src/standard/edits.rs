@@ -1,0 +1,168 @@
+//! Renaming and formatting.
+
+use std::sync::Arc;
+
+use afp_draw::layout_file::Layout;
+use afp_dsl::index::{DefinitionId, DefinitionKind};
+use afp_dsl::outline::Part;
+use afp_ide::edit::{Change, follow};
+use afp_syntax::item::Item;
+use afp_syntax::source::{Source, Span};
+use gen_lsp_types as lsp;
+use serde_json::{Value, json};
+
+use crate::answer::{Answer, Failure, ok};
+use crate::convert::{FileEdits, Places, difference, text_edit};
+use crate::server::Server;
+use crate::uri;
+use crate::workspace::Analysis;
+
+/// What can get another name: the item that is declared, and the path of its file.
+struct Renamed {
+    item: Item,
+    path: String,
+}
+
+/// The word that would be renamed.
+pub(crate) fn prepare_rename(server: &mut Server, params: lsp::PrepareRenameParams) -> Answer {
+    let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
+        return Ok(Value::Null);
+    };
+    renamed(&analysis, offset)?;
+    let Some(name) = analysis.compiled.index.at(analysis.file, offset) else {
+        return Ok(Value::Null);
+    };
+    let placeholder = analysis.compiled.sources.text(name.span);
+    ok(json!({ "range": server.places(&analysis).range(name.span), "placeholder": placeholder }))
+}
+
+/// What the name at a byte declares, as an item that can be renamed.
+fn renamed(analysis: &Analysis, offset: u32) -> Result<Renamed, Failure> {
+    let index = &analysis.compiled.index;
+    let refused = |reason: &str| Failure::Refused(reason.to_owned());
+    let name = index.at(analysis.file, offset).ok_or_else(|| refused("no name stands here"))?;
+    let id = name.meaning.definition().ok_or_else(|| refused("nothing declares this name"))?;
+    let definition = index.definition(id);
+    if usize::from(definition.name.file) < analysis.compiled.plan_files.start {
+        return Err(refused("a toolbox declares this name, and Rust code knows it"));
+    }
+    let source = analysis.compiled.sources.get(definition.name.file);
+    let path = source.map(|source| source.name.clone()).unwrap_or_default();
+    let item = item(analysis, id).ok_or_else(|| refused("this name cannot be changed here"))?;
+    Ok(Renamed { item, path })
+}
+
+fn item(analysis: &Analysis, id: DefinitionId) -> Option<Item> {
+    let definition = analysis.compiled.index.definition(id);
+    let Span { file, start, .. } = definition.name;
+    match definition.kind {
+        DefinitionKind::Plan
+        | DefinitionKind::Enum
+        | DefinitionKind::Entry(_)
+        | DefinitionKind::Component(_) => {}
+        _ => return None,
+    }
+    let found = analysis.compiled.outline.identity_at(file, start)?;
+    (found.part == Part::Whole).then_some(found.item)
+}
+
+/// Gives something another name, in all plan files that the client works on and in the positions.
+pub(crate) fn rename(server: &mut Server, params: lsp::RenameParams) -> Answer {
+    let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
+        return Ok(Value::Null);
+    };
+    let Renamed { item, path } = renamed(&analysis, offset)?;
+    let change = Change::Rename { item, to: params.new_name };
+    let files = server.sources(&analysis);
+    let home = files.iter().position(|file| file.name == path);
+    let home = home.ok_or_else(|| Failure::Refused("its file cannot be read".to_owned()))?;
+    let edits = afp_ide::edit::edit(&files, home, &change);
+    let edits = edits.map_err(|refused| Failure::Refused(refused.reason))?;
+    let mut all = server.grouped(&files, edits);
+    all.extend(server.moved_positions(&path, std::slice::from_ref(&change)));
+    ok(server.edit(&all))
+}
+
+impl Server {
+    /// The plan files that a change may edit: those of a compilation, and all that the client works on.
+    pub(crate) fn sources(&mut self, analysis: &Arc<Analysis>) -> Vec<Source> {
+        let mut files: Vec<_> = analysis.compiled.plan_sources().cloned().collect();
+        for path in self.workspace.plan_files() {
+            if files.iter().all(|file| file.name != path)
+                && let Ok(text) = self.workspace.text(&path)
+            {
+                files.push(Source::new(path, text));
+            }
+        }
+        files
+    }
+
+    /// Edits by the file that they are made on.
+    pub(crate) fn grouped(
+        &self,
+        files: &[Source],
+        edits: Vec<afp_ide::edit::TextEdit>,
+    ) -> Vec<FileEdits> {
+        let mut all: Vec<FileEdits> = Vec::new();
+        for edit in edits {
+            let Some(source) = files.get(usize::from(edit.span.file)) else { continue };
+            match all.iter_mut().find(|file| file.path == source.name) {
+                Some(file) => file.edits.push(edit),
+                None => all.push(FileEdits {
+                    path: source.name.clone(),
+                    text: source.text.clone(),
+                    edits: vec![edit],
+                }),
+            }
+        }
+        all
+    }
+
+    /// The edit of the positions of a file that follows changes of it; `None` where there is none.
+    pub(crate) fn moved_positions(&self, path: &str, changes: &[Change]) -> Option<FileEdits> {
+        self.placed(path, |layout| changes.iter().for_each(|change| follow(layout, change)))
+    }
+
+    /// The edit that changes the positions of a file; `None` where it changes nothing.
+    pub(crate) fn placed(&self, path: &str, change: impl FnOnce(&mut Layout)) -> Option<FileEdits> {
+        let path = format!("{path}.layout");
+        let text = self.workspace.text(&path).unwrap_or_default();
+        let mut layout = Layout::read(&text).0;
+        let before = layout.clone();
+        change(&mut layout);
+        if layout == before {
+            return None;
+        }
+        let edits = difference(&text, &layout.write()).into_iter().collect();
+        Some(FileEdits { path, text, edits })
+    }
+
+    /// Edits as the client takes them: with versions, or as a plain list.
+    pub(crate) fn edit(&self, files: &[FileEdits]) -> lsp::WorkspaceEdit {
+        if self.client.versions {
+            return self.workspace.edit(files);
+        }
+        let change = |file: &FileEdits| {
+            let places = Places::new(&file.text, self.workspace.encoding);
+            let edits = file.edits.iter().map(|edit| text_edit(&places, edit)).collect();
+            (self.workspace.uri(&file.path), edits)
+        };
+        let changes = files.iter().map(change).collect();
+        lsp::WorkspaceEdit { changes: Some(changes), ..lsp::WorkspaceEdit::default() }
+    }
+}
+
+/// Puts a document into canonical form; one with syntax errors stays as it is.
+pub(crate) fn formatting(server: &mut Server, params: lsp::DocumentFormattingParams) -> Answer {
+    let path = uri::path(&params.text_document.uri);
+    let text = server.workspace.text(&path).map_err(Failure::Refused)?;
+    if !path.ends_with(".afp") {
+        return Ok(Value::Null);
+    }
+    let Ok(formatted) = afp_format::format(&text) else {
+        return Err(Failure::Refused("the text has syntax errors".to_owned()));
+    };
+    let places = Places::new(&text, server.workspace.encoding);
+    let edit = difference(&text, &formatted);
+    ok(edit.iter().map(|edit| text_edit(&places, edit)).collect::<Vec<_>>())
+}

@@ -1,0 +1,144 @@
+//! How a text looks: hover, colours, folds, selections, hints and lenses.
+
+use afp_ide::folding::{FoldKind, folds};
+use afp_ide::lenses::{Deed, Lens};
+use afp_ide::tokens::{Colour, ColourKind, colours};
+use gen_lsp_types as lsp;
+use serde_json::{Value, json};
+
+use crate::answer::{Answer, ok};
+use crate::convert::Places;
+use crate::server::Server;
+
+/// What is to be said of a word.
+pub(crate) fn hover(server: &mut Server, params: lsp::HoverParams) -> Answer {
+    let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
+        return Ok(Value::Null);
+    };
+    let Some(found) = afp_ide::hover::hover(&analysis.view(), offset) else {
+        return Ok(Value::Null);
+    };
+    let range = server.places(&analysis).range(found.span);
+    let value = found.markdown();
+    let contents = lsp::MarkupContent { kind: lsp::MarkupKind::Markdown, value };
+    ok(lsp::Hover { contents: lsp::Contents::MarkupContent(contents), range: Some(range) })
+}
+
+/// What can be folded away.
+pub(crate) fn folding(server: &mut Server, params: lsp::FoldingRangeParams) -> Answer {
+    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let view = analysis.view();
+    let places = server.places(&analysis);
+    let range = |fold: &afp_ide::folding::Fold| {
+        let (start, end) = (places.position(fold.span.start), places.position(fold.span.end));
+        // The line with the closing bracket stays.
+        let last = if fold.kind == FoldKind::Body { end.line.saturating_sub(1) } else { end.line };
+        (last > start.line).then_some(lsp::FoldingRange {
+            start_line: start.line,
+            start_character: None,
+            end_line: last,
+            end_character: None,
+            kind: match fold.kind {
+                FoldKind::Body => None,
+                FoldKind::Comment => Some(lsp::FoldingRangeKind::Comment),
+                FoldKind::Uses => Some(lsp::FoldingRangeKind::Imports),
+            },
+            collapsed_text: None,
+        })
+    };
+    ok(folds(&view).iter().filter_map(range).collect::<Vec<_>>())
+}
+
+/// What selections grow to.
+pub(crate) fn selection(server: &mut Server, params: lsp::SelectionRangeParams) -> Answer {
+    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let view = analysis.view();
+    let places = server.places(&analysis);
+    let around = |position: &lsp::Position| {
+        let all = afp_ide::selection::selections(&view, places.offset(*position));
+        let nested = all.iter().rev().fold(None, |parent, span| {
+            Some(Box::new(lsp::SelectionRange { range: places.range(*span), parent }))
+        });
+        nested.map(|smallest| *smallest)
+    };
+    ok(params.positions.iter().filter_map(around).collect::<Vec<_>>())
+}
+
+/// Colours by meaning.
+pub(crate) fn tokens(server: &mut Server, params: lsp::SemanticTokensParams) -> Answer {
+    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let places = server.places(&analysis);
+    let mut before = lsp::Position::default();
+    let token = |colour: &Colour| {
+        let range = places.range(colour.span);
+        let delta_line = range.start.line - before.line;
+        let same = if delta_line == 0 { before.character } else { 0 };
+        before = range.start;
+        let kind = ColourKind::ALL.iter().position(|kind| *kind == colour.kind).unwrap_or(0);
+        lsp::SemanticToken {
+            delta_line,
+            delta_start: range.start.character - same,
+            length: range.end.character - range.start.character,
+            token_type: u32::try_from(kind).unwrap_or(0),
+            token_modifiers_bitset: u32::from(colour.declares) | u32::from(colour.constant) << 1,
+        }
+    };
+    let data = colours(&analysis.view()).iter().map(token).collect();
+    ok(lsp::SemanticTokens { result_id: None, data })
+}
+
+/// The bound of each supervisor.
+pub(crate) fn hints(server: &mut Server, params: lsp::InlayHintParams) -> Answer {
+    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let places = server.places(&analysis);
+    let all = afp_ide::hints::hints(&analysis.view());
+    let shown = all.iter().filter_map(|hint| {
+        let position = places.position(hint.at.start);
+        let wanted = params.range.start <= position && position <= params.range.end;
+        wanted.then(|| lsp::InlayHint {
+            position,
+            label: lsp::Label::String(hint.label.clone()),
+            kind: None,
+            text_edits: None,
+            tooltip: Some(lsp::Tooltip::String(hint.why.clone())),
+            padding_left: Some(true),
+            padding_right: None,
+            data: None,
+        })
+    });
+    ok(shown.collect::<Vec<_>>())
+}
+
+/// What can be done with plans and scenarios, of what the client has commands for.
+pub(crate) fn lenses(server: &mut Server, params: lsp::CodeLensParams) -> Answer {
+    let uri = &params.text_document.uri;
+    let Some(analysis) = server.analysis(uri) else { return Ok(Value::Null) };
+    let places = server.places(&analysis);
+    let all = afp_ide::lenses::lenses(&analysis.view());
+    let shown = all.iter().filter_map(|lens| shown(server, lens, &places, uri));
+    ok(shown.collect::<Vec<_>>())
+}
+
+fn shown(
+    server: &Server,
+    lens: &Lens,
+    places: &Places<'_>,
+    uri: &lsp::Uri,
+) -> Option<lsp::CodeLens> {
+    let (title, command) = match lens.deed {
+        Deed::Run => ("run", "afp.run"),
+        Deed::Debug => ("debug", "afp.debug"),
+        Deed::Draw => ("drawing", "afp.drawing"),
+        Deed::Test => ("test", "afp.test"),
+    };
+    server.client.commands.iter().any(|known| known == command).then(|| lsp::CodeLens {
+        range: places.range(lens.span),
+        command: Some(lsp::Command {
+            title: title.to_owned(),
+            tooltip: None,
+            command: command.to_owned(),
+            arguments: Some(vec![json!({ "uri": uri, "name": lens.name })]),
+        }),
+        data: None,
+    })
+}

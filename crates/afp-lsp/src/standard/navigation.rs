@@ -1,0 +1,172 @@
+//! From names to what they mean, and to who uses them.
+
+use std::collections::BTreeSet;
+
+use afp_dsl::index::DefinitionKind;
+use afp_ide::definition::Definitions;
+use afp_ide::references;
+use afp_ide::symbols::Symbol;
+use gen_lsp_types as lsp;
+use serde_json::{Value, json};
+
+use crate::answer::{Answer, ok};
+use crate::convert::Places;
+use crate::server::Server;
+use crate::workspace::Analysis;
+
+/// Where a name is declared.
+pub(crate) fn definition(server: &mut Server, params: lsp::DefinitionParams) -> Answer {
+    let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
+        return Ok(Value::Null);
+    };
+    locations(server, &analysis, afp_ide::definition::definition(&analysis.view(), offset))
+}
+
+/// What it is made from.
+pub(crate) fn type_definition(server: &mut Server, params: lsp::TypeDefinitionParams) -> Answer {
+    let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
+        return Ok(Value::Null);
+    };
+    locations(server, &analysis, afp_ide::definition::type_definition(&analysis.view(), offset))
+}
+
+fn locations(server: &Server, analysis: &Analysis, found: Option<Definitions>) -> Answer {
+    let Some(found) = found else { return Ok(Value::Null) };
+    let location = |target: &afp_ide::definition::Target| {
+        server.workspace.location(&analysis.compiled, target.name)
+    };
+    ok(found.targets.iter().filter_map(location).collect::<Vec<_>>())
+}
+
+/// Who refers to what a name means, in all plan files that the client works on.
+pub(crate) fn references(server: &mut Server, params: lsp::ReferenceParams) -> Answer {
+    let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
+        return Ok(Value::Null);
+    };
+    let view = analysis.view();
+    let found = afp_ide::definition::definition(&view, offset);
+    let Some(target) = found.and_then(|found| found.targets.first().copied()) else {
+        return Ok(Value::Null);
+    };
+    let Some(home) = analysis.compiled.sources.get(target.name.file).map(|it| it.name.clone())
+    else {
+        return Ok(Value::Null);
+    };
+    let mut all = BTreeSet::new();
+    let mut add = |server: &Server, analysis: &Analysis| {
+        let sources = &analysis.compiled.sources;
+        let file = sources.iter().position(|source| source.name == home);
+        let Some(file) = file.and_then(|file| u16::try_from(file).ok()) else { return };
+        let name = afp_syntax::source::Span { file, ..target.name };
+        for span in references::references_to(&analysis.view(), name) {
+            let declares = span == name;
+            if let Some(at) = server.workspace.location(&analysis.compiled, span)
+                && (!declares || params.context.include_declaration)
+            {
+                all.insert((at.uri.0, at.range.start, at.range.end));
+            }
+        }
+    };
+    add(server, &analysis);
+    for path in server.workspace.plan_files() {
+        if let Some(other) = server.workspace.analysis(&path) {
+            add(server, &other);
+        }
+    }
+    let location =
+        |(uri, start, end)| lsp::Location { uri: lsp::Uri(uri), range: lsp::Range { start, end } };
+    ok(all.into_iter().map(location).collect::<Vec<_>>())
+}
+
+/// Who refers to it in the document.
+pub(crate) fn highlights(server: &mut Server, params: lsp::DocumentHighlightParams) -> Answer {
+    let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
+        return Ok(Value::Null);
+    };
+    let places = server.places(&analysis);
+    let all = references::highlights(&analysis.view(), offset);
+    let highlight = |span| lsp::DocumentHighlight { range: places.range(span), kind: None };
+    ok(all.into_iter().map(highlight).collect::<Vec<_>>())
+}
+
+/// What a document is made of.
+pub(crate) fn symbols(server: &mut Server, params: lsp::DocumentSymbolParams) -> Answer {
+    let uri = params.text_document.uri;
+    let Some(analysis) = server.analysis(&uri) else { return Ok(Value::Null) };
+    let places = server.places(&analysis);
+    let all = afp_ide::symbols::symbols(&analysis.view());
+    if server.client.nests {
+        return ok(all.iter().map(|one| nested(one, &places)).collect::<Vec<_>>());
+    }
+    let mut list = Vec::new();
+    flat(&all, None, &mut |one, owner| list.push(information(one, owner, &uri, &places)));
+    ok(list)
+}
+
+fn nested(one: &Symbol, places: &Places<'_>) -> Value {
+    json!({
+        "name": name(one),
+        "detail": one.detail,
+        "kind": kind(one.kind),
+        "range": places.range(one.span),
+        "selectionRange": places.range(one.name_span),
+        "children": one.children.iter().map(|child| nested(child, places)).collect::<Vec<_>>(),
+    })
+}
+
+/// Clients refuse symbols without a name.
+fn name(one: &Symbol) -> String {
+    if one.name.is_empty() { "?".to_owned() } else { one.name.clone() }
+}
+
+fn flat(all: &[Symbol], owner: Option<&str>, take: &mut dyn FnMut(&Symbol, Option<&str>)) {
+    for one in all {
+        take(one, owner);
+        flat(&one.children, Some(&one.name), take);
+    }
+}
+
+fn information(one: &Symbol, owner: Option<&str>, uri: &lsp::Uri, places: &Places<'_>) -> Value {
+    json!({
+        "name": name(one),
+        "kind": kind(one.kind),
+        "containerName": owner,
+        "location": { "uri": uri, "range": places.range(one.span) },
+    })
+}
+
+/// The symbols of all plan files that the client works on whose names contain a text.
+pub(crate) fn workspace_symbols(server: &mut Server, params: lsp::WorkspaceSymbolParams) -> Answer {
+    let wanted = params.query.to_lowercase();
+    let mut list = Vec::new();
+    for path in server.workspace.plan_files() {
+        let Some(analysis) = server.workspace.analysis(&path) else { continue };
+        let (places, uri) = (server.places(&analysis), server.workspace.uri(&path));
+        flat(&afp_ide::symbols::symbols(&analysis.view()), None, &mut |one, owner| {
+            if one.name.to_lowercase().contains(&wanted) {
+                list.push(information(one, owner, &uri, &places));
+            }
+        });
+    }
+    ok(list)
+}
+
+pub(crate) fn kind(kind: DefinitionKind) -> lsp::SymbolKind {
+    use DefinitionKind as Is;
+    use lsp::SymbolKind as Kind;
+
+    match kind {
+        Is::Toolbox | Is::Alias => Kind::Module,
+        Is::Template(_) | Is::Plan => Kind::Class,
+        Is::Input | Is::Output => Kind::Property,
+        Is::State | Is::Event => Kind::Event,
+        Is::Object => Kind::Struct,
+        Is::Enum => Kind::Enum,
+        Is::Value => Kind::EnumMember,
+        Is::Entry(_) => Kind::Variable,
+        Is::Component(_) => Kind::Function,
+        Is::Scenario => Kind::Method,
+        Is::Device => Kind::Interface,
+        _ => Kind::Field,
+    }
+}

@@ -1,0 +1,238 @@
+//! What the documents mean: projects, toolboxes and compilations, each made again only when a text
+//! that it read has changed.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use afp_dsl::toolbox::{Toolbox, Toolboxes};
+use afp_dsl::{Compiled, compile};
+use afp_ide::View;
+use afp_project::Project;
+use afp_syntax::ast::Item;
+use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::source::{Encoding, Source};
+
+use crate::documents::Documents;
+use crate::host::Host;
+use crate::uri::BUILT_IN;
+
+/// The name of the project file.
+pub(crate) const PROJECT: &str = "afp.toml";
+
+/// What was read, and in which state.
+type Reads = Vec<(String, u64)>;
+
+/// The toolboxes that the files of a folder can use.
+#[derive(Debug)]
+pub(crate) struct ToolboxSet {
+    pub toolboxes: Toolboxes,
+    /// The folder of each toolbox of the project, by its name; built-in ones are not among them.
+    folders: BTreeMap<String, String>,
+    reads: Reads,
+}
+
+/// What became of a file.
+#[derive(Debug)]
+pub(crate) struct Analysis {
+    pub compiled: Compiled,
+    pub set: Arc<ToolboxSet>,
+    /// The file itself in the compilation.
+    pub file: u16,
+    reads: Reads,
+}
+
+impl Analysis {
+    pub fn view(&self) -> View<'_> {
+        View::new(&self.compiled, &self.set.toolboxes, self.file)
+    }
+}
+
+/// The state of a server apart from its conversation.
+pub(crate) struct Workspace {
+    pub documents: Documents,
+    pub host: Box<dyn Host>,
+    pub encoding: Encoding,
+    /// The folders that the client works in.
+    pub folders: Vec<String>,
+    sets: BTreeMap<String, Arc<ToolboxSet>>,
+    analyses: BTreeMap<String, Arc<Analysis>>,
+}
+
+impl Workspace {
+    pub fn new(host: Box<dyn Host>) -> Workspace {
+        Workspace {
+            documents: Documents::default(),
+            host,
+            encoding: Encoding::Utf16,
+            folders: Vec::new(),
+            sets: BTreeMap::new(),
+            analyses: BTreeMap::new(),
+        }
+    }
+
+    /// The text of a path: the client's, the host's, or that of a built-in toolbox.
+    pub fn text(&self, path: &str) -> Result<String, String> {
+        if let Some(document) = self.documents.get(path) {
+            return Ok(document.text.clone());
+        }
+        if let Some(name) = path.strip_prefix(BUILT_IN) {
+            let name = name.trim_start_matches('/');
+            let found = afp_toolboxes::ALL.iter().find(|known| known.file_name == name);
+            return found
+                .map(|it| it.text.to_owned())
+                .ok_or_else(|| "there is no such toolbox".to_owned());
+        }
+        self.host.read(path)
+    }
+
+    /// Forgets what a file meant.
+    pub fn forget(&mut self, path: &str) {
+        self.analyses.remove(path);
+    }
+
+    /// Whether nothing has changed since all of that was read.
+    fn holds(&self, reads: &Reads) -> bool {
+        reads.iter().all(|(path, stamp)| self.documents.stamp(path) == *stamp)
+    }
+
+    /// What a file means now; `None` where it cannot be read.
+    pub fn analysis(&mut self, path: &str) -> Option<Arc<Analysis>> {
+        let known = self.analyses.get(path);
+        if let Some(known) =
+            known.filter(|known| self.holds(&known.reads) && self.holds(&known.set.reads))
+        {
+            return Some(Arc::clone(known));
+        }
+        let analysis = Arc::new(self.analyse(path)?);
+        self.analyses.insert(path.to_owned(), Arc::clone(&analysis));
+        Some(analysis)
+    }
+
+    fn analyse(&mut self, path: &str) -> Option<Analysis> {
+        let text = self.text(path).ok()?;
+        let reads = RefCell::new(vec![(path.to_owned(), self.documents.stamp(path))]);
+        if is_toolbox(&text) {
+            let set = self.toolboxes_with(path, text);
+            // Toolboxes are checked when they are added; an empty plan file brings what they mean.
+            let compiled = compile(&Source::new("", ""), &set.toolboxes, &no_files);
+            let named = |source: &Source| source.name == path;
+            let file = compiled.sources.iter().position(named)?;
+            let (file, reads) = (u16::try_from(file).ok()?, reads.into_inner());
+            return Some(Analysis { compiled, set, file, reads });
+        }
+        let set = self.toolboxes(path);
+        let read = |used: &str| {
+            reads.borrow_mut().push((used.to_owned(), self.documents.stamp(used)));
+            self.text(used)
+        };
+        let compiled = compile(&Source::new(path, text), &set.toolboxes, &read);
+        let file = u16::try_from(compiled.plan_files.start).ok()?;
+        Some(Analysis { compiled, set, file, reads: reads.into_inner() })
+    }
+
+    /// The toolboxes for a file.
+    fn toolboxes(&mut self, path: &str) -> Arc<ToolboxSet> {
+        let folder = folder(path).to_owned();
+        if let Some(known) = self.sets.get(&folder).filter(|known| self.holds(&known.reads)) {
+            return Arc::clone(known);
+        }
+        let set = Arc::new(self.read_toolboxes(path, None));
+        self.sets.insert(folder, Arc::clone(&set));
+        set
+    }
+
+    /// The toolboxes for a file that is one itself.
+    fn toolboxes_with(&mut self, path: &str, text: String) -> Arc<ToolboxSet> {
+        let known = self.toolboxes(path);
+        let is_known = known.toolboxes.sources().iter().any(|source| source.name == path);
+        if is_known { known } else { Arc::new(self.read_toolboxes(path, Some(text))) }
+    }
+
+    fn read_toolboxes(&self, path: &str, own: Option<String>) -> ToolboxSet {
+        let mut reads = Vec::new();
+        let mut folders = BTreeMap::new();
+        let mut toolboxes = Toolboxes::default();
+        for built_in in afp_toolboxes::ALL {
+            let name = self.host.built_in(built_in.file_name, built_in.text);
+            let name = name.unwrap_or_else(|| format!("{BUILT_IN}/{}", built_in.file_name));
+            toolboxes.add(Source::new(name, built_in.text), built_in.rust_path);
+        }
+        let (home, project) = self.project(path, &mut reads);
+        for toolbox in &project.toolboxes {
+            let file = afp_dsl::files::normalised(&format!("{home}/{}", toolbox.path));
+            reads.push((file.clone(), self.documents.stamp(&file)));
+            if let Ok(text) = self.text(&file) {
+                folders.insert(toolbox.name.clone(), folder(&file).to_owned());
+                toolboxes.add(Source::new(file, text), &toolbox.name);
+            }
+        }
+        if let Some(name) = project.robot.as_ref().and_then(|robot| robot.toolbox.as_ref()) {
+            toolboxes.set_robot(name);
+        }
+        if let Some(text) = own {
+            reads.push((path.to_owned(), self.documents.stamp(path)));
+            toolboxes.add(Source::new(path, text), "own");
+        }
+        ToolboxSet { toolboxes, folders, reads }
+    }
+
+    /// The folder of the nearest project file above a file, and what it says.
+    fn project(&self, path: &str, reads: &mut Reads) -> (String, Project) {
+        let mut home = folder(path);
+        loop {
+            let file = format!("{home}/{PROJECT}");
+            reads.push((file.clone(), self.documents.stamp(&file)));
+            if let Ok(text) = self.text(&file) {
+                return (home.to_owned(), afp_project::read(&text).0);
+            }
+            if home.is_empty() || !path.starts_with('/') && !home.contains('/') {
+                return (folder(path).to_owned(), Project::default());
+            }
+            home = folder(home);
+        }
+    }
+
+    /// The icon of a template: `icons/NAME.svg` beside the toolbox of a project, else a built-in one.
+    pub fn icon(&self, set: &ToolboxSet, toolbox: &Toolbox, name: &str) -> Option<String> {
+        let plain = |each: char| each.is_ascii_alphanumeric() || matches!(each, '-' | '_');
+        if name.is_empty() || !name.chars().all(plain) {
+            return None;
+        }
+        match set.folders.get(&toolbox.name) {
+            Some(folder) => self.text(&format!("{folder}/icons/{name}.svg")).ok(),
+            None => afp_toolboxes::icon(name).map(str::to_owned),
+        }
+    }
+
+    /// The plan files that the client has open or works on, by path.
+    pub fn plan_files(&self) -> Vec<String> {
+        let mut paths: Vec<String> =
+            self.folders.iter().flat_map(|folder| self.host.plan_files(folder)).collect();
+        paths.extend(self.documents.iter().map(|(path, _)| path.to_owned()));
+        paths.retain(|path| path.ends_with(".afp"));
+        paths.sort();
+        paths.dedup();
+        paths.retain(|path| self.text(path).is_ok_and(|text| !is_toolbox(&text)));
+        paths
+    }
+}
+
+fn no_files(_: &str) -> Result<String, String> {
+    Err("there is no such file".to_owned())
+}
+
+/// What stands before the last `/` of a path.
+pub(crate) fn folder(path: &str) -> &str {
+    path.rsplit_once('/').map_or("", |(folder, _)| folder)
+}
+
+/// Whether a text declares a toolbox and no plan.
+fn is_toolbox(text: &str) -> bool {
+    if !text.contains("toolbox") {
+        return false;
+    }
+    let items = afp_syntax::parse(text, 0, &mut Diagnostics::default()).file().items();
+    let declares = items.iter().any(|item| matches!(item, Item::Toolbox(_)));
+    declares && !items.iter().any(|item| matches!(item, Item::Plan(_)))
+}

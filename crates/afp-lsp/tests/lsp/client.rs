@@ -1,0 +1,73 @@
+//! A client of the server for tests: it numbers requests and keeps what it is told.
+
+use std::collections::BTreeMap;
+
+use afp_lsp::{Host, Message, Server};
+use lsp_server::{Notification, Request};
+use serde_json::{Value, json};
+
+/// Files in memory.
+#[derive(Clone, Debug, Default)]
+pub struct Files(pub BTreeMap<String, String>);
+
+impl Host for Files {
+    fn read(&self, path: &str) -> Result<String, String> {
+        self.0.get(path).cloned().ok_or_else(|| "there is no such file".to_owned())
+    }
+
+    fn plan_files(&self, folder: &str) -> Vec<String> {
+        let below = |path: &&String| path.starts_with(folder) && path.ends_with(".afp");
+        self.0.keys().filter(below).cloned().collect()
+    }
+
+    fn built_in(&self, _: &str, _: &str) -> Option<String> {
+        None
+    }
+}
+
+/// A client with its server.
+pub struct Client {
+    pub server: Server,
+    asked: i32,
+}
+
+impl Client {
+    /// A client that has not said anything yet.
+    pub fn new(files: Files) -> Client {
+        Client { server: Server::new(Box::new(files)), asked: 0 }
+    }
+
+    /// A client that can do much and works in `/w`.
+    pub fn ready(files: Files) -> Client {
+        let mut client = Client::new(files);
+        let said =
+            client.request("initialize", json!({ "rootUri": "file:///w", "capabilities": {} }));
+        assert!(said[0].get("result").is_some(), "{said:?}");
+        client.notify("initialized", json!({}));
+        client
+    }
+
+    /// Everything that the server says to a request.
+    pub fn request(&mut self, method: &str, params: Value) -> Vec<Value> {
+        self.asked += 1;
+        let request = Request { id: self.asked.into(), method: method.to_owned(), params };
+        self.say(request.into())
+    }
+
+    /// Everything that the server says to a notification.
+    pub fn notify(&mut self, method: &str, params: Value) -> Vec<Value> {
+        self.say(Notification { method: method.to_owned(), params }.into())
+    }
+
+    fn say(&mut self, message: Message) -> Vec<Value> {
+        let mut said = self.server.handle(message);
+        said.extend(self.server.idle());
+        said.iter().map(|message| serde_json::to_value(message).unwrap()).collect()
+    }
+
+    /// Opens a document.
+    pub fn open(&mut self, uri: &str, text: &str) -> Vec<Value> {
+        let document = json!({ "uri": uri, "languageId": "afp", "version": 1, "text": text });
+        self.notify("textDocument/didOpen", json!({ "textDocument": document }))
+    }
+}

@@ -1,0 +1,5 @@
+//! Conversations with the server: as data, in random order, and made of anything.
+
+mod cases;
+mod client;
+mod random;

@@ -1,0 +1,146 @@
+//! `afpc lsp` over standard input and output: spoken to by hand, and by Neovim with its own client.
+
+mod common;
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::process::{Child, ChildStdout, Command, Stdio};
+
+use common::Place;
+
+const BROKEN: &str = "use carbot\n\nplan P {\n    start go\n    actor go: Forward(distance = 30) { \
+                      ForwardSuccessful -> terminate }\n}\n";
+
+/// The server with its pipes.
+struct Spoken {
+    child: Child,
+    out: BufReader<ChildStdout>,
+}
+
+impl Spoken {
+    fn new(place: &Place) -> Spoken {
+        let mut command = place.command();
+        command.arg("lsp").stdin(Stdio::piped()).stdout(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        let out = BufReader::new(child.stdout.take().unwrap());
+        Spoken { child, out }
+    }
+
+    fn say(&mut self, message: &str) {
+        let stdin = self.child.stdin.as_mut().unwrap();
+        write!(stdin, "Content-Length: {}\r\n\r\n{message}", message.len()).unwrap();
+        stdin.flush().unwrap();
+    }
+
+    fn hear(&mut self) -> String {
+        let mut length = 0;
+        loop {
+            let mut line = String::new();
+            self.out.read_line(&mut line).unwrap();
+            match line.trim_end().split_once(": ") {
+                Some(("Content-Length", number)) => length = number.parse().unwrap(),
+                Some(_) => {}
+                None => break,
+            }
+        }
+        let mut body = vec![0; length];
+        self.out.read_exact(&mut body).unwrap();
+        String::from_utf8(body).unwrap()
+    }
+}
+
+#[test]
+fn a_client_says_hello_opens_a_plan_and_says_goodbye() {
+    let place = Place::new();
+    let mut server = Spoken::new(&place);
+    server.say(r#"{"jsonrpc":"2.0","id":1,"method":"initialize","params":{"capabilities":{}}}"#);
+    let hello = server.hear();
+    assert!(hello.contains("hoverProvider") && hello.contains("afp/drawing"), "{hello}");
+    server.say(r#"{"jsonrpc":"2.0","method":"initialized","params":{}}"#);
+    let uri = format!("file://{}", place.path("p.afp").display());
+    let text = BROKEN.replace('\n', "\\n");
+    server.say(&format!(
+        r#"{{"jsonrpc":"2.0","method":"textDocument/didOpen","params":{{"textDocument":{{"uri":"{uri}","languageId":"afp","version":1,"text":"{text}"}}}}}}"#
+    ));
+    let wrong = server.hear();
+    assert!(wrong.contains("publishDiagnostics") && wrong.contains("E0203"), "{wrong}");
+    // A definition in a built-in toolbox leads to a file that is there.
+    server.say(&format!(
+        r#"{{"jsonrpc":"2.0","id":2,"method":"textDocument/definition","params":{{"textDocument":{{"uri":"{uri}"}},"position":{{"line":4,"character":16}}}}}}"#
+    ));
+    let found = server.hear();
+    let path = found.split("file://").nth(1).and_then(|rest| rest.split('"').next()).unwrap();
+    assert!(std::fs::read_to_string(path).unwrap().contains("actor Forward"), "{found}");
+    server.say(r#"{"jsonrpc":"2.0","id":3,"method":"shutdown"}"#);
+    assert!(server.hear().contains(r#""result":null"#));
+    server.say(r#"{"jsonrpc":"2.0","method":"exit"}"#);
+    assert_eq!(server.child.wait().unwrap().code(), Some(0));
+}
+
+#[test]
+fn a_client_that_is_gone_ends_the_server() {
+    let place = Place::new();
+    let mut server = Spoken::new(&place);
+    drop(server.child.stdin.take());
+    assert_eq!(server.child.wait().unwrap().code(), Some(0));
+}
+
+/// What Neovim does with its own client; it writes what it found, one word for each.
+const SCRIPT: &str = r#"
+local out = {}
+local function note(name, fine) table.insert(out, name .. "=" .. tostring(fine)) end
+local id = vim.lsp.start_client({ name = "afp", cmd = { vim.env.AFPC, "lsp" }, root_dir = vim.fn.getcwd() })
+vim.cmd("edit plan.afp")
+local buffer = vim.api.nvim_get_current_buf()
+vim.lsp.buf_attach_client(buffer, id)
+local function has(count) return function() return #vim.diagnostic.get(buffer) == count end end
+note("diagnostic", vim.wait(20000, has(1)))
+local client = vim.lsp.get_client_by_id(id)
+local function ask(method, line, character, more)
+  local params = { textDocument = vim.lsp.util.make_text_document_params(buffer), position = { line = line, character = character } }
+  local said = client.request_sync(method, vim.tbl_extend("force", params, more or {}), 20000, buffer)
+  return said and said.result
+end
+local hover = ask("textDocument/hover", 4, 16)
+note("hover", hover ~= nil and hover.contents.value:find("Drive straight ahead") ~= nil)
+local here = { line = 4, character = 34 }
+local actions = ask("textDocument/codeAction", 4, 34, { range = { start = here, ["end"] = here }, context = { diagnostics = {} } })
+vim.lsp.util.apply_workspace_edit(actions[1].edit, client.offset_encoding)
+note("fixed", vim.api.nvim_buf_get_lines(buffer, 4, 5, false)[1]:find("distance = 30 cm", 1, true) ~= nil)
+note("silent", vim.wait(20000, has(0)))
+local renamed = ask("textDocument/rename", 4, 11, { newName = "drive" })
+vim.lsp.util.apply_workspace_edit(renamed, client.offset_encoding)
+note("renamed", vim.api.nvim_buf_get_lines(buffer, 3, 4, false)[1] == "    start drive")
+local drawing = ask("afp/drawing", 0, 0)
+note("drawn", drawing ~= nil and drawing.plan == "P" and #drawing.elements == 2)
+local items = ask("textDocument/completion", 4, 17)
+note("completed", items ~= nil and #items.items > 5)
+vim.fn.writefile(out, "found.txt")
+vim.cmd("quitall!")
+"#;
+
+#[test]
+fn neovim_mends_and_renames_with_its_own_client() {
+    let Ok(version) = Command::new("nvim").arg("--version").output() else {
+        eprintln!(
+            "skipped: there is no 'nvim' on this machine; 'apt-get install neovim' brings it"
+        );
+        return;
+    };
+    let version =
+        String::from_utf8_lossy(&version.stdout).lines().next().unwrap_or_default().to_owned();
+    let place = Place::new();
+    place.write("plan.afp", BROKEN);
+    place.write("ask.lua", SCRIPT);
+    let mut command = Command::new("nvim");
+    command.args(["--headless", "--clean", "-n", "-c", "luafile ask.lua"]);
+    command.current_dir(place.path("")).env("AFPC", env!("CARGO_BIN_EXE_afpc"));
+    command.env("XDG_CACHE_HOME", place.path("cache")).env("XDG_STATE_HOME", place.path("state"));
+    command.stdin(Stdio::null());
+    let said = command.output().unwrap();
+    let said = String::from_utf8_lossy(&said.stderr).into_owned();
+    assert!(place.exists("found.txt"), "{version}: {said}");
+    let found = place.read("found.txt");
+    let names = ["diagnostic", "hover", "fixed", "silent", "renamed", "drawn", "completed"];
+    let expected: String = names.iter().map(|name| format!("{name}=true\n")).collect();
+    assert_eq!(found, expected, "{version}: {said}");
+}
