@@ -10,6 +10,7 @@ mod check;
 mod clocks;
 mod copper;
 mod drawing;
+mod editor;
 mod measure;
 mod plans;
 mod report;
@@ -77,6 +78,7 @@ const GROUPS: &[(&str, Group)] = &[
     ("sweep", sweep::run),
     ("check", check::run),
     ("drawing", drawing::run),
+    ("editor", editor::run),
     ("allocations", allocations::run),
     ("web", web::run),
 ];

@@ -4,10 +4,12 @@
 //! functions run over the corpora in `cargo test`.
 
 mod edits;
+mod messages;
 mod names;
 mod text;
 
 pub use edits::edits;
+pub use messages::messages;
 pub use text::{checker, formatter, layout, map, parser, scenario, settings, world};
 
 /// A property of bytes.
@@ -19,6 +21,7 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("checker", checker),
     ("formatter", formatter),
     ("edits", edits),
+    ("messages", messages),
     ("settings", settings),
     ("layout", layout),
     ("world", world),

@@ -10,8 +10,20 @@ use tempfile::TempDir;
 const AFPC: &str = env!("CARGO_BIN_EXE_afpc");
 
 /// Commands of others that `sh` blocks may have; nothing runs them.
-const FOREIGN: &[&str] =
-    &["cargo", "git", "mdbook", "cd", "pip", "scp", "ssh", "sudo", "qemu-aarch64"];
+const FOREIGN: &[&str] = &[
+    "cargo",
+    "git",
+    "mdbook",
+    "cd",
+    "pip",
+    "scp",
+    "ssh",
+    "sudo",
+    "qemu-aarch64",
+    "npm",
+    "npx",
+    "code",
+];
 
 fn docs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs")

@@ -3,6 +3,7 @@
 mod common;
 
 use std::io::{BufRead, BufReader, Read, Write};
+use std::path::Path;
 use std::process::{Child, ChildStdout, Command, Stdio};
 
 use common::Place;
@@ -88,13 +89,13 @@ fn a_client_that_is_gone_ends_the_server() {
 const SCRIPT: &str = r#"
 local out = {}
 local function note(name, fine) table.insert(out, name .. "=" .. tostring(fine)) end
-local id = vim.lsp.start_client({ name = "afp", cmd = { vim.env.AFPC, "lsp" }, root_dir = vim.fn.getcwd() })
 vim.cmd("edit plan.afp")
 local buffer = vim.api.nvim_get_current_buf()
-vim.lsp.buf_attach_client(buffer, id)
+local function clients() return (vim.lsp.get_clients or vim.lsp.get_active_clients)() end
+note("attached", vim.wait(20000, function() return #clients() == 1 end))
 local function has(count) return function() return #vim.diagnostic.get(buffer) == count end end
 note("diagnostic", vim.wait(20000, has(1)))
-local client = vim.lsp.get_client_by_id(id)
+local client = clients()[1]
 local function ask(method, line, character, more)
   local params = { textDocument = vim.lsp.util.make_text_document_params(buffer), position = { line = line, character = character } }
   local said = client.request_sync(method, vim.tbl_extend("force", params, more or {}), 20000, buffer)
@@ -118,6 +119,13 @@ vim.fn.writefile(out, "found.txt")
 vim.cmd("quitall!")
 "#;
 
+/// What the book says to write into the configuration of Neovim, the first or second block.
+fn lua(nth: usize) -> String {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
+    let blocks = afp_book::blocks(&docs).unwrap().into_iter();
+    blocks.filter(|block| block.kind == "lua").nth(nth).unwrap().text
+}
+
 #[test]
 fn neovim_mends_and_renames_with_its_own_client() {
     let Ok(version) = Command::new("nvim").arg("--version").output() else {
@@ -126,21 +134,29 @@ fn neovim_mends_and_renames_with_its_own_client() {
         );
         return;
     };
-    let version =
-        String::from_utf8_lossy(&version.stdout).lines().next().unwrap_or_default().to_owned();
+    let version = String::from_utf8_lossy(&version.stdout);
+    let version = version.lines().next().unwrap_or_default();
     let place = Place::new();
     place.write("plan.afp", BROKEN);
+    place.write("afp.toml", "");
+    let (new, old) = (lua(0), lua(1));
+    let init = format!("if vim.fn.has('nvim-0.11') == 1 then\n{new}else\n{old}end\n");
+    place.write("init.lua", &init);
     place.write("ask.lua", SCRIPT);
     let mut command = Command::new("nvim");
-    command.args(["--headless", "--clean", "-n", "-c", "luafile ask.lua"]);
-    command.current_dir(place.path("")).env("AFPC", env!("CARGO_BIN_EXE_afpc"));
+    command.args(["--headless", "--clean", "-n", "-u", "init.lua", "-c", "luafile ask.lua"]);
+    let afpc = Path::new(env!("CARGO_BIN_EXE_afpc")).parent().unwrap().to_owned();
+    let others = std::env::var_os("PATH").unwrap_or_default();
+    let path = std::env::join_paths(std::iter::once(afpc).chain(std::env::split_paths(&others)));
+    command.current_dir(place.path("")).env("PATH", path.unwrap());
     command.env("XDG_CACHE_HOME", place.path("cache")).env("XDG_STATE_HOME", place.path("state"));
     command.stdin(Stdio::null());
     let said = command.output().unwrap();
     let said = String::from_utf8_lossy(&said.stderr).into_owned();
     assert!(place.exists("found.txt"), "{version}: {said}");
     let found = place.read("found.txt");
-    let names = ["diagnostic", "hover", "fixed", "silent", "renamed", "drawn", "completed"];
+    let names =
+        ["attached", "diagnostic", "hover", "fixed", "silent", "renamed", "drawn", "completed"];
     let expected: String = names.iter().map(|name| format!("{name}=true\n")).collect();
     assert_eq!(found, expected, "{version}: {said}");
 }

@@ -115,9 +115,9 @@ fn questions(line: u32, character: u32) -> Vec<(&'static str, Value)> {
 
 /// The last diagnostics that the client was told.
 fn last(said: &[Value]) -> Option<Value> {
-    let published =
+    let mut published =
         said.iter().filter(|message| message["method"] == "textDocument/publishDiagnostics");
-    published.last().map(|message| message["params"]["diagnostics"].clone())
+    published.next_back().map(|message| message["params"]["diagnostics"].clone())
 }
 
 proptest! {

@@ -7,7 +7,7 @@ use afp_book::{blocks, pages};
 use crate::docs;
 
 /// The kinds of blocks that a test looks at.
-const KINDS: &[&str] = &["afp", "rust", "toml", "console", "sh", "ebnf", "python", "text"];
+const KINDS: &[&str] = &["afp", "rust", "toml", "console", "sh", "ebnf", "python", "lua", "text"];
 
 #[test]
 fn no_block_goes_unchecked() {

@@ -1,0 +1,154 @@
+//! How long somebody who types or drags waits for the language server: from the message that goes in to
+//! those that come out.
+
+use std::time::{Duration, Instant};
+
+use afp_lsp::{Message, NoFiles, Server};
+use lsp_server::{Notification, Request};
+use serde_json::{Value, json};
+
+use crate::big_plan;
+use crate::report::{Report, Row};
+
+const URI: &str = "file:///big.afp";
+
+/// A plan of so many actors, and in how many milliseconds each answer must be there: diagnostics after a
+/// change, completion, an edit, the drawing after a drop.
+const CASES: [(usize, [f64; 4]); 2] =
+    [(60, [20.0, 10.0, 10.0, 30.0]), (1_000, [150.0, 30.0, 50.0, 50.0])];
+
+/// Each is measured so often after some turns that do not count; the median counts.
+const TURNS: usize = 30;
+const WARM: usize = 5;
+
+/// A client that types, asks and drags.
+struct Client {
+    server: Server,
+    asked: i32,
+    version: i32,
+}
+
+/// Measures every answer in plans of both sizes.
+pub fn run(_: u32, report: &mut Report) {
+    for (actors, limits) in CASES {
+        let mut client = Client::new(big_plan::text(actors));
+        let measured = [
+            ("diagnostics after a change", client.median(Client::type_a_letter)),
+            ("completion after a change", client.median(Client::complete)),
+            ("edit", client.median(Client::connect)),
+            ("drawing after a drop", client.median(Client::drop_a_box)),
+        ];
+        for ((name, time), most) in measured.into_iter().zip(limits) {
+            let row = Row::new(format!("editor/{actors} actors, {name}"), time, "ms");
+            report.add(row.limit(format!("<= {most} ms"), time <= most));
+        }
+    }
+}
+
+impl Client {
+    fn new(text: String) -> Client {
+        let mut client = Client { server: Server::new(Box::new(NoFiles)), asked: 0, version: 1 };
+        client.ask("initialize", json!({ "capabilities": {} }));
+        for (uri, text) in [(URI.to_owned(), text), (format!("{URI}.layout"), String::new())] {
+            let document = json!({ "uri": uri, "languageId": "afp", "version": 1, "text": text });
+            client.tell("textDocument/didOpen", json!({ "textDocument": document }));
+        }
+        client.ask("afp/drawing", json!({ "textDocument": { "uri": URI }, "subscribe": true }));
+        client
+    }
+
+    fn ask(&mut self, method: &str, params: Value) -> Vec<Message> {
+        self.asked += 1;
+        let request = Request { id: self.asked.into(), method: method.to_owned(), params };
+        let said = self.server.handle(request.into());
+        let failed = |message: &Message| matches!(message, Message::Response(it) if it.response_result.is_err());
+        assert!(!said.iter().any(failed), "{said:?}");
+        said
+    }
+
+    fn tell(&mut self, method: &str, params: Value) -> Vec<Message> {
+        self.server.handle(Notification { method: method.to_owned(), params }.into());
+        self.server.idle()
+    }
+
+    /// The median of many turns in milliseconds; what is measured is what the action gives.
+    fn median(&mut self, action: fn(&mut Client, usize) -> Duration) -> f64 {
+        let mut times: Vec<_> =
+            (0..WARM + TURNS).map(|turn| action(self, turn)).skip(WARM).collect();
+        times.sort();
+        times[times.len() / 2].as_secs_f64() * 1e3
+    }
+
+    fn change(&mut self, uri: &str, line: u32, new: &str, width: u32) -> Vec<Message> {
+        self.version += 1;
+        let range = json!({ "start": { "line": line, "character": 0 }, "end": { "line": line, "character": width } });
+        let document = json!({ "uri": uri, "version": self.version });
+        let changes = json!([{ "range": range, "text": new }]);
+        self.tell(
+            "textDocument/didChange",
+            json!({ "textDocument": document, "contentChanges": changes }),
+        )
+    }
+
+    /// A comment at the top gets longer and shorter again, and a mistake comes and goes with it.
+    fn type_a_letter(&mut self, turn: usize) -> Duration {
+        let begun = Instant::now();
+        let said = match turn % 2 {
+            0 => self.change(URI, 1, "use nothing", 0),
+            _ => self.change(URI, 1, "", 11),
+        };
+        let time = begun.elapsed();
+        assert!(!said.is_empty(), "a mistake that comes or goes is told");
+        time
+    }
+
+    fn complete(&mut self, turn: usize) -> Duration {
+        self.version += 1;
+        let text = if turn % 2 == 0 { "// a" } else { "// b" };
+        self.change(URI, 2, text, if turn == 0 { 0 } else { 4 });
+        let at =
+            json!({ "textDocument": { "uri": URI }, "position": { "line": 5, "character": 4 } });
+        let begun = Instant::now();
+        self.ask("textDocument/completion", at);
+        begun.elapsed()
+    }
+
+    fn connect(&mut self, _: usize) -> Duration {
+        let change = json!({ "setDoc": { "item": "Big", "text": "Somewhere else." } });
+        let params = json!({ "textDocument": { "uri": URI }, "changes": [change] });
+        let begun = Instant::now();
+        self.ask("afp/edit", params);
+        begun.elapsed()
+    }
+
+    /// A box is put elsewhere: the edit of its place is asked for, made, and its edges drawn anew.
+    fn drop_a_box(&mut self, turn: usize) -> Duration {
+        let Some(name) = self.item() else { return Duration::MAX };
+        let at = [40 + 12 * (turn as i32 % 2), 60];
+        let begun = Instant::now();
+        let places = json!({ name.as_str(): at });
+        self.ask("afp/place", json!({ "textDocument": { "uri": URI }, "places": places }));
+        let line = format!("{name} {} {}\n", at[0], at[1]);
+        self.version += 1;
+        let document = json!({ "uri": format!("{URI}.layout"), "version": self.version });
+        let said = self.tell(
+            "textDocument/didChange",
+            json!({ "textDocument": document, "contentChanges": [{ "text": line }] }),
+        );
+        let time = begun.elapsed();
+        assert!(!said.is_empty(), "the drawing has changed");
+        time
+    }
+
+    /// The path of an actor in the middle of the plan.
+    fn item(&mut self) -> Option<String> {
+        let params = json!({ "textDocument": { "uri": URI } });
+        let said = self.ask("textDocument/documentSymbol", params);
+        let Message::Response(response) = said.first()? else { return None };
+        let list = response.response_result.as_ref().ok()?.as_array()?;
+        let actors: Vec<_> =
+            list.iter().filter(|one| one["kind"] == 12 && one["containerName"] == "Big").collect();
+        let name = actors.get(actors.len() / 2)?["name"].as_str()?;
+        Some(format!("Big.{name}"))
+    }
+}
