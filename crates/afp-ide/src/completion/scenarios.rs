@@ -16,6 +16,8 @@ pub(super) fn lines(list: &mut List) {
     list.keyword("until", line("until ", "60 s", ""), 1);
     list.keyword("world", line("world \"", "room.toml", "\""), 1);
     list.keyword("seed", line("seed ", "1", ""), 1);
+    list.keyword("over seeds", line("over seeds ", "0..20", ""), 1);
+    list.keyword("over worlds", line("over worlds \"", "room.toml", "\""), 1);
     list.keywords(&["set"], 1);
     list.keyword("robot", line("robot at (", "0 m, 0 m", ") heading 0 deg"), 1);
 }
