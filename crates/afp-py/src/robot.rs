@@ -9,7 +9,6 @@ use afp_session::Simulated;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-use crate::errors::error;
 use crate::link::link;
 use crate::value::no_pickle;
 
@@ -110,7 +109,7 @@ impl Robot {
             )));
         }
         let used = self.with(|robot| robot.as_any_mut().downcast_mut::<R>().map(use_it))?;
-        used.ok_or_else(|| error("the robot is of another kind"))
+        used.ok_or_else(|| crate::errors::error("the robot is of another kind"))
     }
 
     /// What a sensor says.
