@@ -44,7 +44,7 @@ fn white_space_follows_the_structure() {
     becomes(
         "use std use carbot as c enum E{a,b}\n\n\n\nplan P{in a:length/duration ^ - 2=- ( 3cm/s*2 ),\
          in d=-min ( 1 ,2,clamp(3,(4),5) )out bb:int const k=3 start go,actor go:c . Forward(distance=a,driven=>bb){supervise t:T \
-         every 3ms deadline 1 ms{E->go,F->ignore}Done->go,Error->terminate}}",
+         every 3ms deadline 1 ms{E->go,F->ignore}Done ,\n Lost->go,Error->terminate}}",
         "\
 use std
 use carbot as c
@@ -58,8 +58,8 @@ plan P {
     start go
     actor go: c.Forward(distance = a, driven => bb) {
         supervise t: T every 3 ms deadline 1 ms { E -> go, F -> ignore }
-        Done  -> go
-        Error -> terminate
+        Done, Lost -> go
+        Error      -> terminate
     }
 }
 ",

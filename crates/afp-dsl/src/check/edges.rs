@@ -85,19 +85,25 @@ pub(crate) struct WrittenEdge {
     pub name: Name,
     /// Where it leads.
     pub target: Option<Name>,
-    /// The name, and everything behind it that is there.
+    /// The name, and, behind the last of several, everything that is there.
     pub span: Span,
 }
 
 impl WrittenEdge {
-    /// Reads edges; each has a name, or it would not have been taken for one.
+    /// Reads edges, one for each state or event; each has a name, or it would not have been taken for
+    /// one.
     pub fn read(edges: Vec<Edge>) -> Vec<WrittenEdge> {
-        let read = edges.into_iter().filter_map(|edge| {
-            let (name, target) = (edge.name()?, edge.target());
-            let last = target.as_ref().map(|target| target.span).or_else(|| edge.arrow());
-            Some(WrittenEdge { span: name.span.to(last.unwrap_or(name.span)), name, target })
-        });
-        read.collect()
+        edges.iter().flat_map(WrittenEdge::each).collect()
+    }
+
+    fn each(edge: &Edge) -> impl Iterator<Item = WrittenEdge> {
+        let (names, target) = (edge.names(), edge.target());
+        let end = target.as_ref().map(|target| target.span).or_else(|| edge.arrow());
+        let last = names.len().saturating_sub(1);
+        names.into_iter().enumerate().map(move |(place, name)| {
+            let end = end.filter(|_| place == last).unwrap_or(name.span);
+            WrittenEdge { span: name.span.to(end), name, target: target.clone() }
+        })
     }
 }
 

@@ -231,9 +231,14 @@ fn identities(outline: &Outline) -> Vec<Identity> {
 
 /// How many nodes of a kind stand in the plans of a file.
 fn count(root: &Node, kind: Kind) -> usize {
+    nodes(root, kind).count()
+}
+
+/// The nodes of a kind in plans.
+fn nodes(root: &Node, kind: Kind) -> impl Iterator<Item = Node> {
     let plans = root.children().filter(|node| node.kind() == Kind::Plan);
     let inside = plans.flat_map(|plan| plan.descendants().collect::<Vec<_>>());
-    inside.filter(|node| node.kind() == kind && !in_error(node)).count()
+    inside.filter(move |node| node.kind() == kind && !in_error(node))
 }
 
 fn in_error(node: &Node) -> bool {
@@ -255,7 +260,9 @@ pub fn examine(text: &str, compiled: &Compiled) {
     assert_eq!(entries, count(&root, Kind::Entry), "entries of\n{text}");
     let components = || plans.iter().flat_map(|plan| plan.components());
     let edges = components().flat_map(|each| &each.exits).filter(|exit| exit.edge.is_some());
-    assert_eq!(edges.count(), count(&root, Kind::Edge), "edges of\n{text}");
+    let names = nodes(&root, Kind::Edge).flat_map(|edge| edge.children_with_tokens());
+    let names = names.filter(|each| each.kind() == Kind::Name).count();
+    assert_eq!(edges.count(), names, "edges of\n{text}");
     let all = identities(outline);
     let distinct: BTreeSet<_> = all.iter().collect();
     assert_eq!(distinct.len(), all.len(), "identities of\n{text}");

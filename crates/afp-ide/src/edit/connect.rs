@@ -18,12 +18,18 @@ pub(super) fn connect(
     let root = buffer.root();
     let component = tree::component(&root, from)?;
     check_target(&tree::plan(&root, from.plan_name())?, &component, to)?;
-    let Some(edge) = tree::edge(&component, outcome) else {
+    let edge = tree::edge(&component, outcome);
+    let target = edge.as_ref().and_then(tree::target);
+    let shared = edge.as_ref().and_then(|edge| tree::without_outcome(edge, outcome));
+    let leaves = shared.filter(|_| target.is_some_and(|target| target.text() != to));
+    let Some(edge) = edge.filter(|_| leaves.is_none()) else {
         let text = format!("{} -> {to}", padded(&component, outcome, buffer.text()));
         let all: Vec<_> = edges(&component).collect();
         let page = Page { text: buffer.text(), root };
-        let splice = page.append(&component, &all, &text)?;
-        buffer.splice(vec![splice]);
+        let mut splices = vec![page.append(&component, &all, &text)?];
+        // Where it led together with others, those still do.
+        splices.extend(leaves.map(|place| (place, String::new())));
+        buffer.splice(splices);
         return Ok(());
     };
     match tree::target(&edge) {
@@ -76,7 +82,10 @@ pub(super) fn disconnect(
         Refused::new(format!("'{outcome}' of '{}' is not connected", from.name()))
     })?;
     let page = Page { text: buffer.text(), root };
-    let splice = page.remove(&edge);
+    let splice = match tree::without_outcome(&edge, outcome) {
+        Some(place) => (place, String::new()),
+        None => page.remove(&edge),
+    };
     buffer.splice(vec![splice]);
     Ok(())
 }

@@ -138,8 +138,10 @@ impl Page<'_> {
             let joint = if comma { " " } else { ", " };
             return Ok((own.end..own.end, format!("{joint}{text}")));
         }
-        let comma = tokens(last, Kind::Comma).last();
-        let text = if comma.is_some() { format!("{text},") } else { text.to_owned() };
+        let tokens = last.descendants_with_tokens().filter_map(|each| each.into_token());
+        let closing = tokens.filter(|token| !token.kind().is_trivia()).last();
+        let comma = closing.is_some_and(|token| token.kind() == Kind::Comma);
+        let text = if comma { format!("{text},") } else { text.to_owned() };
         self.insert_lines(list, Place::After(last.clone()), &text, false)
     }
 

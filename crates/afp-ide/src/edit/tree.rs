@@ -167,7 +167,23 @@ pub(super) fn edges(component: &Node) -> impl Iterator<Item = Node> {
 
 /// The edge of a state or event.
 pub(super) fn edge(component: &Node, outcome: &str) -> Option<Node> {
-    edges(component).find(|edge| is_named(edge, outcome))
+    edges(component).find(|edge| outcomes(edge).any(|name| name.text() == outcome))
+}
+
+/// The states or events of an edge.
+pub(super) fn outcomes(edge: &Node) -> impl Iterator<Item = Token> {
+    tokens(edge, Kind::Name)
+}
+
+/// How a state or event leaves an edge that it shares with others; `None` where it is alone.
+pub(super) fn without_outcome(edge: &Node, outcome: &str) -> Option<std::ops::Range<usize>> {
+    let names: Vec<_> = outcomes(edge).collect();
+    let place = names.iter().position(|name| name.text() == outcome)?;
+    match (names.get(place + 1), place.checked_sub(1).and_then(|before| names.get(before))) {
+        (Some(next), _) => Some(range(&names[place]).start..range(next).start),
+        (None, Some(before)) => Some(range(before).end..range(&names[place]).end),
+        (None, None) => None,
+    }
 }
 
 /// The bindings of a component.

@@ -201,7 +201,7 @@ fn element(element: &ast::Element, words: &Words) -> Component {
         binds: element.binds().iter().map(|each| bind(each, words)).collect(),
         timings: Vec::new(),
         guards: element.guards().iter().map(|each| guard(each, words)).collect(),
-        edges: element.edges().iter().map(edge).collect(),
+        edges: element.edges().iter().flat_map(edge).collect(),
         place: place(element.span()),
     }
 }
@@ -217,7 +217,7 @@ fn guard(guard: &ast::Guard, words: &Words) -> Component {
         binds: guard.binds().iter().map(|each| bind(each, words)).collect(),
         timings: guard.timings().iter().map(timing).collect(),
         guards: Vec::new(),
-        edges: guard.edges().iter().map(edge).collect(),
+        edges: guard.edges().iter().flat_map(edge).collect(),
         place: place(guard.span()),
     }
 }
@@ -232,8 +232,9 @@ fn bind(bind: &Bind, words: &Words) -> (String, Text, Place) {
     (port.text.clone(), value_words, place(port.span.to(value)))
 }
 
-fn edge(edge: &ast::Edge) -> (String, String, Place) {
-    (edge.name().unwrap().text, edge.target().unwrap().text, place(edge.span()))
+fn edge(edge: &ast::Edge) -> Vec<(String, String, Place)> {
+    let each = |name: ast::Name| (name.text, edge.target().unwrap().text, place(edge.span()));
+    edge.names().into_iter().map(each).collect()
 }
 
 fn place(span: Span) -> Place {

@@ -218,9 +218,9 @@ impl Guard {
 }
 
 impl Edge {
-    /// The state or event.
-    pub fn name(&self) -> Option<Name> {
-        token(&self.node, Kind::Name, self.file)
+    /// The states or events that lead there.
+    pub fn names(&self) -> Vec<Name> {
+        tokens(&self.node, Kind::Name, self.file)
     }
 
     /// The place of its arrow.

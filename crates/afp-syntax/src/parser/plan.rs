@@ -4,6 +4,8 @@ use super::Parser;
 use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 
+/// Tokens that are looked at in search of the arrow behind the names of states.
+const MAX_NAMES: usize = 128;
 const ITEMS: &str = "an item of the plan";
 const ITEM_HELP: &str =
     "write 'in', 'out', 'var', 'const', 'start', 'supervise', 'actor', 'computation' or 'subplan'";
@@ -151,7 +153,7 @@ impl Parser<'_, '_> {
     }
 
     fn edge_or_skip(&mut self, what: &str) {
-        if self.at(Kind::Name) && self.names_something(0) && self.nth(1) != Kind::Colon {
+        if self.at_edge() {
             return self.edge();
         }
         // The name of a state without an arrow: the edge is still being typed.
@@ -160,17 +162,32 @@ impl Parser<'_, '_> {
             return self.edge();
         }
         self.skip(what, "write an edge such as 'State -> target'", |p| {
-            p.at(Kind::CloseBrace)
-                || p.at_word("supervise")
-                || p.leaves_body()
-                || (p.at(Kind::Name) && p.nth(1) == Kind::Arrow)
+            p.at(Kind::CloseBrace) || p.at_word("supervise") || p.leaves_body() || p.at_edge()
         });
     }
 
-    /// `NAME "->" target`
+    /// Whether names with commas between them stand before an arrow.
+    fn at_edge(&self) -> bool {
+        let mut last = 0;
+        while last < MAX_NAMES
+            && self.nth(last) == Kind::Name
+            && self.nth(last + 1) == Kind::Comma
+            && self.nth(last + 2) == Kind::Name
+        {
+            last += 2;
+        }
+        let named = self.nth(last) == Kind::Name && self.names_something(last);
+        named && self.nth(last + 1) != Kind::Colon
+    }
+
+    /// `NAME {"," NAME} "->" target`
     fn edge(&mut self) {
         self.open_item(Kind::Edge);
+        let whole = self.at_edge();
         self.take_name();
+        while whole && self.eat(Kind::Comma) {
+            self.take_name();
+        }
         match self.nth(0) {
             Kind::Arrow => self.bump(),
             Kind::FatArrow | Kind::Equal => {

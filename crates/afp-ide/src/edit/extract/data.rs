@@ -159,7 +159,8 @@ fn read_before_written(selection: &Selection, first: &str) -> BTreeSet<String> {
                     continue;
                 };
                 let mut leaving = met.clone();
-                let commits = !["Error", "DeadlineMissed"].iter().any(|n| is_named(&edge, n));
+                let silent = |name: &str| ["Error", "DeadlineMissed"].contains(&name);
+                let commits = !tree::outcomes(&edge).any(|name| silent(name.text()));
                 if commits {
                     leaving.extend(written_by(selection, &component));
                 }

@@ -1,6 +1,6 @@
 //! Edges and the start.
 
-use super::{Change, Item, PLAN, back, go, refused, replaces, touch};
+use super::{Change, Item, PLAN, after, back, go, refused, replaces, touch};
 
 fn connect(from: Item, outcome: &str, to: &str) -> Change {
     Change::Connect { from, outcome: outcome.into(), to: to.into() }
@@ -63,4 +63,30 @@ fn what_cannot_be_connected_is_refused() {
         connect(Item::inner("P", "gap"), "Done", "go"),
         "'gap' is no element or supervisor",
     );
+}
+
+/// A plan whose states share an edge.
+const SHARED: &str = "\
+plan P {
+    start go
+    actor go: A { Done, Lost, Error -> back }
+    actor back: B {
+        Done, Lost -> terminate
+    }
+}
+";
+
+#[test]
+fn a_state_that_shares_an_edge_leaves_it() {
+    let changed = |change, old: &str, new: &str| {
+        assert_eq!(after(SHARED, change), SHARED.replace(old, new));
+    };
+    let all = "{ Done, Lost, Error -> back }";
+    changed(connect(go(), "Done", "go"), all, "{ Lost, Error -> back, Done -> go }");
+    changed(connect(go(), "Error", "go"), all, "{ Done, Lost -> back, Error -> go }");
+    changed(connect(go(), "Lost", "back"), all, all);
+    changed(disconnect(go(), "Lost"), all, "{ Done, Error -> back }");
+    let two = "        Done, Lost -> terminate\n";
+    changed(connect(back(), "Lost", "go"), two, "        Done -> terminate\n        Lost -> go\n");
+    changed(disconnect(back(), "Done"), two, "        Lost -> terminate\n");
 }
