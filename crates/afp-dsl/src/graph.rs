@@ -203,6 +203,8 @@ pub struct Supervisor {
     pub every: u64,
     /// Deadline after each release in nanoseconds.
     pub deadline: u64,
+    /// The constants that its times are.
+    pub timed_by: Vec<EntryId>,
     /// Where `every` is written, if it is.
     pub every_span: Option<Span>,
     /// The name in the text.

@@ -1,7 +1,10 @@
 //! Times that are written in the text: `every`, `deadline`, `budget`, `stop`.
 
+use crate::check::formula::Scope;
+use crate::toolbox::Constant;
 use crate::types::text::a_dimension;
 use crate::types::text::duration;
+use crate::types::{Dimension, Type};
 use afp_syntax::ast::{Formula, FormulaKind, Timing};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::literal::Literal;
@@ -17,6 +20,30 @@ pub(crate) fn nanoseconds(timing: &Timing, diags: &mut Diagnostics) -> Option<u6
     match time(&timing.value()?, diags)? {
         0 => refuse(&timing.value()?, "a time is longer than nothing", diags),
         time => Some(time),
+    }
+}
+
+/// As [`nanoseconds`] for the times of a supervisor, which constants of the plan may be.
+pub(crate) fn of_supervisor(
+    timing: &Timing,
+    scope: &Scope<'_>,
+    diags: &mut Diagnostics,
+) -> Option<u64> {
+    let value = timing.value()?;
+    let FormulaKind::Ref(_) = value.kind() else { return nanoseconds(timing, diags) };
+    let duration = Type::Quantity(Dimension::named("duration")?);
+    let (_, constant) = scope.check(&value, Some(&duration), diags)?;
+    let Some(Constant::Float(seconds)) = constant else {
+        diags.push(
+            Diagnostic::new(Code::E0401, value.span(), "a time is known before the plan runs")
+                .help("write it down, or name a 'const'"),
+        );
+        return None;
+    };
+    // To the nearest nanosecond, as everywhere; what is far out of range stays so.
+    match (seconds * 1e9).round() {
+        nanos if (1.0..=LONGEST as f64).contains(&nanos) => Some(nanos as u64),
+        _ => refuse(&value, "a time is longer than nothing and at most one hour", diags),
     }
 }
 

@@ -13,6 +13,9 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     let of_supervisors = view.supervisors().flat_map(|supervisor| &supervisor.inputs);
     let initial = view.plan.entries.iter().filter_map(|entry| entry.init.as_ref());
     of_elements.chain(of_supervisors).chain(initial).for_each(|f| each_entry(f, &mut mark));
+    for supervisor in view.supervisors() {
+        supervisor.timed_by.iter().for_each(|id| read[id.index()] = true);
+    }
     for (entry, read) in view.plan.entries.iter().zip(read) {
         if read || entry.kind == EntryKind::Out {
             continue;

@@ -21,11 +21,11 @@ pub(super) fn ty(text: &str) -> Result<(), Refused> {
     read("plan P { var x: ", text, " }", "a type", |item| children(item, Kind::Type).next())
 }
 
-/// Checks a time such as `10 ms`.
+/// Checks a time such as `10 ms`, or the name of a constant.
 pub(super) fn time(text: &str) -> Result<(), Refused> {
     read("plan P { supervise x: X every ", text, " {} }", "a time", |item| {
         let timing = children(item, Kind::Timing).next()?;
-        children(&timing, Kind::Literal).next()
+        timing.children().find(|value| matches!(value.kind(), Kind::Literal | Kind::Ref))
     })
 }
 

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::Refused;
 use super::buffer::Splice;
-use super::tree::{is_comment, own_range, range, solid_after, solid_before, tokens};
+use super::tree::{is_comment, own_range, range, solid_after, solid_before};
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};
 

@@ -137,7 +137,14 @@ impl Parser<'_, '_> {
     pub(super) fn timing(&mut self) {
         self.open(Kind::Timing);
         self.keyword();
-        self.quantity("write a time such as '10 ms'");
+        // A time that is missing has the other word behind it.
+        let other = matches!(self.word(0), "every" | "deadline")
+            && matches!(self.nth(1), Kind::Int | Kind::Float | Kind::Name);
+        if self.at(Kind::Name) && self.on_same_line() && !self.names_something(0) && !other {
+            self.reference();
+        } else {
+            self.quantity("write a time such as '10 ms', or name a constant");
+        }
         self.close();
     }
 

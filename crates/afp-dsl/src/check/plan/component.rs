@@ -11,7 +11,7 @@ use crate::check::formula::Scope;
 use crate::check::resources::User;
 use crate::check::signature::{Signature, SignatureKind};
 use crate::check::timing;
-use crate::graph::{Element, ElementId, Supervisor};
+use crate::graph::{Element, ElementId, EntryId, Supervisor};
 use crate::outline::Times;
 use crate::toolbox::Template;
 use crate::types::Type;
@@ -148,7 +148,7 @@ impl Components<'_> {
         owner: Option<ElementId>,
         diags: &mut Diagnostics,
     ) -> Checked<Supervisor> {
-        let times = times(node, diags);
+        let times = self.times(node, diags);
         let wanted = Wanted { keyword: "supervise", span: None };
         let written = WrittenParts {
             template: node.template(),
@@ -185,6 +185,40 @@ impl Components<'_> {
         Checked { built, user, made, written }
     }
 
+    fn times(&self, node: &ast::Guard, diags: &mut Diagnostics) -> Written {
+        let mut written = Written::default();
+        for time in node.timings() {
+            let Some(keyword) = time.keyword() else { continue };
+            let place = usize::from(keyword.text == "deadline");
+            if let Some(first) = written.words[place] {
+                diags.push(
+                    Diagnostic::new(
+                        Code::E0511,
+                        keyword.span,
+                        format!("'{}' is given twice", keyword.text),
+                    )
+                    .note(first, "first given here")
+                    .help("remove one of them"),
+                );
+                continue;
+            }
+            written.words[place] = Some(keyword.span);
+            let value = timing::of_supervisor(&time, self.scope, diags);
+            written.values[place] = value.map(|value| (value, time.span()));
+        }
+        written
+    }
+
+    /// The constants that its times are.
+    fn timed_by(&self, node: &ast::Guard) -> Vec<EntryId> {
+        let names = node.timings().into_iter().filter_map(|time| match time.value()?.kind() {
+            ast::FormulaKind::Ref(reference) => reference.name(),
+            _ => None,
+        });
+        let entries = names.filter_map(|name| self.scope.places.find(&name.text));
+        entries.filter_map(|place| u16::try_from(place).ok().map(EntryId)).collect()
+    }
+
     fn build_supervisor(
         &self,
         node: &ast::Guard,
@@ -208,6 +242,7 @@ impl Components<'_> {
             every: times.every,
             deadline: times.deadline,
             every_span: times.every_span,
+            timed_by: self.timed_by(node),
             edges: connected.spans,
             span: name.span,
             name: name.text,
@@ -246,29 +281,6 @@ struct Written {
     values: [Option<(u64, Span)>; 2],
     /// The places of the words.
     words: [Option<Span>; 2],
-}
-
-fn times(node: &ast::Guard, diags: &mut Diagnostics) -> Written {
-    let mut written = Written::default();
-    for time in node.timings() {
-        let Some(keyword) = time.keyword() else { continue };
-        let place = usize::from(keyword.text == "deadline");
-        if let Some(first) = written.words[place] {
-            diags.push(
-                Diagnostic::new(
-                    Code::E0511,
-                    keyword.span,
-                    format!("'{}' is given twice", keyword.text),
-                )
-                .note(first, "first given here")
-                .help("remove one of them"),
-            );
-            continue;
-        }
-        written.words[place] = Some(keyword.span);
-        written.values[place] = timing::nanoseconds(&time, diags).map(|value| (value, time.span()));
-    }
-    written
 }
 
 /// Period and deadline: what is written here, else what the template says. A template's deadline

@@ -97,7 +97,8 @@ pub(in crate::edit) fn type_of(entry: &Node) -> Option<String> {
 /// The entries that an element and its supervisors read.
 fn read_by(selection: &Selection, element: &Node) -> BTreeSet<String> {
     let guards = children(element, Kind::Guard).flat_map(|guard| binds(&guard));
-    let all = binds(element).into_iter().chain(guards);
+    let timings = tree::below(element, Kind::Timing);
+    let all = binds(element).into_iter().chain(guards).chain(timings);
     all.flat_map(|bind| reads(&bind)).filter_map(|token| selection.entry(&token)).collect()
 }
 

@@ -54,8 +54,8 @@ fn splices(call: &Call, data: &Data, element: &Node) -> Result<Vec<Splice>, Refu
         };
         splices.push((range(&token), new));
     }
-    for args in below(element, Kind::Args) {
-        for token in port::reads(&args) {
+    for read in below(element, Kind::Args).chain(below(element, Kind::Timing)) {
+        for token in port::reads(&read) {
             let entry = call.project.entry(call.from, &token);
             let new = entry.and_then(|entry| data.read_as(&entry));
             splices.extend(new.map(|new| (range(&token), new.to_owned())));

@@ -83,7 +83,8 @@ fn templates_and_times_are_set() {
     assert!(
         after(&deadline, timing("every", Some("5 ms"))).contains("T every 5 ms deadline 1 ms {")
     );
-    refused(PLAN, timing("every", Some("gap")), "'gap' is not a time");
+    replaces(timing("every", Some("pace")), &[("every 1 ms", "every pace")]);
+    refused(PLAN, timing("every", Some("gap + 1")), "'gap + 1' is not a time");
     refused(PLAN, timing("budget", None), "a supervisor has no 'budget'");
 }
 

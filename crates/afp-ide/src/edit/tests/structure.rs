@@ -238,3 +238,31 @@ fn what_would_mean_something_else_is_refused() {
     );
     change("subplan align: Align", "actor align: Align", "'align' is no sub-plan of a plan");
 }
+
+#[test]
+fn constants_that_are_times_go_along() {
+    let text = "\
+plan P {
+    const quick = 5 ms
+    start go
+    actor go: A { supervise t: T every quick { Seen -> go }  Done -> terminate }
+}
+";
+    let change = Change::Extract {
+        plan: "P".into(),
+        elements: vec!["go".into()],
+        new_plan: "Inner".into(),
+        element: "inner".into(),
+    };
+    let inner = after(text, change);
+    let (_, plan) = inner.split_once("plan Inner {").expect("a second plan");
+    assert!(plan.contains("const quick = 5 ms"), "{inner}");
+    let renamed =
+        inner.replace("plan P {\n    const quick = 5 ms", "plan P {\n    const quick = 6 ms");
+    let back = after(&renamed, Change::Inline { plan: "P".into(), element: "inner".into() });
+    assert!(
+        back.contains("const quick_2 = 5 ms") || back.contains("const quick2 = 5 ms"),
+        "{back}"
+    );
+    assert!(back.contains("every quick_2") || back.contains("every quick2"), "{back}");
+}
