@@ -29,7 +29,6 @@ mod check_progress;
 mod check_touch_sensor;
 mod curve;
 pub mod devices;
-pub mod fault;
 mod forward;
 pub mod guard;
 mod history;

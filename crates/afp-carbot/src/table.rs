@@ -1,57 +1,13 @@
-//! The devices of the Carbot, as its toolbox file declares them, and what is broken by each fault.
-//!
-//! Sensors come first in the file, in the order of [`Sensor::ALL`].
+//! The devices of the Carbot, as its toolbox file declares them: controls, faults, signals.
 
-use afp_core::devices::{self, ControlId, DeviceRow, FaultId};
+use afp_core::devices::{self, DeviceRow};
 
-use crate::fault::{Fault, Sensor, Side};
-use crate::templates::devices::{Devices, Fault as Declared};
-
-pub use crate::templates::devices::Control;
+pub use crate::templates::devices::{Control, Devices as Carbot, Fault};
 pub use crate::templates::signal;
-
-/// The devices of the Carbot.
-#[derive(Clone, Copy, Debug)]
-pub struct Carbot;
+pub use afp_core::devices::Defect;
 
 /// The table.
-pub const TABLE: &[DeviceRow] = <Devices as devices::Devices>::TABLE;
-
-impl devices::Devices for Carbot {
-    const TABLE: &'static [DeviceRow] = TABLE;
-    type Control = Control;
-    type Fault = Fault;
-
-    fn control(id: ControlId) -> Option<Control> {
-        Devices::control(id)
-    }
-
-    fn fault(id: FaultId, amount: Option<f64>) -> Option<Fault> {
-        Devices::fault(id, amount).map(Fault::from)
-    }
-}
-
-impl From<Declared> for Fault {
-    fn from(fault: Declared) -> Fault {
-        match fault {
-            Declared::Ultrasonic(defect) => Fault::Sensor(Sensor::Ultrasonic, defect),
-            Declared::Rotator(defect) => Fault::Sensor(Sensor::Rotator, defect),
-            Declared::Odometry(defect) => Fault::Sensor(Sensor::Odometry, defect),
-            Declared::Touch(defect) => Fault::Sensor(Sensor::Touch, defect),
-            Declared::Buttons(defect) => Fault::Sensor(Sensor::Buttons, defect),
-            Declared::Infrared(defect) => Fault::Sensor(Sensor::Infrared, defect),
-            Declared::Color(defect) => Fault::Sensor(Sensor::Color, defect),
-            Declared::Camera(defect) => Fault::Sensor(Sensor::Camera, defect),
-            Declared::Battery(defect) => Fault::Sensor(Sensor::Battery, defect),
-            Declared::RotatorStuck => Fault::StuckRotator,
-            Declared::BatteryLow { share } => Fault::LowBattery(share),
-            Declared::LeftMotorStalled => Fault::StalledMotor(Side::Left),
-            Declared::RightMotorStalled => Fault::StalledMotor(Side::Right),
-            Declared::WheelsSlip { share } => Fault::Slip(share),
-            Declared::ControllerDead => Fault::DeadController,
-        }
-    }
-}
+pub const TABLE: &[DeviceRow] = <Carbot as devices::Devices>::TABLE;
 
 /// A fault by its words, `wheels.slip`, without an amount or with one.
 pub fn named(device: &str, fault: &str, amount: Option<f64>) -> Option<Fault> {
@@ -63,10 +19,11 @@ mod tests {
     use std::vec::Vec;
 
     use afp_core::Duration;
-    use afp_core::devices::{Devices as _, controls, faults, find_control, find_stop, signals};
+    use afp_core::devices::{
+        ControlId, Devices as _, controls, faults, find_control, find_stop, signals,
+    };
 
     use super::*;
-    use crate::fault::Defect;
 
     #[test]
     fn every_row_is_a_fault_of_its_own() {
@@ -76,7 +33,7 @@ mod tests {
         }
         assert_eq!(all.len(), 5 * 9 + 6);
         let second = Duration::from_secs(1);
-        let late = Fault::Sensor(Sensor::Odometry, Defect::Delayed(second));
+        let late = Fault::Odometry(Defect::Delayed(second));
         assert_eq!(named("odometry", "delayed", Some(1.0)), Some(late));
         for (device, fault, amount) in [
             ("ultrasonic", "stuck", None),
@@ -95,13 +52,6 @@ mod tests {
         assert_eq!(find_control(TABLE, "escape"), find_control(TABLE, "buttons.escape"));
         assert_eq!(find_control(TABLE, "touch"), Some(ControlId(0)));
         assert_eq!(find_stop(TABLE), Some(ControlId(1)));
-    }
-
-    #[test]
-    fn sensors_come_first() {
-        for (sensor, row) in Sensor::ALL.into_iter().zip(TABLE) {
-            assert_eq!((sensor.name(), row.faults.len() >= 5), (row.name, true));
-        }
     }
 
     #[test]

@@ -45,7 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn drive(manoeuvre: &Manoeuvre) -> Result<(), Box<dyn Error>> {
     let mut sim = Simulation::new(&world(manoeuvre)?, 1)?;
     if let Some((from, grip)) = manoeuvre.slip {
-        sim.inject(Fault::Slip(grip), at(from), Duration::MAX);
+        sim.inject(Fault::WheelsSlip { share: grip }, at(from), Duration::MAX);
     }
     let mut end = 0.0;
     let mut ticks = 0_u32;

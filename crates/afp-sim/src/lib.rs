@@ -23,7 +23,7 @@ mod vehicle;
 mod wall;
 pub mod world;
 
-pub use afp_carbot::fault::{Defect, Fault, Sensor, Side};
+pub use afp_carbot::table::{Defect, Fault};
 pub use afp_session::parts::VirtualClock;
 pub use film::Film;
 #[cfg(feature = "load")]

@@ -30,7 +30,7 @@ use crate::vehicle::Twist;
 use crate::vehicle::drive::Drive;
 use crate::world::{Light, Obstacle, World, WorldError};
 use afp_carbot::devices::{Color, Echo, Glow, Invalid, Reading};
-use afp_carbot::fault::Fault;
+use afp_carbot::table::Fault;
 use afp_core::{Duration, Instant};
 use afp_flow::{FlowJob, FlowSensor, LucasKanade};
 use afp_session::Faults;

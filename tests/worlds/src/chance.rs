@@ -5,9 +5,11 @@ use std::fmt;
 use afp_carbot::table::{Carbot, TABLE};
 use afp_core::devices::{Devices, faults};
 use afp_core::{Duration, Instant};
-use afp_sim::{Fault, Sensor, Simulation};
+use afp_sim::{Fault, Simulation};
 use rand_pcg::Pcg32;
 use rand_pcg::rand_core::Rng;
+
+use crate::sensor::Sensor;
 
 /// Something that happens to the robot from outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,8 +96,8 @@ impl Chance {
 fn fault(dice: &mut Dice) -> Fault {
     let mut rows: Vec<_> = faults(TABLE).collect();
     // The recorded worlds were thrown in this order: what any sensor has, the rest, the battery's.
-    rows.sort_by_key(|(id, device, _)| match Carbot::fault(*id, None) {
-        Some(Fault::Sensor(..)) => 0,
+    rows.sort_by_key(|(_, device, row)| match row.name {
+        "frozen" | "lost" | "nan" | "delayed" | "slow" => 0,
         _ if device.name == Sensor::Battery.name() => 2,
         _ => 1,
     });

@@ -9,6 +9,7 @@ mod case;
 mod chance;
 mod drive;
 mod plans;
+mod sensor;
 mod single;
 mod watch;
 mod witness;

@@ -3,9 +3,10 @@
 use afp_carbot::guard::{LATE_ECHO, PATIENCE};
 use afp_core::trace::{Kind, Names, Record};
 use afp_core::{Duration, Instant};
-use afp_sim::{Fault, Sensor, Simulation};
+use afp_sim::{Fault, Simulation};
 
 use crate::chance::{Chance, Deed};
+use crate::sensor::Sensor;
 
 mod stand;
 #[cfg(test)]
@@ -178,10 +179,10 @@ impl Watch {
     pub(crate) fn happened(&mut self, chance: &Chance) {
         for (at, deed) in &chance.0 {
             match *deed {
-                Deed::Break(Fault::Slip(grip), during) => {
+                Deed::Break(Fault::WheelsSlip { share: grip }, during) => {
                     self.stand.slippery(*at, *at + during, grip);
                 }
-                Deed::Break(Fault::DeadController, during) => self.stand.deaf(*at, *at + during),
+                Deed::Break(Fault::ControllerDead, during) => self.stand.deaf(*at, *at + during),
                 _ => {}
             }
         }

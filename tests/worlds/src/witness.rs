@@ -10,8 +10,9 @@ use afp_carbot::devices::{
 };
 use afp_core::quantity::{Angle, AngularSpeed, Speed};
 use afp_core::{Environment, Fault, Instant};
-use afp_sim::{Sensor, Simulation};
+use afp_sim::Simulation;
 
+use crate::sensor::Sensor;
 use crate::watch::Watch;
 
 /// A simulated robot whose plan is watched.

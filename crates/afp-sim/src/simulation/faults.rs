@@ -4,7 +4,7 @@ use super::Simulation;
 use crate::devices::camera::Exposure;
 use crate::vehicle::drive::Health;
 use afp_carbot::devices::{Charge, Color, Echo, Glow, Motion, Reading};
-use afp_carbot::fault::{Defect, Fault, Sensor, Side};
+use afp_carbot::table::{Defect, Fault};
 use afp_core::quantity::Angle;
 use afp_core::{Duration, Instant};
 use afp_session::Active;
@@ -48,41 +48,32 @@ impl Simulation {
 
     /// Breaks exactly these.
     pub(crate) fn apply_faults(&mut self, active: &Active<'_, Fault>) {
-        let stalled = |side| active.any(|fault| fault == Fault::StalledMotor(side));
         self.drive.set_health(Health {
-            dead: active.any(|fault| fault == Fault::DeadController),
-            stalled: [Side::Left, Side::Right].map(stalled),
-            grip: least(
-                active,
-                |fault| if let Fault::Slip(left) = fault { Some(left) } else { None },
-            ),
+            dead: active.any(|fault| fault == Fault::ControllerDead),
+            stalled: [Fault::LeftMotorStalled, Fault::RightMotorStalled]
+                .map(|stalled| active.any(|fault| fault == stalled)),
+            grip: least(active, Fault::wheels_slip),
         });
-        self.rotator.set_stuck(active.any(|fault| fault == Fault::StuckRotator));
-        self.battery.limit(least(active, |fault| match fault {
-            Fault::LowBattery(left) => Some(left),
-            _ => None,
-        }));
-        let defects = Sensor::ALL.map(|sensor| defect(active, sensor));
-        for (sensor, defect) in Sensor::ALL.into_iter().zip(defects) {
-            self.set_defect(sensor, defect);
-        }
-        self.delayed = defects.iter().any(|defect| matches!(defect, Some(Defect::Delayed(_))));
-    }
-
-    fn set_defect(&mut self, sensor: Sensor, defect: Option<Defect>) {
+        self.rotator.set_stuck(active.any(|fault| fault == Fault::RotatorStuck));
+        self.battery.limit(least(active, Fault::battery_low));
         let raw = self.raw();
-        let lines = &mut self.lines;
-        match sensor {
-            Sensor::Ultrasonic => lines.ultrasonic.set(defect, raw.echo),
-            Sensor::Rotator => lines.rotator.set(defect, raw.bearing),
-            Sensor::Odometry => lines.odometry.set(defect, raw.motion),
-            Sensor::Touch => lines.touch.set(defect, raw.touched),
-            Sensor::Buttons => lines.buttons.set(defect, raw.escape),
-            Sensor::Infrared => lines.infrared.set(defect, raw.glow),
-            Sensor::Color => lines.color.set(defect, raw.color),
-            Sensor::Camera => lines.camera.set(defect, raw.exposure),
-            Sensor::Battery => lines.battery.set(defect, raw.charge),
-        }
+        let (lines, delayed) = (&mut self.lines, &mut self.delayed);
+        *delayed = false;
+        // Of two defects that which began last counts.
+        let mut defect = |of: fn(Fault) -> Option<Defect>| {
+            let defect = active.find(of);
+            *delayed |= matches!(defect, Some(Defect::Delayed(_)));
+            defect
+        };
+        lines.ultrasonic.set(defect(Fault::ultrasonic), raw.echo);
+        lines.rotator.set(defect(Fault::rotator), raw.bearing);
+        lines.odometry.set(defect(wheel_counters), raw.motion);
+        lines.touch.set(defect(Fault::touch), raw.touched);
+        lines.buttons.set(defect(Fault::buttons), raw.escape);
+        lines.infrared.set(defect(Fault::infrared), raw.glow);
+        lines.color.set(defect(Fault::color), raw.color);
+        lines.camera.set(defect(Fault::camera), raw.exposure);
+        lines.battery.set(defect(Fault::battery), raw.charge);
     }
 
     /// Lets the lines that delay know what the sensors say now.
@@ -131,18 +122,16 @@ struct Raw {
     charge: Reading<Charge>,
 }
 
-/// What is wrong with a sensor: that which began last.
-fn defect(active: &Active<'_, Fault>, of: Sensor) -> Option<Defect> {
-    active.find(|fault| match fault {
-        Fault::Sensor(sensor, defect) if sensor == of => Some(defect),
-        // The controller counts the wheels.
-        Fault::DeadController if of == Sensor::Odometry => Some(Defect::Lost),
-        _ => None,
-    })
+/// What a fault does to the odometry: the controller counts the wheels.
+fn wheel_counters(fault: Fault) -> Option<Defect> {
+    match fault {
+        Fault::ControllerDead => Some(Defect::Lost),
+        fault => fault.odometry(),
+    }
 }
 
 /// The least of some shares, within 0 to 1; what is no number leaves nothing.
-fn least(active: &Active<'_, Fault>, share: impl Fn(Fault) -> Option<f64>) -> f64 {
+fn least(active: &Active<'_, Fault>, share: fn(Fault) -> Option<f64>) -> f64 {
     let shares = active.iter().filter_map(share);
     shares.fold(1.0, |least, share| if share > 0.0 { least.min(share) } else { 0.0 })
 }

@@ -1,8 +1,7 @@
 //! The simulation as a robot that sessions drive.
 
 use afp_carbot::devices::{Color, Ultrasonic};
-use afp_carbot::fault::Fault;
-use afp_carbot::table::{Carbot, Control, signal};
+use afp_carbot::table::{Carbot, Control, Fault, signal};
 use afp_core::{Instant, Platform};
 use afp_session::parts::VirtualClock;
 use afp_session::{

@@ -97,7 +97,7 @@ fn on_a_slippery_floor_it_stops_where_friction_says() {
     for grip in [0.05, 0.1, 0.2] {
         let mut sim = among("");
         drive(&mut sim, 0.31, 0.0, 3000);
-        sim.inject(Fault::Slip(grip), sim.now(), Duration::MAX);
+        sim.inject(Fault::WheelsSlip { share: grip }, sim.now(), Duration::MAX);
         let (real, way) = stopping_distance(&mut sim, 0.31);
         let computed = real * real / 2.0 / (GRIP * grip + ROLLING);
         assert!(off(&format!("stopping with {grip} of the grip"), way, computed) < 0.01);
@@ -108,7 +108,7 @@ fn on_a_slippery_floor_it_stops_where_friction_says() {
 fn in_a_curve_friction_has_the_last_word() {
     let mut sim = among("");
     drive(&mut sim, 0.3, 0.0, 2000);
-    sim.inject(Fault::Slip(0.005), sim.now(), Duration::MAX);
+    sim.inject(Fault::WheelsSlip { share: 0.005 }, sim.now(), Duration::MAX);
     let (length, angle) = way(&mut sim, 0.21, 0.63, 2000);
     // The curve asks for 0.13 m/s^2, the floor gives 0.02 and what the castors add.
     let (speed, radius) = (length / 2.0, length / angle.abs());

@@ -7,7 +7,7 @@ use afp_carbot::devices::{
 };
 use afp_core::quantity::{Angle, Speed};
 use afp_core::{Clock, Duration, Environment, Instant};
-use afp_sim::{Defect, Fault, Sensor, Side, Simulation};
+use afp_sim::{Defect, Fault, Simulation};
 
 const SECOND: Duration = Duration::from_secs(1);
 
@@ -22,7 +22,7 @@ fn wall_ahead() -> Simulation {
 #[test]
 fn a_lost_sensor_does_not_answer_from_the_instant_to_before_the_end() {
     let mut sim = wall_ahead();
-    let lost = Fault::Sensor(Sensor::Ultrasonic, Defect::Lost);
+    let lost = Fault::Ultrasonic(Defect::Lost);
     sim.inject(lost, at(503), Duration::from_millis(100));
     sim.advance_to(Instant::from_nanos(502_999_999));
     assert!(sim.echo().value.is_ok());
@@ -34,6 +34,19 @@ fn a_lost_sensor_does_not_answer_from_the_instant_to_before_the_end() {
     assert!(sim.echo().value.is_ok());
 }
 
+/// What can be wrong with each sensor.
+const SENSORS: [fn(Defect) -> Fault; 9] = [
+    Fault::Ultrasonic,
+    Fault::Rotator,
+    Fault::Odometry,
+    Fault::Touch,
+    Fault::Buttons,
+    Fault::Infrared,
+    Fault::Color,
+    Fault::Camera,
+    Fault::Battery,
+];
+
 #[test]
 fn every_sensor_can_be_lost_or_deliver_no_number() {
     for (defect, expected) in
@@ -41,8 +54,8 @@ fn every_sensor_can_be_lost_or_deliver_no_number() {
     {
         let mut sim = wall_ahead();
         wait(&mut sim, 200);
-        for sensor in Sensor::ALL {
-            break_now(&mut sim, Fault::Sensor(sensor, defect));
+        for broken in SENSORS {
+            break_now(&mut sim, broken(defect));
         }
         let said = [
             sim.echo().value.err(),
@@ -66,7 +79,7 @@ fn a_frozen_sensor_repeats_its_value_as_if_it_were_new() {
     let mut sim = among("");
     drive(&mut sim, 0.2, 0.0, 500);
     let before = sim.motion();
-    break_now(&mut sim, Fault::Sensor(Sensor::Odometry, Defect::Frozen));
+    break_now(&mut sim, Fault::Odometry(Defect::Frozen));
     drive(&mut sim, 0.2, 0.0, 500);
     let frozen = sim.motion();
     assert_eq!(frozen.value, before.value);
@@ -81,7 +94,7 @@ fn a_delayed_sensor_tells_what_was_with_the_time_when_it_was() {
     drive(&mut sim, 0.2, 0.0, 1000);
     let begin = sim.motion();
     let delay = Duration::from_millis(100);
-    sim.inject(Fault::Sensor(Sensor::Odometry, Defect::Delayed(delay)), sim.now(), Duration::MAX);
+    sim.inject(Fault::Odometry(Defect::Delayed(delay)), sim.now(), Duration::MAX);
     drive(&mut sim, 0.2, 0.0, 90);
     assert_eq!(sim.motion(), begin, "nothing newer arrives");
     drive(&mut sim, 0.2, 0.0, 500);
@@ -93,7 +106,7 @@ fn a_delayed_sensor_tells_what_was_with_the_time_when_it_was() {
 #[test]
 fn of_two_defects_the_later_counts_and_then_the_earlier_again() {
     let mut sim = among("");
-    let touch = |defect| Fault::Sensor(Sensor::Touch, defect);
+    let touch = |defect| Fault::Touch(defect);
     sim.inject(touch(Defect::NotANumber), at(200), Duration::from_millis(100));
     sim.inject(touch(Defect::Lost), at(100), Duration::MAX);
     let mut said = Vec::new();
@@ -110,7 +123,7 @@ fn each_use_of_a_slow_sensor_takes_time_by_the_clock() {
     let mut sim = among("");
     let clock = sim.clock();
     let cost = Duration::from_millis(20);
-    break_now(&mut sim, Fault::Sensor(Sensor::Touch, Defect::Slow(cost)));
+    break_now(&mut sim, Fault::Touch(Defect::Slow(cost)));
     sim.advance_to(at(100));
     assert_eq!(clock.now(at(100)), at(100));
     assert_eq!(sim.motion().value.map(|_| clock.now(at(100))), Ok(at(100)));
@@ -124,7 +137,7 @@ fn each_use_of_a_slow_sensor_takes_time_by_the_clock() {
 #[test]
 fn a_stuck_rotator_stays_and_tells_so() {
     let mut sim = among("");
-    break_now(&mut sim, Fault::StuckRotator);
+    break_now(&mut sim, Fault::RotatorStuck);
     sim.point(Angle::from_deg(40.0), at(0));
     wait(&mut sim, 900);
     assert_eq!(sim.bearing().value.unwrap().si(), 0.0);
@@ -134,12 +147,12 @@ fn a_stuck_rotator_stays_and_tells_so() {
 
 #[test]
 fn a_stalled_motor_makes_the_robot_turn_around_its_wheel() {
-    for (side, sign) in [(Side::Left, 1.0), (Side::Right, -1.0)] {
+    for (stalled, sign) in [(Fault::LeftMotorStalled, 1.0), (Fault::RightMotorStalled, -1.0)] {
         let mut sim = among("");
-        sim.inject(Fault::StalledMotor(side), at(0), Duration::MAX);
+        sim.inject(stalled, at(0), Duration::MAX);
         drive(&mut sim, 0.2, 0.0, 2000);
         let pose = sim.truth().pose();
-        assert!(pose.heading * sign > 0.3, "{side:?}: {pose:?}");
+        assert!(pose.heading * sign > 0.3, "{stalled:?}: {pose:?}");
     }
 }
 
@@ -148,7 +161,7 @@ fn on_a_slippery_floor_wheels_spin_and_the_odometer_believes_them() {
     let way = |grip: Option<f64>| {
         let mut sim = among("");
         if let Some(grip) = grip {
-            sim.inject(Fault::Slip(grip), at(0), Duration::MAX);
+            sim.inject(Fault::WheelsSlip { share: grip }, at(0), Duration::MAX);
         }
         drive(&mut sim, 0.3, 0.0, 1000);
         let believed = sim.motion().value.unwrap().x.si();
@@ -166,7 +179,7 @@ fn on_a_slippery_floor_wheels_spin_and_the_odometer_believes_them() {
 fn a_dead_controller_stops_the_robot_within_its_dead_man_time() {
     let mut sim = among("");
     drive(&mut sim, 0.2, 0.0, 1000);
-    break_now(&mut sim, Fault::DeadController);
+    break_now(&mut sim, Fault::ControllerDead);
     assert_eq!(sim.motion().value, Err(Invalid::NoAnswer));
     drive(&mut sim, 0.2, 0.0, 600);
     let before = sim.truth().pose().x;
@@ -179,14 +192,14 @@ fn a_dead_controller_stops_the_robot_within_its_dead_man_time() {
 #[test]
 fn a_low_battery_says_so_and_makes_slow() {
     let mut sim = among("");
-    sim.inject(Fault::LowBattery(0.04), at(0), Duration::MAX);
+    sim.inject(Fault::BatteryLow { share: 0.04 }, at(0), Duration::MAX);
     drive(&mut sim, 0.3, 0.0, 3000);
     let charge = sim.charge().value.unwrap();
     assert_eq!(charge.left, 0.04);
     assert!(charge.voltage.si() < 6.3, "{charge:?}");
     let speed = sim.motion().value.unwrap().speed;
     assert!(speed < Speed::from_si(0.2) && speed > Speed::from_si(0.05), "{speed:?}");
-    sim.inject(Fault::LowBattery(0.02), at(3000), Duration::MAX);
+    sim.inject(Fault::BatteryLow { share: 0.02 }, at(3000), Duration::MAX);
     drive(&mut sim, 0.3, 0.0, 2000);
     assert!(sim.charge().value.unwrap().voltage.si() < 6.0);
     assert!(sim.motion().value.unwrap().stands(), "below 6 V the motors are cut off");
@@ -213,8 +226,8 @@ fn an_emergency_stop_holds_until_it_is_reset() {
 fn faults_that_are_over_leave_the_run_of_the_sound_robot() {
     let mut whole = among("");
     let mut mended = among("");
-    for sensor in Sensor::ALL {
-        mended.inject(Fault::Sensor(sensor, Defect::Lost), at(103), Duration::from_millis(333));
+    for broken in SENSORS {
+        mended.inject(broken(Defect::Lost), at(103), Duration::from_millis(333));
     }
     for sim in [&mut whole, &mut mended] {
         drive(sim, 0.2, 0.2, 2000);
@@ -230,7 +243,7 @@ fn wheels_that_something_blocks_stand_and_on_slippery_floor_they_spin() {
     drive(&mut sim, 0.2, 0.0, 2000);
     let counted = sim.motion().value.expect("the odometry answers");
     assert!(counted.speed.si().abs() < 0.01, "{counted:?}");
-    break_now(&mut sim, Fault::Slip(0.1));
+    break_now(&mut sim, Fault::WheelsSlip { share: 0.1 });
     drive(&mut sim, 0.2, 0.0, 500);
     let counted = sim.motion().value.expect("the odometry answers");
     assert!(counted.speed.si() > 0.15, "{counted:?}");

@@ -6,13 +6,13 @@ use afp_carbot::templates::{approach_infrared, check_infrared, turn_to_infrared}
 use afp_carbot::{ApproachInfrared, CheckInfrared, TurnToInfrared, templates};
 use afp_core::quantity::{Angle, AngularSpeed, Speed};
 use afp_core::{Actor, ActorTemplate, Duration, Events, Fault, Poll, Supervisor};
-use afp_sim::{Defect, Sensor, Simulation};
+use afp_sim::{Defect, Simulation};
 
 /// A robot at the origin, a beacon, and an infrared sensor that is so many milliseconds late.
 fn late(beacon: [f64; 2], millis: u64, seed: u64) -> Simulation {
     let mut sim = among_with(&format!("[[infrared]]\nposition_m = {beacon:?}\n"), seed);
     let delayed = Defect::Delayed(Duration::from_millis(millis));
-    sim.inject(afp_sim::Fault::Sensor(Sensor::Infrared, delayed), at(0), Duration::MAX);
+    sim.inject(afp_sim::Fault::Infrared(delayed), at(0), Duration::MAX);
     sim
 }
 

@@ -3,7 +3,7 @@
 use crate::{among, at, drive, the_box, wait};
 use afp_carbot::devices::{Camera, ColorSensor, Glow, InfraredSensor, Invalid};
 use afp_core::Duration;
-use afp_sim::{Defect, Fault, Film, Sensor, Simulation};
+use afp_sim::{Defect, Fault, Film, Simulation};
 
 fn light(x: f64, y: f64, rest: &str) -> String {
     format!("[[infrared]]\nposition_m = [{x}, {y}]\n{rest}\n")
@@ -158,7 +158,7 @@ fn a_camera_that_is_frozen_delayed_or_lost_shows_the_past_or_nothing() {
     let mut sim = among(RED_BOX);
     sim.advance_to(at(500));
     let number = |sim: &Simulation| sim.frame().value.map(|frame| frame.number);
-    let camera = |defect| Fault::Sensor(Sensor::Camera, defect);
+    let camera = |defect| Fault::Camera(defect);
     sim.inject(camera(Defect::Frozen), at(500), Duration::from_millis(500));
     sim.inject(camera(Defect::Lost), at(1000), Duration::from_millis(500));
     let delay = Defect::Delayed(Duration::from_millis(200));

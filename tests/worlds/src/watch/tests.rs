@@ -167,11 +167,11 @@ fn a_robot_that_rolls_past_its_stop_time_breaks_a_rule() {
 
 #[test]
 fn on_a_slippery_floor_or_with_a_deaf_controller_it_may_take_longer_but_not_for_ever() {
-    let slip = Deed::Break(Fault::Slip(0.1), Duration::MAX);
+    let slip = Deed::Break(Fault::WheelsSlip { share: 0.1 }, Duration::MAX);
     let slip = Chance(vec![(at(500), slip)]);
     assert_eq!(rolls(&slip, 1000).broken(), []);
     breaks(rolls(&slip, 1900), "after the command to stand");
-    let deaf = Deed::Break(Fault::DeadController, Duration::from_millis(400));
+    let deaf = Deed::Break(Fault::ControllerDead, Duration::from_millis(400));
     let deaf = Chance(vec![(at(950), deaf)]);
     assert_eq!(rolls(&deaf, 1000).broken(), []);
     breaks(rolls(&deaf, 1500), "after the command to stand");
