@@ -12,7 +12,7 @@ use afp_core::rt::NamedPlan;
 use afp_core::trace::{NoTrace, Sink};
 use afp_core::{Instant, Scheduler, StillClock, Wake};
 use afp_log::robot::{Pose2, Ranging};
-use afp_log::{About, NameTable, Recorder, WhenFull};
+use afp_log::{About, OwnedNames, Recorder, WhenFull};
 use afp_sim::{Bare, Pose, STEP, Simulation, World};
 
 use crate::measure::{Race, Times};
@@ -161,7 +161,7 @@ fn follow(world: &World, log: &mut impl RobotSink) {
 fn logged(world: &World) {
     let name = format!("afp-bench-{}-{:?}.mcap", std::process::id(), time::Instant::now());
     let path = std::env::temp_dir().join(name);
-    let names = NameTable::new(&WallFollowing::new().names());
+    let names = OwnedNames::new(&WallFollowing::new().names());
     let log = Recorder::create(&path, &About::default(), names, WhenFull::Wait);
     let mut log = log.unwrap_or_else(|why| panic!("{why}"));
     log.started(Instant::ZERO);

@@ -7,7 +7,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::plan::units_name;
-use crate::rust_type::{Home, float, int, variant};
+use crate::rust_type::{TypePaths, float, int, variant};
 use afp_dsl::graph::{Formula, FormulaKind, Function, Operator};
 use afp_dsl::types::{Conversion, Dimension, Type};
 
@@ -38,17 +38,17 @@ fn atom(tokens: TokenStream) -> Expr {
 /// Writes the formulas of one component.
 pub struct Formulas<'a> {
     /// Where types live.
-    pub home: &'a Home<'a>,
+    pub home: &'a TypePaths<'a>,
     /// The getters of the plan's entries.
     pub entries: &'a [Ident],
-    /// The names of the rooms for texts that no entry holds, in the order of their use.
-    pub rooms: Vec<Ident>,
+    /// The names of the scratch texts, for what no entry holds, in the order of their use.
+    pub scratch: Vec<Ident>,
 }
 
 impl<'a> Formulas<'a> {
     /// For one component of a plan.
-    pub fn new(home: &'a Home<'a>, entries: &'a [Ident]) -> Self {
-        Formulas { home, entries, rooms: Vec::new() }
+    pub fn new(home: &'a TypePaths<'a>, entries: &'a [Ident]) -> Self {
+        Formulas { home, entries, scratch: Vec::new() }
     }
 
     /// What an input port of the formula's type gets: texts and objects are borrowed.
@@ -58,9 +58,9 @@ impl<'a> Formulas<'a> {
                 Some(text) => text,
                 None => {
                     let text = self.value(formula);
-                    let room = format_ident!("text_{}", self.rooms.len() + 1);
-                    self.rooms.push(room.clone());
-                    quote!(hold(#room, #text))
+                    let scratch = format_ident!("text_{}", self.scratch.len() + 1);
+                    self.scratch.push(scratch.clone());
+                    quote!(store_text(#scratch, #text))
                 }
             },
             Type::Object(_) => {
@@ -260,7 +260,7 @@ fn borrowed_text(formulas: &Formulas<'_>, formula: &Formula) -> Option<TokenStre
 }
 
 /// A value converted; a text comes as an `&str`, a quantity to be printed as an operand of `.`.
-pub fn convert(home: &Home<'_>, conversion: &Conversion, value: TokenStream) -> TokenStream {
+pub fn convert(home: &TypePaths<'_>, conversion: &Conversion, value: TokenStream) -> TokenStream {
     match conversion {
         Conversion::IntToFloat => quote!(int_to_float(#value)),
         Conversion::FloatToInt => quote!(float_to_int(#value)?),

@@ -8,7 +8,7 @@ use afp_dsl::types::{Dimension, Enum, Object, Type};
 use afp_number::RADIANS_PER_DEGREE;
 
 /// Where types live, seen from the code that is being made.
-pub struct Home<'a> {
+pub struct TypePaths<'a> {
     /// What stands before the names of `afp_core`: its path with `::`, or nothing for imports.
     pub core: TokenStream,
     /// What stands before the names of `afp_core::quantity`.
@@ -19,7 +19,7 @@ pub struct Home<'a> {
     pub object: &'a dyn Fn(&Object) -> TokenStream,
 }
 
-impl Home<'_> {
+impl TypePaths<'_> {
     /// The type of a value by itself; an object's own type; `V` for `any` and `number`.
     pub fn value(&self, ty: &Type) -> TokenStream {
         match ty {

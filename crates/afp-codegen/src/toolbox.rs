@@ -16,7 +16,7 @@ use crate::Options;
 use crate::enums;
 use crate::layout::doc;
 use crate::names::{camel, ident, snake};
-use crate::rust_type::Home;
+use crate::rust_type::TypePaths;
 use afp_dsl::toolbox::{InPort, Template, TemplateKind, Toolbox};
 use afp_dsl::types::{Enum, Object, Type};
 
@@ -63,7 +63,7 @@ fn words(kind: TemplateKind) -> Words {
 }
 
 /// Types as the module of a template sees them.
-fn home(core: &TokenStream) -> Home<'_> {
+fn home(core: &TokenStream) -> TypePaths<'_> {
     let choice = &|choices: &Enum| {
         let name = ident(&camel(&choices.name));
         quote!(super::#name)
@@ -72,7 +72,7 @@ fn home(core: &TokenStream) -> Home<'_> {
         let name = ident(&camel(&object.name));
         quote!(super::super::#name)
     };
-    Home { core: quote!(#core::), quantity: quote!(#core::quantity::), choice, object }
+    TypePaths { core: quote!(#core::), quantity: quote!(#core::quantity::), choice, object }
 }
 
 fn template(core: &TokenStream, template: &Template) -> TokenStream {

@@ -21,7 +21,7 @@ pub use formula::{
 };
 pub use names::{ComponentRow, EntryRow, NameTable, NamedPlan};
 pub use native::{
-    finite, hold, print_choice, read_choice, set_input, stage_outside, within, within_int,
+    finite, print_choice, read_choice, set_input, stage_outside, store_text, within, within_int,
     within_value,
 };
 pub use plan::{Committer, Cx, Fired, Polled, Slot, Started};

@@ -24,7 +24,7 @@ pub use afp_session::{Kept, OwnedRecord};
 pub use doctor::doctor;
 pub use error::LogError;
 pub use event::{pack, unpack};
-pub use names::NameTable;
+pub use names::OwnedNames;
 pub use read::{Configured, Heard, LogData, TopicInfo, read};
 pub use recipe::WORLD;
 pub use recorder::{About, FRAMES, Recorder, Signal, WhenFull, Written};

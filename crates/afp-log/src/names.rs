@@ -9,7 +9,7 @@ use crate::proto::afp::{PlanTable, plan_table};
 
 /// A copy of all names of a plan.
 #[derive(Clone, Debug, Default)]
-pub struct NameTable {
+pub struct OwnedNames {
     components: Vec<Component>,
     entries: Vec<Entry>,
 }
@@ -35,12 +35,12 @@ struct Entry {
     choices: Vec<String>,
 }
 
-impl NameTable {
+impl OwnedNames {
     /// Copies the names of a plan.
     pub fn new(names: &(impl Names + ?Sized)) -> Self {
         let components = (0..names.components()).map(|id| Component::copy(names, ComponentId(id)));
         let entries = (0..names.entries()).map(|id| Entry::copy(names, TraceEntryId(id)));
-        NameTable { components: components.collect(), entries: entries.collect() }
+        OwnedNames { components: components.collect(), entries: entries.collect() }
     }
 
     /// The names that a log keeps: those of components, not of entries.
@@ -62,7 +62,7 @@ impl NameTable {
             error: ("Error".to_owned(), String::new()),
             inputs: row.inputs.clone(),
         };
-        NameTable { components: table.components.iter().map(component).collect(), entries: vec![] }
+        OwnedNames { components: table.components.iter().map(component).collect(), entries: vec![] }
     }
 
     fn get(&self, id: ComponentId) -> Option<&Component> {
@@ -116,7 +116,7 @@ fn text(found: Option<&String>) -> &str {
     found.map_or("", String::as_str)
 }
 
-impl Names for NameTable {
+impl Names for OwnedNames {
     fn components(&self) -> u32 {
         self.components.len() as u32
     }

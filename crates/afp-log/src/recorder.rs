@@ -15,7 +15,7 @@ use afp_core::trace::{Record, Sink};
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
 use crate::error::LogError;
-use crate::names::NameTable;
+use crate::names::OwnedNames;
 use crate::robot::{Image, Level, Pose2, Ranging, Shape, Transform};
 use crate::write::LogFile;
 use afp_session::{Datum, OwnedRecord, RunEvent};
@@ -143,7 +143,7 @@ impl Recorder {
     pub fn create(
         path: &Path,
         about: &About,
-        names: NameTable,
+        names: OwnedNames,
         when_full: WhenFull,
     ) -> Result<Self, LogError> {
         let file = LogFile::create(path, about, names).map_err(|error| error.writing(path))?;

@@ -12,7 +12,7 @@ use afp_session::{
 };
 
 use crate::error::LogError;
-use crate::names::NameTable;
+use crate::names::OwnedNames;
 use crate::recorder::{About, FRAMES, Recorder, Signal, WhenFull, Written};
 use crate::robot::{Image, Level, Transform};
 
@@ -48,7 +48,7 @@ impl SessionLog {
     pub fn create(
         path: &Path,
         about: &About,
-        names: NameTable,
+        names: OwnedNames,
         devices: &'static [DeviceRow],
         scene: Vec<Shape>,
         camera: bool,

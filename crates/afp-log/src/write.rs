@@ -14,7 +14,7 @@ use mcap::{Attachment, Compression, WriteOptions, Writer};
 use prost::Message;
 
 use crate::error::LogError;
-use crate::names::NameTable;
+use crate::names::OwnedNames;
 use crate::proto::afp::{Configuration, Entry, Sample};
 use crate::proto::{AFP_SET, FOXGLOVE_SET};
 use crate::recorder::{About, Item, Signal};
@@ -97,7 +97,7 @@ pub(crate) struct LogFile {
     /// Where the channel of a signal is among them; of a whole device where it has no name.
     signals: BTreeMap<(&'static str, &'static str), usize>,
     path: PathBuf,
-    names: NameTable,
+    names: OwnedNames,
     entries: Vec<Entry>,
     /// The commit whose entries are being collected.
     commit: Option<(Instant, Author)>,
@@ -105,7 +105,7 @@ pub(crate) struct LogFile {
 }
 
 impl LogFile {
-    pub(crate) fn create(path: &Path, about: &About, names: NameTable) -> Result<Self, LogError> {
+    pub(crate) fn create(path: &Path, about: &About, names: OwnedNames) -> Result<Self, LogError> {
         let failed = |error| LogError::Create { path: path.to_owned(), error };
         let writer = begin(Output::create(path).map_err(failed)?, Some(CHUNK))?;
         let unset = |id| event::entry(&names, TraceEntryId(id), afp_core::ValueRef::Unset);

@@ -13,7 +13,7 @@ use afp_core::{Duration, Instant, ValueRef};
 use afp_log::robot::{Level, Pose2, Ranging, Shape, Transform};
 use afp_log::statistics::statistics;
 use afp_log::{
-    About, LogError, NameTable, Recorder, Signal, WhenFull, doctor, read, recover, recovered_name,
+    About, LogError, OwnedNames, Recorder, Signal, WhenFull, doctor, read, recover, recovered_name,
 };
 use afp_session::{Build, Datum, Done, EventKind, Recipe, Requested, RunEvent, Stimulus, TextFile};
 
@@ -130,7 +130,7 @@ fn run(log: &mut Recorder) {
 }
 
 fn create(path: &Path) -> Recorder {
-    Recorder::create(path, &about(), NameTable::new(&Names1), WhenFull::Wait).unwrap()
+    Recorder::create(path, &about(), OwnedNames::new(&Names1), WhenFull::Wait).unwrap()
 }
 
 fn written(dir: &Path) -> PathBuf {
@@ -206,7 +206,7 @@ fn a_recipe_comes_back_as_it_was_written() {
     };
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");
-    let names = NameTable::new(&Names1);
+    let names = OwnedNames::new(&Names1);
     let mut log = Recorder::create(&path, &About::new(&recipe), names, WhenFull::Wait).unwrap();
     let become_ = [Done::Done, Done::Refused("it is gone".to_owned()), Done::NotReached];
     for (what, done) in requests.iter().zip(become_.iter().cycle()) {
@@ -299,7 +299,7 @@ fn an_abandoned_log_keeps_its_part_name() {
 fn what_cannot_be_written_or_read_is_said() {
     let dir = tempfile::tempdir().unwrap();
     let nowhere = dir.path().join("no/such/folder/a.mcap");
-    let failed = Recorder::create(&nowhere, &about(), NameTable::default(), WhenFull::Drop);
+    let failed = Recorder::create(&nowhere, &about(), OwnedNames::default(), WhenFull::Drop);
     let said = failed.err().unwrap().to_string();
     assert!(said.starts_with("cannot write the log '") && said.contains("a.mcap'"), "{said}");
     let text = dir.path().join("text");
@@ -313,7 +313,7 @@ fn a_full_queue_is_counted_and_told() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");
     let mut log =
-        Recorder::create(&path, &about(), NameTable::new(&Names1), WhenFull::Drop).unwrap();
+        Recorder::create(&path, &about(), OwnedNames::new(&Names1), WhenFull::Drop).unwrap();
     let record = Record::Polled { supervisor: ComponentId(2), verdict: Verdict::Clear };
     for n in 0..200_000 {
         log.record(at(n), &record);
@@ -387,7 +387,7 @@ fn a_log_goes_through_a_pipe() {
 fn a_log_that_says_nothing_of_its_run_is_sound() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("bare.mcap");
-    let names = NameTable::new(&Names1);
+    let names = OwnedNames::new(&Names1);
     let log = Recorder::create(&path, &About::default(), names, WhenFull::Wait).unwrap();
     log.finish().unwrap();
     assert_eq!(doctor(&path).unwrap(), [""; 0]);

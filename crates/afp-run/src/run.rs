@@ -7,7 +7,7 @@ use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
 use afp_core::{Ending, Instant, StartError};
-use afp_log::{About, NameTable, SessionLog, Written};
+use afp_log::{About, OwnedNames, SessionLog, Written};
 use afp_project::ProjectFile;
 use afp_session::{
     AnyRobot, AnySession, AnyWorld, Build, Counts, Go, Observer, Recipe, Requested, SessionError,
@@ -156,7 +156,7 @@ fn drive(session: &mut dyn AnySession, setting: &Setting<'_>) -> Result<u8, RunE
     let mut log = match &paths.log {
         None => None,
         Some(path) => {
-            let (about, names) = (about(setting), NameTable::new(session.names()));
+            let (about, names) = (about(setting), OwnedNames::new(session.names()));
             let (devices, scene) = (session.devices(), world.world.scene());
             Some(SessionLog::create(path, &about, names, devices, scene, options.camera)?)
         }

@@ -7,7 +7,7 @@ use afp_core::{Duration, Instant};
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
-use afp_log::{About, NameTable, SessionLog};
+use afp_log::{About, OwnedNames, SessionLog};
 use afp_session::{
     AnySession, Counts, Go, Observer, Open, Request, Robot, SampleRef, Session, Simulated, Track,
 };
@@ -72,7 +72,7 @@ fn looking_judging_logging_and_pausing_do_not_change_the_run() {
         parts.add_measure(measure);
     });
     let folder = tempfile::tempdir().unwrap();
-    let (about, names) = (About::default(), NameTable::new(parts.names()));
+    let (about, names) = (About::default(), OwnedNames::new(parts.names()));
     let path = folder.path().join("a.mcap");
     let mut log =
         SessionLog::create(&path, &about, names, parts.devices(), Vec::new(), true).unwrap();

@@ -6,7 +6,7 @@ use std::path::Path;
 use afp_core::devices::SignalId;
 use afp_core::{Duration, Instant, StartError};
 use afp_dsl::scenario::Scenario;
-use afp_log::{About, NameTable, SessionLog};
+use afp_log::{About, OwnedNames, SessionLog};
 use afp_run::RunError;
 use afp_session::{
     AnySession, Applied, Build, Go, Loader, NamedRecord, Observer, Recipe, RequestId, SampleRef,
@@ -109,7 +109,7 @@ fn log(
     setting: &Setting,
     session: &dyn AnySession,
 ) -> Result<SessionLog, RunError> {
-    let (about, names) = (about(scenario, setting), NameTable::new(session.names()));
+    let (about, names) = (about(scenario, setting), OwnedNames::new(session.names()));
     let (devices, scene) = (session.devices(), setting.world.world.scene());
     Ok(SessionLog::create(path, &about, names, devices, scene, false)?)
 }

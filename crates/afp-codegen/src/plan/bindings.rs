@@ -7,7 +7,7 @@ use super::context::{ComponentNames, Context, Paths};
 use crate::formula::{Formulas, convert, is_literal};
 use crate::layout::{at, doc};
 use crate::names::{camel, ident, snake};
-use crate::rust_type::Home;
+use crate::rust_type::TypePaths;
 use afp_dsl::graph::{Formula, Output};
 use afp_dsl::toolbox::{InPort, Template, TemplateKind};
 use afp_dsl::types::{Conversion, Type};
@@ -30,8 +30,8 @@ pub struct Bound<'a> {
 pub struct Function {
     /// Its item; none where it would do nothing.
     pub item: TokenStream,
-    /// Statements that make room for the texts it computes.
-    pub rooms: TokenStream,
+    /// Statements that declare the scratch texts that it computes into.
+    pub scratch: TokenStream,
     /// The expression that calls it.
     pub call: TokenStream,
 }
@@ -66,13 +66,13 @@ impl Bound<'_> {
         if ports.is_empty() {
             return Function {
                 item: TokenStream::new(),
-                rooms: TokenStream::new(),
+                scratch: TokenStream::new(),
                 call: quote!(Ok(#module::#ty {})),
             };
         }
         let generic = ports.iter().any(|(port, _)| is_generic(&port.ty));
         let borrows = ports.iter().any(|(port, _)| matches!(port.ty, Type::Text | Type::Object(_)));
-        let (fields, rooms) = self.context.with_home(|home| {
+        let (fields, scratch) = self.context.with_type_paths(|home| {
             let mut formulas = Formulas::new(home, &self.context.entries);
             let fields: Vec<_> = ports
                 .iter()
@@ -85,13 +85,13 @@ impl Bound<'_> {
                     quote!(#at #port: #value)
                 })
                 .collect();
-            (fields, formulas.rooms)
+            (fields, formulas.scratch)
         });
         let reads = ports.iter().any(|(_, formula)| reads_entries(formula));
         let lifetime = borrows.then(|| quote!('a));
         let config = reads.then(|| {
             let lifetime = &lifetime;
-            if rooms.is_empty() {
+            if scratch.is_empty() {
                 quote!(config: & #lifetime Config)
             } else {
                 quote!(config: & #lifetime Config,)
@@ -101,14 +101,14 @@ impl Bound<'_> {
         let generics = lifetime.map(|lifetime| quote!(<#lifetime>));
         let (help, at) = (doc("", about), at(self.span));
         let config_call = reads
-            .then(|| if rooms.is_empty() { quote!(&self.config) } else { quote!(&self.config,) });
+            .then(|| if scratch.is_empty() { quote!(&self.config) } else { quote!(&self.config,) });
         Function {
-            rooms: quote!(#(let mut #rooms = Text::new();)*),
-            call: quote!(#name(#config_call #(&mut #rooms),*)),
+            scratch: quote!(#(let mut #scratch = Text::new();)*),
+            call: quote!(#name(#config_call #(&mut #scratch),*)),
             item: quote! {
                 #help
                 #at
-                fn #name #generics (#config #(#rooms: &'a mut Text),*)
+                fn #name #generics (#config #(#scratch: &'a mut Text),*)
                     -> Result<#module::#ty #arguments, Fault>
                 {
                     Ok(#module::#ty { #(#fields),* })
@@ -152,7 +152,7 @@ impl Bound<'_> {
         if arms.is_empty() {
             return Function {
                 item: TokenStream::new(),
-                rooms: TokenStream::new(),
+                scratch: TokenStream::new(),
                 call: quote!(|_| Ok(())),
             };
         }
@@ -173,7 +173,7 @@ impl Bound<'_> {
         let help = doc("", &format!("Outputs of `{}`.", self.names.text));
         let at = at(self.span);
         Function {
-            rooms: TokenStream::new(),
+            scratch: TokenStream::new(),
             call: quote!(|outcome| #name(&mut self.staged, outcome)),
             item: quote! {
                 #help
@@ -206,7 +206,7 @@ impl Bound<'_> {
             let value = match (generic, ty) {
                 // It is an entry's object already.
                 (true, Type::Object(_)) => quote!(#name),
-                _ => self.context.with_home(|home| staged_value(home, output, ty, &name)),
+                _ => self.context.with_type_paths(|home| staged_value(home, output, ty, &name)),
             };
             let entry = &self.context.entries[output.entry.index()];
             Some((name, quote!(staged.#entry = Some(#value);)))
@@ -217,7 +217,7 @@ impl Bound<'_> {
 }
 
 /// The value of an output port as its entry takes it.
-fn staged_value(home: &Home<'_>, output: &Output, ty: &Type, value: &Ident) -> TokenStream {
+fn staged_value(home: &TypePaths<'_>, output: &Output, ty: &Type, value: &Ident) -> TokenStream {
     match (&output.conversion, ty) {
         (None, Type::Quantity(_)) => quote!(finite(#value)?),
         (None, Type::Object(_)) => quote!(Object::new(#value)),
@@ -228,7 +228,7 @@ fn staged_value(home: &Home<'_>, output: &Output, ty: &Type, value: &Ident) -> T
 
 /// A value converted for its entry; numbers that come out of a text or an `int` are finite.
 pub fn converted(
-    home: &Home<'_>,
+    home: &TypePaths<'_>,
     conversion: &Conversion,
     ty: &Type,
     value: TokenStream,

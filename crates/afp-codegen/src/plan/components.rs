@@ -86,12 +86,12 @@ fn start_supervisor(context: &Context<'_>) -> TokenStream {
         .map(|((supervisor, row), names)| {
             let bound = supervisors::bound(context, supervisor, names);
             let (number, field) = (&names.number, &names.inputs);
-            let Function { rooms, call, .. } = bound.inputs();
+            let Function { scratch, call, .. } = bound.inputs();
             let (wanted, at) = (wanted(row), at(supervisor.span));
             quote! {
                 #at
                 #number => {
-                    #rooms
+                    #scratch
                     let inputs = #call;
                     self.supervisors.#field = cx.start_supervisor(inputs, #wanted)?;
                 }
@@ -121,12 +121,12 @@ fn poll_supervisor(context: &Context<'_>) -> TokenStream {
         .map(|(supervisor, names)| {
             let bound = supervisors::bound(context, supervisor, names);
             let (number, field) = (&names.number, &names.inputs);
-            let (Function { rooms, call, .. }, outputs) = (bound.live(), bound.outputs().call);
+            let (Function { scratch, call, .. }, outputs) = (bound.live(), bound.outputs().call);
             let at = at(supervisor.span);
             quote! {
                 #at
                 #number => {
-                    #rooms
+                    #scratch
                     let live = #call;
                     let watch = &mut self.supervisors.#field;
                     Fired::supervisor(cx.poll_supervisor(watch, live), #outputs)
@@ -179,11 +179,11 @@ fn start_arm(context: &Context<'_>, element: &Element, names: &ComponentNames) -
     match element.component {
         Component::Actor(id) => {
             let bound = elements::bound(context, element, names, id);
-            let Function { rooms, call, .. } = bound.inputs();
+            let Function { scratch, call, .. } = bound.inputs();
             quote! {
                 #at
                 #number => {
-                    #rooms
+                    #scratch
                     cx.start_actor(#call).map(Active::#variant)
                 }
             }
@@ -191,11 +191,11 @@ fn start_arm(context: &Context<'_>, element: &Element, names: &ComponentNames) -
         Component::Computation(id) => {
             let bound = elements::bound(context, element, names, id);
             let (marker, implementation) = (&bound.paths.marker, &bound.paths.implementation);
-            let (Function { rooms, call, .. }, outputs) = (bound.inputs(), bound.outputs().call);
+            let (Function { scratch, call, .. }, outputs) = (bound.inputs(), bound.outputs().call);
             quote! {
                 #at
                 #number => {
-                    #rooms
+                    #scratch
                     let computed = cx.compute::<#marker, #implementation>(#call);
                     return Started::computed(computed, #outputs);
                 }
@@ -256,11 +256,12 @@ fn poll_element(context: &Context<'_>) -> TokenStream {
         match element.component {
             Component::Actor(id) => {
                 let bound = elements::bound(context, element, names, id);
-                let (Function { rooms, call, .. }, outputs) = (bound.live(), bound.outputs().call);
+                let (Function { scratch, call, .. }, outputs) =
+                    (bound.live(), bound.outputs().call);
                 Some(quote! {
                     #at
                     Active::#variant(actor) => {
-                        #rooms
+                        #scratch
                         let live = #call;
                         Polled::actor(cx.poll_actor(actor, live), #outputs)
                     }

@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use crate::formula::reads;
 use crate::names::{Names, camel, ident, shout, snake};
-use crate::rust_type::Home;
+use crate::rust_type::TypePaths;
 use afp_dsl::graph::{Component, Formula, Graph, Output, Plan, PlanId, SupervisorId, TemplateId};
 use afp_dsl::rows::Rows;
 use afp_dsl::toolbox::{Template, Toolbox};
@@ -159,7 +159,7 @@ impl<'a> Context<'a> {
     }
 
     /// Gives the types as this plan's module sees them.
-    pub fn with_home<R>(&self, run: impl FnOnce(&Home<'_>) -> R) -> R {
+    pub fn with_type_paths<R>(&self, run: impl FnOnce(&TypePaths<'_>) -> R) -> R {
         let choice = &|choices: &Enum| self.enum_path(choices);
         let object = &|object: &Object| {
             let toolbox = self.graph.toolboxes.iter().find(|t| t.name == object.toolbox);
@@ -167,7 +167,7 @@ impl<'a> Context<'a> {
                 (path(toolbox.map_or("crate", |t| &t.rust_path)), ident(&camel(&object.name)));
             quote!(#home::#name)
         };
-        run(&Home { core: TokenStream::new(), quantity: TokenStream::new(), choice, object })
+        run(&TypePaths { core: TokenStream::new(), quantity: TokenStream::new(), choice, object })
     }
 
     /// The path of an enum, from the plan's module.
@@ -185,7 +185,7 @@ impl<'a> Context<'a> {
 
     /// The Rust type of a value.
     pub fn value_type(&self, ty: &Type) -> TokenStream {
-        self.with_home(|home| home.value(ty))
+        self.with_type_paths(|home| home.value(ty))
     }
 
     /// What an entry of a type holds.

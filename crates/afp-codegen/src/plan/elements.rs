@@ -158,7 +158,7 @@ fn given(
 ) -> Vec<TokenStream> {
     let ins = child.entries.iter().zip(fields).filter(|(entry, _)| entry.kind == EntryKind::In);
     let sets = ins.zip(&element.inputs).map(|((_, field), formula)| {
-        let value = context.with_home(|home| {
+        let value = context.with_type_paths(|home| {
             let value = Formulas::new(home, &context.entries).value(formula);
             let checked = matches!(formula.ty, Type::Quantity(_)) && !is_literal(formula);
             if checked { quote!(finite(#value)?) } else { value }
@@ -178,7 +178,7 @@ fn result(
 ) -> Option<TokenStream> {
     let output = element.outputs.iter().find(|output| output.port == port)?;
     let to = &context.entries[output.entry.index()];
-    let value = context.with_home(|home| match (&output.conversion, &entry.ty) {
+    let value = context.with_type_paths(|home| match (&output.conversion, &entry.ty) {
         (None, Type::Text | Type::Object(_)) => quote!(value.clone()),
         (None, Type::Quantity(_)) => quote!(finite(*value)?),
         (None, _) => quote!(*value),

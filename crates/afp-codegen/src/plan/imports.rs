@@ -59,7 +59,6 @@ pub const RT: &[&str] = &[
     "cos",
     "finite",
     "float_to_int",
-    "hold",
     "hypot",
     "int_abs",
     "int_add",
@@ -86,6 +85,7 @@ pub const RT: &[&str] = &[
     "sin",
     "sqrt",
     "stage_outside",
+    "store_text",
 ];
 /// What lives in `afp_core::quantity`.
 pub const QUANTITY: &[&str] = &[

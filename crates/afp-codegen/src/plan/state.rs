@@ -220,8 +220,8 @@ fn initialise(context: &Context<'_>) -> TokenStream {
     let set: Vec<_> = set
         .filter_map(|(entry, name)| {
             let formula = entry.init.as_ref()?;
-            let value =
-                context.with_home(|home| Formulas::new(home, &context.entries).value(formula));
+            let value = context
+                .with_type_paths(|home| Formulas::new(home, &context.entries).value(formula));
             let set = match (&entry.ty, is_literal(formula)) {
                 (_, true) => quote!(config.#name.set(#value);),
                 (Type::Quantity(_), false) => quote! {

@@ -5,7 +5,7 @@ use quote::quote;
 
 use crate::layout::doc;
 use crate::names::{Names, camel, ident, shout, snake};
-use crate::rust_type::{Home, float};
+use crate::rust_type::{TypePaths, float};
 use afp_dsl::toolbox::{
     Amount, Control, Device, Fault, Signal, SignalType, Toolbox, device::ROBOT,
 };
@@ -196,7 +196,7 @@ fn quantity(core: &TokenStream, amount: &Amount) -> TokenStream {
     home(core).quantity(amount.dimension)
 }
 
-fn home(core: &TokenStream) -> Home<'_> {
+fn home(core: &TokenStream) -> TypePaths<'_> {
     super::home(core)
 }
 

@@ -219,10 +219,10 @@ pub fn within_value(value: ValueRef<'_>) -> Result<(), Fault> {
     }
 }
 
-/// Keeps a computed text in `room` while inputs borrow it.
-pub fn hold(room: &mut Text, text: Text) -> &str {
-    *room = text;
-    room.as_str()
+/// Stores a computed text in `scratch` while inputs borrow it.
+pub fn store_text(scratch: &mut Text, text: Text) -> &str {
+    *scratch = text;
+    scratch.as_str()
 }
 
 /// The name of an enum's value.

@@ -9,7 +9,7 @@ use afp_core::devices::find_signal;
 use afp_core::trace::{ComponentId, Ending, Kind, Names, Record, TraceEntryId};
 use afp_core::{Fault, Instant, Value, WriteError};
 use afp_dsl::graph::Graph;
-use afp_log::{About, NameTable, SessionLog};
+use afp_log::{About, OwnedNames, SessionLog};
 use afp_run::inputs::missing;
 use afp_run::world::LoadedWorld;
 use afp_session::{
@@ -56,7 +56,7 @@ impl Run {
         }
         let world = &setting.world.world;
         let log = setting.log.map(|path| {
-            let (about, names) = (about(setting), NameTable::new(session.names()));
+            let (about, names) = (about(setting), OwnedNames::new(session.names()));
             SessionLog::create(path, &about, names, session.devices(), world.scene(), false)
         });
         let own_entries = setting.graph.main().entries.len();

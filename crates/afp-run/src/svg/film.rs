@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use afp_core::Instant;
 use afp_core::trace::{ComponentId, Names};
-use afp_log::{LogData, NameTable};
+use afp_log::{LogData, OwnedNames};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
@@ -112,7 +112,7 @@ fn head(svg: &mut String, log: &LogData, shown: usize) {
 fn draw(
     svg: &mut String,
     shot: &Shot<'_>,
-    names: &NameTable,
+    names: &OwnedNames,
     known: &[ComponentId],
     (x, y): (f64, f64),
 ) {

@@ -2,7 +2,7 @@
 
 use afp_core::Instant;
 use afp_core::trace::{ComponentId, Kind, Names};
-use afp_log::{LogData, NameTable, WORLD};
+use afp_log::{LogData, OwnedNames, WORLD};
 use std::sync::Arc;
 
 use afp_session::{AnyRobot, AnyWorld, EventKind, Mark, Pose2, RunEvent, Waypoint};
@@ -65,7 +65,7 @@ pub(super) fn subtitle(world: &dyn AnyWorld, log: &LogData) -> String {
 }
 
 /// The path with the actor at each point, and the events on it.
-pub(super) fn follow(log: &LogData, names: &NameTable) -> (Vec<Waypoint>, Vec<Mark>) {
+pub(super) fn follow(log: &LogData, names: &OwnedNames) -> (Vec<Waypoint>, Vec<Mark>) {
     let (mut path, mut marks) = (Vec::new(), Vec::new());
     let (mut actor, mut last) = (None, Pose2::default());
     let mut events = log.events.iter().peekable();

@@ -8,7 +8,7 @@ use afp_core::{
 };
 
 use super::config::{NewCell, ObjectCell};
-use super::slots::{ActorSlot, ComputationSlot, Home, SupervisorSlot};
+use super::slots::{ActorSlot, ComputationSlot, Slot, SupervisorSlot};
 
 type NewActor<E> = Box<dyn Fn() -> Box<dyn ActorSlot<E>> + Send + Sync>;
 type NewSupervisor<E> = Box<dyn Fn() -> Box<dyn SupervisorSlot<E>> + Send + Sync>;
@@ -138,7 +138,7 @@ impl<E: ?Sized + 'static> rt::Registry<E> for Registry<E> {
         for<'a> T::Live<'a>: FromArgs<'a>,
         T::State: Outcome,
     {
-        self.add_actor(toolbox, template, || Box::new(Home::<T, A>::new()));
+        self.add_actor(toolbox, template, || Box::new(Slot::<T, A>::new()));
     }
 
     fn supervisor<T, A>(&mut self, toolbox: &'static str, template: &'static str)
@@ -149,7 +149,7 @@ impl<E: ?Sized + 'static> rt::Registry<E> for Registry<E> {
         for<'a> T::Live<'a>: FromArgs<'a>,
         T::Event: Outcome,
     {
-        self.add_supervisor(toolbox, template, || Box::new(Home::<T, A>::new()));
+        self.add_supervisor(toolbox, template, || Box::new(Slot::<T, A>::new()));
     }
 
     fn computation<T, A>(&mut self, toolbox: &'static str, template: &'static str)
@@ -159,7 +159,7 @@ impl<E: ?Sized + 'static> rt::Registry<E> for Registry<E> {
         for<'a> T::Inputs<'a>: FromArgs<'a>,
         T::State: Outcome,
     {
-        self.add_computation(toolbox, template, || Box::new(Home::<T, A>::new()));
+        self.add_computation(toolbox, template, || Box::new(Slot::<T, A>::new()));
     }
 
     fn object<T: Clone + Send + 'static>(&mut self, toolbox: &'static str, name: &'static str) {

@@ -1,4 +1,4 @@
-//! Boxed homes of running components: made at load, filled and emptied by the scheduler.
+//! Boxed slots of running components: made at load, filled and emptied by the scheduler.
 
 use std::marker::PhantomData;
 
@@ -11,7 +11,7 @@ use afp_core::{
 /// Shows the inputs of a component, by port, to the trace; none when nobody listens.
 pub type See<'a> = Option<&'a mut dyn FnMut(u16, ValueRef<'_>)>;
 
-/// The home of an actor: what [`Actor`] says, for a template known at run time only.
+/// The slot of an actor: what [`Actor`] says, for a template known at run time only.
 ///
 /// At `start` all inputs are pulled, shown and checked against their ports' ranges, at `poll` those that
 /// are live.
@@ -51,7 +51,7 @@ pub trait ActorSlot<E: ?Sized>: Send {
     }
 }
 
-/// The home of a supervisor, as [`ActorSlot`] is of an actor.
+/// The slot of a supervisor, as [`ActorSlot`] is of an actor.
 pub trait SupervisorSlot<E: ?Sized>: Send {
     /// Makes the supervisor and begins to watch for the wanted events.
     ///
@@ -84,7 +84,7 @@ pub trait SupervisorSlot<E: ?Sized>: Send {
     }
 }
 
-/// A computation, which needs no home.
+/// A computation, which keeps nothing.
 pub trait ComputationSlot: Send {
     /// The state reached, its outputs handed over.
     ///
@@ -97,15 +97,15 @@ pub trait ComputationSlot: Send {
     }
 }
 
-/// The home of a component of type `A` and template `T`.
-pub struct Home<T, A> {
+/// The slot of a component of type `A` and template `T`.
+pub struct Slot<T, A> {
     running: Option<A>,
     template: PhantomData<fn() -> T>,
 }
 
-impl<T, A> Home<T, A> {
+impl<T, A> Slot<T, A> {
     pub fn new() -> Self {
-        Home { running: None, template: PhantomData }
+        Slot { running: None, template: PhantomData }
     }
 }
 
@@ -125,7 +125,7 @@ fn give(outcome: impl Outcome, to: &mut dyn Outputs) -> u16 {
     index
 }
 
-impl<T, A, E: ?Sized> ActorSlot<E> for Home<T, A>
+impl<T, A, E: ?Sized> ActorSlot<E> for Slot<T, A>
 where
     T: ActorTemplate + 'static,
     A: Actor<T, E> + Clone + Send + 'static,
@@ -167,11 +167,11 @@ where
     }
 
     fn try_clone(&self) -> Option<Box<dyn ActorSlot<E>>> {
-        Some(Box::new(Home::<T, A> { running: self.running.clone(), template: PhantomData }))
+        Some(Box::new(Slot::<T, A> { running: self.running.clone(), template: PhantomData }))
     }
 }
 
-impl<T, A, E: ?Sized> SupervisorSlot<E> for Home<T, A>
+impl<T, A, E: ?Sized> SupervisorSlot<E> for Slot<T, A>
 where
     T: SupervisorTemplate + 'static,
     A: Supervisor<T, E> + Clone + Send + 'static,
@@ -209,11 +209,11 @@ where
     }
 
     fn try_clone(&self) -> Option<Box<dyn SupervisorSlot<E>>> {
-        Some(Box::new(Home::<T, A> { running: self.running.clone(), template: PhantomData }))
+        Some(Box::new(Slot::<T, A> { running: self.running.clone(), template: PhantomData }))
     }
 }
 
-impl<T, A> ComputationSlot for Home<T, A>
+impl<T, A> ComputationSlot for Slot<T, A>
 where
     T: ComputationTemplate + 'static,
     A: Computation<T> + Send + 'static,
@@ -225,6 +225,6 @@ where
     }
 
     fn try_clone(&self) -> Option<Box<dyn ComputationSlot>> {
-        Some(Box::new(Home::<T, A>::new()))
+        Some(Box::new(Slot::<T, A>::new()))
     }
 }

@@ -99,7 +99,7 @@ impl Checker<'_> {
         };
         let from = from?;
         if let (Some(to), Some(path)) = (to, to_path)
-            && to.home != from.home
+            && to.instance != from.instance
         {
             let message = format!(
                 "'{}' and '{}' belong to different plans, so no edge joins them",
@@ -224,10 +224,10 @@ impl Checker<'_> {
         let names = path.names();
         let first = names.first()?;
         let paths = &self.paths;
-        let here = from.home;
+        let here = from.instance;
         let (found, rest) = match paths.names.cause(paths.main, here.place(), from.part, &names)? {
             resolve::Cause::Own(outcome) => return Some((from, Some(outcome))),
-            resolve::Cause::Near(part) => (Found { home: here, part }, &names[1..]),
+            resolve::Cause::Near(part) => (Found { instance: here, part }, &names[1..]),
             resolve::Cause::Inside(walk) => paths.arrived(here, walk, &names).ok()?,
             resolve::Cause::Outside(walk) => paths
                 .arrived(paths.main(), walk, &names)
@@ -318,7 +318,7 @@ impl Checker<'_> {
             None => each == Outcome::Special && element,
             _ => false,
         };
-        let main = found.home == self.paths.main();
+        let main = found.instance == self.paths.main();
         if main && all.filter(|each| outcome.is_none_or(|wanted| wanted == *each)).any(ends) {
             return Some(());
         }

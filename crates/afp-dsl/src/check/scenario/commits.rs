@@ -70,7 +70,7 @@ impl Checker<'_> {
         }
         let what = entry.map_or("any entry".to_owned(), |(_, path)| format!("'{}'", path.text()));
         let message = format!("'{}' does not write {what}", path.text());
-        let plan = self.paths.graph.plan(found.home.plan());
+        let plan = self.paths.graph.plan(found.instance.plan());
         let span = match found.part {
             Part::Element(id) => plan.elements[id.index()].span,
             Part::Supervisor(id) => plan.supervisors[id.index()].span,

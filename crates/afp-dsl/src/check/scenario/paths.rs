@@ -22,7 +22,7 @@ pub(super) struct Paths<'a> {
 
 /// One plan or sub-plan at its place among the numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Home {
+pub(super) struct Instance {
     /// By its place in [`crate::check::Program::plans`].
     place: usize,
     plan: PlanId,
@@ -36,12 +36,12 @@ pub(super) struct Home {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Found {
     /// The plan that it belongs to.
-    pub home: Home,
+    pub instance: Instance,
     /// What it is.
     pub part: Part,
 }
 
-impl Home {
+impl Instance {
     /// The plan.
     pub fn plan(self) -> PlanId {
         self.plan
@@ -59,12 +59,12 @@ impl<'a> Paths<'a> {
     }
 
     /// The plan that runs.
-    pub fn main(&self) -> Home {
-        Home { place: self.main, plan: self.graph.main, components: 1, entries: 0 }
+    pub fn main(&self) -> Instance {
+        Instance { place: self.main, plan: self.graph.main, components: 1, entries: 0 }
     }
 
-    fn plan(&self, home: Home) -> &'a Plan {
-        self.graph.plan(home.plan)
+    fn plan(&self, instance: Instance) -> &'a Plan {
+        self.graph.plan(instance.plan)
     }
 
     /// The component that the first of the names mean, and the names that are left.
@@ -73,41 +73,41 @@ impl<'a> Paths<'a> {
     /// There is none.
     pub fn find<'n>(
         &self,
-        home: Home,
+        instance: Instance,
         names: &'n [Name],
     ) -> Result<(Found, &'n [Name]), Box<Diagnostic>> {
-        self.arrived(home, self.names.component(home.place, names), names)
+        self.arrived(instance, self.names.component(instance.place, names), names)
     }
 
-    /// What a walk from `home` has led to, and the names that are left.
+    /// What a walk from `instance` has led to, and the names that are left.
     ///
     /// # Errors
     /// There is nothing.
     pub fn arrived<'n>(
         &self,
-        home: Home,
+        instance: Instance,
         walk: Walk<Part>,
         names: &'n [Name],
     ) -> Result<(Found, &'n [Name]), Box<Diagnostic>> {
-        let home = self.enter(home, &walk);
+        let instance = self.enter(instance, &walk);
         let part = walk.end?;
-        Ok((Found { home, part }, &names[walk.trail.len().min(names.len())..]))
+        Ok((Found { instance, part }, &names[walk.trail.len().min(names.len())..]))
     }
 
-    /// The plan in which a walk from `home` has ended.
-    fn enter<T>(&self, mut home: Home, walk: &Walk<T>) -> Home {
+    /// The plan in which a walk from `instance` has ended.
+    fn enter<T>(&self, mut instance: Instance, walk: &Walk<T>) -> Instance {
         for id in &walk.entered {
-            let element = &self.plan(home).elements[id.index()];
+            let element = &self.plan(instance).elements[id.index()];
             let Component::SubPlan(inner) = element.component else { break };
-            let child = self.graph.rows(home.plan).elements[id.index()].child;
-            home = Home {
+            let child = self.graph.rows(instance.plan).elements[id.index()].child;
+            instance = Instance {
                 place: walk.plan,
                 plan: inner,
-                components: home.components + child.components,
-                entries: home.entries + child.entries,
+                components: instance.components + child.components,
+                entries: instance.entries + child.entries,
             };
         }
-        home
+        instance
     }
 
     /// The entry that names mean, by its number, and where it is declared.
@@ -116,9 +116,9 @@ impl<'a> Paths<'a> {
     /// There is none.
     pub fn entry(&self, names: &[Name]) -> Result<(u32, PlanId, EntryId), Box<Diagnostic>> {
         let walk = self.names.entry(self.main, names);
-        let home = self.enter(self.main(), &walk);
+        let instance = self.enter(self.main(), &walk);
         let place = u16::try_from(walk.end?).unwrap_or(u16::MAX);
-        Ok((home.entries + u32::from(place), home.plan, EntryId(place)))
+        Ok((instance.entries + u32::from(place), instance.plan, EntryId(place)))
     }
 
     /// The components of the outermost plan, each with its dotted name.
@@ -138,8 +138,8 @@ impl<'a> Paths<'a> {
 
     /// The number of a component.
     pub fn number(&self, found: Found) -> u32 {
-        let plan = self.plan(found.home);
-        found.home.components
+        let plan = self.plan(found.instance);
+        found.instance.components
             + match found.part {
                 Part::Element(id) => u32::from(id.0),
                 Part::Supervisor(id) => plan.elements.len() as u32 + u32::from(id.0),
@@ -148,17 +148,17 @@ impl<'a> Paths<'a> {
 
     /// The entries that the component's outputs lead to, by their numbers.
     pub fn written(&self, found: Found) -> Vec<u32> {
-        let plan = self.plan(found.home);
+        let plan = self.plan(found.instance);
         let outputs = match found.part {
             Part::Element(id) => &plan.elements[id.index()].outputs,
             Part::Supervisor(id) => &plan.supervisors[id.index()].outputs,
         };
-        outputs.iter().map(|output| found.home.entries + u32::from(output.entry.0)).collect()
+        outputs.iter().map(|output| found.instance.entries + u32::from(output.entry.0)).collect()
     }
 
     /// The component's name.
     pub fn name(&self, found: Found) -> &'a str {
-        let plan = self.plan(found.home);
+        let plan = self.plan(found.instance);
         match found.part {
             Part::Element(id) => &plan.elements[id.index()].name,
             Part::Supervisor(id) => &plan.supervisors[id.index()].name,
@@ -168,14 +168,14 @@ impl<'a> Paths<'a> {
     /// What an element is made from; `None` for a supervisor.
     pub fn component(&self, found: Found) -> Option<Component> {
         match found.part {
-            Part::Element(id) => Some(self.plan(found.home).elements[id.index()].component),
+            Part::Element(id) => Some(self.plan(found.instance).elements[id.index()].component),
             Part::Supervisor(_) => None,
         }
     }
 
     /// The names of the component's states or events.
     pub fn outcomes(&self, found: Found) -> Vec<&'a str> {
-        self.names.outcomes(found.home.place, found.part)
+        self.names.outcomes(found.instance.place, found.part)
     }
 
     /// What its undeclared outcome is called.
@@ -185,12 +185,12 @@ impl<'a> Paths<'a> {
 
     /// A state or event of that name.
     pub fn outcome(&self, found: Found, name: &str) -> Option<Outcome> {
-        self.names.outcome(found.home.place, found.part, name)
+        self.names.outcome(found.instance.place, found.part, name)
     }
 
     /// Where a state or event leads; `None` where it is not connected.
     pub fn target(&self, found: Found, outcome: Outcome) -> Option<Target> {
-        let plan = self.plan(found.home);
+        let plan = self.plan(found.instance);
         match (found.part, outcome) {
             (Part::Element(id), Outcome::Declared(place)) => {
                 plan.elements[id.index()].states.get(usize::from(place)).copied().flatten()
@@ -205,7 +205,7 @@ impl<'a> Paths<'a> {
 
     /// Where the edge of an outcome stands, or else the component.
     pub fn edge(&self, found: Found, outcome: Outcome) -> Span {
-        let plan = self.plan(found.home);
+        let plan = self.plan(found.instance);
         let (edges, span) = match found.part {
             Part::Element(id) => {
                 let element = &plan.elements[id.index()];
@@ -226,12 +226,12 @@ impl<'a> Paths<'a> {
     /// Everything that can end an element: itself, its supervisors, the global ones of its plan.
     pub fn causes(&self, element: Found) -> Vec<(Found, Outcome)> {
         let Part::Element(id) = element.part else { return Vec::new() };
-        let plan = self.plan(element.home);
+        let plan = self.plan(element.instance);
         let locals = plan.elements[id.index()].supervisors.iter().copied();
         let globals = (0..plan.globals).map(SupervisorId);
         let supervisors = locals.chain(globals);
         let all = supervisors
-            .map(|id| Found { home: element.home, part: Part::Supervisor(id) })
+            .map(|id| Found { instance: element.instance, part: Part::Supervisor(id) })
             .chain([element]);
         all.flat_map(|found| {
             let declared = 0..u16::try_from(self.outcomes(found).len()).unwrap_or(0);
@@ -246,7 +246,7 @@ impl<'a> Paths<'a> {
         found: Found,
         outcome: u16,
     ) -> Vec<(u16, &'a OutPort, crate::types::Type)> {
-        outputs(self.graph, found.home.plan, found.part, outcome)
+        outputs(self.graph, found.instance.plan, found.part, outcome)
     }
 }
 
