@@ -40,6 +40,7 @@ impl ::afp_core::rt::Stored for Mood {
 }
 
 impl ::afp_core::rt::Any for Mood {}
+impl ::afp_core::rt::Discrete for Mood {}
 impl ::afp_core::rt::Writable for Mood {
     fn from_value(
         value: &::afp_core::Value,

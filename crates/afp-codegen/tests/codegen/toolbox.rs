@@ -37,6 +37,7 @@ impl ::afp_core::rt::Stored for Side {
 }
 
 impl ::afp_core::rt::Any for Side {}
+impl ::afp_core::rt::Discrete for Side {}
 impl ::afp_core::rt::Writable for Side {
     fn from_value(
         value: &::afp_core::Value,
