@@ -186,7 +186,7 @@ impl Checker<'_> {
         let home = home.rsplit_once('.').map_or(String::new(), |(home, _)| format!("{home}."));
         let name = |target| match target {
             Target::Element(id) => {
-                let found = Found { home: from.home, part: Part::Element(id) };
+                let found = Found { instance: from.instance, part: Part::Element(id) };
                 Some(format!("{home}{}", self.paths.name(found)))
             }
             Target::Terminate => Some("terminate".to_owned()),

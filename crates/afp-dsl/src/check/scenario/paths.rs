@@ -123,15 +123,16 @@ impl<'a> Paths<'a> {
 
     /// The components of the outermost plan, each with its dotted name.
     pub fn components(&self) -> impl Iterator<Item = (String, Found)> {
-        let (home, plan) = (self.main(), self.graph.main());
+        let (instance, plan) = (self.main(), self.graph.main());
         let elements = (0..).map(ElementId).zip(&plan.elements);
-        let elements = elements
-            .map(move |(id, each)| (each.name.clone(), Found { home, part: Part::Element(id) }));
+        let elements = elements.map(move |(id, each)| {
+            (each.name.clone(), Found { instance, part: Part::Element(id) })
+        });
         let supervisors = (0..).map(SupervisorId).zip(&plan.supervisors);
         let supervisors = supervisors.map(move |(id, each)| {
             let owner = each.owner.and_then(|owner| plan.elements.get(owner.index()));
             let owner = owner.map_or(String::new(), |owner| format!("{}.", owner.name));
-            (format!("{owner}{}", each.name), Found { home, part: Part::Supervisor(id) })
+            (format!("{owner}{}", each.name), Found { instance, part: Part::Supervisor(id) })
         });
         supervisors.chain(elements)
     }
