@@ -5,8 +5,9 @@
 //! cannot disagree: 0 is the outermost plan; then come its elements and its supervisors, then, element
 //! by element, the blocks of its sub-plans, laid out alike. Entries are numbered the same way.
 
-use crate::graph::{Component, EntryKind, Graph, Plan, PlanId, Target};
+use crate::graph::{Component, EdgeSpans, EntryKind, Graph, Plan, PlanId, Target};
 use crate::types::Type;
+use afp_syntax::source::Span;
 
 /// What a component is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,6 +51,10 @@ pub struct EntryNames {
     pub kind: EntryKind,
     /// Its type.
     pub ty: Type,
+    /// The plan that it belongs to, which goes by the number of its element; 0 is the outermost.
+    pub plan: u32,
+    /// The name in the text.
+    pub span: Span,
 }
 
 /// All components and entries of a running plan, by number.
@@ -73,6 +78,12 @@ pub struct Place {
     pub outcomes: Vec<Option<Goal>>,
     /// Where its `Error` or `DeadlineMissed` leads.
     pub special: Option<Goal>,
+    /// The name in the text.
+    pub span: Span,
+    /// Where its edges stand in the text.
+    pub edges: EdgeSpans,
+    /// The types of its inputs, by port.
+    pub inputs: Vec<Type>,
 }
 
 /// Where an edge leads.
@@ -88,7 +99,7 @@ pub enum Goal {
 
 /// The place of each component, by its number.
 pub fn places(graph: &Graph) -> Vec<Place> {
-    let mut all = vec![Place::default()];
+    let mut all = vec![Place { span: graph.main().span, ..Place::default() }];
     add_places(graph, graph.main, 0, &mut all);
     all
 }
@@ -106,12 +117,18 @@ fn add_places(graph: &Graph, id: PlanId, number: u32, all: &mut Vec<Place>) {
         owner: None,
         outcomes: element.states.iter().map(|state| state.map(goal)).collect(),
         special: element.on_error.map(goal),
+        span: element.span,
+        edges: element.edges.clone(),
+        inputs: element.inputs.iter().map(|input| input.ty.clone()).collect(),
     }));
     all.extend(plan.supervisors.iter().map(|supervisor| Place {
         plan: number,
         owner: supervisor.owner.map(|id| first + u32::from(id.0)),
         outcomes: supervisor.events.iter().map(|event| Some(goal(*event))).collect(),
         special: supervisor.on_miss.map(goal),
+        span: supervisor.span,
+        edges: supervisor.edges.clone(),
+        inputs: supervisor.inputs.iter().map(|input| input.ty.clone()).collect(),
     }));
     for (element, number) in plan.elements.iter().zip(first..) {
         if let Component::SubPlan(child) = element.component {
@@ -132,15 +149,17 @@ pub fn unfold(graph: &Graph) -> Unfolded {
         special: String::new(),
         inputs: Vec::new(),
     });
-    add(graph, graph.main, "", &mut all);
+    add(graph, graph.main, 0, "", &mut all);
     all
 }
 
-fn add(graph: &Graph, id: PlanId, prefix: &str, all: &mut Unfolded) {
+fn add(graph: &Graph, id: PlanId, number: u32, prefix: &str, all: &mut Unfolded) {
     let plan = graph.plan(id);
+    let first = all.components.len() as u32;
     for entry in &plan.entries {
         let path = format!("{prefix}{}", entry.name);
-        all.entries.push(EntryNames { path, kind: entry.kind, ty: entry.ty.clone() });
+        let (ty, span) = (entry.ty.clone(), entry.span);
+        all.entries.push(EntryNames { path, kind: entry.kind, ty, plan: number, span });
     }
     for index in 0..plan.elements.len() {
         all.components.push(element(graph, plan, index, prefix));
@@ -148,9 +167,9 @@ fn add(graph: &Graph, id: PlanId, prefix: &str, all: &mut Unfolded) {
     for index in 0..plan.supervisors.len() {
         all.components.push(supervisor(graph, plan, index, prefix));
     }
-    for element in &plan.elements {
+    for (element, number) in plan.elements.iter().zip(first..) {
         if let Component::SubPlan(child) = element.component {
-            add(graph, child, &format!("{prefix}{}.", element.name), all);
+            add(graph, child, number, &format!("{prefix}{}.", element.name), all);
         }
     }
 }

@@ -32,7 +32,7 @@ pub use error::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, EXIT_USAGE, RunError};
 pub use hash::hash;
 pub use output::{check_writable, write_whole};
 pub use picture::{PictureFormat, Rasterizer};
-pub use report::{event_line, line, quantity, timeline};
+pub use report::{event_line, line, timeline};
 pub use run::{MakeSession, run};
 pub use stderr::{say, warn};
 pub use stop::StopFlag;

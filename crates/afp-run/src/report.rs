@@ -15,7 +15,6 @@ use afp_session::{Applied, EventKind, NamedRecord, Observer, RunEvent};
 
 use progress::Progress;
 pub(crate) use summary::{Ran, Requests, StoppedBy, Summary};
-pub use timeline::quantity;
 
 /// The timeline of a log, line by line.
 pub fn timeline(log: &LogData) -> impl Iterator<Item = String> {

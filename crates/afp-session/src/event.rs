@@ -3,6 +3,7 @@
 //! Timelines, lines of JSON, Python and logs read this; a log's file alone has another form of it.
 
 mod named;
+mod shown;
 
 use afp_core::trace::{Author, Cause, ComponentId, Ending, Names, Record, TraceEntryId, Verdict};
 use afp_core::{Duration, Fault, Instant, Value, ValueRef};
@@ -10,6 +11,8 @@ use afp_core::{Duration, Fault, Instant, Value, ValueRef};
 use crate::stimulus::Stimulus;
 
 use named::Namer;
+
+pub use shown::quantity;
 
 /// One thing that happened in a run. What does not apply to its kind is empty.
 #[derive(Clone, Debug, PartialEq)]

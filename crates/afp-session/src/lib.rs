@@ -41,7 +41,9 @@ mod world;
 
 pub use any::{AnySession, SetError};
 pub use counts::{Counts, Usage};
-pub use event::{Datum, Done, EndingKind, EventKind, Miss, OUTSIDE, Requested, RunEvent, author};
+pub use event::{
+    Datum, Done, EndingKind, EventKind, Miss, OUTSIDE, Requested, RunEvent, author, quantity,
+};
 pub use faults::{Active, Faults};
 pub use figures::{Figure, FigureValue, Figures, Span};
 pub use observer::{Applied, Gate, Go, NamedRecord, Observer, Open, Sampling, View};

@@ -17,8 +17,7 @@ use afp_dsl::scenario::{
 use afp_dsl::toolbox::Constant;
 use afp_dsl::unfold::{Goal, Place, places};
 
-use afp_run::quantity;
-use afp_session::SampleRef;
+use afp_session::{SampleRef, quantity};
 
 use crate::verdict::Broken;
 use hits::Hits;

@@ -6,7 +6,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::commands::{
-    build, check, completions, explain, fmt, graph, later, log, lsp, new, print, run, sweep,
+    build, check, completions, dap, explain, fmt, graph, later, log, lsp, new, print, run, sweep,
     templates, test,
 };
 use crate::plan_file::NoPlan;
@@ -58,6 +58,9 @@ pub enum Command {
     /// Serves editors over standard input and output: the Language Server Protocol
     #[command(after_help = lsp::EXAMPLES)]
     Lsp,
+    /// Serves debuggers: the Debug Adapter Protocol over a simulated run
+    #[command(after_help = dap::EXAMPLES)]
+    Dap(dap::Arguments),
     /// Prints completions for a shell
     #[command(after_help = completions::EXAMPLES)]
     Completions(completions::Arguments),

@@ -3,6 +3,7 @@
 pub mod build;
 pub mod check;
 pub mod completions;
+pub mod dap;
 pub mod explain;
 pub mod fmt;
 pub mod graph;
@@ -42,6 +43,7 @@ pub fn dispatch(command: &Command, linked: &Linked<'_>) -> ExitCode {
         Command::Lsp => lsp::run(),
         Command::New(arguments) => new::run(arguments),
         Command::Templates(arguments) => templates::run(arguments),
+        Command::Dap(arguments) => dap::run(arguments, linked),
         Command::Completions(arguments) => completions::run(arguments),
     };
     match result {

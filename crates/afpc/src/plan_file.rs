@@ -1,5 +1,6 @@
 //! From a file's name to a checked plan.
 
+use std::fmt;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -30,6 +31,15 @@ pub enum NoPlan {
     File(RunError),
     /// The plan is wrong; it has been said.
     Wrong,
+}
+
+impl fmt::Display for NoPlan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoPlan::File(error) => error.fmt(f),
+            NoPlan::Wrong => f.write_str("the plan has errors"),
+        }
+    }
 }
 
 impl From<RunError> for NoPlan {

@@ -30,6 +30,15 @@ pub fn become_one_for<'a>(
     Parts::of_plans(plans)?.map_or(Ok(()), |parts| become_one(parts, linked))
 }
 
+/// Whether this program has the robot and the toolboxes of a plan.
+///
+/// # Errors
+/// A robot or a toolbox without a crate.
+pub fn is_linked(own: &OwnToolboxes, graph: &Graph, linked: &Linked<'_>) -> Result<bool, NoPlan> {
+    let parts = Parts::of_plans([(own, graph)])?;
+    Ok(parts.is_none_or(|parts| parts.are_in(linked.own_robot, linked.toolboxes)))
+}
+
 /// Comes back when this program has the robot of a project; otherwise goes on as one that has.
 ///
 /// # Errors

@@ -78,7 +78,7 @@ fn component(names: &ComponentNames) -> TokenStream {
 }
 
 fn entry(names: &EntryNames) -> TokenStream {
-    let EntryNames { path, kind, ty } = names;
+    let EntryNames { path, kind, ty, .. } = names;
     let kind = match kind {
         EntryKind::In => quote!(In),
         EntryKind::Out => quote!(Out),

@@ -3,7 +3,6 @@
 use std::fmt::Write;
 
 use afp_core::trace::Cause;
-use afp_number::Rounded;
 use afp_session::{Datum, Done, EndingKind, EventKind, Requested, RunEvent, Stimulus};
 use anstyle::{AnsiColor, Style};
 
@@ -80,7 +79,7 @@ fn requested(request: &Requested) -> String {
 /// A stimulus with its quantities as people write them.
 pub(super) fn stimulus(what: &Stimulus) -> String {
     match what {
-        Stimulus::Write { entry, value, unit } => format!("set {entry} = {}", datum(value, unit)),
+        Stimulus::Write { entry, value, unit } => format!("set {entry} = {}", value.in_unit(unit)),
         other => other.to_string(),
     }
 }
@@ -101,44 +100,10 @@ fn missed(event: &RunEvent) -> String {
 }
 
 fn commit(event: &RunEvent) -> String {
-    let show = |value: &Option<Datum>| datum(value.as_ref().unwrap_or(&Datum::Unset), &event.unit);
+    let show = |value: &Option<Datum>| value.as_ref().unwrap_or(&Datum::Unset).in_unit(&event.unit);
     let (entry, old, new) = (&event.entry, show(&event.old), show(&event.value));
     let author = &event.component;
     format!("{DATA}◆ {entry}: {old} → {new}{DATA:#}  {QUIET}by {author}{QUIET:#}")
-}
-
-/// A value as people write it.
-fn datum(value: &Datum, unit: &str) -> String {
-    match value {
-        Datum::Number(number) => quantity(*number, unit),
-        other => other.to_string(),
-    }
-}
-
-/// A number of an SI unit as people write it: angles in degrees; less than a metre in centimetres, less than a
-/// second in milliseconds.
-pub fn quantity(number: f64, unit: &str) -> String {
-    match unit {
-        "" => Rounded(number, 3).to_string(),
-        "rad" => format!("{} deg", Rounded(number.to_degrees(), 3)),
-        "rad/s" => format!("{} deg/s", Rounded(number.to_degrees(), 3)),
-        "m" => whole_or_parts(number, "m", "cm", 2),
-        "m/s" => whole_or_parts(number, "m/s", "cm/s", 2),
-        "s" => whole_or_parts(number, "s", "ms", 3),
-        unit => format!("{} {unit}", Rounded(number, 3)),
-    }
-}
-
-/// A number from one on in its unit, below in parts of it that are so many powers of ten smaller; told
-/// to the thousandth of a part.
-fn whole_or_parts(number: f64, unit: &str, part: &str, power: u8) -> String {
-    let parts = 10_f64.powi(power.into());
-    let told = (number * parts * 1e3).round() / (parts * 1e3);
-    if told.abs() < 1.0 {
-        format!("{} {part}", Rounded(told * parts, 3))
-    } else {
-        format!("{} {unit}", Rounded(told, usize::from(power) + 3))
-    }
 }
 
 fn ended(event: &RunEvent) -> String {
@@ -155,35 +120,4 @@ fn ended(event: &RunEvent) -> String {
         None => "somehow".to_owned(),
     };
     format!("{style}■ {component} ended: {how}{style:#}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::quantity;
-
-    #[test]
-    fn values_read_as_people_write_them() {
-        for (number, unit, text) in [
-            (0.3, "m", "30 cm"),
-            (0.123_456, "m", "12.346 cm"),
-            (0.999_999_9, "m", "1 m"),
-            (1.0, "m", "1 m"),
-            (-2.5, "m", "-2.5 m"),
-            (1.234_56, "m", "1.23456 m"),
-            (100.0, "m", "100 m"),
-            (0.0, "m", "0 cm"),
-            (0.31, "m/s", "31 cm/s"),
-            (-2.0, "m/s", "-2 m/s"),
-            (0.02, "s", "20 ms"),
-            (0.000_4, "s", "0.4 ms"),
-            (90.0, "s", "90 s"),
-            (1.5, "s", "1.5 s"),
-            (std::f64::consts::FRAC_PI_2, "rad", "90 deg"),
-            (-std::f64::consts::PI, "rad/s", "-180 deg/s"),
-            (7.4, "V", "7.4 V"),
-            (0.25, "", "0.25"),
-        ] {
-            assert_eq!(quantity(number, unit), text);
-        }
-    }
 }

@@ -3,8 +3,7 @@
 use afp_core::devices::{DeviceRow, SignalId, SignalType, find_signal, signals};
 use afp_dsl::scenario::{Claim, Field, Operand, Part, Scenario, Subject};
 use afp_dsl::toolbox::Constant;
-use afp_run::quantity;
-use afp_session::SampleRef;
+use afp_session::{SampleRef, quantity};
 
 /// The signals that expectations are about, with what they said last.
 #[derive(Default)]

@@ -1,0 +1,313 @@
+//! What a client can look at while a run stands still: threads, stacks, values.
+
+use afp_core::trace::{ComponentId, TraceEntryId};
+use afp_dsl::graph::EntryKind;
+use afp_dsl::unfold::Kind;
+use serde_json::Value;
+
+use super::launch::FLOW;
+use super::stop::source;
+use super::{Adapter, Answer, Refusal};
+use crate::program::{Program, Unit};
+
+/// What a number for variables stands for: three bits of this below the number of a component.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Group {
+    /// The entries of a plan.
+    Entries,
+    /// What a component started with.
+    Inputs,
+    /// The supervisors of an element.
+    Supervisors,
+    /// Reports and deadlines of a supervisor.
+    Timing,
+}
+
+impl Group {
+    const ALL: [Group; 4] = [Group::Entries, Group::Inputs, Group::Supervisors, Group::Timing];
+
+    fn reference(self, id: ComponentId) -> u32 {
+        let kind = Group::ALL.iter().position(|known| *known == self).unwrap_or(0) as u32;
+        (id.0 << 3 | kind) + 1
+    }
+
+    fn of(reference: u32) -> Option<(Group, ComponentId)> {
+        let number = reference.checked_sub(1)?;
+        let group = Group::ALL.get((number & 7) as usize)?;
+        Some((*group, ComponentId(number >> 3)))
+    }
+}
+
+impl Adapter<'_> {
+    pub(super) fn threads(&mut self) -> Answer<Value> {
+        let run = self.run()?;
+        let program = run.target.program();
+        let thread = |id: ComponentId| {
+            let path = program.unit(id).map_or_else(String::new, |unit| unit.path.clone());
+            dapts::Thread { id: u64::from(id.0) + 1, name: path }
+        };
+        let watching = run.target.state().watching();
+        let threads: Vec<_> = std::iter::once(FLOW).chain(watching).map(thread).collect();
+        serde_json::to_value(dapts::ThreadsResponse { threads })
+            .map_err(|why| Refusal(why.to_string()))
+    }
+
+    pub(super) fn stack_trace(
+        &mut self,
+        asked: dapts::StackTraceArguments,
+    ) -> Answer<dapts::StackTraceResponse> {
+        let client = self.client;
+        let run = self.run()?;
+        let program = run.target.program();
+        let thread = u32::try_from(asked.thread_id.saturating_sub(1)).unwrap_or(u32::MAX);
+        let mut stack = match thread {
+            0 => run.target.state().stack(),
+            other => vec![ComponentId(other)],
+        };
+        stack.reverse();
+        if stack.is_empty() {
+            stack.push(FLOW);
+        }
+        let frame = |id: ComponentId| {
+            let unit = program.unit(id)?;
+            Some(dapts::StackFrame {
+                id: u64::from(id.0) + 1,
+                name: frame_name(unit),
+                line: unit.at.line + client.first_line,
+                column: unit.at.column + client.first_column,
+                source: source(program, unit.at.file),
+                can_restart: None,
+                end_column: None,
+                end_line: None,
+                instruction_pointer_reference: None,
+                module_id: None,
+                presentation_hint: None,
+            })
+        };
+        let frames: Vec<_> = stack.into_iter().filter_map(frame).collect();
+        let total = Some(frames.len() as u64);
+        let skip = usize::try_from(asked.start_frame.unwrap_or(0)).unwrap_or(usize::MAX);
+        let levels = asked.levels.filter(|levels| *levels > 0).unwrap_or(u64::MAX);
+        let take = usize::try_from(levels).unwrap_or(usize::MAX);
+        let stack_frames = frames.into_iter().skip(skip).take(take).collect();
+        Ok(dapts::StackTraceResponse { stack_frames, total_frames: total })
+    }
+
+    pub(super) fn scopes(
+        &mut self,
+        asked: dapts::ScopesArguments,
+    ) -> Answer<dapts::ScopesResponse> {
+        let id = component(asked.frame_id);
+        let program = self.run()?.target.program().clone();
+        let unit = program.unit(id).ok_or("there is no such frame")?;
+        let groups = match unit.kind {
+            Kind::Plan => vec![("Entries", Group::Entries, FLOW)],
+            Kind::Supervisor => vec![
+                ("Timing", Group::Timing, id),
+                ("Inputs", Group::Inputs, id),
+                ("Entries", Group::Entries, unit.plan),
+            ],
+            Kind::Actor | Kind::SubPlan | Kind::Computation => vec![
+                ("Inputs", Group::Inputs, id),
+                ("Entries", Group::Entries, unit.plan),
+                ("Supervisors", Group::Supervisors, id),
+            ],
+        };
+        let scope = |(name, group, of): (&str, Group, ComponentId)| dapts::Scope {
+            name: name.to_owned(),
+            variables_reference: group.reference(of),
+            expensive: false,
+            presentation_hint: Some(match group {
+                Group::Inputs => dapts::ScopePresentationHint::Arguments,
+                Group::Entries => dapts::ScopePresentationHint::Locals,
+                Group::Supervisors | Group::Timing => dapts::ScopePresentationHint::Registers,
+            }),
+            column: None,
+            end_column: None,
+            end_line: None,
+            indexed_variables: None,
+            line: None,
+            named_variables: None,
+            source: None,
+        };
+        Ok(dapts::ScopesResponse { scopes: groups.into_iter().map(scope).collect() })
+    }
+
+    pub(super) fn variables(
+        &mut self,
+        asked: dapts::VariablesArguments,
+    ) -> Answer<dapts::VariablesResponse> {
+        let (group, id) = Group::of(asked.variables_reference).ok_or("there is no such scope")?;
+        let variables = match group {
+            Group::Entries => self.entries_of(id)?,
+            Group::Inputs => self.inputs_of(id)?,
+            Group::Supervisors => self.supervisors_of(id)?,
+            Group::Timing => self.timing_of(id)?,
+        };
+        Ok(dapts::VariablesResponse { variables })
+    }
+
+    fn entries_of(&mut self, plan: ComponentId) -> Answer<Vec<dapts::Variable>> {
+        let run = self.run()?;
+        let (program, state) = (run.target.program(), run.target.state());
+        let entries = (0..).zip(&program.entries).filter(|(_, entry)| entry.plan == plan);
+        let shown = entries.map(|(number, entry)| {
+            let value = state.entry(TraceEntryId(number));
+            let value = value.map_or("unset".to_owned(), |value| value.in_unit(&entry.unit));
+            let fixed = entry.kind == EntryKind::Const || plan != FLOW;
+            let hint = fixed.then(|| dapts::VariablePresentationHint {
+                attributes: Some(vec![dapts::VariablePresentationHintAttributes::ReadOnly]),
+                kind: None,
+                lazy: None,
+                visibility: None,
+            });
+            dapts::Variable {
+                ty: Some(entry.ty.clone()),
+                evaluate_name: Some(entry.path.clone()),
+                presentation_hint: hint,
+                ..variable(&entry.name, value)
+            }
+        });
+        Ok(shown.collect())
+    }
+
+    fn inputs_of(&mut self, id: ComponentId) -> Answer<Vec<dapts::Variable>> {
+        let run = self.run()?;
+        let ports = run.target.program().unit(id).map_or(&[][..], |unit| &unit.inputs);
+        let unit =
+            |name: &str| ports.iter().find(|port| port.0 == name).map_or("", |port| &*port.1);
+        let inputs = run.target.state().inputs(id);
+        Ok(inputs.map(|(name, value)| variable(name, value.in_unit(unit(name)))).collect())
+    }
+
+    /// The supervisors that watch while an element is active, with what they reported last.
+    fn supervisors_of(&mut self, element: ComponentId) -> Answer<Vec<dapts::Variable>> {
+        let run = self.run()?;
+        let (program, state) = (run.target.program(), run.target.state());
+        let plan = program.unit(element).map(|unit| unit.plan);
+        let concerns = |unit: &Unit| match unit.owner {
+            Some(owner) => owner == element,
+            None => Some(unit.plan) == plan,
+        };
+        let watching = state.watching().filter_map(|id| Some((id, program.unit(id)?)));
+        let shown = watching.filter(|(_, unit)| concerns(unit)).map(|(id, unit)| {
+            let said = match state.report(id) {
+                Some((at, event)) => format!("{event} at {:.3} s", at.as_secs_f64()),
+                None => "clear".to_owned(),
+            };
+            let reference = Group::Timing.reference(id);
+            dapts::Variable { variables_reference: reference, ..variable(&unit.name, said) }
+        });
+        Ok(shown.collect())
+    }
+
+    fn timing_of(&mut self, supervisor: ComponentId) -> Answer<Vec<dapts::Variable>> {
+        let state = self.run()?.target.state();
+        let report = state.report(supervisor);
+        let said = report.map_or("nothing yet".to_owned(), |(at, event)| {
+            format!("{event} at {:.3} s", at.as_secs_f64())
+        });
+        let mut all = vec![variable("last report", said)];
+        match state.misses(supervisor) {
+            None => all.push(variable("deadlines missed", "0".to_owned())),
+            Some((count, last)) => {
+                let late = format!("{:.3} ms", last.lateness.as_secs_f64() * 1e3);
+                all.push(variable("deadlines missed", count.to_string()));
+                all.push(variable("last lateness", late));
+            }
+        }
+        Ok(all)
+    }
+
+    pub(super) fn set_variable(
+        &mut self,
+        asked: dapts::SetVariableArguments,
+    ) -> Answer<dapts::SetVariableResponse> {
+        match Group::of(asked.variables_reference) {
+            Some((Group::Entries, FLOW)) => {}
+            _ => {
+                return Err("only entries of the outermost plan can be written from outside".into());
+            }
+        }
+        let value = self.run()?.target.set(&asked.name, asked.value.trim())?;
+        Ok(dapts::SetVariableResponse { value, ..dapts::SetVariableResponse::default() })
+    }
+
+    /// The value of an entry; with `=`, writes it.
+    pub(super) fn evaluate(
+        &mut self,
+        asked: dapts::EvaluateArguments,
+    ) -> Answer<dapts::EvaluateResponse> {
+        let plan = self.plan_of(None, asked.frame_id)?;
+        let run = self.run()?;
+        let program = run.target.program().clone();
+        let find = |name: &str| program.entry(plan, name.trim());
+        if let Some((name, value)) = asked.expression.split_once('=') {
+            let entry = find(name).and_then(|id| program.entries.get(id.0 as usize));
+            let path = entry.map_or(name.trim(), |entry| &*entry.path);
+            let result = run.target.set(path, value.trim())?;
+            return Ok(dapts::EvaluateResponse { result, ..dapts::EvaluateResponse::default() });
+        }
+        let name = asked.expression.trim();
+        let found = find(name).and_then(|id| Some((id, program.entries.get(id.0 as usize)?)));
+        let (id, entry) = found.ok_or_else(|| Refusal(unknown(name, &program, plan)))?;
+        let value = run.target.state().entry(id);
+        Ok(dapts::EvaluateResponse {
+            result: value.map_or("unset".to_owned(), |value| value.in_unit(&entry.unit)),
+            ty: Some(entry.ty.clone()),
+            ..dapts::EvaluateResponse::default()
+        })
+    }
+
+    /// The plan that a client looks into.
+    pub(super) fn plan_of(
+        &mut self,
+        scope: Option<u32>,
+        frame: Option<u64>,
+    ) -> Answer<ComponentId> {
+        let program = self.run()?.target.program();
+        let of_scope = scope.and_then(Group::of).and_then(|(group, id)| match group {
+            Group::Entries => Some(id),
+            _ => program.unit(id).map(|unit| unit.plan),
+        });
+        let of_frame = || Some(program.unit(component(frame?))?.plan);
+        Ok(of_scope.or_else(of_frame).unwrap_or(FLOW))
+    }
+}
+
+fn unknown(name: &str, program: &Program, plan: ComponentId) -> String {
+    let entries = program.entries.iter().filter(|entry| entry.plan == plan);
+    let names: Vec<_> = entries.map(|entry| &*entry.name).collect();
+    match names.is_empty() {
+        true => format!("'{name}' is no entry, and this plan has none"),
+        false => format!("'{name}' is no entry of this plan; it has {}", names.join(", ")),
+    }
+}
+
+/// The component behind the number of a frame.
+fn component(frame: u64) -> ComponentId {
+    ComponentId(u32::try_from(frame.saturating_sub(1)).unwrap_or(u32::MAX))
+}
+
+fn frame_name(unit: &Unit) -> String {
+    match unit.kind {
+        Kind::Plan => unit.path.clone(),
+        _ => format!("{}: {}", unit.path, unit.template),
+    }
+}
+
+fn variable(name: &str, value: String) -> dapts::Variable {
+    dapts::Variable {
+        name: name.to_owned(),
+        value,
+        variables_reference: 0,
+        declaration_location_reference: None,
+        evaluate_name: None,
+        indexed_variables: None,
+        memory_reference: None,
+        named_variables: None,
+        presentation_hint: None,
+        ty: None,
+        value_location_reference: None,
+    }
+}

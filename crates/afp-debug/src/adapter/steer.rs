@@ -1,0 +1,391 @@
+//! Letting time pass: until something holds the run.
+
+use std::time::Duration as Wall;
+
+use afp_core::devices::{find_control, find_fault};
+use afp_core::trace::ComponentId;
+use afp_core::{Duration, Instant};
+use afp_session::{EventKind, HOLD, Request};
+use dapts::{SteppingGranularity, StoppedEventReason as Reason};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use super::{Adapter, Answer, Refusal, Run, parse};
+use crate::breakpoints::Hits;
+use crate::target::{Advance, Happened, Position};
+
+/// How many instants pass between two looks at the client, where nothing holds time back.
+const BATCH: usize = 2_000;
+
+/// How much time on the wall lies between two messages about what is the case.
+const STATES: Wall = Wall::from_millis(50);
+
+/// How a run goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Mode {
+    /// It stands still.
+    Held,
+    /// Until something holds it.
+    On,
+    /// Until the next transition of a plan, or the end of that plan.
+    Next(ComponentId),
+    /// Until the next transition of any plan.
+    Into,
+    /// Until a sub-plan has ended.
+    Out(ComponentId),
+    /// One step of the scheduler.
+    One,
+    /// The plan has ended.
+    Over,
+}
+
+/// How fast time passes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pace {
+    /// A multiple of time on the wall; none is as fast as it can be computed.
+    factor: Option<f64>,
+    /// The two times when it began to pass.
+    since: (Instant, Wall),
+}
+
+impl Pace {
+    pub fn new(factor: Option<f64>, at: Instant, now: Wall) -> Pace {
+        Pace { factor, since: (at, now) }
+    }
+
+    /// The instant that is now.
+    fn limit(&self, now: Wall) -> Instant {
+        let (at, wall) = self.since;
+        match self.factor {
+            None => Instant::MAX,
+            Some(factor) => {
+                let passed = now.saturating_sub(wall).as_secs_f64() * factor;
+                at + Duration::from_nanos((passed * 1e9) as u64)
+            }
+        }
+    }
+}
+
+#[derive(Deserialize)]
+struct Step {
+    granularity: Option<SteppingGranularity>,
+}
+
+#[derive(Deserialize)]
+struct Press {
+    control: String,
+    held: Option<bool>,
+}
+
+#[derive(Deserialize)]
+struct Break {
+    fault: String,
+    amount: Option<f64>,
+    seconds: Option<f64>,
+}
+
+#[derive(Deserialize)]
+struct Speed {
+    factor: Option<f64>,
+}
+
+#[derive(Deserialize)]
+struct Seek {
+    at: f64,
+}
+
+#[derive(Deserialize)]
+struct Subscribe {
+    #[serde(default)]
+    state: bool,
+}
+
+impl Adapter<'_> {
+    /// What lets time pass, or makes something happen.
+    pub(super) fn steer(&mut self, command: &str, arguments: Value, now: Wall) -> Answer<Value> {
+        match command {
+            "continue" => {
+                self.go(Mode::On, now)?;
+                Ok(json!({"allThreadsContinued": true}))
+            }
+            "next" | "stepIn" | "stepOut" => self.step(command, &parse(arguments)?, now),
+            "pause" => self.pause(),
+            "stepBack" => self.back(&parse(arguments)?),
+            "reverseContinue" => self.reverse(),
+            "afp/press" => self.press(&parse(arguments)?),
+            "afp/fault" => self.fault(&parse(arguments)?),
+            "afp/speed" => self.speed(&parse(arguments)?, now),
+            "afp/seek" => self.seek(&parse(arguments)?),
+            "afp/subscribe" => {
+                let Subscribe { state } = parse(arguments)?;
+                self.run()?.told = state;
+                self.tell_state();
+                Ok(Value::Null)
+            }
+            other => Err(Refusal(format!("this release does not know the request '{other}'"))),
+        }
+    }
+
+    /// How long the run can wait until time has to pass again; none where it waits for the client.
+    pub fn due(&self) -> Option<Wall> {
+        let run = self.run.as_ref()?;
+        match run.mode {
+            Mode::Held | Mode::Over => None,
+            _ if run.pace.factor.is_none() => Some(Wall::ZERO),
+            _ => Some(Wall::from_millis(10)),
+        }
+    }
+
+    pub(super) fn go(&mut self, mode: Mode, now: Wall) -> Answer<()> {
+        let run = self.run()?;
+        if run.mode == Mode::Over {
+            return Err(
+                "the plan has ended: 'restart' begins it again, 'stepBack' goes back".into()
+            );
+        }
+        run.mode = mode;
+        run.exception = None;
+        run.pace = Pace::new(run.pace.factor, run.target.now(), now);
+        Ok(())
+    }
+
+    fn step(&mut self, command: &str, step: &Step, now: Wall) -> Answer<Value> {
+        let stack = self.run()?.target.state().stack();
+        let program = self.run()?.target.program().clone();
+        let plan =
+            stack.last().and_then(|id| program.unit(*id)).map_or(ComponentId(0), |it| it.plan);
+        let mode = match (command, step.granularity) {
+            (_, Some(SteppingGranularity::Instruction)) => Mode::One,
+            ("next", _) => Mode::Next(plan),
+            ("stepIn", _) => Mode::Into,
+            _ => Mode::Out(plan),
+        };
+        self.go(mode, now)?;
+        Ok(Value::Null)
+    }
+
+    fn pause(&mut self) -> Answer<Value> {
+        let run = self.run()?;
+        if !matches!(run.mode, Mode::Held | Mode::Over) {
+            self.stopped(Reason::Pause, "paused", Vec::new());
+        }
+        Ok(Value::Null)
+    }
+
+    /// To before the last transition, or the last step.
+    fn back(&mut self, step: &Step) -> Answer<Value> {
+        let run = self.run()?;
+        let now = run.target.steps();
+        let to = match step.granularity {
+            Some(SteppingGranularity::Instruction) => now.saturating_sub(1),
+            _ => run.transitions.iter().rfind(|step| **step < now).copied().unwrap_or(0),
+        };
+        run.target.seek(Position::Step(to))?;
+        let reason = if to == 0 { Reason::Entry } else { Reason::Step };
+        self.stopped(reason, "stepped back", Vec::new());
+        Ok(Value::Null)
+    }
+
+    /// To the last breakpoint before, or the start.
+    fn reverse(&mut self) -> Answer<Value> {
+        let (run, breakpoints) = (self.run.as_mut(), &mut self.breakpoints);
+        let run = run.ok_or("nothing runs yet: 'launch' comes first")?;
+        let end = run.target.steps();
+        let program = run.target.program().clone();
+        run.target.seek(Position::Step(0))?;
+        let mut last = None;
+        while run.target.steps() + 1 < end {
+            let mut hit = Hits::default();
+            let advance = run.target.advance(Instant::MAX, &mut |happened, _| {
+                let hits = breakpoints.hits(&happened.event, &program);
+                hit.stop.extend(hits.stop);
+                hit.exception = hit.exception.or(hits.exception);
+            })?;
+            if !hit.stop.is_empty() || hit.exception.is_some() {
+                last = Some((run.target.steps(), hit.stop));
+            }
+            if advance == Advance::Ended {
+                break;
+            }
+        }
+        let (to, hits) = last.unwrap_or_default();
+        run.target.seek(Position::Step(to))?;
+        let reason = if to == 0 { Reason::Entry } else { Reason::Breakpoint };
+        let ids = hits.into_iter().map(|(id, _)| id).collect();
+        self.stopped(reason, "went back", ids);
+        Ok(Value::Null)
+    }
+
+    fn seek(&mut self, seek: &Seek) -> Answer<Value> {
+        if !(seek.at >= 0.0 && seek.at < 1e9) {
+            return Err("'at' is a time in seconds from the start".into());
+        }
+        let at = Instant::from_nanos((seek.at * 1e9) as u64);
+        self.run()?.target.seek(Position::At(at))?;
+        self.stopped(Reason::Goto, "went to another time", Vec::new());
+        Ok(Value::Null)
+    }
+
+    fn press(&mut self, press: &Press) -> Answer<Value> {
+        let target = &mut self.run()?.target;
+        let devices = target.devices();
+        let unknown = || Refusal(format!("the robot has no control '{}'", press.control));
+        let id = find_control(devices, &press.control).ok_or_else(unknown)?;
+        target.ask(Duration::ZERO, Request::Press(id, press.held.unwrap_or(true)))?;
+        if press.held.is_none() {
+            target.ask(HOLD, Request::Press(id, false))?;
+        }
+        Ok(Value::Null)
+    }
+
+    fn fault(&mut self, fault: &Break) -> Answer<Value> {
+        let target = &mut self.run()?.target;
+        let named = fault.fault.split_once('.');
+        let found = named.and_then(|(device, name)| find_fault(target.devices(), device, name));
+        let unknown = || Refusal(format!("nothing of the robot fails as '{}'", fault.fault));
+        let id = found.ok_or_else(unknown)?;
+        let lasting = match fault.seconds {
+            None => Duration::MAX,
+            Some(seconds) if seconds > 0.0 && seconds < 1e9 => {
+                Duration::from_nanos((seconds * 1e9) as u64)
+            }
+            Some(_) => return Err("'seconds' is a number above 0".into()),
+        };
+        target.ask(Duration::ZERO, Request::Break(id, fault.amount, lasting))?;
+        Ok(Value::Null)
+    }
+
+    fn speed(&mut self, speed: &Speed, now: Wall) -> Answer<Value> {
+        if speed.factor.is_some_and(|factor| !(factor > 0.0 && factor.is_finite())) {
+            return Err("'factor' is a number above 0; leave it out for as fast as can be".into());
+        }
+        let run = self.run()?;
+        run.pace = Pace::new(speed.factor, run.target.now(), now);
+        Ok(Value::Null)
+    }
+
+    /// Lets time pass until something holds the run, the time on the wall is reached, or enough was done for once.
+    pub(super) fn drive(&mut self, now: Wall) {
+        let Some(mut run) = self.run.take() else { return };
+        if !matches!(run.mode, Mode::Held | Mode::Over) {
+            self.drive_run(&mut run, now);
+        }
+        self.run = Some(run);
+    }
+
+    fn drive_run(&mut self, run: &mut Run<'_>, now: Wall) {
+        let limit = run.pace.limit(now).min(run.end);
+        let mut happened = Vec::new();
+        for _ in 0..BATCH {
+            let before = run.target.steps();
+            let advance = run.target.advance(limit, &mut |what, _| happened.push(what.clone()));
+            let advance = match advance {
+                Ok(advance) => advance,
+                Err(why) => return self.failed(run, &why),
+            };
+            let held = self.look_at(run, &happened, before);
+            happened.clear();
+            match advance {
+                _ if held => return,
+                Advance::Ended => return self.end(run),
+                Advance::Limit if limit == run.end => return self.time_up(run),
+                Advance::Limit => break,
+                Advance::On => {}
+            }
+        }
+        if now.saturating_sub(run.told_at) >= STATES {
+            run.told_at = now;
+            self.tell_state_of(run);
+        }
+    }
+
+    /// Tells what happened in a step, and holds the run where something of it is waited for.
+    fn look_at(&mut self, run: &mut Run<'_>, happened: &[Happened], before: u64) -> bool {
+        if happened.is_empty() && run.mode != Mode::One {
+            return false;
+        }
+        let mut all = Hits::default();
+        for what in happened {
+            self.say(run, what);
+            let hits = self.breakpoints.hits(&what.event, run.target.program());
+            hits.logs.iter().for_each(|text| self.log(run, text));
+            if run.launch.no_debug {
+                continue;
+            }
+            all.stop.extend(hits.stop);
+            if let Some(name) = hits.exception {
+                all.exception = Some(name);
+                run.exception = Some((name, what.text.clone()));
+            }
+        }
+        let steps = run.target.steps();
+        if steps > before && happened.iter().any(|what| is_transition(what, run, None)) {
+            run.note(steps);
+        }
+        self.hold(run, &all, happened, steps > before)
+    }
+
+    fn hold(
+        &mut self,
+        run: &mut Run<'_>,
+        hits: &Hits,
+        happened: &[Happened],
+        stepped: bool,
+    ) -> bool {
+        let ids = hits.stop.iter().map(|(id, _)| *id).collect();
+        let why = happened.iter().rev().find(|what| is_transition(what, run, None));
+        let why = why.or(happened.last()).map_or("one step", |what| &*what.text).to_owned();
+        let reason = match (hits.exception, hits.stop.first()) {
+            (Some(_), _) => Reason::Exception,
+            (None, Some((_, kind))) => kind.reason(),
+            (None, None) if run.is_through(happened, stepped) => Reason::Step,
+            _ => return false,
+        };
+        self.stopped_at(run, reason, &why, ids);
+        true
+    }
+}
+
+impl Run<'_> {
+    /// Keeps in mind that a step made a transition.
+    fn note(&mut self, step: u64) {
+        if self.transitions.last().is_none_or(|last| *last < step) {
+            self.transitions.push(step);
+        }
+    }
+
+    /// Whether a step of the client is over.
+    fn is_through(&self, happened: &[Happened], stepped: bool) -> bool {
+        let any = |plan| happened.iter().any(|what| is_transition(what, self, plan));
+        let ended = |plan| {
+            happened.iter().any(|what| {
+                let (kind, id) = (what.event.kind, what.event.component_id);
+                id == plan
+                    && matches!(
+                        kind,
+                        EventKind::Ended | EventKind::Interrupted | EventKind::Finished
+                    )
+            })
+        };
+        match self.mode {
+            Mode::Next(plan) => any(Some(plan)) || ended(plan),
+            Mode::Into => any(None),
+            Mode::Out(plan) => ended(plan),
+            Mode::One => stepped,
+            Mode::On | Mode::Held | Mode::Over => false,
+        }
+    }
+}
+
+/// Whether an element of a plan, of any without one, became active or stopped being so.
+fn is_transition(what: &Happened, run: &Run<'_>, plan: Option<ComponentId>) -> bool {
+    use afp_dsl::unfold::Kind;
+    let event = &what.event;
+    let Some(unit) = run.target.program().unit(event.component_id) else { return false };
+    let element = matches!(unit.kind, Kind::Actor | Kind::SubPlan | Kind::Computation);
+    let kind = matches!(
+        event.kind,
+        EventKind::Started | EventKind::Finished | EventKind::Interrupted | EventKind::Diverted
+    );
+    kind && element && plan.is_none_or(|plan| unit.plan == plan)
+}

@@ -1,0 +1,199 @@
+//! What a client is told while a run goes on, and when it stands still.
+
+use std::fmt::Write;
+
+use afp_session::{EndingKind, EventKind};
+use dapts::{StoppedEventReason as Reason, event};
+use serde_json::json;
+
+use super::steer::Mode;
+use super::{Adapter, Answer, Run};
+use crate::breakpoints::Kind;
+use crate::program::Program;
+use crate::state::State;
+use crate::target::Happened;
+
+impl Kind {
+    /// Why a run stands still at such a breakpoint.
+    pub(super) fn reason(self) -> Reason {
+        match self {
+            Kind::Line => Reason::Breakpoint,
+            Kind::Function => Reason::FunctionBreakpoint,
+            Kind::Data => Reason::DataBreakpoint,
+        }
+    }
+}
+
+impl Adapter<'_> {
+    /// Says what happened, with its place; what components read and see stands in their scopes.
+    pub(super) fn say(&mut self, run: &Run<'_>, what: &Happened) {
+        if matches!(what.event.kind, EventKind::Input | EventKind::Polled) {
+            return;
+        }
+        let at = what.event.at.as_secs_f64();
+        let text = match &what.event.request {
+            Some(request) => format!("{at:>10.3}  {} (from outside)\n", request.what),
+            None => format!("{at:>10.3}  {}\n", what.text),
+        };
+        let program = run.target.program();
+        let place = program.unit(what.event.component_id).map(|unit| unit.at);
+        let mut said = dapts::OutputEvent { output: text, ..dapts::OutputEvent::default() };
+        said.category = Some(dapts::OutputEventCategory::Console);
+        if let Some(place) = place.filter(|_| !what.text.is_empty()) {
+            said.line = Some(place.line + self.client.first_line);
+            said.source = source(program, place.file);
+        }
+        self.event::<event::Output>(&said);
+    }
+
+    /// Says what a log point says, entries in braces.
+    pub(super) fn log(&mut self, run: &Run<'_>, text: &str) {
+        let at = run.target.now().as_secs_f64();
+        let text = filled(text, run.target.program(), run.target.state());
+        self.output("console", &format!("{at:>10.3}  {text}\n"));
+    }
+
+    /// The run stands still.
+    pub(super) fn stopped(&mut self, reason: Reason, why: &str, hits: Vec<u64>) {
+        let Some(mut run) = self.run.take() else { return };
+        self.stopped_at(&mut run, reason, why, hits);
+        self.run = Some(run);
+    }
+
+    pub(super) fn stopped_at(
+        &mut self,
+        run: &mut Run<'_>,
+        reason: Reason,
+        why: &str,
+        hits: Vec<u64>,
+    ) {
+        run.mode = Mode::Held;
+        let text = (reason == Reason::Exception).then(|| why.to_owned());
+        let at = run.target.now().as_secs_f64();
+        self.event::<event::Stopped>(&dapts::StoppedEvent {
+            all_threads_stopped: Some(true),
+            description: Some(format!("{why} at {at:.3} s")),
+            hit_breakpoint_ids: (!hits.is_empty()).then_some(hits),
+            reason,
+            text,
+            thread_id: Some(1),
+            ..dapts::StoppedEvent::default()
+        });
+        self.tell_state_of(run);
+    }
+
+    /// What went wrong last.
+    pub(super) fn exception_info(&mut self) -> Answer<dapts::ExceptionInfoResponse> {
+        let (name, text) = self.run()?.exception.clone().ok_or("nothing went wrong here")?;
+        Ok(dapts::ExceptionInfoResponse {
+            break_mode: dapts::ExceptionBreakMode::Always,
+            description: Some(text),
+            details: None,
+            exception_id: name.to_owned(),
+        })
+    }
+
+    /// The plan cannot start.
+    pub(super) fn failed(&mut self, run: &mut Run<'_>, why: &str) {
+        run.mode = Mode::Over;
+        self.output("stderr", &format!("{why}\n"));
+        self.event::<event::Exited>(&dapts::ExitedEvent { exit_code: 2 });
+        self.event::<event::Terminated>(&dapts::TerminatedEvent::default());
+    }
+
+    /// The plan has had its time.
+    pub(super) fn time_up(&mut self, run: &mut Run<'_>) {
+        let mut said = Vec::new();
+        run.target.stop(&mut |happened, _| said.push(happened.clone()));
+        said.iter().for_each(|happened| self.say(run, happened));
+        self.end(run);
+    }
+
+    pub(super) fn end(&mut self, run: &mut Run<'_>) {
+        run.mode = Mode::Over;
+        self.tell_state_of(run);
+        self.ended(run);
+    }
+
+    /// Tells how the plan ended.
+    pub(super) fn ended(&mut self, run: &Run<'_>) {
+        let (ending, why) = run.target.state().ended().unwrap_or((EndingKind::Interrupted, ""));
+        let at = run.target.now().as_secs_f64();
+        let name = run.target.program().units.first().map_or("", |plan| &*plan.name);
+        let sentence = match ending {
+            EndingKind::Ok => format!("{name} ended as it says itself, after {at:.3} s"),
+            EndingKind::Interrupted => format!("{name} was interrupted after {at:.3} s"),
+            EndingKind::Error => format!("{name} ended in Error after {at:.3} s: {why}"),
+        };
+        self.output("important", &format!("{sentence}\n"));
+        let ended = json!({"ending": ending.word(), "at": at, "sentences": [sentence]});
+        self.tell("afp/ended", ended);
+        let exit_code = if ending == EndingKind::Error { 3 } else { 0 };
+        self.event::<event::Exited>(&dapts::ExitedEvent { exit_code });
+        self.event::<event::Terminated>(&dapts::TerminatedEvent::default());
+    }
+
+    pub(super) fn tell_state(&mut self) {
+        let Some(run) = self.run.take() else { return };
+        self.tell_state_of(&run);
+        self.run = Some(run);
+    }
+
+    /// Tells a client that wants it what is the case.
+    pub(super) fn tell_state_of(&mut self, run: &Run<'_>) {
+        if !run.told {
+            return;
+        }
+        let (program, state) = (run.target.program(), run.target.state());
+        let path = |id| program.unit(id).map_or("", |unit| &*unit.path);
+        let entries: serde_json::Map<_, _> = (0..)
+            .zip(&program.entries)
+            .filter_map(|(number, entry)| {
+                let value = state.entry(afp_core::trace::TraceEntryId(number))?;
+                Some((entry.path.clone(), json!(value.in_unit(&entry.unit))))
+            })
+            .collect();
+        let stack: Vec<_> = state.stack().into_iter().map(path).collect();
+        let watching: Vec<_> = state.watching().map(path).collect();
+        let held = matches!(run.mode, Mode::Held | Mode::Over);
+        let at = run.target.now().as_secs_f64();
+        let body = json!({
+            "at": at, "stack": stack, "watching": watching, "entries": entries, "held": held,
+        });
+        self.tell("afp/state", body);
+    }
+}
+
+/// A file as the protocol names it.
+pub(super) fn source(program: &Program, file: usize) -> Option<dapts::Source> {
+    let path = program.files.get(file)?;
+    let name = path.rsplit(['/', '\\']).next().unwrap_or(path).to_owned();
+    Some(dapts::Source { name: Some(name), path: Some(path.clone()), ..dapts::Source::default() })
+}
+
+/// A text in which entries in braces are their values.
+fn filled(text: &str, program: &Program, state: &State) -> String {
+    let mut filled = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once('{') {
+        filled.push_str(before);
+        let Some((name, behind)) = after.split_once('}') else {
+            filled.push('{');
+            rest = after;
+            continue;
+        };
+        let entry = program.entry(afp_core::trace::ComponentId(0), name.trim());
+        let shown = entry.and_then(|id| {
+            let entry = program.entries.get(id.0 as usize)?;
+            Some(state.entry(id).map_or("unset".to_owned(), |value| value.in_unit(&entry.unit)))
+        });
+        match shown {
+            Some(value) => filled.push_str(&value),
+            // Writing to a text cannot fail.
+            None => drop(write!(filled, "{{{name}}}")),
+        }
+        rest = behind;
+    }
+    filled.push_str(rest);
+    filled
+}

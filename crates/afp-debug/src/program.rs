@@ -1,0 +1,233 @@
+//! A plan as a program that can be debugged: its components and entries with their places in the texts.
+
+use std::collections::BTreeMap;
+
+use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR, TraceEntryId};
+use afp_dsl::graph::{EntryKind, Graph};
+use afp_dsl::types::Type;
+use afp_dsl::unfold::{Kind, places, unfold};
+use afp_syntax::source::{Encoding, Lines, Sources, Span};
+
+/// A plan with the places of everything in it.
+#[derive(Clone, Debug)]
+pub struct Program {
+    /// The paths of the files, by [`Place::file`].
+    pub files: Vec<String>,
+    /// All components by number; the first is the plan itself.
+    pub units: Vec<Unit>,
+    /// All entries by number.
+    pub entries: Vec<Entry>,
+    /// What can happen at a line of a file.
+    lines: BTreeMap<(usize, u32), Vec<Spot>>,
+}
+
+/// A component: the plan, an element, a supervisor.
+#[derive(Clone, Debug)]
+pub struct Unit {
+    /// Dotted path from the outermost plan; the plan's own name for the outermost.
+    pub path: String,
+    /// The last name of the path.
+    pub name: String,
+    /// Its template or plan.
+    pub template: String,
+    /// What it is.
+    pub kind: Kind,
+    /// The plan that it belongs to, by the number of its element.
+    pub plan: ComponentId,
+    /// The element of a local supervisor.
+    pub owner: Option<ComponentId>,
+    /// Input ports: name and SI unit, empty for what is no quantity.
+    pub inputs: Vec<(String, String)>,
+    /// States or events: name and target.
+    pub outcomes: Vec<(String, String)>,
+    /// Where it stands.
+    pub at: Place,
+}
+
+/// An entry of a plan.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// Dotted path from the outermost plan.
+    pub path: String,
+    /// Its name.
+    pub name: String,
+    /// The plan that it belongs to.
+    pub plan: ComponentId,
+    /// Who may set it.
+    pub kind: EntryKind,
+    /// Its type as in the text.
+    pub ty: String,
+    /// The SI unit of its values, empty for what is no quantity.
+    pub unit: String,
+    /// Where it stands.
+    pub at: Place,
+}
+
+/// A place in a file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    /// Which of [`Program::files`].
+    pub file: usize,
+    /// Its line, from 0.
+    pub line: u32,
+    /// Its column, from 0, in units of UTF-16.
+    pub column: u32,
+}
+
+/// Something that can happen at a place of the text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Spot {
+    /// An actor or a sub-plan starts.
+    Start(ComponentId),
+    /// An element reaches a state, an event of a supervisor is taken.
+    Outcome(ComponentId, u16),
+    /// Any event of a supervisor is taken, a computation is done.
+    Reports(ComponentId),
+    /// An entry is written.
+    Commit(TraceEntryId),
+}
+
+impl Program {
+    /// The program that a graph is; `sources` has the texts that its spans belong to, `path` says how a client names
+    /// a file.
+    pub fn new(graph: &Graph, sources: &Sources, path: &dyn Fn(&str) -> String) -> Program {
+        let texts = Texts::new(sources);
+        let (unfolded, places) = (unfold(graph), places(graph));
+        let units = unfolded.components.into_iter().zip(&places).map(|(names, place)| Unit {
+            name: last(&names.path).to_owned(),
+            path: names.path,
+            template: names.template,
+            kind: names.kind,
+            plan: ComponentId(place.plan),
+            owner: place.owner.map(ComponentId),
+            inputs: names.inputs.into_iter().zip(place.inputs.iter().map(unit)).collect(),
+            outcomes: names.outcomes,
+            at: texts.place(place.span),
+        });
+        let entries = unfolded.entries.into_iter().map(|entry| Entry {
+            name: last(&entry.path).to_owned(),
+            path: entry.path,
+            plan: ComponentId(entry.plan),
+            kind: entry.kind,
+            unit: unit(&entry.ty),
+            ty: entry.ty.to_string(),
+            at: texts.place(entry.span),
+        });
+        let (units, entries): (Vec<_>, Vec<_>) = (units.collect(), entries.collect());
+        let mut program =
+            Program { files: texts.names(path), units, entries, lines: BTreeMap::new() };
+        for (number, place) in (0..).zip(&places).skip(1) {
+            let id = ComponentId(number);
+            let kind = program.units[number as usize].kind;
+            let special = if kind == Kind::Supervisor { DEADLINE_MISSED } else { ERROR };
+            program.add(texts.place(place.span), first(id, kind));
+            let outcomes = (0..).zip(&place.edges.outcomes);
+            for (outcome, span) in outcomes.chain([(special, &place.edges.extra)]) {
+                let at = span.map(|span| texts.place(span));
+                at.into_iter().for_each(|at| program.add(at, Spot::Outcome(id, outcome)));
+            }
+        }
+        for number in 0..program.entries.len() {
+            let entry = &program.entries[number];
+            if entry.kind != EntryKind::Const {
+                program.add(entry.at, Spot::Commit(TraceEntryId(number as u32)));
+            }
+        }
+        program
+    }
+
+    fn add(&mut self, at: Place, spot: Spot) {
+        self.lines.entry((at.file, at.line)).or_default().push(spot);
+    }
+
+    /// The component of that number.
+    pub fn unit(&self, id: ComponentId) -> Option<&Unit> {
+        self.units.get(id.0 as usize)
+    }
+
+    /// The file of that path.
+    pub fn file(&self, path: &str) -> Option<usize> {
+        self.files.iter().position(|name| name == path)
+    }
+
+    /// What can happen at a line of a file or, where that is nothing, at the next line where something can.
+    pub fn at_line(&self, file: usize, line: u32) -> Option<(u32, &[Spot])> {
+        let next = self.lines.range((file, line)..(file, u32::MAX)).next();
+        next.map(|((_, line), spots)| (*line, &**spots))
+    }
+
+    /// The lines of a file at which something can happen, from the first to the last, both included.
+    pub fn lines(&self, file: usize, from: u32, to: u32) -> impl Iterator<Item = u32> + '_ {
+        self.lines.range((file, from)..=(file, to)).map(|((_, line), _)| *line)
+    }
+
+    /// What a path means: an element (`patrol.avoid`), a supervisor, one of its states or events
+    /// (`patrol.avoid.touch.TouchSensorPressed`).
+    pub fn find(&self, path: &str) -> Option<Spot> {
+        let unit = |path: &str| self.units.iter().skip(1).position(|unit| unit.path == path);
+        if let Some(at) = unit(path) {
+            return Some(first(ComponentId(at as u32 + 1), self.units[at + 1].kind));
+        }
+        let (component, outcome) = path.rsplit_once('.')?;
+        let at = unit(component)? + 1;
+        let known = self.units[at].outcomes.iter().position(|(name, _)| name == outcome);
+        let number = match (known, outcome) {
+            (Some(number), _) => u16::try_from(number).ok()?,
+            (None, "Error") => ERROR,
+            (None, "DeadlineMissed") => DEADLINE_MISSED,
+            _ => return None,
+        };
+        Some(Spot::Outcome(ComponentId(at as u32), number))
+    }
+
+    /// The entry that a name means inside a plan; a whole path finds it from everywhere.
+    pub fn entry(&self, plan: ComponentId, name: &str) -> Option<TraceEntryId> {
+        let inside = self.entries.iter().position(|it| it.plan == plan && it.name == name);
+        let found = inside.or_else(|| self.entries.iter().position(|it| it.path == name))?;
+        Some(TraceEntryId(found as u32))
+    }
+}
+
+/// What happens at the line where a component is declared.
+fn first(id: ComponentId, kind: Kind) -> Spot {
+    match kind {
+        Kind::Supervisor | Kind::Computation => Spot::Reports(id),
+        Kind::Plan | Kind::Actor | Kind::SubPlan => Spot::Start(id),
+    }
+}
+
+/// The texts behind spans.
+struct Texts<'a> {
+    files: Vec<(&'a str, Lines<'a>)>,
+}
+
+impl<'a> Texts<'a> {
+    fn new(sources: &'a Sources) -> Texts<'a> {
+        let file =
+            |source: &'a afp_syntax::source::Source| (&*source.name, Lines::new(&source.text));
+        Texts { files: sources.iter().map(file).collect() }
+    }
+
+    fn names(&self, path: &dyn Fn(&str) -> String) -> Vec<String> {
+        self.files.iter().map(|(name, _)| path(name)).collect()
+    }
+
+    fn place(&self, span: Span) -> Place {
+        let file = usize::from(span.file);
+        let Some((_, lines)) = self.files.get(file) else { return Place::default() };
+        let at = lines.position(span.start, Encoding::Utf16);
+        Place { file, line: at.line, column: at.column }
+    }
+}
+
+/// The SI unit of a type's values.
+fn unit(ty: &Type) -> String {
+    match ty {
+        Type::Quantity(dimension) => dimension.si_unit(),
+        _ => String::new(),
+    }
+}
+
+fn last(path: &str) -> &str {
+    path.rsplit('.').next().unwrap_or(path)
+}

@@ -1,0 +1,245 @@
+//! A session as something to be debugged: its time stands still while nobody lets it pass.
+
+use std::sync::Arc;
+
+use afp_core::devices::DeviceRow;
+use afp_core::trace::TraceEntryId;
+use afp_core::{Duration, Instant, StartError};
+use afp_session::{
+    AnySession, Applied, Datum, NamedRecord, Observer, Open, Request, RunEvent, View,
+};
+
+use crate::program::Program;
+use crate::state::State;
+use crate::target::{Advance, Happened, Position, Target};
+
+/// How much time lies between two keyframes.
+const KEYFRAMES: Duration = Duration::from_secs(10);
+/// How many keyframes are kept; beyond, every second one goes.
+const MOST_KEYFRAMES: usize = 256;
+
+/// Makes the session of a run anew, with all that was asked for before its start.
+pub type MakeSession<'m> = dyn FnMut() -> Result<Box<dyn AnySession>, String> + 'm;
+
+/// A session of a simulated robot. Where the robot or a component cannot be copied, going back is running again from the
+/// start.
+pub struct SessionTarget<'m> {
+    program: Arc<Program>,
+    make: Box<MakeSession<'m>>,
+    run: Run,
+    /// The furthest step so far.
+    furthest: u64,
+    /// Copies of the run, by time.
+    keyframes: Vec<Run>,
+    /// How much time lies between two of them.
+    apart: Duration,
+}
+
+/// A run at an instant.
+struct Run {
+    session: Box<dyn AnySession>,
+    state: State,
+    steps: u64,
+}
+
+impl<'m> SessionTarget<'m> {
+    /// A run at its start.
+    ///
+    /// # Errors
+    /// There is no session: why.
+    pub fn new(program: Arc<Program>, mut make: Box<MakeSession<'m>>) -> Result<Self, String> {
+        let run = Run { session: make()?, state: State::default(), steps: 0 };
+        let keyframes = run.keyframe().into_iter().collect();
+        Ok(SessionTarget { program, make, run, furthest: 0, keyframes, apart: KEYFRAMES })
+    }
+
+    /// Keeps a copy of the run where the last one lies far enough back.
+    fn keep(&mut self) {
+        let Some(last) = self.keyframes.last() else { return };
+        if self.run.session.now() < last.session.now() + self.apart {
+            return;
+        }
+        self.keyframes.extend(self.run.keyframe());
+        if self.keyframes.len() > MOST_KEYFRAMES {
+            let mut number = 0;
+            self.keyframes.retain(|_| {
+                number += 1;
+                number % 2 == 1
+            });
+            self.apart = self.apart + self.apart;
+        }
+    }
+
+    /// Takes the run to a position; what was asked for comes again.
+    fn replay(&mut self, asked: &[(Instant, Request)], to: Position) -> Result<(), String> {
+        let before = |run: &Run| match to {
+            Position::Step(steps) => run.steps <= steps,
+            Position::At(at) => run.session.now() <= at,
+        };
+        let kept = self.keyframes.iter().rfind(|run| before(run)).and_then(Run::keyframe);
+        let mut run = match kept {
+            Some(run) => run,
+            None => Run { session: (self.make)()?, state: State::default(), steps: 0 },
+        };
+        for (at, request) in asked.iter().skip(run.session.requests().len()) {
+            run.session.at(*at, request.clone()).map_err(|why| why.to_string())?;
+        }
+        let limit = match to {
+            Position::Step(_) => Instant::MAX,
+            Position::At(at) => at,
+        };
+        let is_there = |run: &Run| match to {
+            Position::Step(steps) => run.steps >= steps,
+            Position::At(at) => run.session.now() >= at && run.session.due() > at,
+        };
+        while !is_there(&run) && run.session.ending().is_none() {
+            run.advance(limit, &self.program, &mut |_, _| {})?;
+        }
+        self.run = run;
+        Ok(())
+    }
+
+    /// Forgets what was asked for later than now, for what happens next is another run.
+    fn forget_later(&mut self) -> Result<(), String> {
+        if self.run.steps >= self.furthest {
+            return Ok(());
+        }
+        let now = self.run.session.now();
+        let asked: Vec<_> =
+            self.run.session.requests().iter().filter(|(at, _)| *at <= now).cloned().collect();
+        let steps = self.run.steps;
+        self.keyframes.retain(|run| run.steps <= steps);
+        self.replay(&asked, Position::Step(steps))?;
+        self.furthest = steps;
+        Ok(())
+    }
+}
+
+impl Run {
+    fn keyframe(&self) -> Option<Run> {
+        let session = self.session.keyframe()?;
+        Some(Run { session, state: self.state.clone(), steps: self.steps })
+    }
+
+    fn advance(
+        &mut self,
+        limit: Instant,
+        program: &Program,
+        tell: &mut dyn FnMut(&Happened, &State),
+    ) -> Result<Advance, String> {
+        let Run { session, state, steps } = self;
+        let mut ears = Ears { program, state, steps, tell };
+        let ticked = session.tick(limit, &mut Open, &mut [&mut ears]);
+        ticked.map_err(|why| cannot_start(why, program))?;
+        Ok(match session.ending() {
+            Some(_) => Advance::Ended,
+            None if session.now() >= limit && session.due() > limit => Advance::Limit,
+            None => Advance::On,
+        })
+    }
+}
+
+impl Target for SessionTarget<'_> {
+    fn program(&self) -> &Arc<Program> {
+        &self.program
+    }
+
+    fn state(&self) -> &State {
+        &self.run.state
+    }
+
+    fn now(&self) -> Instant {
+        self.run.session.now()
+    }
+
+    fn steps(&self) -> u64 {
+        self.run.steps
+    }
+
+    fn advance(
+        &mut self,
+        limit: Instant,
+        tell: &mut dyn FnMut(&Happened, &State),
+    ) -> Result<Advance, String> {
+        if self.run.session.ending().is_some() {
+            return Ok(Advance::Ended);
+        }
+        let advance = self.run.advance(limit, &self.program, tell)?;
+        self.furthest = self.furthest.max(self.run.steps);
+        self.keep();
+        Ok(advance)
+    }
+
+    fn seek(&mut self, to: Position) -> Result<(), String> {
+        let asked = self.run.session.requests().to_vec();
+        self.replay(&asked, to)
+    }
+
+    fn set(&mut self, entry: &str, text: &str) -> Result<String, String> {
+        self.forget_later()?;
+        let id = self.program.entries.iter().position(|it| it.path == entry);
+        let value = self.run.session.set(entry, text).map_err(|why| why.to_string())?;
+        let id = id.map(|id| TraceEntryId(id as u32));
+        let datum = Datum::new(self.run.session.names(), id, value.borrow());
+        let unit = id.map_or("", |id| self.run.session.names().entry(id).unit);
+        Ok(datum.in_unit(unit))
+    }
+
+    fn devices(&self) -> &'static [DeviceRow] {
+        self.run.session.devices()
+    }
+
+    fn ask(&mut self, later: Duration, request: Request) -> Result<(), String> {
+        self.forget_later()?;
+        let at = self.run.session.now() + later;
+        self.run.session.at(at, request).map(|_| ()).map_err(|why| why.to_string())
+    }
+
+    fn stop(&mut self, tell: &mut dyn FnMut(&Happened, &State)) {
+        let Run { session, state, steps } = &mut self.run;
+        let mut ears = Ears { program: &self.program, state, steps, tell };
+        session.stop(&mut [&mut ears]);
+    }
+}
+
+/// Why a plan does not start, and what to do.
+fn cannot_start(why: StartError, program: &Program) -> String {
+    match why {
+        StartError::InputMissing(entry) => {
+            let name = program.entries.get(usize::from(entry)).map_or("", |entry| &*entry.path);
+            format!(
+                "the 'in' entry '{name}' has neither a value nor a default: give it one with 'set'"
+            )
+        }
+        _ => "the plan runs already".to_owned(),
+    }
+}
+
+/// Hears what happens in a session.
+struct Ears<'a> {
+    program: &'a Program,
+    state: &'a mut State,
+    steps: &'a mut u64,
+    tell: &'a mut dyn FnMut(&Happened, &State),
+}
+
+impl Ears<'_> {
+    fn tell(&mut self, event: RunEvent, text: &str) {
+        self.state.apply(&event, self.program);
+        (self.tell)(&Happened { event, text: text.to_owned() }, self.state);
+    }
+}
+
+impl Observer for Ears<'_> {
+    fn on_record(&mut self, record: &NamedRecord<'_>) {
+        self.tell(RunEvent::new(record.at, record.record, record.names), record.text());
+    }
+
+    fn after_step(&mut self, _: &View<'_>) {
+        *self.steps += 1;
+    }
+
+    fn on_request(&mut self, applied: &Applied<'_>) {
+        self.tell(applied.event(), "");
+    }
+}

@@ -1,0 +1,89 @@
+//! What a running plan can be asked.
+
+use std::sync::Arc;
+
+use afp_core::devices::DeviceRow;
+use afp_core::{Duration, Instant};
+use afp_session::{Request, RunEvent};
+
+use crate::program::Program;
+use crate::state::State;
+
+/// A plan that runs, or that ran.
+pub trait Target {
+    /// The plan.
+    fn program(&self) -> &Arc<Program>;
+
+    /// What is the case.
+    fn state(&self) -> &State;
+
+    /// The time.
+    fn now(&self) -> Instant;
+
+    /// How many steps the scheduler has made.
+    fn steps(&self) -> u64;
+
+    /// Lets time pass up to the next instant at which something is done, but not beyond `limit`, and tells what
+    /// happened, in order, with what is the case then.
+    ///
+    /// # Errors
+    /// The plan cannot start: why, and what to do.
+    fn advance(
+        &mut self,
+        limit: Instant,
+        tell: &mut dyn FnMut(&Happened, &State),
+    ) -> Result<Advance, String>;
+
+    /// Goes back or ahead: what was asked for in the meantime is done again, and the trace is the same.
+    ///
+    /// # Errors
+    /// It cannot be done: why.
+    fn seek(&mut self, to: Position) -> Result<(), String>;
+
+    /// Writes an entry of the outermost plan as people write it; gives the value.
+    ///
+    /// # Errors
+    /// Why it cannot be written.
+    fn set(&mut self, entry: &str, text: &str) -> Result<String, String>;
+
+    /// The devices of the robot.
+    fn devices(&self) -> &'static [DeviceRow];
+
+    /// Asks for something so much later than now. What was asked for later than now before a step back is forgotten.
+    ///
+    /// # Errors
+    /// Why it cannot be.
+    fn ask(&mut self, later: Duration, request: Request) -> Result<(), String>;
+
+    /// Makes the plan end here and now, and the robot stop.
+    fn stop(&mut self, tell: &mut dyn FnMut(&Happened, &State));
+}
+
+/// Something that happened.
+#[derive(Clone, Debug)]
+pub struct Happened {
+    /// What.
+    pub event: RunEvent,
+    /// The same as a line of the trace, without its time; empty for what comes from outside.
+    pub text: String,
+}
+
+/// How far time has passed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Advance {
+    /// The run goes on.
+    On,
+    /// The limit has been reached.
+    Limit,
+    /// The plan has ended.
+    Ended,
+}
+
+/// Where a run can be taken to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Position {
+    /// Right after so many steps of the scheduler.
+    Step(u64),
+    /// After all that is done up to an instant.
+    At(Instant),
+}

@@ -1,0 +1,125 @@
+//! Messages on a stream of bytes: a header with the length, an empty line, the message.
+
+use std::fmt;
+
+/// The longest message that is taken, in bytes.
+pub const MAX_MESSAGE: usize = 1 << 20;
+/// The longest header.
+const MAX_HEADER: usize = 1 << 12;
+
+/// Takes messages out of what has arrived.
+#[derive(Debug, Default)]
+pub struct Frames {
+    arrived: Vec<u8>,
+}
+
+/// What arrived is no message; the stream cannot be understood any more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WireError {
+    /// No header with a length stands where a message begins.
+    Header,
+    /// The message has so many bytes, more than [`MAX_MESSAGE`].
+    TooLong(usize),
+    /// The message is no text.
+    NoText,
+}
+
+impl Frames {
+    /// Some bytes have arrived.
+    pub fn push(&mut self, bytes: &[u8]) {
+        self.arrived.extend_from_slice(bytes);
+    }
+
+    /// The next message, once all of it is there.
+    ///
+    /// # Errors
+    /// What arrived is no message.
+    pub fn next_message(&mut self) -> Result<Option<String>, WireError> {
+        let end = self.arrived.windows(4).position(|four| four == b"\r\n\r\n");
+        let Some(end) = end else {
+            return if self.arrived.len() > MAX_HEADER { Err(WireError::Header) } else { Ok(None) };
+        };
+        let length = length(&self.arrived[..end]).ok_or(WireError::Header)?;
+        if length > MAX_MESSAGE {
+            return Err(WireError::TooLong(length));
+        }
+        let (from, to) = (end + 4, end + 4 + length);
+        if self.arrived.len() < to {
+            return Ok(None);
+        }
+        let rest = self.arrived.split_off(to);
+        let whole = std::mem::replace(&mut self.arrived, rest);
+        let text = std::str::from_utf8(&whole[from..]).map_err(|_| WireError::NoText)?;
+        Ok(Some(text.to_owned()))
+    }
+}
+
+/// The length that a header says.
+fn length(header: &[u8]) -> Option<usize> {
+    let header = std::str::from_utf8(header).ok()?;
+    header.split("\r\n").find_map(|line| {
+        let (name, value) = line.split_once(':')?;
+        name.trim().eq_ignore_ascii_case("content-length").then(|| value.trim().parse().ok())?
+    })
+}
+
+/// A message with its header, to be sent in one piece.
+pub fn frame(message: &str) -> Vec<u8> {
+    format!("Content-Length: {}\r\n\r\n{message}", message.len()).into_bytes()
+}
+
+impl fmt::Display for WireError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            WireError::Header => {
+                f.write_str("a message begins with 'Content-Length: ' and its number of bytes")
+            }
+            WireError::TooLong(length) => {
+                write!(f, "a message of {length} bytes; the longest may have {MAX_MESSAGE}")
+            }
+            WireError::NoText => f.write_str("a message that is no UTF-8"),
+        }
+    }
+}
+
+impl std::error::Error for WireError {}
+
+#[cfg(test)]
+mod tests {
+    use super::{Frames, MAX_MESSAGE, WireError, frame};
+
+    #[test]
+    fn messages_come_out_however_they_arrive() {
+        let sent: Vec<u8> = ["{}", "{\"ä\":1}", ""].iter().flat_map(|text| frame(text)).collect();
+        for size in 1..sent.len() {
+            let (mut frames, mut got) = (Frames::default(), Vec::new());
+            for piece in sent.chunks(size) {
+                frames.push(piece);
+                while let Some(message) = frames.next_message().expect("all are messages") {
+                    got.push(message);
+                }
+            }
+            assert_eq!(got, ["{}", "{\"ä\":1}", ""], "in pieces of {size}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_message_is_refused() {
+        let long = format!("Content-Length: {}\r\n\r\n", MAX_MESSAGE + 1);
+        let babble = "x".repeat(5000);
+        for (bytes, error) in [
+            ("Hello\r\n\r\n", WireError::Header),
+            ("Content-Length: many\r\n\r\n", WireError::Header),
+            ("Content-Length: -1\r\n\r\n", WireError::Header),
+            (&*long, WireError::TooLong(MAX_MESSAGE + 1)),
+            (&*babble, WireError::Header),
+        ] {
+            let mut frames = Frames::default();
+            frames.push(bytes.as_bytes());
+            assert_eq!(frames.next_message(), Err(error));
+        }
+        let mut frames = Frames::default();
+        frames.push(b"Content-Length: 2\r\n\r\n\xff\xff");
+        assert_eq!(frames.next_message(), Err(WireError::NoText));
+    }
+}
