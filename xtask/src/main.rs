@@ -4,12 +4,14 @@
 
 mod arm;
 mod book;
+mod dap;
 mod emulated;
 mod engine;
 mod fuzz;
 mod gate;
 mod image;
 mod install;
+mod npm;
 mod opencv;
 mod pi;
 mod python;

@@ -4,7 +4,9 @@ use std::time::{Duration, Instant};
 
 use crate::install::Profile;
 use crate::shell::{Failure, cargo, run as run_command};
-use crate::{arm, bench, engine, fuzz, gate, install, opencv, pi, python, scxml, vacuum, wasm};
+use crate::{
+    arm, bench, dap, engine, fuzz, gate, install, opencv, pi, python, scxml, vacuum, wasm,
+};
 
 /// A suite by its name.
 type Suite = (&'static str, fn() -> Result<(), Failure>);
@@ -15,6 +17,7 @@ pub const TEST: &[Suite] = &[
     ("xtask", || run_command(cargo().args(["test", "--package", "xtask"]))),
     ("python", python::run),
     ("scxml", || scxml::run(50)),
+    ("dap", dap::run),
     ("gate", gate::run),
     ("web", wasm::run),
     ("install", || install::run(Profile::Debug)),
@@ -34,6 +37,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("python", python::run),
     ("python long", python::long),
     ("scxml", || scxml::run(2000)),
+    ("dap", dap::run),
     ("gate", gate::run),
     ("web", wasm::run),
     ("install", || install::run(Profile::Release)),

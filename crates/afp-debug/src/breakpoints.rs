@@ -2,10 +2,12 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use afp_core::trace::{DEADLINE_MISSED, ERROR};
+use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR};
 use afp_session::{EventKind, RunEvent};
 
 use crate::program::{Program, Spot};
+use crate::state::State;
+use crate::watched::Watched;
 
 /// What a run that is held stands still at, by what it was set with.
 #[derive(Debug, Default)]
@@ -29,6 +31,8 @@ pub(crate) struct Breakpoint {
     pub spots: Vec<Spot>,
     /// The run stands still at the hit of that number alone, and later ones.
     pub from_hit: u64,
+    /// Counts as hit only while this holds.
+    pub condition: Option<Watched>,
     /// Says this in place of standing still.
     pub log: Option<String>,
     /// Hits so far.
@@ -59,7 +63,7 @@ pub(crate) struct Filters {
 pub(crate) struct Hits {
     /// Where the run is to stand still.
     pub stop: Vec<(u64, Kind)>,
-    /// What is to be said.
+    /// What is to be said, with values in the place of formulas.
     pub logs: Vec<String>,
     /// Something went wrong that is looked for.
     pub exception: Option<&'static str>,
@@ -107,7 +111,7 @@ impl Breakpoints {
     }
 
     /// What an event comes to, as the next hit of those that are set there.
-    pub fn hits(&mut self, event: &RunEvent, program: &Program) -> Hits {
+    pub fn hits(&mut self, event: &RunEvent, program: &Program, state: &State) -> Hits {
         let mut hits = Hits { exception: self.filters.exception(event), ..Hits::default() };
         let numbers: Vec<_> = spots(event, program)
             .filter_map(|spot| self.at.get(&spot))
@@ -116,9 +120,13 @@ impl Breakpoints {
             .collect();
         for id in numbers {
             let Some((kind, found)) = self.find(id) else { continue };
+            if found.condition.as_ref().is_some_and(|condition| !condition.holds(program, state)) {
+                continue;
+            }
             found.hits += 1;
+            let plan = found.spots.first().map_or(ComponentId(0), |spot| program.plan_at(*spot));
             match &found.log {
-                Some(text) => hits.logs.push(text.clone()),
+                Some(text) => hits.logs.push(filled(text, plan, program, state)),
                 None if found.hits >= found.from_hit => hits.stop.push((id, kind)),
                 None => {}
             }
@@ -161,4 +169,22 @@ fn spots(event: &RunEvent, program: &Program) -> impl Iterator<Item = Spot> {
         _ => [None, None],
     };
     both.into_iter().flatten()
+}
+
+/// A text in which formulas in braces are their values; one that is none stays as it is.
+fn filled(text: &str, plan: ComponentId, program: &Program, state: &State) -> String {
+    let mut filled = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once('{') {
+        filled.push_str(before);
+        let Some((formula, behind)) = after.split_once('}') else {
+            filled.push('{');
+            rest = after;
+            continue;
+        };
+        let shown = Watched::new(program, plan, formula).and_then(|it| it.shown(program, state));
+        filled += &shown.unwrap_or_else(|_| format!("{{{formula}}}"));
+        rest = behind;
+    }
+    filled + rest
 }

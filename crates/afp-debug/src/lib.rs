@@ -19,6 +19,7 @@ mod program;
 mod session_target;
 mod state;
 mod target;
+mod watched;
 pub mod wire;
 
 pub use adapter::{Adapter, Host, Launch};

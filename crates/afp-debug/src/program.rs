@@ -19,6 +19,8 @@ pub struct Program {
     pub entries: Vec<Entry>,
     /// What can happen at a line of a file.
     lines: BTreeMap<(usize, u32), Vec<Spot>>,
+    /// The graph.
+    pub(crate) graph: Graph,
 }
 
 /// A component: the plan, an element, a supervisor.
@@ -114,8 +116,13 @@ impl Program {
             at: texts.place(entry.span),
         });
         let (units, entries): (Vec<_>, Vec<_>) = (units.collect(), entries.collect());
-        let mut program =
-            Program { files: texts.names(path), units, entries, lines: BTreeMap::new() };
+        let mut program = Program {
+            files: texts.names(path),
+            units,
+            entries,
+            lines: BTreeMap::new(),
+            graph: graph.clone(),
+        };
         for (number, place) in (0..).zip(&places).skip(1) {
             let id = ComponentId(number);
             let kind = program.units[number as usize].kind;
@@ -136,8 +143,14 @@ impl Program {
         program
     }
 
+    /// Something can happen at a line. Where a component is declared in one line, that line stands for its start.
     fn add(&mut self, at: Place, spot: Spot) {
-        self.lines.entry((at.file, at.line)).or_default().push(spot);
+        let spots = self.lines.entry((at.file, at.line)).or_default();
+        let edge = |spot: &Spot| matches!(spot, Spot::Outcome(..));
+        if spots.iter().all(edge) || !edge(&spot) {
+            spots.retain(|known| edge(known) == edge(&spot));
+            spots.push(spot);
+        }
     }
 
     /// The component of that number.
@@ -159,6 +172,17 @@ impl Program {
     /// The lines of a file at which something can happen, from the first to the last, both included.
     pub fn lines(&self, file: usize, from: u32, to: u32) -> impl Iterator<Item = u32> + '_ {
         self.lines.range((file, from)..=(file, to)).map(|((_, line), _)| *line)
+    }
+
+    /// The plan that something at a spot belongs to.
+    pub fn plan_at(&self, spot: Spot) -> ComponentId {
+        let plan = match spot {
+            Spot::Start(id) | Spot::Outcome(id, _) | Spot::Reports(id) => {
+                self.unit(id).map(|it| it.plan)
+            }
+            Spot::Commit(id) => self.entries.get(id.0 as usize).map(|it| it.plan),
+        };
+        plan.unwrap_or_default()
     }
 
     /// What a path means: an element (`patrol.avoid`), a supervisor, one of its states or events

@@ -6,7 +6,7 @@ use afp_core::devices::DeviceRow;
 use afp_core::trace::TraceEntryId;
 use afp_core::{Duration, Instant, StartError};
 use afp_session::{
-    AnySession, Applied, Datum, NamedRecord, Observer, Open, Request, RunEvent, View,
+    AnySession, Applied, Datum, NamedRecord, Observer, Open, Request, RunEvent, SetError, View,
 };
 
 use crate::program::Program;
@@ -178,7 +178,13 @@ impl Target for SessionTarget<'_> {
     fn set(&mut self, entry: &str, text: &str) -> Result<String, String> {
         self.forget_later()?;
         let id = self.program.entries.iter().position(|it| it.path == entry);
-        let value = self.run.session.set(entry, text).map_err(|why| why.to_string())?;
+        let value = self.run.session.set(entry, text).map_err(|why| match why {
+            SetError::Unreadable { units, .. } if !units.is_empty() => {
+                let units: Vec<_> = units.iter().take(8).map(String::as_str).collect();
+                format!("'{text}' does not fit: write a number and a unit, of {}", units.join(", "))
+            }
+            other => format!("'{text}': {other}"),
+        })?;
         let id = id.map(|id| TraceEntryId(id as u32));
         let datum = Datum::new(self.run.session.names(), id, value.borrow());
         let unit = id.map_or("", |id| self.run.session.names().entry(id).unit);

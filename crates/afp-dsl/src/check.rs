@@ -26,6 +26,7 @@ mod size;
 pub(crate) mod timing;
 pub(crate) mod toolbox;
 mod types;
+pub mod watch;
 
 use std::sync::Arc;
 

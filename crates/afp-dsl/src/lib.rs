@@ -18,4 +18,5 @@ pub mod types;
 pub mod unfold;
 
 pub use check::scenario::{VERBS, outputs};
+pub use check::watch;
 pub use compile::{Compiled, compile, compile_plan, compile_unchecked, index_files};

@@ -72,6 +72,7 @@ impl Adapter<'_> {
         let yes = Some(true);
         Ok(dapts::Capabilities {
             exception_breakpoint_filters: Some(FILTERS.map(filter).to_vec()),
+            supports_conditional_breakpoints: yes,
             supports_configuration_done_request: yes,
             supports_breakpoint_locations_request: yes,
             supports_data_breakpoints: yes,

@@ -8,7 +8,8 @@ use serde_json::Value;
 use super::launch::FLOW;
 use super::stop::source;
 use super::{Adapter, Answer, Refusal};
-use crate::program::{Program, Unit};
+use crate::program::Unit;
+use crate::watched::Watched;
 
 /// What a number for variables stands for: three bits of this below the number of a component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -233,7 +234,7 @@ impl Adapter<'_> {
         Ok(dapts::SetVariableResponse { value, ..dapts::SetVariableResponse::default() })
     }
 
-    /// The value of an entry; with `=`, writes it.
+    /// The value of a formula; `name = value` writes an entry.
     pub(super) fn evaluate(
         &mut self,
         asked: dapts::EvaluateArguments,
@@ -241,22 +242,16 @@ impl Adapter<'_> {
         let plan = self.plan_of(None, asked.frame_id)?;
         let run = self.run()?;
         let program = run.target.program().clone();
-        let find = |name: &str| program.entry(plan, name.trim());
-        if let Some((name, value)) = asked.expression.split_once('=') {
-            let entry = find(name).and_then(|id| program.entries.get(id.0 as usize));
-            let path = entry.map_or(name.trim(), |entry| &*entry.path);
-            let result = run.target.set(path, value.trim())?;
+        if let Some((name, value)) = assigned(&asked.expression) {
+            let entry = program.entry(plan, name).and_then(|id| program.entries.get(id.0 as usize));
+            let path = entry.map_or(name, |entry| &*entry.path);
+            let result = run.target.set(path, value)?;
             return Ok(dapts::EvaluateResponse { result, ..dapts::EvaluateResponse::default() });
         }
-        let name = asked.expression.trim();
-        let found = find(name).and_then(|id| Some((id, program.entries.get(id.0 as usize)?)));
-        let (id, entry) = found.ok_or_else(|| Refusal(unknown(name, &program, plan)))?;
-        let value = run.target.state().entry(id);
-        Ok(dapts::EvaluateResponse {
-            result: value.map_or("unset".to_owned(), |value| value.in_unit(&entry.unit)),
-            ty: Some(entry.ty.clone()),
-            ..dapts::EvaluateResponse::default()
-        })
+        let watched = Watched::new(&program, plan, &asked.expression)?;
+        let result = watched.shown(&program, run.target.state())?;
+        let ty = Some(watched.ty());
+        Ok(dapts::EvaluateResponse { result, ty, ..dapts::EvaluateResponse::default() })
     }
 
     /// The plan that a client looks into.
@@ -275,13 +270,11 @@ impl Adapter<'_> {
     }
 }
 
-fn unknown(name: &str, program: &Program, plan: ComponentId) -> String {
-    let entries = program.entries.iter().filter(|entry| entry.plan == plan);
-    let names: Vec<_> = entries.map(|entry| &*entry.name).collect();
-    match names.is_empty() {
-        true => format!("'{name}' is no entry, and this plan has none"),
-        false => format!("'{name}' is no entry of this plan; it has {}", names.join(", ")),
-    }
+/// The two sides of an assignment; a comparison is none.
+fn assigned(text: &str) -> Option<(&str, &str)> {
+    let (name, value) = text.split_once('=')?;
+    let compares = name.ends_with(['!', '<', '>']) || value.starts_with('=');
+    (!compares).then(|| (name.trim(), value.trim()))
 }
 
 /// The component behind the number of a frame.

@@ -6,14 +6,28 @@ use afp_dsl::graph::EntryKind;
 use super::stop::source;
 use super::{Adapter, Answer};
 use crate::breakpoints::{Breakpoint, Kind};
-use crate::program::Spot;
+use crate::program::{Program, Spot};
+use crate::watched::Watched;
 
 /// A breakpoint that a client wants.
 struct Wanted {
     /// Where, or why it is nowhere.
-    spot: Result<Spot, String>,
+    spots: Result<Vec<Spot>, String>,
     condition: Option<String>,
     hits: Option<String>,
+    log: Option<String>,
+}
+
+impl Wanted {
+    /// The breakpoint of that number.
+    fn made(self, id: u64, program: &Program) -> Result<Breakpoint, String> {
+        let spots = self.spots?;
+        let plan = spots.first().map_or(ComponentId(0), |spot| program.plan_at(*spot));
+        let text = self.condition.filter(|text| !text.trim().is_empty());
+        let condition = text.map(|text| Watched::condition(program, plan, &text)).transpose()?;
+        let from_hit = hit(self.hits.as_deref())?;
+        Ok(Breakpoint { id, spots, condition, from_hit, log: self.log, hits: 0 })
+    }
 }
 
 impl Adapter<'_> {
@@ -25,31 +39,22 @@ impl Adapter<'_> {
         let first = self.client.first_line;
         let program = self.run()?.target.program().clone();
         let file = program.file(&path);
-        let (mut all, mut told) = (Vec::new(), Vec::new());
-        for wanted in asked.breakpoints.unwrap_or_default() {
-            let line = wanted.line.saturating_sub(first);
-            let found = file.and_then(|file| program.at_line(file, line));
-            let id = self.breakpoints.number();
-            let mut answer = dapts::Breakpoint { id: Some(id), ..dapts::Breakpoint::default() };
-            let refused = refused(wanted.condition.as_deref())
-                .or_else(|| {
-                    file.is_none().then(|| "the plan that runs does not use this file".into())
-                })
-                .or_else(|| {
-                    found.is_none().then(|| "nothing happens at this line or below it".into())
-                });
-            let from_hit = hit(wanted.hit_condition.as_deref());
-            match (refused, from_hit, found) {
-                (None, Ok(from_hit), Some((line, spots))) => {
-                    answer.verified = true;
-                    answer.line = Some(line + first);
-                    answer.source = file.and_then(|file| source(&program, file));
-                    let spots = spots.to_vec();
-                    all.push(Breakpoint { id, spots, from_hit, log: wanted.log_message, hits: 0 });
-                }
-                (why, from_hit, _) => answer.message = why.or(from_hit.err()),
-            }
-            told.push(answer);
+        let wanted = asked.breakpoints.unwrap_or_default().into_iter().map(|it| {
+            let found = file.map(|file| program.at_line(file, it.line.saturating_sub(first)));
+            let spots = match found {
+                None => Err("the plan that runs does not use this file".to_owned()),
+                Some(None) => Err("nothing happens at this line or below it".to_owned()),
+                Some(Some((_, spots))) => Ok(spots.to_vec()),
+            };
+            let line = found.flatten().map(|(line, _)| line + first);
+            let (condition, hits, log) = (it.condition, it.hit_condition, it.log_message);
+            (Wanted { spots, condition, hits, log }, line)
+        });
+        let (wanted, lines): (Vec<_>, Vec<_>) = wanted.unzip();
+        let (all, mut told) = self.made(wanted, &program);
+        for (answer, line) in told.iter_mut().zip(lines).filter(|(answer, _)| answer.verified) {
+            answer.line = line;
+            answer.source = file.and_then(|file| source(&program, file));
         }
         self.breakpoints.set_lines(path, all);
         Ok(dapts::SetBreakpointsResponse { breakpoints: told })
@@ -61,17 +66,20 @@ impl Adapter<'_> {
     ) -> Answer<dapts::SetFunctionBreakpointsResponse> {
         let program = self.run()?.target.program().clone();
         let find = |name: &str| {
-            program.find(name.trim()).ok_or_else(|| {
+            let found = program.find(name.trim()).map(|spot| vec![spot]);
+            found.ok_or_else(|| {
                 let like = "write a path such as 'patrol.avoid' or 'patrol.avoid.touch.Pressed'";
                 format!("the plan has nothing called '{name}': {like}")
             })
         };
         let wanted = asked.breakpoints.into_iter().map(|it| Wanted {
-            spot: find(&it.name),
+            spots: find(&it.name),
             condition: it.condition,
             hits: it.hit_condition,
+            log: None,
         });
-        let breakpoints = self.set_spots(Kind::Function, wanted.collect());
+        let (all, breakpoints) = self.made(wanted.collect(), &program);
+        self.breakpoints.set(Kind::Function, all);
         Ok(dapts::SetFunctionBreakpointsResponse { breakpoints })
     }
 
@@ -81,39 +89,40 @@ impl Adapter<'_> {
     ) -> Answer<dapts::SetDataBreakpointsResponse> {
         let program = self.run()?.target.program().clone();
         let find = |path: &str| {
-            let found = program.entry(ComponentId(0), path).map(Spot::Commit);
+            let found = program.entry(ComponentId(0), path).map(|id| vec![Spot::Commit(id)]);
             found.ok_or_else(|| format!("the plan has no entry '{path}'"))
         };
-        let wanted = asked.breakpoints.into_iter();
-        let wanted = wanted.map(|it| Wanted {
-            spot: find(&it.data_id),
+        let wanted = asked.breakpoints.into_iter().map(|it| Wanted {
+            spots: find(&it.data_id),
             condition: it.condition,
             hits: it.hit_condition,
+            log: None,
         });
-        let breakpoints = self.set_spots(Kind::Data, wanted.collect());
+        let (all, breakpoints) = self.made(wanted.collect(), &program);
+        self.breakpoints.set(Kind::Data, all);
         Ok(dapts::SetDataBreakpointsResponse { breakpoints })
     }
 
-    /// Breakpoints in place of all of a kind.
-    fn set_spots(&mut self, kind: Kind, wanted: Vec<Wanted>) -> Vec<dapts::Breakpoint> {
+    /// The breakpoints that can be, and an answer for each that is wanted.
+    fn made(
+        &mut self,
+        wanted: Vec<Wanted>,
+        program: &Program,
+    ) -> (Vec<Breakpoint>, Vec<dapts::Breakpoint>) {
         let (mut all, mut told) = (Vec::new(), Vec::new());
-        for Wanted { spot, condition, hits } in wanted {
+        for wanted in wanted {
             let id = self.breakpoints.number();
             let mut answer = dapts::Breakpoint { id: Some(id), ..dapts::Breakpoint::default() };
-            let condition = refused(condition.as_deref()).map_or(Ok(()), Err);
-            match (spot, condition, hit(hits.as_deref())) {
-                (Ok(spot), Ok(()), Ok(from_hit)) => {
+            match wanted.made(id, program) {
+                Ok(breakpoint) => {
                     answer.verified = true;
-                    all.push(Breakpoint { id, spots: vec![spot], from_hit, log: None, hits: 0 });
+                    all.push(breakpoint);
                 }
-                (spot, condition, hit) => {
-                    answer.message = spot.err().or(condition.err()).or(hit.err());
-                }
+                Err(why) => answer.message = Some(why),
             }
             told.push(answer);
         }
-        self.breakpoints.set(kind, all);
-        told
+        (all, told)
     }
 
     pub(super) fn data_info(
@@ -157,12 +166,6 @@ impl Adapter<'_> {
         };
         Ok(dapts::BreakpointLocationsResponse { breakpoints: lines.map(at).collect() })
     }
-}
-
-/// Why a condition cannot be kept.
-fn refused(condition: Option<&str>) -> Option<String> {
-    let condition = condition.filter(|text| !text.trim().is_empty())?;
-    Some(format!("this release holds no run on a condition ('{condition}'): use a number of hits"))
 }
 
 /// From which hit on a breakpoint holds the run: `3`, or `>= 3`.

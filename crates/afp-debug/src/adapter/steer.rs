@@ -196,8 +196,8 @@ impl Adapter<'_> {
         let mut last = None;
         while run.target.steps() + 1 < end {
             let mut hit = Hits::default();
-            let advance = run.target.advance(Instant::MAX, &mut |happened, _| {
-                let hits = breakpoints.hits(&happened.event, &program);
+            let advance = run.target.advance(Instant::MAX, &mut |happened, state| {
+                let hits = breakpoints.hits(&happened.event, &program, state);
                 hit.stop.extend(hits.stop);
                 hit.exception = hit.exception.or(hits.exception);
             })?;
@@ -275,15 +275,20 @@ impl Adapter<'_> {
 
     fn drive_run(&mut self, run: &mut Run<'_>, now: Wall) {
         let limit = run.pace.limit(now).min(run.end);
-        let mut happened = Vec::new();
+        let program = run.target.program().clone();
+        let (mut happened, mut hits) = (Vec::new(), Vec::new());
         for _ in 0..BATCH {
             let before = run.target.steps();
-            let advance = run.target.advance(limit, &mut |what, _| happened.push(what.clone()));
+            let breakpoints = &mut self.breakpoints;
+            let advance = run.target.advance(limit, &mut |what, state| {
+                hits.push(breakpoints.hits(&what.event, &program, state));
+                happened.push(what.clone());
+            });
             let advance = match advance {
                 Ok(advance) => advance,
                 Err(why) => return self.failed(run, &why),
             };
-            let held = self.look_at(run, &happened, before);
+            let held = self.look_at(run, &happened, hits.drain(..), before);
             happened.clear();
             match advance {
                 _ if held => return,
@@ -300,15 +305,20 @@ impl Adapter<'_> {
     }
 
     /// Tells what happened in a step, and holds the run where something of it is waited for.
-    fn look_at(&mut self, run: &mut Run<'_>, happened: &[Happened], before: u64) -> bool {
+    fn look_at(
+        &mut self,
+        run: &mut Run<'_>,
+        happened: &[Happened],
+        hits: impl Iterator<Item = Hits>,
+        before: u64,
+    ) -> bool {
         if happened.is_empty() && run.mode != Mode::One {
             return false;
         }
         let mut all = Hits::default();
-        for what in happened {
+        for (what, hits) in happened.iter().zip(hits) {
             self.say(run, what);
-            let hits = self.breakpoints.hits(&what.event, run.target.program());
-            hits.logs.iter().for_each(|text| self.log(run, text));
+            hits.logs.iter().for_each(|text| self.log(what, text));
             if run.launch.no_debug {
                 continue;
             }

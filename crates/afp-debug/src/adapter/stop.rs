@@ -1,7 +1,5 @@
 //! What a client is told while a run goes on, and when it stands still.
 
-use std::fmt::Write;
-
 use afp_session::{EndingKind, EventKind};
 use dapts::{StoppedEventReason as Reason, event};
 use serde_json::json;
@@ -10,7 +8,6 @@ use super::steer::Mode;
 use super::{Adapter, Answer, Run};
 use crate::breakpoints::Kind;
 use crate::program::Program;
-use crate::state::State;
 use crate::target::Happened;
 
 impl Kind {
@@ -46,10 +43,9 @@ impl Adapter<'_> {
         self.event::<event::Output>(&said);
     }
 
-    /// Says what a log point says, entries in braces.
-    pub(super) fn log(&mut self, run: &Run<'_>, text: &str) {
-        let at = run.target.now().as_secs_f64();
-        let text = filled(text, run.target.program(), run.target.state());
+    /// Says what a log point says.
+    pub(super) fn log(&mut self, what: &Happened, text: &str) {
+        let at = what.event.at.as_secs_f64();
         self.output("console", &format!("{at:>10.3}  {text}\n"));
     }
 
@@ -169,31 +165,4 @@ pub(super) fn source(program: &Program, file: usize) -> Option<dapts::Source> {
     let path = program.files.get(file)?;
     let name = path.rsplit(['/', '\\']).next().unwrap_or(path).to_owned();
     Some(dapts::Source { name: Some(name), path: Some(path.clone()), ..dapts::Source::default() })
-}
-
-/// A text in which entries in braces are their values.
-fn filled(text: &str, program: &Program, state: &State) -> String {
-    let mut filled = String::new();
-    let mut rest = text;
-    while let Some((before, after)) = rest.split_once('{') {
-        filled.push_str(before);
-        let Some((name, behind)) = after.split_once('}') else {
-            filled.push('{');
-            rest = after;
-            continue;
-        };
-        let entry = program.entry(afp_core::trace::ComponentId(0), name.trim());
-        let shown = entry.and_then(|id| {
-            let entry = program.entries.get(id.0 as usize)?;
-            Some(state.entry(id).map_or("unset".to_owned(), |value| value.in_unit(&entry.unit)))
-        });
-        match shown {
-            Some(value) => filled.push_str(&value),
-            // Writing to a text cannot fail.
-            None => drop(write!(filled, "{{{name}}}")),
-        }
-        rest = behind;
-    }
-    filled.push_str(rest);
-    filled
 }

@@ -10,3 +10,4 @@ mod scale;
 mod support;
 mod timing;
 mod totality;
+mod watch;

@@ -1,0 +1,137 @@
+//! Formulas that a client asks for, with their values now.
+
+use afp_core::trace::{ComponentId, TraceEntryId};
+use afp_dsl::graph::{Component, EntryId, Graph, PlanId};
+use afp_dsl::toolbox::Constant;
+use afp_dsl::types::Type;
+use afp_dsl::watch::Watch;
+use afp_session::Datum;
+
+use crate::program::Program;
+use crate::state::State;
+
+/// A formula inside a plan that runs.
+#[derive(Clone, Debug)]
+pub(crate) struct Watched {
+    watch: Watch,
+    /// The text as it was asked for.
+    text: String,
+    /// The number of the first entry of the plan.
+    first: u32,
+}
+
+impl Watched {
+    /// The formula that a text is inside a plan.
+    ///
+    /// # Errors
+    /// What is wrong with it, and what to do.
+    pub fn new(program: &Program, plan: ComponentId, text: &str) -> Result<Watched, String> {
+        let inside = plan_of(&program.graph, program, plan).ok_or("there is no such plan")?;
+        let watch = Watch::new(&program.graph, inside, text).map_err(|why| why.to_string())?;
+        let first = program.entries.iter().position(|entry| entry.plan == plan).unwrap_or(0);
+        Ok(Watched { watch, text: text.trim().to_owned(), first: first as u32 })
+    }
+
+    /// The same, if it is true or false.
+    ///
+    /// # Errors
+    /// As [`Watched::new`].
+    pub fn condition(program: &Program, plan: ComponentId, text: &str) -> Result<Watched, String> {
+        let watched = Watched::new(program, plan, text)?;
+        match watched.watch.ty() {
+            Type::Bool => Ok(watched),
+            ty => Err(format!("'{}' is of type '{ty}': compare it with something", watched.text)),
+        }
+    }
+
+    /// Its value; none while an entry in it has none.
+    ///
+    /// # Errors
+    /// It cannot be computed.
+    pub fn value(&self, program: &Program, state: &State) -> Result<Option<Constant>, String> {
+        let entry = |id: EntryId| {
+            let number = TraceEntryId(self.first + u32::from(id.0));
+            let declared = program.graph_entry(number)?;
+            constant(state.entry(number)?, &declared.ty)
+        };
+        self.watch.value(&entry).map_err(|why| format!("'{}' cannot be computed: {why}", self.text))
+    }
+
+    /// Whether it is true; what has no value is not.
+    pub fn holds(&self, program: &Program, state: &State) -> bool {
+        matches!(self.value(program, state), Ok(Some(Constant::Bool(true))))
+    }
+
+    /// Its value as people write it.
+    ///
+    /// # Errors
+    /// It cannot be computed.
+    pub fn shown(&self, program: &Program, state: &State) -> Result<String, String> {
+        let Some(value) = self.value(program, state)? else { return Ok("unset".to_owned()) };
+        let unit = match self.watch.ty() {
+            Type::Quantity(dimension) => dimension.si_unit(),
+            _ => String::new(),
+        };
+        Ok(datum(value, self.watch.ty()).in_unit(&unit))
+    }
+
+    /// The type of its value, as in the text.
+    pub fn ty(&self) -> String {
+        self.watch.ty().to_string()
+    }
+}
+
+impl Program {
+    /// The declaration of an entry.
+    fn graph_entry(&self, id: TraceEntryId) -> Option<&afp_dsl::graph::Entry> {
+        let plan = self.entries.get(id.0 as usize)?.plan;
+        let first = self.entries.iter().position(|entry| entry.plan == plan)?;
+        let inside = plan_of(&self.graph, self, plan)?;
+        self.graph.plan(inside).entries.get(id.0 as usize - first)
+    }
+}
+
+/// The plan that an element is, or the outermost one.
+fn plan_of(graph: &Graph, program: &Program, plan: ComponentId) -> Option<PlanId> {
+    if plan == ComponentId(0) {
+        return Some(graph.main);
+    }
+    let unit = program.unit(plan)?;
+    let around = plan_of(graph, program, unit.plan)?;
+    let mut elements = graph.plan(around).elements.iter();
+    match elements.find(|element| element.name == unit.name)?.component {
+        Component::SubPlan(id) => Some(id),
+        _ => None,
+    }
+}
+
+/// A value as formulas have it.
+fn constant(value: &Datum, ty: &Type) -> Option<Constant> {
+    Some(match (value, ty) {
+        (Datum::Truth(truth), _) => Constant::Bool(*truth),
+        (Datum::Integer(integer), _) => Constant::Int(*integer),
+        (Datum::Number(number), _) => Constant::Float(*number),
+        (Datum::Text(text), _) => Constant::Text(text.clone()),
+        (Datum::Choice(text), Type::Enum(choices)) => {
+            let name = text.rsplit('.').next()?;
+            let place = choices.variants.iter().position(|variant| variant == name)?;
+            Constant::Choice(u16::try_from(place).ok()?)
+        }
+        _ => return None,
+    })
+}
+
+/// A value as runs tell of it.
+fn datum(value: Constant, ty: &Type) -> Datum {
+    match (value, ty) {
+        (Constant::Bool(truth), _) => Datum::Truth(truth),
+        (Constant::Int(integer), _) => Datum::Integer(integer),
+        (Constant::Float(number), _) => Datum::Number(number),
+        (Constant::Text(text), _) => Datum::Text(text),
+        (Constant::Choice(place), Type::Enum(choices)) => {
+            let name = choices.variants.get(usize::from(place)).map_or("", |name| &**name);
+            Datum::Choice(format!("{}.{name}", choices.name))
+        }
+        (Constant::Choice(place), _) => Datum::Choice(format!("#{place}")),
+    }
+}

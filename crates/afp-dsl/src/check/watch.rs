@@ -1,0 +1,197 @@
+//! Formulas about a plan that runs: what somebody asks who watches it.
+//!
+//! A watch is a formula of the language, typed as if it stood in the plan, or two formulas that are compared:
+//! `walldist - 5 cm`, `left % 2 == 0`. Debuggers stop on them and show them.
+
+use std::fmt;
+use std::sync::Arc;
+
+use crate::check::constant;
+use crate::check::entries::EntryDraft;
+use crate::check::formula::Scope;
+use crate::check::names::Places;
+use crate::check::types::Types;
+use crate::graph::{EntryId, Formula, Graph, Plan, PlanId};
+use crate::index::Recorder;
+use crate::scenario::Comparison;
+use crate::toolbox::Constant;
+use crate::types::{Enum, Type};
+use afp_syntax::ast::{self, Item, Name};
+use afp_syntax::diagnostics::Diagnostics;
+
+/// What comes before a formula so that it can be read like any other.
+const BEFORE: &str = "plan Watched { var watched: float = ";
+/// What comes behind it.
+const BEHIND: &str = "\n}";
+
+/// The signs of comparisons; of two that begin alike the longer one comes first.
+const SIGNS: [&str; 6] = ["==", "!=", "<=", ">=", "<", ">"];
+
+/// A formula, or two that are compared.
+#[derive(Clone, Debug)]
+pub struct Watch {
+    left: Formula,
+    right: Option<(Comparison, Formula)>,
+}
+
+/// Why a text cannot be watched, and what to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WatchError {
+    /// What is wrong.
+    pub message: String,
+    /// What to do; empty where nothing is known.
+    pub help: String,
+}
+
+impl Watch {
+    /// The formula that a text is inside a plan.
+    ///
+    /// # Errors
+    /// The first thing that is wrong with it.
+    pub fn new(graph: &Graph, plan: PlanId, text: &str) -> Result<Watch, WatchError> {
+        let inside = Inside::new(graph, graph.plan(plan));
+        let Some((left, sign, right)) = compared(text) else {
+            return Ok(Watch { left: inside.formula(text, None)?, right: None });
+        };
+        let left = inside.formula(left, None)?;
+        let right = inside.formula(right, Some(&left.ty))?;
+        if sign.is_order() && !left.ty.is_numeric() {
+            return Err(WatchError {
+                message: format!("values of '{}' have no order", left.ty),
+                help: "write '==' or '!='".to_owned(),
+            });
+        }
+        Ok(Watch { left, right: Some((sign, right)) })
+    }
+
+    /// The type of its value.
+    pub fn ty(&self) -> &Type {
+        match &self.right {
+            Some(_) => &Type::Bool,
+            None => &self.left.ty,
+        }
+    }
+
+    /// Its value; none while an entry in it has none. `entry` gives those of the plan's entries.
+    ///
+    /// # Errors
+    /// It cannot be computed, say because it divides by zero.
+    pub fn value(
+        &self,
+        entry: &dyn Fn(EntryId) -> Option<Constant>,
+    ) -> Result<Option<Constant>, afp_number::Error> {
+        let entry = |id: u16| entry(EntryId(id));
+        let left = constant::evaluate(&self.left, &entry)?;
+        let Some((sign, right)) = &self.right else { return Ok(left) };
+        let right = constant::evaluate(right, &entry)?;
+        let both = left.zip(right);
+        Ok(both.map(|(left, right)| Constant::Bool(sign.holds(&left, &right))))
+    }
+}
+
+/// What formulas in a plan can name.
+struct Inside {
+    entries: Vec<EntryDraft>,
+    places: Places,
+    types: Types,
+}
+
+impl Inside {
+    fn new(graph: &Graph, plan: &Plan) -> Inside {
+        let entries = plan.entries.iter().map(|entry| EntryDraft {
+            name: Name { text: entry.name.clone(), span: entry.span },
+            doc: String::new(),
+            kind: entry.kind,
+            ty: Some(entry.ty.clone()),
+            init: None,
+            has_init: true,
+            value: None,
+        });
+        let names = plan.entries.iter().map(|entry| Some(entry.name.as_str()));
+        let mut types = Types::default();
+        for toolbox in &graph.toolboxes {
+            types.homes.push((toolbox.name.clone(), toolbox.span));
+            let known = toolbox.enums.iter();
+            types.enums.extend(known.map(|each| (Some(toolbox.name.clone()), each.clone())));
+        }
+        types.enums.extend(own_enums(graph).into_iter().map(|each| (None, each)));
+        Inside { entries: entries.collect(), places: Places::of(names), types }
+    }
+
+    fn formula(&self, text: &str, want: Option<&Type>) -> Result<Formula, WatchError> {
+        let whole = format!("{BEFORE}{text}{BEHIND}");
+        let mut diags = Diagnostics::default();
+        let read = init(&whole, &mut diags);
+        let record = Recorder::for_text(whole.len());
+        let scope = Scope {
+            types: &self.types,
+            entries: &self.entries,
+            places: &self.places,
+            readable: &|_| true,
+            unreadable: "",
+            text: &whole,
+            record: &record,
+        };
+        // A text that ends the plan around it is none.
+        let end = BEFORE.len() + text.trim_end().len();
+        let whole_text = |read: &ast::Formula| read.span().end as usize == end;
+        let typed = read.filter(|read| !diags.has_errors() && whole_text(read));
+        let typed = typed.and_then(|formula| scope.check(&formula, want, &mut diags));
+        typed.map(|(formula, _)| formula).ok_or_else(|| match diags.iter().next() {
+            Some(first) => WatchError { message: first.message.clone(), help: first.help.clone() },
+            None => WatchError {
+                message: format!("'{}' is no formula", text.trim()),
+                help: "write an entry, or a formula of entries".to_owned(),
+            },
+        })
+    }
+}
+
+/// The initial value of the first entry of the first plan of a text.
+fn init(whole: &str, diags: &mut Diagnostics) -> Option<ast::Formula> {
+    let file = afp_syntax::parse(whole, 0, diags).file();
+    let plan = file.items().into_iter().find_map(|item| match item {
+        Item::Plan(plan) => Some(plan),
+        _ => None,
+    })?;
+    plan.entries().first()?.init()
+}
+
+/// The enums of plan files, as far as entries are of them.
+fn own_enums(graph: &Graph) -> Vec<Arc<Enum>> {
+    let mut all: Vec<Arc<Enum>> = Vec::new();
+    for entry in graph.plans.iter().flat_map(|plan| &plan.entries) {
+        if let Type::Enum(each) = &entry.ty
+            && each.toolbox.is_none()
+            && all.iter().all(|known| known.name != each.name)
+        {
+            all.push(each.clone());
+        }
+    }
+    all
+}
+
+/// The two sides of a comparison, taken apart outside of texts.
+fn compared(text: &str) -> Option<(&str, Comparison, &str)> {
+    let mut quoted = false;
+    for (at, letter) in text.char_indices() {
+        quoted ^= letter == '"';
+        let sign = || SIGNS.into_iter().find(|sign| text[at..].starts_with(sign));
+        if let Some(sign) = (!quoted).then(sign).flatten() {
+            return Some((&text[..at], Comparison::parse(sign)?, &text[at + sign.len()..]));
+        }
+    }
+    None
+}
+
+impl fmt::Display for WatchError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)?;
+        match &*self.help {
+            "" => Ok(()),
+            help => write!(f, " (help: {help})"),
+        }
+    }
+}
+
+impl std::error::Error for WatchError {}

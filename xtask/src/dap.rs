@@ -1,0 +1,19 @@
+//! Debugs a plan with a public client of the Debug Adapter Protocol.
+
+use crate::npm;
+use crate::shell::{Failure, cargo, program, root, run as run_command, target};
+
+/// The program that debugs.
+const PROGRAM: &str = "debug.js";
+
+/// Debugs over standard input and output and over a socket.
+///
+/// # Errors
+/// No node or npm, no network for the client, or an answer that is wrong.
+pub fn run() -> Result<(), Failure> {
+    let folder = npm::installed("dap", PROGRAM)?;
+    run_command(cargo().args(["build", "--quiet", "--package", "afpc"]))?;
+    let afpc = target().join("debug").join(format!("afpc{}", std::env::consts::EXE_SUFFIX));
+    let debug = folder.join(PROGRAM);
+    run_command(program("node").arg(debug).env("AFPC", afpc).env("AFP_PLANS", root().join("plans")))
+}
