@@ -2,7 +2,7 @@
 (() => {
   const words =
     "active actor afp after always as at before budget by commit computation const deadline device end " +
-    "enum event every expect false fault for forever from heading icon ignore in interrupt live never object " +
+    "enum event every expect fail false fault for forever from heading icon ignore in interrupt live never object " +
     "of on once out plan press robot running scenario seed sensor set signal start state states stop subplan " +
     "supervise supervisor terminate times to toolbox true truth until use uses var version within " +
     "world";

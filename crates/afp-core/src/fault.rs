@@ -68,6 +68,9 @@ impl Fault {
         Fault(reason)
     }
 
+    /// The [`Fault::code`] of what an edge to `fail` ends a plan with; the text is the plan's own.
+    pub const FAILED: &str = "failed";
+
     /// The reason's short name.
     pub const fn code(self) -> &'static str {
         self.0.code

@@ -317,7 +317,7 @@ pub trait Names {
     /// A state or event of a component, by position in its template; `DeadlineMissed` and `Error`
     /// go by their own numbers.
     fn outcome(&self, id: ComponentId, outcome: u16) -> &str;
-    /// Where an outcome leads: an element's name, `terminate`, `ignore`; empty where unconnected.
+    /// Where an outcome leads: an element's name, `terminate`, `fail`, `ignore`; empty where unconnected.
     fn target(&self, id: ComponentId, outcome: u16) -> &str;
     /// An input port of a component.
     fn input(&self, id: ComponentId, port: u16) -> &str;

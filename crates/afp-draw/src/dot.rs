@@ -43,9 +43,11 @@ impl<'a> Cluster<'a, '_> {
         for element in &plan.elements {
             self.node(text, element);
         }
-        if self.reaches_end() {
-            let end = quoted(&self.node_name(To::Terminate));
-            line(text, 2, &format!("{end} [label=\"terminate\", shape=oval];"));
+        for (end, look) in [(To::Terminate, ""), (To::Fail(""), ", color=red")] {
+            if self.reaches(end) {
+                let (node, label) = (quoted(&self.node_name(end)), view.target_name(end));
+                line(text, 2, &format!("{node} [label=\"{label}\", shape=oval{look}];"));
+            }
         }
         line(text, 1, "}");
         for first in &plan.starts {
@@ -116,9 +118,10 @@ impl<'a> Cluster<'a, '_> {
         }
     }
 
-    fn reaches_end(&self) -> bool {
+    fn reaches(&self, end: To<'a>) -> bool {
+        let end = self.node_name(end);
         let ends = |component: &'a Component| {
-            self.view.exits(component).iter().any(|exit| exit.to == To::Terminate)
+            self.view.exits(component).iter().any(|exit| self.node_name(exit.to) == end)
         };
         self.view.plan.components().any(ends)
     }

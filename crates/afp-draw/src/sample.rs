@@ -42,7 +42,8 @@ pub(super) fn generated(count: u64, seed: u64) -> String {
     for index in 0..count {
         // Mostly onwards, as plans are.
         let mut any = || match next(10) {
-            0 | 1 => "terminate".to_owned(),
+            0 => "terminate".to_owned(),
+            1 => format!("fail \"{index} is stuck\""),
             2 | 3 => format!("element{}", next(count)),
             _ => format!("element{}", (index + 1 + next(3)) % count),
         };

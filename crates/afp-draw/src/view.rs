@@ -68,6 +68,8 @@ pub(super) struct Exit<'a> {
 pub(super) enum To<'a> {
     Element(ElementId),
     Terminate,
+    /// The plan fails; with the reason, in quotes, where one is written.
+    Fail(&'a str),
     Ignore,
     /// To what the plan does not have.
     Unknown(&'a str),
@@ -90,6 +92,7 @@ impl<'a> To<'a> {
         match target.map(|target| (target.to, target.text.as_str())) {
             Some((Destination::Element(id), _)) => To::Element(id),
             Some((Destination::Terminate, _)) => To::Terminate,
+            Some((Destination::Fail, _)) => To::Fail(target.and_then(Target::reason).unwrap_or("")),
             Some((Destination::Ignore, _)) => To::Ignore,
             Some((Destination::Unknown, text)) if !text.is_empty() => To::Unknown(text),
             _ => To::Nowhere,
@@ -237,6 +240,7 @@ impl<'a> View<'a> {
         match to {
             To::Element(id) => name(&self.plan.elements[id.index()]),
             To::Terminate => "terminate",
+            To::Fail(_) => "fail",
             To::Ignore => "ignore",
             To::Unknown(text) => text,
             To::Nowhere => "",

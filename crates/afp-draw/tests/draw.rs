@@ -95,6 +95,8 @@ fn dot_names_every_element_and_every_edge_but_ignored_ones() {
         "\"Square:drive\" -> \"Square:avoid\" [label=\"Error\", style=dotted];",
         "\"Square!start\" -> \"Square!terminate\" [label=\"escape: EscapeButtonPressed\", style=dashed];",
         "\"Avoid:away\" -> \"Avoid!terminate\"",
+        "\"Avoid:away\" -> \"Avoid!fail\" [label=\"Error\", style=dotted];",
+        "\"Avoid!fail\" [label=\"fail\", shape=oval, color=red];",
         "\"Square:loop\" [label=\"loop\\nCount\\nvalue = round\\nlimit = 4\\nnext => round\", shape=hexagon",
     ] {
         assert!(text.contains(expected), "no {expected} in\n{text}");

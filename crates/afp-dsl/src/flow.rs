@@ -8,6 +8,7 @@ mod assigned;
 mod cycles;
 mod dataflow;
 mod endless;
+mod failing;
 mod frozen;
 mod ignored;
 mod recovery;
@@ -21,6 +22,7 @@ use std::sync::Arc;
 use crate::graph::{Plan, TemplateId};
 use crate::toolbox::{Template, Toolbox};
 use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::source::Span;
 
 pub(crate) use cycles::{count_limit, is_quick};
 use view::View;
@@ -46,6 +48,8 @@ impl Model<'_> {
 pub(crate) const OK: usize = 0;
 /// Index of the ending `Interrupted`.
 pub(crate) const INTERRUPTED: usize = 1;
+/// The node after [`INTERRUPTED`]: `fail`, which has no place in those tables.
+pub(crate) const FAILED: usize = 2;
 
 /// What the users of a plan need to know of its flow.
 #[derive(Clone, Debug)]
@@ -54,6 +58,8 @@ pub(crate) struct Summary {
     pub ends: [bool; 2],
     /// Whether it can do so within the step that starts it.
     pub instant: [bool; 2],
+    /// An edge to `fail` that can be reached.
+    pub fails: Option<Span>,
     /// Whether it consists of computations only, so that it never takes time.
     pub timeless: bool,
     /// For each ending and `out` entry: a way to the ending on which nothing writes the entry.
@@ -69,7 +75,8 @@ pub(crate) fn check(model: &Model<'_>, diags: &mut Diagnostics) {
 pub(crate) fn sum_up(model: &Model<'_>) -> Vec<Option<Summary>> {
     in_order(model, |view| {
         let (instant, timeless) = cycles::instant_endings(view);
-        Summary { ends: endless::endings(view), instant, timeless, unset: Default::default() }
+        let (ends, fails) = (endless::endings(view), failing::edge(view));
+        Summary { ends, fails, instant, timeless, unset: Default::default() }
     })
 }
 
@@ -95,6 +102,7 @@ fn check_plan(view: &View<'_>, diags: &mut Diagnostics) -> Summary {
     let ends = endless::check(view, diags);
     let unset = assigned::check(view, diags);
     cycles::check(view, diags);
+    let fails = failing::check(view, diags);
     let (instant, timeless) = cycles::instant_endings(view);
-    Summary { ends, instant, timeless, unset }
+    Summary { ends, fails, instant, timeless, unset }
 }

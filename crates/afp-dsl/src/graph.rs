@@ -42,6 +42,8 @@ index! {
     SupervisorId,
     /// A toolbox of [`Graph::toolboxes`].
     ToolboxId,
+    /// A text of [`Plan::reasons`].
+    ReasonId,
 }
 
 /// All plans that one plan needs, itself included.
@@ -78,6 +80,8 @@ pub struct Plan {
     pub globals: u16,
     /// The first element.
     pub start: ElementId,
+    /// Why edges to `fail` end the plan: each text once.
+    pub reasons: Vec<String>,
     /// Whether an event or `DeadlineMissed` edge leads to `terminate`, so that the plan can end as
     /// `Interrupted`.
     pub interruptible: bool,
@@ -220,6 +224,8 @@ pub enum Target {
     Element(ElementId),
     /// The plan ends.
     Terminate,
+    /// The plan ends in `Error`, for a reason of its own.
+    Fail(ReasonId),
     /// The event is not taken; events only.
     Ignore,
 }

@@ -151,6 +151,8 @@ pub enum Word {
     DeadlineMissed,
     /// The target `terminate`.
     Terminate,
+    /// The target `fail`.
+    Fail,
     /// The target `ignore`.
     Ignore,
     /// A built-in type, such as `length`.

@@ -28,6 +28,8 @@ pub struct Rows {
     pub elements: Vec<ElementRow>,
     /// The supervisors.
     pub supervisors: Vec<SupervisorRow>,
+    /// Why edges to `fail` end the plan.
+    pub reasons: Vec<String>,
     /// Where states and events lead; `None` where a state cannot be reached.
     pub edges: Vec<Option<Target>>,
     /// For each element, its supervisors and the global ones in polling order.

@@ -268,6 +268,8 @@ pub enum Destination {
     Element(u32),
     /// Out of the plan.
     Terminate,
+    /// Out of the plan, which fails.
+    Fail,
 }
 
 /// A component, or one of its outcomes.

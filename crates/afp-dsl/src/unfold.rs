@@ -93,6 +93,8 @@ pub enum Goal {
     Element(u32),
     /// The plan ends.
     Terminate,
+    /// The plan fails.
+    Fail,
     /// The event is not taken.
     Ignore,
 }
@@ -110,6 +112,7 @@ fn add_places(graph: &Graph, id: PlanId, number: u32, all: &mut Vec<Place>) {
     let goal = |target: Target| match target {
         Target::Element(id) => Goal::Element(first + u32::from(id.0)),
         Target::Terminate => Goal::Terminate,
+        Target::Fail(_) => Goal::Fail,
         Target::Ignore => Goal::Ignore,
     };
     all.extend(plan.elements.iter().map(|element| Place {
@@ -226,6 +229,7 @@ fn target(plan: &Plan, target: Option<Target>) -> String {
     match target {
         Some(Target::Element(id)) => plan.elements[id.index()].name.clone(),
         Some(Target::Terminate) => "terminate".to_owned(),
+        Some(Target::Fail(_)) => "fail".to_owned(),
         Some(Target::Ignore) => "ignore".to_owned(),
         None => String::new(),
     }

@@ -122,6 +122,7 @@ pub(crate) fn word(meaning: Meaning) -> Option<&'static str> {
         Word::Error => "A fault: what the element does cannot go on.",
         Word::DeadlineMissed => "The supervisor was not polled in time.",
         Word::Terminate => "The plan ends.",
+        Word::Fail => "The plan ends in 'Error', for the reason behind it.",
         Word::Ignore => "The event is not taken.",
         Word::Type => "A type of the language.",
         Word::Truth => "A truth value.",

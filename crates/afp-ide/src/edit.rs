@@ -103,7 +103,7 @@ pub enum Change {
         from: Item,
         /// The state or event.
         outcome: String,
-        /// An element of the plan, `terminate`, or `ignore` for an event.
+        /// An element of the plan, `terminate`, `fail`, `fail "reason"`, or `ignore` for an event.
         to: String,
     },
     /// Removes the edge of a state or event.

@@ -19,7 +19,7 @@ use crate::{Node, node_span};
 pub use device::{Amount, Control, Device, DeviceKind, DevicePart, Fault, Press, Signal};
 pub use formula::{Formula, FormulaKind, Operator, Sign};
 pub use plan::{Bind, Edge, Element, ElementKind, Entry, Frame, Guard, Plan, Start};
-pub use scenario::{Action, Bound, Claim, ClaimKind, Line, LineKind, Path, Scenario};
+pub use scenario::{Action, Bound, Claim, ClaimKind, ClaimTarget, Line, LineKind, Path, Scenario};
 pub use toolbox::{InPort, OutPort, Outcome, Part, Template, TemplateKind, Timing, Toolbox};
 
 /// A name and its place.

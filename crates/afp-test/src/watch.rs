@@ -256,7 +256,7 @@ impl<'a> Watch<'a> {
     fn leave(&mut self, at: Instant, element: ComponentId, by: Cause) {
         let to = self.goal(by);
         let outermost = self.place(element).is_some_and(|place| place.plan == 0);
-        if outermost && to == Some(Goal::Terminate) {
+        if outermost && matches!(to, Some(Goal::Terminate | Goal::Fail)) {
             self.last = Some(by);
         }
         if by.component == element.0 {
@@ -366,6 +366,7 @@ fn leads(wanted: Destination, to: Option<Goal>) -> bool {
     match wanted {
         Destination::Element(element) => to == Some(Goal::Element(element)),
         Destination::Terminate => to == Some(Goal::Terminate),
+        Destination::Fail => to == Some(Goal::Fail),
     }
 }
 

@@ -36,6 +36,16 @@ const RULES: &[Rule] = &[
             "look_at_plan_start",
         ],
     ),
+    (
+        "6.1",
+        "an edge to 'fail' ends its own plan in 'Error', for its reason, without stopping anything",
+        &[
+            "fail_ends_the_plan_in_error",
+            "fail_by_an_event",
+            "fail_by_error_deadline_and_computation",
+            "fail_counts_for_livelock",
+        ],
+    ),
     ("1.1", "a computation and 'terminate' have no look", &["look_not_for_computations"]),
     (
         "1.2",

@@ -34,7 +34,7 @@ const OWN: &[&str] = &[
     "Some",
 ];
 /// Statics of the module itself.
-const STATICS: &[&str] = &["EDGES", "ELEMENTS", "NAMES", "SUPERVISORS", "SWEEPS"];
+const STATICS: &[&str] = &["EDGES", "ELEMENTS", "NAMES", "REASONS", "SUPERVISORS", "SWEEPS"];
 /// Functions and locals that generated code calls by bare name.
 const VALUES: &[&str] =
     &["config", "staged", "cx", "to", "from", "see", "plan", "element", "supervisor"];

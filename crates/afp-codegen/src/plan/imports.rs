@@ -15,6 +15,7 @@ pub const CORE: &[&str] = &[
     "Environment",
     "Events",
     "Fault",
+    "Reason",
     "Text",
     "TypedEntry",
     "Value",

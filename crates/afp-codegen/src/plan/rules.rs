@@ -22,10 +22,15 @@ pub fn rules(context: &Context<'_>) -> TokenStream {
         .collect();
     let edges = edges(context);
     let sweeps = sweeps(context);
+    let reasons = rows
+        .reasons
+        .iter()
+        .map(|text| quote!(Fault::new(&Reason { code: Fault::FAILED, text: #text })));
+    let reasons: Vec<_> = reasons.collect();
     let start = context.elements.get(rows.start.index()).map(|names| &names.number);
     let [globals, entries] = [rows.globals, rows.entries].map(Literal::u16_unsuffixed);
-    let [n_elements, n_supervisors, n_edges, n_sweeps] =
-        [elements.len(), supervisors.len(), edges.len(), sweeps.len()]
+    let [n_elements, n_supervisors, n_edges, n_sweeps, n_reasons] =
+        [elements.len(), supervisors.len(), edges.len(), sweeps.len(), reasons.len()]
             .map(Literal::usize_unsuffixed);
     let about = doc("", "Where the scheduler reads the rules of the plan.");
     let notes = [
@@ -33,8 +38,17 @@ pub fn rules(context: &Context<'_>) -> TokenStream {
         "The elements.",
         "The supervisors: global ones, then local ones.",
         "Who is polled while an element is active, in order.",
+        "Why the plan fails.",
     ];
-    let [of_edges, of_elements, of_supervisors, of_sweeps] = notes.map(|note| doc("", note));
+    let [of_edges, of_elements, of_supervisors, of_sweeps, of_reasons] =
+        notes.map(|note| doc("", note));
+    let (named, listed) = match reasons.is_empty() {
+        true => (quote!(&[]), None),
+        false => {
+            let list = quote!(#of_reasons static REASONS: [Fault; #n_reasons] = [#(#reasons),*];);
+            (quote!(&REASONS), Some(list))
+        }
+    };
     quote! {
         #about
         #[derive(Clone, Copy, Debug)]
@@ -49,12 +63,14 @@ pub fn rules(context: &Context<'_>) -> TokenStream {
                     entries: #entries,
                     elements: &ELEMENTS,
                     supervisors: &SUPERVISORS,
+                    reasons: #named,
                     edges: &EDGES,
                     sweeps: &SWEEPS,
                 }
             }
         }
 
+        #listed
         #of_edges
         static EDGES: [Target; #n_edges] = [#(#edges),*];
         #of_elements
@@ -140,6 +156,9 @@ fn edges(context: &Context<'_>) -> Vec<TokenStream> {
     let mut add = |name: &str, outcomes: &[String], targets: &[Option<Target>]| {
         for (outcome, to) in outcomes.iter().zip(targets) {
             let rule = match to {
+                Some(Target::Fail(id)) => {
+                    format!("{name}: {outcome} -> fail {:?}", rows.reasons[id.index()])
+                }
                 Some(to) => format!("{name}: {outcome} -> {}", target_text(context, *to)),
                 None => format!("{name}: {outcome} cannot happen"),
             };
@@ -192,6 +211,10 @@ fn target(context: &Context<'_>, target: Option<Target>) -> TokenStream {
             quote!(Target::Element(#number))
         }
         Some(Target::Terminate) => quote!(Target::Terminate),
+        Some(Target::Fail(id)) => {
+            let reason = Literal::u16_unsuffixed(id.0);
+            quote!(Target::Fail(#reason))
+        }
         Some(Target::Ignore) => quote!(Target::Ignore),
         None => quote!(Target::None),
     }
@@ -201,6 +224,7 @@ fn target_text<'a>(context: &Context<'a>, target: Target) -> &'a str {
     match target {
         Target::Element(id) => &context.plan.elements[id.index()].name,
         Target::Terminate => "terminate",
+        Target::Fail(_) => "fail",
         Target::Ignore => "ignore",
     }
 }

@@ -13,6 +13,7 @@ impl Tables for Rules {
             entries: 0,
             elements: &ELEMENTS,
             supervisors: &SUPERVISORS,
+            reasons: &[],
             edges: &EDGES,
             sweeps: &SWEEPS,
         }
@@ -60,6 +61,7 @@ impl Tables for Rules {
             entries: 1,
             elements: &ELEMENTS,
             supervisors: &SUPERVISORS,
+            reasons: &[],
             edges: &EDGES,
             sweeps: &SWEEPS,
         }

@@ -564,6 +564,7 @@ impl Tables for Rules {
             entries: 2,
             elements: &ELEMENTS,
             supervisors: &SUPERVISORS,
+            reasons: &[],
             edges: &EDGES,
             sweeps: &SWEEPS,
         }

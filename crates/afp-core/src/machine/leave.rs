@@ -71,6 +71,7 @@ impl<P: PlanState> Level<P> {
             let element = match edge.target {
                 Target::Element(element) => element,
                 Target::Terminate => return self.end(edge.ending, cx),
+                Target::Fail(reason) => return self.fail(t.table().reason(reason), cx),
                 Target::Ignore | Target::None => return Flow::Fatal(Fault::INTERNAL),
             };
             match self.enter(t, element, cx) {
@@ -79,6 +80,17 @@ impl<P: PlanState> Level<P> {
                 Err(stop) => return self.stop(stop, cx),
             }
         }
+    }
+
+    /// The plan fails by an edge of its own.
+    fn fail<E, S, C>(&mut self, fault: Fault, cx: &mut Cx<'_, E, S, C>) -> Flow
+    where
+        E: ?Sized,
+        S: Sink,
+        P: Plan<E>,
+    {
+        cx.note_failure(cx.place.plan, fault);
+        self.end(Ending::Error(fault), cx)
     }
 
     /// An element reached a state: its outputs are staged.

@@ -312,7 +312,7 @@ fn takes<E: ?Sized, S: Sink, C>(
 ) -> bool {
     match target {
         Target::Ignore | Target::None => false,
-        Target::Terminate => true,
+        Target::Terminate | Target::Fail(_) => true,
         Target::Element(element) => {
             let global = supervisor < t.table().globals;
             let there = element == moment.element && (global || moment.look);

@@ -1,6 +1,7 @@
 //! The static part of a plan: rows of numbers that the scheduler reads.
 
 use crate::component::Events;
+use crate::fault::Fault;
 use crate::time::Duration;
 
 /// Where an edge leads.
@@ -10,6 +11,8 @@ pub enum Target {
     Element(u16),
     /// The plan ends.
     Terminate,
+    /// The plan ends in `Error`, for a reason of [`PlanTable::reasons`].
+    Fail(u16),
     /// The event is not taken.
     Ignore,
     /// Nothing is connected.
@@ -97,6 +100,8 @@ pub struct PlanTable<'a> {
     pub elements: &'a [ElementRow],
     /// The supervisors.
     pub supervisors: &'a [SupervisorRow],
+    /// Why edges to `fail` end the plan.
+    pub reasons: &'a [Fault],
     /// Targets of states and events.
     pub edges: &'a [Target],
     /// For each element, its supervisors and the global ones in polling order.
@@ -139,6 +144,11 @@ impl<'a> PlanTable<'a> {
         }
         let index = usize::from(edges.first) + usize::from(n);
         self.edges.get(index).copied().unwrap_or(Target::None)
+    }
+
+    /// Why an edge to `fail` ends the plan.
+    pub fn reason(&self, reason: u16) -> Fault {
+        self.reasons.get(usize::from(reason)).copied().unwrap_or(Fault::INTERNAL)
     }
 
     /// The supervisors polled while an element is active.

@@ -5,6 +5,7 @@ use core::fmt;
 use super::{
     Author, Cause, ComponentId, ERROR, Ending, Kind, Names, Record, TraceEntryId, Verdict,
 };
+use crate::fault::Fault;
 use crate::time::Instant;
 use crate::value::ValueRef;
 
@@ -131,6 +132,9 @@ impl<N: Names + ?Sized> fmt::Display for Line<'_, N> {
             Record::Ended { plan, ending } => match ending {
                 Ending::Ok => write!(f, "{} ended OK", self.path(plan)),
                 Ending::Interrupted => write!(f, "{} ended Interrupted", self.path(plan)),
+                Ending::Error(fault) if fault.code() == Fault::FAILED => {
+                    write!(f, "{} ended Error({}: {fault})", self.path(plan), fault.code())
+                }
                 Ending::Error(fault) => {
                     write!(f, "{} ended Error({})", self.path(plan), fault.code())
                 }

@@ -6,7 +6,10 @@ use afp_core::rt::{
     Child, ElementKind, ElementRow, Events, PlanTable, Range, SupervisorRow, Target,
 };
 use afp_core::trace::EntryKind;
-use afp_core::{Duration, Value};
+use afp_core::{Duration, Fault, Reason, Value};
+
+/// The reason of every `fail`.
+pub const STUCK: Fault = Fault::new(&Reason { code: Fault::FAILED, text: "stuck" });
 
 /// A finished plan.
 pub struct Spec {
@@ -265,6 +268,7 @@ impl Spec {
             entries: self.entries.len() as u16,
             elements: &self.element_rows,
             supervisors: &self.supervisor_rows,
+            reasons: &[STUCK],
             edges: &self.edges,
             sweeps: &self.sweeps,
         }
@@ -295,6 +299,7 @@ impl Spec {
     fn target(&self, name: &str) -> Target {
         match name {
             "terminate" => Target::Terminate,
+            "fail" => Target::Fail(0),
             "ignore" => Target::Ignore,
             name => {
                 let index = self.elements.iter().position(|element| element.name == name);

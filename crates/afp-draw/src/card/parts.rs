@@ -39,6 +39,8 @@ impl<'a> Tag<'a> {
         let (text, class) = match to {
             To::Element(_) => return None,
             To::Terminate => ("Terminate", "terminate"),
+            To::Fail("") => ("Fail", "fail"),
+            To::Fail(reason) => (reason, "fail"),
             To::Ignore => ("Ignore", "ignore"),
             To::Unknown(text) => (text, "unknown"),
             To::Nowhere => ("?", "nowhere"),

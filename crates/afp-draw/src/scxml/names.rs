@@ -71,6 +71,7 @@ pub(super) fn target<'a>(
     match target {
         Target::Element(id) => Some(scope.state(element(id))),
         Target::Terminate => Some(scope.end(end)),
+        Target::Fail(_) => Some(scope.end(End::Error)),
         Target::Ignore => None,
     }
 }

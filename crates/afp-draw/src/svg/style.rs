@@ -64,6 +64,8 @@ const RULES: &[Rule] = &[
     ("text.state,text.event,text.error,text.missed", "fill:#ffffff", "fill:#ffffff"),
     (".box.terminate", "fill:#1f2b3d;stroke:#1f2b3d", "fill:#dfe7f2;stroke:#dfe7f2"),
     ("text.terminate", "fill:#ffffff", "fill:#12161d"),
+    (".box.fail", "fill:#b3263a;stroke:#b3263a", "fill:#b8354a;stroke:#b8354a"),
+    ("text.fail", "fill:#ffffff", "fill:#ffffff"),
     (".box.spine", "fill:#b06a2c", "fill:#b87a45"),
     (".box.open", "fill:#ffffff;stroke:#b3263a", "fill:#12161d;stroke:#ff8a94"),
     (

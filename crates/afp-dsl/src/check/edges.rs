@@ -1,13 +1,20 @@
 //! Where states and events lead: every one of them is connected, once, to something that is there.
 
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
+use crate::check::formula::too_long;
 use crate::check::names::{Places, unknown};
 use crate::check::signature::{Signature, SignatureKind};
-use crate::graph::{EdgeSpans, ElementId, Target};
+use crate::graph::{EdgeSpans, ElementId, ReasonId, Target};
 use crate::index::{Recorder, Word};
+use afp_number::MAX_TEXT;
 use afp_syntax::ast::{Edge, Name};
 use afp_syntax::diagnostics::words;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
+use afp_syntax::unquote;
 
 /// The two edges that need no declaration.
 pub(crate) const ERROR: &str = "Error";
@@ -38,23 +45,72 @@ pub(crate) struct Origin<'a> {
     pub supervisor: bool,
 }
 
-/// The elements of a plan by name.
+/// Why a plan fails whose `fail` says nothing.
+const NO_REASON: &str = "the plan failed";
+
+/// What edges can lead to: the elements of a plan by name, and the reasons behind `fail`.
 pub(crate) struct Elements<'a> {
     names: Vec<Option<Name>>,
     places: Places,
+    reasons: RefCell<Reasons>,
     record: &'a Recorder,
+}
+
+/// The texts behind `fail`, each once, and where which one stands.
+#[derive(Default)]
+struct Reasons {
+    list: Vec<String>,
+    places: HashMap<String, usize>,
+}
+
+impl Reasons {
+    fn place(&mut self, reason: String) -> usize {
+        let next = self.list.len();
+        match self.places.entry(reason) {
+            Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(new) => {
+                self.list.push(new.key().clone());
+                *new.insert(next)
+            }
+        }
+    }
 }
 
 impl<'a> Elements<'a> {
     /// Takes the names of a plan's elements by place.
     pub fn new(names: Vec<Option<Name>>, record: &'a Recorder) -> Elements<'a> {
         let texts = names.iter().map(|name| name.as_ref().map(|name| name.text.as_str()));
-        Elements { places: Places::of(texts), names, record }
+        let reasons = RefCell::default();
+        Elements { places: Places::of(texts), names, reasons, record }
     }
 
     /// The name of an element.
     pub fn name(&self, place: usize) -> Option<&Name> {
         self.names.get(place)?.as_ref()
+    }
+
+    /// The reasons met so far, each once.
+    pub fn reasons(&self) -> Vec<String> {
+        self.reasons.borrow().list.clone()
+    }
+
+    /// The number of the text behind `fail`; reports one that cannot be a reason.
+    fn reason(&self, text: Option<&Name>, diags: &mut Diagnostics) -> Option<ReasonId> {
+        let reason = text.map_or(NO_REASON.to_owned(), |text| unquote(text, diags));
+        if let Some(Name { span, .. }) = text.filter(|_| reason.is_empty()) {
+            diags.push(
+                Diagnostic::new(Code::E0230, *span, "the reason is empty")
+                    .help("say why the plan fails, or write 'fail' alone"),
+            );
+            return None;
+        }
+        if let Some(Name { span, .. }) = text.filter(|_| reason.len() > MAX_TEXT) {
+            diags.push(too_long(*span));
+            return None;
+        }
+        let place = self.reasons.borrow_mut().place(reason);
+        // More than fit are reported with the plan's other tables.
+        Some(ReasonId(u16::try_from(place).unwrap_or(u16::MAX)))
     }
 
     /// Where which element stands.
@@ -66,6 +122,7 @@ impl<'a> Elements<'a> {
     fn is_word(&self, to: &Name) -> bool {
         let word = match to.text.as_str() {
             "terminate" => Word::Terminate,
+            "fail" => Word::Fail,
             "ignore" => Word::Ignore,
             _ => return false,
         };
@@ -85,6 +142,8 @@ pub(crate) struct WrittenEdge {
     pub name: Name,
     /// Where it leads.
     pub target: Option<Name>,
+    /// The text behind `fail`, quotes included.
+    pub reason: Option<Name>,
     /// The name, and, behind the last of several, everything that is there.
     pub span: Span,
 }
@@ -97,12 +156,14 @@ impl WrittenEdge {
     }
 
     fn each(edge: &Edge) -> impl Iterator<Item = WrittenEdge> {
-        let (names, target) = (edge.names(), edge.target());
-        let end = target.as_ref().map(|target| target.span).or_else(|| edge.arrow());
+        let (names, target, reason) = (edge.names(), edge.target(), edge.reason());
+        let end = reason.as_ref().or(target.as_ref()).map(|last| last.span);
+        let end = end.or_else(|| edge.arrow());
         let last = names.len().saturating_sub(1);
         names.into_iter().enumerate().map(move |(place, name)| {
             let end = end.filter(|_| place == last).unwrap_or(name.span);
-            WrittenEdge { span: name.span.to(end), name, target: target.clone() }
+            let (target, reason) = (target.clone(), reason.clone());
+            WrittenEdge { span: name.span.to(end), name, target, reason }
         })
     }
 }
@@ -138,8 +199,7 @@ pub(crate) fn check(
             continue;
         }
         let span = edge.span;
-        let to = edge.target.as_ref();
-        let target = to.and_then(|to| target(to, origin.supervisor, elements, diags));
+        let target = target(edge, origin.supervisor, elements, diags);
         match place {
             Some(place) => {
                 connected.outcomes[place] = target;
@@ -187,9 +247,7 @@ pub(crate) fn names_only(
 
 /// Finds out where an edge leads that does not count.
 fn leads_to(edge: &WrittenEdge, supervisor: bool, elements: &Elements<'_>) {
-    if let Some(to) = &edge.target {
-        target(to, supervisor, elements, &mut Diagnostics::default());
-    }
+    target(edge, supervisor, elements, &mut Diagnostics::default());
 }
 
 /// Says which state or event an edge is for.
@@ -228,14 +286,19 @@ fn unknown_outcome(origin: &Origin<'_>, name: &Name, extra: &str) -> Diagnostic 
 }
 
 fn target(
-    to: &Name,
+    edge: &WrittenEdge,
     supervisor: bool,
     elements: &Elements<'_>,
     diags: &mut Diagnostics,
 ) -> Option<Target> {
+    let to = edge.target.as_ref()?;
     elements.is_word(to);
     match to.text.as_str() {
         "terminate" => return Some(Target::Terminate),
+        "fail" => {
+            hides_reason(edge, diags);
+            return elements.reason(edge.reason.as_ref(), diags).map(Target::Fail);
+        }
         "ignore" if supervisor => return Some(Target::Ignore),
         "ignore" => {
             diags.push(
@@ -247,6 +310,16 @@ fn target(
         _ => {}
     }
     find(to, elements, diags).map(Target::Element)
+}
+
+/// Notes that a fault's own reason is lost.
+fn hides_reason(edge: &WrittenEdge, diags: &mut Diagnostics) {
+    if edge.name.text == ERROR && edge.reason.is_none() {
+        diags.push(
+            Diagnostic::new(Code::E0314, edge.span, "the fault's own reason is lost here")
+                .help("leave 'Error' unconnected: the plan then fails for that reason"),
+        );
+    }
 }
 
 /// The element of that name; reports when there is none.

@@ -361,11 +361,14 @@ fn fault_diagnostic(error: Error, span: Span) -> Diagnostic {
         }
         Error::NotAValue => Diagnostic::new(Code::E0228, span, "the text is no value of the type")
             .help("write a value of the type, unit included, without the quotes"),
-        Error::TooLong => {
-            Diagnostic::new(Code::E0230, span, format!("the text is longer than {MAX_TEXT} bytes"))
-                .help(format!("shorten it to at most {MAX_TEXT} bytes of UTF-8"))
-        }
+        Error::TooLong => too_long(span),
     }
+}
+
+/// A text of more than [`MAX_TEXT`] bytes.
+pub(crate) fn too_long(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0230, span, format!("the text is longer than {MAX_TEXT} bytes"))
+        .help(format!("shorten it to at most {MAX_TEXT} bytes of UTF-8"))
 }
 
 impl EntryDraft {

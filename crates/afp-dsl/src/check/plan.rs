@@ -114,7 +114,8 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
         (Table::Supervisors, supervisors.len()),
     ];
     size::too_many_rows(head.name.as_ref(), written, diags);
-    let plan = finish(context, head, drawn, supervisors, globals, start);
+    let reasons = names.reasons();
+    let plan = finish(context, head, (drawn, supervisors, reasons), globals, start);
     members.places = names.into_places();
     CheckedPlan { plan, users, members }
 }
@@ -130,11 +131,13 @@ fn own(mut element: Element, first: usize, end: usize) -> Option<Element> {
     Some(element)
 }
 
+/// Elements, supervisors, and the texts behind `fail`.
+type Parts = (Vec<Option<Element>>, Vec<Option<Supervisor>>, Vec<String>);
+
 fn finish(
     context: Context<'_>,
     head: &PlanHead,
-    elements: Vec<Option<Element>>,
-    supervisors: Vec<Option<Supervisor>>,
+    (elements, supervisors, reasons): Parts,
     globals: usize,
     start: Option<(ElementId, Span)>,
 ) -> Option<graph::Plan> {
@@ -157,6 +160,7 @@ fn finish(
         elements: elements.into_iter().collect::<Option<_>>()?,
         supervisors: supervisors.into_iter().collect::<Option<_>>()?,
         globals: id(globals)?,
+        reasons,
         start: start?.0,
         start_span: start?.1,
         interruptible: head.interrupting.is_some(),

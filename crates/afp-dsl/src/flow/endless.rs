@@ -1,7 +1,7 @@
 //! Plans that never end, and elements that none of their endings can be reached from.
 
 use crate::flow::view::{Cause, View};
-use crate::flow::{INTERRUPTED, OK};
+use crate::flow::{FAILED, INTERRUPTED, OK};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// Warns of a plan that cannot end, notes elements from which it cannot; tells which endings can
@@ -13,7 +13,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [bool; 2] {
         by_itself(view, &forth, diags);
         return ends;
     }
-    if ends == [false, false] {
+    if ends == [false, false] && !forth[view.end(FAILED)] {
         let message = format!("'{}' can never end: nothing leads to 'terminate'", view.plan.name);
         diags.push(
             Diagnostic::new(Code::E0307, view.plan.span, message)
@@ -85,7 +85,7 @@ fn backward(view: &View<'_>) -> Vec<bool> {
         next[edge.to] += 1;
     }
     let mut seen = vec![false; view.nodes()];
-    let mut open = vec![view.end(OK), view.end(INTERRUPTED)];
+    let mut open = vec![view.end(OK), view.end(INTERRUPTED), view.end(FAILED)];
     while let Some(node) = open.pop() {
         if !std::mem::replace(&mut seen[node], true) {
             open.extend(&into[first[node] as usize..first[node + 1] as usize]);

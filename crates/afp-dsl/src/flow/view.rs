@@ -1,10 +1,10 @@
 //! A plan as a plain graph of nodes and edges, which is what searches need.
 //!
-//! Beside the elements there are three nodes: "anywhere", which stands for every actor and sub-plan
-//! at once and is where the events of global supervisors begin, and the two endings. Edges to
-//! `ignore` are left out.
+//! Beside the elements there are four nodes: "anywhere", which stands for every actor and sub-plan
+//! at once and is where the events of global supervisors begin, the two endings, and `fail`. Edges
+//! to `ignore` are left out.
 
-use crate::flow::{INTERRUPTED, Model, OK, Summary};
+use crate::flow::{FAILED, INTERRUPTED, Model, OK, Summary};
 use crate::graph::{Component, Element, ElementId, Output, Plan, Supervisor, SupervisorId, Target};
 use afp_syntax::source::Span;
 
@@ -56,7 +56,7 @@ pub(crate) struct View<'a> {
 impl<'a> View<'a> {
     /// Looks at a plan; `summaries` holds those of its sub-plans, as far as they are known.
     pub fn new(model: &'a Model<'a>, plan: &'a Plan, summaries: &'a [Option<Summary>]) -> View<'a> {
-        let count = plan.elements.len() + 3;
+        let count = plan.elements.len() + 4;
         let mut view = View {
             plan,
             model,
@@ -112,6 +112,7 @@ impl<'a> View<'a> {
         let to = match target {
             Target::Element(id) => id.index(),
             Target::Terminate => self.end(ending),
+            Target::Fail(_) => self.end(FAILED),
             Target::Ignore => return,
         };
         self.edges.push(Edge { cause, from, to, possible });
@@ -141,7 +142,7 @@ impl<'a> View<'a> {
         self.plan.elements.len()
     }
 
-    /// The node of an ending, [`OK`] or [`INTERRUPTED`].
+    /// The node of an ending: [`OK`], [`INTERRUPTED`] or [`FAILED`].
     pub fn end(&self, ending: usize) -> Node {
         self.plan.elements.len() + 1 + ending
     }
@@ -156,7 +157,7 @@ impl<'a> View<'a> {
         self.first[node] as usize..self.first[node + 1] as usize
     }
 
-    /// The element of a node, unless it is one of the three others.
+    /// The element of a node, unless it is one of the others.
     pub fn element(&self, node: Node) -> Option<&'a Element> {
         self.plan.elements.get(node)
     }
@@ -287,7 +288,8 @@ impl<'a> View<'a> {
 
     /// The name of a node behind an arrow.
     pub fn node_name(&self, node: Node) -> &str {
-        self.element(node).map_or("terminate", |element| &element.name)
+        let end = if node == self.end(FAILED) { "fail" } else { "terminate" };
+        self.element(node).map_or(end, |element| &element.name)
     }
 }
 

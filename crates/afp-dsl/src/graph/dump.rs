@@ -157,6 +157,7 @@ impl Dump<'_> {
         let target = match target {
             Target::Element(id) => self.plan.elements[id.index()].name.as_str(),
             Target::Terminate => "terminate",
+            Target::Fail(id) => &format!("fail {:?}", self.plan.reasons[id.index()]),
             Target::Ignore => "ignore",
         };
         self.line(3, &format!("{outcome} -> {target}"));

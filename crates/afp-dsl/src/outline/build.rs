@@ -225,6 +225,7 @@ impl Places<'_> {
     pub fn target(&self, name: Name) -> Target {
         let to = match self.meanings.get(name.span) {
             Some(Found::Word(Word::Terminate)) => Destination::Terminate,
+            Some(Found::Word(Word::Fail)) => Destination::Fail,
             Some(Found::Word(Word::Ignore)) => Destination::Ignore,
             Some(Found::Definition(span)) => find(&self.elements, span)
                 .map_or(Destination::Unknown, |place| Destination::Element(ElementId::new(place))),

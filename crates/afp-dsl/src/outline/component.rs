@@ -210,12 +210,19 @@ pub struct Edge {
 /// Where an edge or `start` leads.
 #[derive(Clone, Debug)]
 pub struct Target {
-    /// Its name as written.
+    /// Its name as written; with the text behind `fail`.
     pub text: String,
     /// Its place.
     pub span: Span,
     /// What it means.
     pub to: Destination,
+}
+
+impl Target {
+    /// The text behind `fail`, quotes included.
+    pub fn reason(&self) -> Option<&str> {
+        self.text.split_once(' ').map(|(_, reason)| reason)
+    }
 }
 
 /// What a target means.
@@ -225,6 +232,8 @@ pub enum Destination {
     Element(ElementId),
     /// The plan ends.
     Terminate,
+    /// The plan ends in `Error`.
+    Fail,
     /// The event is not taken.
     Ignore,
     /// Nothing of the plan has that name.

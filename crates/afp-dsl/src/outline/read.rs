@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::build::Places;
 use super::{
     Binding, Component, ComponentKind, Edge, Exit, ExitKind, Findings, Input, MadeFrom, Output,
-    PlanId, TemplateUse, Value,
+    PlanId, Target, TemplateUse, Value,
 };
 use crate::check::edges::{self, WrittenEdge};
 use crate::check::signature::{Signature, SignatureKind};
@@ -155,11 +155,18 @@ impl Reader<'_> {
             }
         }
         let mut others = Vec::new();
-        for WrittenEdge { name, target, span } in edges {
+        for WrittenEdge { name, target, reason, span } in edges {
             let kind = if name.text == special { special_kind } else { usual };
             let meaning = self.places.meanings.get(name.span);
             let known = !matches!(meaning, None | Some(Found::Unknown));
             let target = target.map(|target| self.places.target(target));
+            let target = match (target, reason) {
+                (Some(Target { text, span, to }), Some(reason)) => {
+                    let text = format!("{text} {}", reason.text);
+                    Some(Target { text, span: span.to(reason.span), to })
+                }
+                (target, _) => target,
+            };
             let new = Edge { span, name_span: name.span, target };
             let first = exits.iter_mut().find(|known| *known.name == *name.text);
             match first {

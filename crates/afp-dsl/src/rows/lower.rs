@@ -20,6 +20,7 @@ fn rows(graph: &Graph, plan: &Plan, children: &[Child]) -> Option<Rows> {
         entries: u16::try_from(plan.entries.len()).ok()?,
         elements: Vec::with_capacity(plan.elements.len()),
         supervisors: Vec::with_capacity(plan.supervisors.len()),
+        reasons: plan.reasons.clone(),
         edges: Vec::new(),
         sweeps: Vec::new(),
     };

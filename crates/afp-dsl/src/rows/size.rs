@@ -22,12 +22,14 @@ pub(crate) enum Table {
     Supervisors,
     /// States of elements and events of supervisors.
     Edges,
+    /// Texts behind `fail`.
+    Reasons,
     /// Pairs of an element and a supervisor that is polled while it is active.
     Sweeps,
 }
 
 /// The rows of each table of a plan.
-pub(crate) fn tables(plan: &Plan) -> [(Table, usize); 5] {
+pub(crate) fn tables(plan: &Plan) -> [(Table, usize); 6] {
     let states = plan.elements.iter().map(|element| element.states.len());
     let events = plan.supervisors.iter().map(|supervisor| supervisor.events.len());
     let watched = plan.elements.iter().filter(|element| has_sweep(element.component));
@@ -37,6 +39,7 @@ pub(crate) fn tables(plan: &Plan) -> [(Table, usize); 5] {
         (Table::Elements, plan.elements.len()),
         (Table::Supervisors, plan.supervisors.len()),
         (Table::Edges, states.chain(events).sum()),
+        (Table::Reasons, plan.reasons.len()),
         (Table::Sweeps, polled.sum()),
     ]
 }

@@ -226,6 +226,7 @@ pub(super) fn of_component(list: &mut List, component: Option<&Component>, is_el
 pub(super) fn targets(list: &mut List, offset: u32, event: bool) {
     elements(list, offset);
     list.keyword("terminate", plain("terminate"), 1);
+    list.keyword("fail", plain("fail"), 1);
     if event {
         list.keyword("ignore", plain("ignore"), 1);
     }

@@ -32,9 +32,9 @@ pub(super) fn connect(
         buffer.splice(splices);
         return Ok(());
     };
-    match tree::target(&edge) {
-        Some(target) if target.text() == to => {}
-        Some(target) => buffer.splice(vec![(range(&target), to.to_owned())]),
+    match children(&edge, Kind::Target).next().and_then(|target| tree::solid_range(&target)) {
+        Some(target) if buffer.text()[target.clone()] == *to => {}
+        Some(target) => buffer.splice(vec![(target, to.to_owned())]),
         None => {
             let arrow = tree::tokens(&edge, Kind::Arrow).next();
             let end = arrow.or_else(|| name_token(&edge)).map(|token| (range(&token).end, token));
@@ -62,12 +62,28 @@ fn padded(component: &Node, outcome: &str, text: &str) -> String {
 
 fn check_target(plan: &Node, component: &Node, to: &str) -> Result<(), Refused> {
     match to {
-        "terminate" => Ok(()),
+        "terminate" | "fail" => Ok(()),
         "ignore" if component.kind() == Kind::Guard => Ok(()),
         "ignore" => Err(Refused::new("a state cannot lead to 'ignore'")),
+        _ if to.strip_prefix("fail ").is_some_and(is_text) => Ok(()),
         _ if children(plan, Kind::Element).any(|element| tree::is_named(&element, to)) => Ok(()),
         _ => Err(Refused::new(format!("there is no element '{to}' in the plan"))),
     }
+}
+
+/// Whether what stands behind `fail` is a text on one line, in quotes.
+fn is_text(text: &str) -> bool {
+    let inner = text.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
+    inner.is_some_and(|inner| {
+        let mut letters = inner.chars();
+        while let Some(letter) = letters.next() {
+            let escape = letter == '\\';
+            if matches!(letter, '"' | '\n') || escape && letters.next().is_none() {
+                return false;
+            }
+        }
+        true
+    })
 }
 
 /// Removes the edge of a state or event.

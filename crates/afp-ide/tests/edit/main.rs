@@ -157,6 +157,8 @@ const WORDS: &[&str] = &[
     "S",
     "new",
     "terminate",
+    "fail",
+    "fail \"it is stuck\"",
     "in",
     "3 cm",
     "-(a + 1)",

@@ -242,6 +242,12 @@ impl Edge {
         let target = child(&self.node, Kind::Target)?;
         token(&target, Kind::Name, self.file)
     }
+
+    /// The text behind `fail`, quotes included.
+    pub fn reason(&self) -> Option<Name> {
+        let target = child(&self.node, Kind::Target)?;
+        token(&target, Kind::Text, self.file)
+    }
 }
 
 fn frame(node: &Node, file: u16) -> Frame {

@@ -53,12 +53,12 @@ pub enum LineKind {
 /// What a claim says.
 #[derive(Clone, Debug)]
 pub enum ClaimKind {
-    /// `from -> to by cause`; without `to` it leads to `terminate`.
+    /// `from -> to by cause`
     Transition {
         /// The element that is left.
         from: Path,
-        /// The element that follows.
-        to: Option<Path>,
+        /// What follows.
+        to: ClaimTarget,
         /// Why.
         by: Option<Path>,
     },
@@ -83,6 +83,27 @@ pub enum ClaimKind {
     Fact(Path),
     /// Nothing that can be understood; reported.
     Hole,
+}
+
+/// What follows an element in a claim.
+#[derive(Clone, Debug)]
+pub enum ClaimTarget {
+    /// An element.
+    Element(Path),
+    /// The plan ends.
+    Terminate,
+    /// The plan fails.
+    Fail,
+}
+
+impl ClaimTarget {
+    /// The element's path.
+    pub fn path(&self) -> Option<&Path> {
+        match self {
+            ClaimTarget::Element(path) => Some(path),
+            ClaimTarget::Terminate | ClaimTarget::Fail => None,
+        }
+    }
 }
 
 impl Scenario {
@@ -220,12 +241,15 @@ impl Claim {
         }
         let Some(first) = paths.next() else { return ClaimKind::Hole };
         if token(&self.node, Kind::Arrow, self.file).is_some() {
-            let to = if has("terminate") { None } else { paths.next() };
-            let whole = to.is_some() || has("terminate");
+            let to = match (has("terminate"), has("fail")) {
+                (true, _) => Some(ClaimTarget::Terminate),
+                (_, true) => Some(ClaimTarget::Fail),
+                _ => paths.next().map(ClaimTarget::Element),
+            };
             let by = if by { paths.next() } else { None };
-            return match whole {
-                true => ClaimKind::Transition { from: first, to, by },
-                false => ClaimKind::Hole,
+            return match to {
+                Some(to) => ClaimKind::Transition { from: first, to, by },
+                None => ClaimKind::Hole,
             };
         }
         let comparison = find_token(&self.node, self.file, |kind, text, span| {

@@ -121,6 +121,8 @@ codes! {
     E0310 Warning "result that may have no value"
     E0311 Note "element after which the plan cannot end"
     E0312 Warning "loop too long for one step"
+    E0313 Warning "sub-plan that fails without an 'Error' edge"
+    E0314 Note "fault whose reason is lost"
     E0320 Warning "end of a plan that is to run forever"
     E0401 Error "time that cannot be used"
     E0402 Error "deadline longer than the period"

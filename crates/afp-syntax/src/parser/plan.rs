@@ -211,9 +211,7 @@ impl Parser<'_, '_> {
             }
         }
         if self.at(Kind::Name) && self.on_same_line() {
-            self.open(Kind::Target);
-            self.take_name();
-            self.close();
+            self.target();
         } else {
             let here = self.behind();
             self.error(
@@ -222,6 +220,17 @@ impl Parser<'_, '_> {
             );
         }
         self.close_item();
+    }
+
+    /// `NAME`, or `"fail" [STRING]`
+    fn target(&mut self) {
+        self.open(Kind::Target);
+        let fails = self.word(0) == "fail";
+        self.take_name();
+        if fails && self.at(Kind::Text) && self.on_same_line() {
+            self.bump();
+        }
+        self.close();
     }
 
     fn wrong_arrow(&mut self, message: &str, right: &str) {

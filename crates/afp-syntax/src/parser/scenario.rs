@@ -214,7 +214,7 @@ impl Parser<'_, '_> {
         }
         self.path();
         if self.eat(Kind::Arrow) {
-            if !self.eat_word("terminate") {
+            if !self.eat_word("terminate") && !self.eat_word("fail") {
                 self.path();
             }
             self.by();

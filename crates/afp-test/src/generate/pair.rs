@@ -107,9 +107,10 @@ impl Pair<'_> {
         } else {
             let to = match goal {
                 Goal::Element(to) => parts.name(to),
+                Goal::Fail => "fail",
                 Goal::Terminate | Goal::Ignore => "terminate",
             };
-            let to = self.beside(to);
+            let to = self.beside(goal, to);
             lines.push(format!("expect {element} -> {to} by {name} once {soon}"));
             lines.extend(self.ending(goal, &soon));
             lines.extend(self.interrupts(at, &soon));
@@ -138,10 +139,10 @@ impl Pair<'_> {
     }
 
     /// An element of the same plan by its whole name.
-    fn beside(&self, name: &str) -> String {
+    fn beside(&self, goal: Goal, name: &str) -> String {
         let path = self.parts.path(self.element);
         match path.rsplit_once('.') {
-            Some((home, _)) if name != "terminate" => format!("{home}.{name}"),
+            Some((home, _)) if matches!(goal, Goal::Element(_)) => format!("{home}.{name}"),
             _ => name.to_owned(),
         }
     }
@@ -149,8 +150,12 @@ impl Pair<'_> {
     /// How the outermost plan ends.
     fn ending(&self, goal: Goal, soon: &str) -> Option<String> {
         let outermost = self.parts.place(self.element)?.plan == 0;
-        (outermost && goal == Goal::Terminate)
-            .then(|| format!("expect end by Interrupted once {soon}"))
+        let how = match goal {
+            Goal::Terminate => "Interrupted",
+            Goal::Fail => "Error",
+            Goal::Element(_) | Goal::Ignore => return None,
+        };
+        outermost.then(|| format!("expect end by {how} once {soon}"))
     }
 
     /// What the event interrupts: the element and what is active inside of it.
@@ -191,7 +196,9 @@ impl Pair<'_> {
         // Others may write the entries at once where the plan goes on with more than an actor.
         let alone = match goal {
             Goal::Element(to) => matches!(parts.component(to), Some(Component::Actor(_))),
-            Goal::Terminate => parts.place(self.element).is_some_and(|place| place.plan == 0),
+            Goal::Terminate | Goal::Fail => {
+                parts.place(self.element).is_some_and(|place| place.plan == 0)
+            }
             Goal::Ignore => false,
         };
         for number in self.chain(at) {

@@ -1,11 +1,12 @@
 //! The rows of a loaded plan, converted from those of the graph.
 
-use std::sync::Arc;
+use std::collections::HashMap;
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use afp_core::rt::{
     Child, ElementKind, ElementRow, Events, PlanTable, Range, SupervisorRow, Tables,
 };
-use afp_core::{Duration, rt};
+use afp_core::{Duration, Fault, Reason, rt};
 use afp_dsl::graph::Target;
 use afp_dsl::rows;
 
@@ -20,6 +21,7 @@ struct Rows {
     entries: u16,
     elements: Vec<ElementRow>,
     supervisors: Vec<SupervisorRow>,
+    reasons: Vec<Fault>,
     edges: Vec<rt::Target>,
     sweeps: Vec<u16>,
 }
@@ -34,6 +36,7 @@ impl Tables for LoadedTables {
             entries: rows.entries,
             elements: &rows.elements,
             supervisors: &rows.supervisors,
+            reasons: &rows.reasons,
             edges: &rows.edges,
             sweeps: &rows.sweeps,
         }
@@ -49,6 +52,7 @@ impl LoadedTables {
             entries: rows.entries,
             elements: rows.elements.iter().map(element).collect(),
             supervisors: rows.supervisors.iter().map(supervisor).collect(),
+            reasons: rows.reasons.iter().map(|text| reason(text)).collect(),
             edges: rows.edges.iter().copied().map(target).collect(),
             sweeps: rows.sweeps.iter().map(|id| id.0).collect(),
         }))
@@ -91,7 +95,22 @@ fn target(target: Option<Target>) -> rt::Target {
     match target {
         Some(Target::Element(id)) => rt::Target::Element(id.0),
         Some(Target::Terminate) => rt::Target::Terminate,
+        Some(Target::Fail(id)) => rt::Target::Fail(id.0),
         Some(Target::Ignore) => rt::Target::Ignore,
         None => rt::Target::None,
     }
+}
+
+/// The fault of that reason. A fault is a reference that lasts, so each text is kept once for the life
+/// of the process.
+fn reason(text: &str) -> Fault {
+    static KNOWN: LazyLock<Mutex<HashMap<String, &'static Reason>>> = LazyLock::new(Mutex::default);
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(reason) = known.get(text) {
+        return Fault::new(reason);
+    }
+    let kept: &'static str = Box::leak(text.into());
+    let reason = Box::leak(Box::new(Reason { code: Fault::FAILED, text: kept }));
+    known.insert(text.to_owned(), reason);
+    Fault::new(reason)
 }

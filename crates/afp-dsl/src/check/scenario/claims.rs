@@ -7,7 +7,7 @@ use super::resolve;
 use crate::check::names::unknown;
 use crate::graph::{Component, Target};
 use crate::scenario::{Cause, Claim, Destination, EndCause, Expectation, Outcome};
-use afp_syntax::ast::{self, Bound, ClaimKind, Line, Name, Path};
+use afp_syntax::ast::{self, Bound, ClaimKind, ClaimTarget, Line, Name, Path};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
 
 impl Checker<'_> {
@@ -29,7 +29,7 @@ impl Checker<'_> {
     fn claim(&self, node: &ast::Claim, diags: &mut Diagnostics) -> Option<Claim> {
         match node.kind() {
             ClaimKind::Transition { from, to, by } => {
-                self.transition(&from, to.as_ref(), by.as_ref(), diags)
+                self.transition(&from, &to, by.as_ref(), diags)
             }
             ClaimKind::Active(path) => self.active(&path, diags),
             ClaimKind::Compare(path, sign, value) => self.compare(&path, &sign, &value?, diags),
@@ -88,17 +88,17 @@ impl Checker<'_> {
     fn transition(
         &self,
         from_path: &Path,
-        to_path: Option<&Path>,
+        to: &ClaimTarget,
         by_path: Option<&Path>,
         diags: &mut Diagnostics,
     ) -> Option<Claim> {
         let from = self.element(from_path, diags);
-        let to = match to_path {
+        let found = match to.path() {
             Some(path) => Some(self.element(path, diags)?),
             None => None,
         };
         let from = from?;
-        if let (Some(to), Some(path)) = (to, to_path)
+        if let (Some(to), Some(path)) = (found, to.path())
             && to.instance != from.instance
         {
             let message = format!(
@@ -116,10 +116,14 @@ impl Checker<'_> {
             Some(path) => Some((self.cause(from, path, diags)?, path)),
             None => None,
         };
-        self.joined(from, to, by.as_ref(), (from_path, to_path), diags)?;
+        self.joined(from, found, by.as_ref(), (from_path, to), diags)?;
         Some(Claim::Transition {
             from: self.paths.number(from),
-            to: to.map_or(Destination::Terminate, |to| Destination::Element(self.paths.number(to))),
+            to: match (to, found) {
+                (ClaimTarget::Terminate, _) => Destination::Terminate,
+                (ClaimTarget::Fail, _) => Destination::Fail,
+                (ClaimTarget::Element(_), found) => Destination::Element(self.paths.number(found?)),
+            },
             by: by.map(|((found, outcome), _)| Cause {
                 component: self.paths.number(found),
                 outcome,
@@ -133,16 +137,20 @@ impl Checker<'_> {
         from: Found,
         to: Option<Found>,
         by: Option<&((Found, Option<Outcome>), &Path)>,
-        (from_path, to_path): (&Path, Option<&Path>),
+        (from_path, target): (&Path, &ClaimTarget),
         diags: &mut Diagnostics,
     ) -> Option<()> {
-        let target = match to.map(|to| to.part) {
-            Some(Part::Element(id)) => Target::Element(id),
-            _ => Target::Terminate,
-        };
         let causes = self.paths.causes(from);
-        let leads = |(found, outcome): &&(Found, Outcome)| {
-            self.paths.target(*found, *outcome) == Some(target)
+        let leads = |(found, outcome): &&(Found, Outcome)| match (
+            target,
+            self.paths.target(*found, *outcome),
+        ) {
+            (ClaimTarget::Element(_), Some(Target::Element(id))) => {
+                to.is_some_and(|to| to.part == Part::Element(id))
+            }
+            (ClaimTarget::Terminate, Some(Target::Terminate))
+            | (ClaimTarget::Fail, Some(Target::Fail(_))) => true,
+            _ => false,
         };
         let fits = |(found, outcome): &&(Found, Outcome)| match by {
             Some(((wanted, want), _)) => {
@@ -153,7 +161,11 @@ impl Checker<'_> {
         if causes.iter().any(|cause| leads(&cause) && fits(&cause)) {
             return Some(());
         }
-        let name = to_path.map_or("terminate".to_owned(), Path::text);
+        let name = match target {
+            ClaimTarget::Element(path) => path.text(),
+            ClaimTarget::Terminate => "terminate".to_owned(),
+            ClaimTarget::Fail => "fail".to_owned(),
+        };
         let others: Vec<_> = causes
             .iter()
             .filter(leads)
@@ -165,7 +177,7 @@ impl Checker<'_> {
                 format!("'{}' does not lead from '{}' to '{name}'", path.text(), from_path.text()),
             ),
             None => (
-                to_path.map_or(from_path.span(), Path::span),
+                target.path().map_or(from_path.span(), Path::span),
                 format!("no edge leads from '{}' to '{name}'", from_path.text()),
             ),
         };
@@ -314,7 +326,7 @@ impl Checker<'_> {
         let all = (0..declared).map(Outcome::Declared).chain([Outcome::Special]);
         let element = matches!(found.part, Part::Element(_));
         let ends = |each: Outcome| match self.paths.target(found, each) {
-            Some(Target::Terminate) => true,
+            Some(Target::Terminate | Target::Fail(_)) => true,
             None => each == Outcome::Special && element,
             _ => false,
         };

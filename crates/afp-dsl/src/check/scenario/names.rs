@@ -92,7 +92,7 @@ impl Names<'_> {
         match claim.kind() {
             ClaimKind::Transition { from, to, by } => {
                 self.component(&from);
-                to.iter().for_each(|path| self.component(path));
+                to.path().iter().for_each(|path| self.component(path));
                 by.iter().for_each(|path| self.cause(&from, path));
             }
             ClaimKind::Active(path) | ClaimKind::Interrupt(path) => self.component(&path),

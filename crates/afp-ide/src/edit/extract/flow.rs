@@ -69,5 +69,7 @@ fn exits(selection: &Selection, events: bool) -> Vec<Token> {
     });
     let targets =
         owners.flat_map(|owner| edges(&owner).filter_map(|edge| target(&edge)).collect::<Vec<_>>());
-    targets.filter(|token| token.text() != "ignore" && !selection.is_inside(token)).collect()
+    targets
+        .filter(|token| !matches!(token.text(), "fail" | "ignore") && !selection.is_inside(token))
+        .collect()
 }

@@ -45,6 +45,10 @@ fn splices(call: &Call, data: &Data, element: &Node) -> Result<Vec<Splice>, Refu
         let new = match token.text() {
             "terminate" if event => interrupted(call)?,
             "terminate" => call.ok.clone(),
+            "fail" => {
+                splices.extend(failed(call, &edge, event)?);
+                continue;
+            }
             other => {
                 let element = call.project.item(call.from, &token);
                 let name = element.and_then(|(_, node)| name_of(&node));
@@ -77,6 +81,18 @@ fn interrupted(call: &Call) -> Result<String, Refused> {
         )),
         Some(target) => Ok(target.to_owned()),
     }
+}
+
+/// A `fail` of the sub-plan leads where its `Error` leads, and stays where that is not connected.
+fn failed(call: &Call, edge: &Node, event: bool) -> Result<Option<Splice>, Refused> {
+    let Some(error) = &call.error else { return Ok(None) };
+    if event && error == "terminate" {
+        return Err(Refused::new(
+            "an event of the sub-plan that fails would end the plan as Interrupted, which it now ends as OK",
+        ));
+    }
+    let place = children(edge, Kind::Target).next().and_then(|to| tree::solid_range(&to));
+    Ok(place.map(|place| (place, error.clone())))
 }
 
 /// The comments of the sub-plan, help text among them, as lines.

@@ -18,6 +18,20 @@ fn an_edge_leads_elsewhere() {
 }
 
 #[test]
+fn an_edge_leads_to_fail_and_back() {
+    let stuck = "fail \"it is \\\"stuck\\\"\"";
+    let failing = PLAN.replace("Pressed -> back", &format!("Pressed -> {stuck}"));
+    assert_eq!(after(PLAN, connect(touch(), "Pressed", stuck)), failing);
+    assert_eq!(after(&failing, connect(touch(), "Pressed", stuck)), failing);
+    assert_eq!(after(&failing, connect(touch(), "Pressed", "back")), PLAN);
+    replaces(connect(go(), "Done", "fail"), &[("Done  -> go // again", "Done  -> fail // again")]);
+    for wrong in ["fail stuck", "fail \"", "fail \"a\" b\"", "fail \"a\\\"", "fail \"a\nb\""] {
+        let message = format!("there is no element '{wrong}' in the plan");
+        refused(PLAN, connect(go(), "Done", wrong), &message);
+    }
+}
+
+#[test]
 fn an_edge_is_added_as_its_neighbours_are() {
     replaces(
         connect(go(), "Lost", "back"),

@@ -207,6 +207,37 @@ plan P {
 }
 
 #[test]
+fn what_fails_inside_leads_where_the_fault_of_the_sub_plan_leads() {
+    let failing = CALL
+        .replace(
+            "Touched -> terminate }\n        Done -> back",
+            "Touched -> go }\n        Done -> fail \"x\"",
+        )
+        .replace("Error       -> terminate // badly", "Error       -> go");
+    let edge = "{ Touched -> go2 }\n        Done -> go\n        Error -> go\n";
+    let inlined = after(&failing, inline());
+    assert!(inlined.contains(edge), "{inlined}");
+    let uncaught = failing.replace("        Error       -> go\n", "");
+    let edge = "{ Touched -> go2 }\n        Done -> fail \"x\"\n    }";
+    let inlined = after(&uncaught, inline());
+    assert!(inlined.contains(edge), "{inlined}");
+    let event = CALL.replace("Touched -> terminate", "Touched -> fail");
+    refused(
+        &event,
+        inline(),
+        "an event of the sub-plan that fails would end the plan as Interrupted, which it now ends as OK",
+    );
+}
+
+#[test]
+fn what_fails_in_a_selection_fails_in_its_plan() {
+    let failing = PLAN.replace(ONE_WAY, "        Lost  -> fail \"lost\"\n");
+    let extracted = after(&failing, extract(&["turn", "find"]));
+    assert!(extracted.contains("{ OK -> follow, Interrupted -> back }"), "{extracted}");
+    assert!(extracted.contains("Lost  -> fail \"lost\"\n"), "{extracted}");
+}
+
+#[test]
 fn what_would_mean_something_else_is_refused() {
     let change = |old: &str, new: &str, reason: &str| {
         assert!(CALL.contains(old), "{old}");

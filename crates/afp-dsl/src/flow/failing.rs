@@ -1,0 +1,30 @@
+//! Sub-plans that fail where nobody takes it.
+
+use crate::flow::FAILED;
+use crate::flow::view::View;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
+
+/// Warns of each sub-plan without an `Error` edge whose plan leads to `fail` itself; gives an edge
+/// of this plan that does so.
+pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> Option<Span> {
+    for (_, element) in view.elements() {
+        let fails = view.summary(element).and_then(|inner| inner.fails);
+        let Some(edge) = fails.filter(|_| element.on_error.is_none()) else { continue };
+        let (name, plan) = (&element.name, &view.plan.name);
+        let message = format!("when '{name}' fails, '{plan}' ends with it");
+        diags.push(
+            Diagnostic::new(Code::E0313, element.span, message)
+                .note(edge, "it fails here")
+                .help("add 'Error -> ...' with an element, 'terminate' or 'fail \"...\"'"),
+        );
+    }
+    edge(view)
+}
+
+/// An edge to `fail` that can be reached.
+pub(super) fn edge(view: &View<'_>) -> Option<Span> {
+    let fail = view.end(FAILED);
+    let mut edges = view.edges.iter().filter(|edge| edge.to == fail && view.reached[edge.from]);
+    edges.next().map(|edge| view.span(edge.cause))
+}
