@@ -43,7 +43,7 @@ pub(super) fn generated(count: u64, seed: u64) -> String {
         // Mostly onwards, as plans are.
         let mut any = || match next(10) {
             0 => "terminate".to_owned(),
-            1 => format!("fail \"{index} is stuck\""),
+            1 => format!("fail \"no {index}\""),
             2 | 3 => format!("element{}", next(count)),
             _ => format!("element{}", (index + 1 + next(3)) % count),
         };
