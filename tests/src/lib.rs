@@ -17,7 +17,7 @@ pub mod random_script;
 pub mod script;
 pub mod state_chart;
 
-pub use components::{Glance, MakeMap, Map, Pick, ReadMap, Task, Watch, Work};
+pub use components::{Glance, MakeMap, Map, Pick, ReadMap, Stay, Task, Watch, Work};
 
 /// The templates of `toolbox/testing.afp`.
 pub mod templates {

@@ -63,7 +63,7 @@ pub(crate) struct Fake {
     pub(crate) drifts: f64,
     pub(crate) top_speed: f64,
     target: f64,
-    command: (f64, f64),
+    pub(crate) command: (f64, f64),
     commanded: Instant,
     echo: Reading<Echo>,
     /// Those that are not told yet.

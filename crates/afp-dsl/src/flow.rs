@@ -11,6 +11,7 @@ mod endless;
 mod failing;
 mod frozen;
 mod ignored;
+mod lasting;
 mod recovery;
 pub(crate) mod strong;
 mod unreachable;
@@ -97,6 +98,7 @@ fn check_plan(view: &View<'_>, diags: &mut Diagnostics) -> Summary {
     unreachable::check(view, diags);
     unread::check(view, diags);
     ignored::check(view, diags);
+    lasting::check(view, diags);
     frozen::check(view, diags);
     recovery::check(view, diags);
     let ends = endless::check(view, diags);

@@ -46,6 +46,7 @@ const RULES: &[Rule] = &[
             "fail_counts_for_livelock",
         ],
     ),
+    ("6.4", "an actor without a state lasts until an event or a fault", &["lasting_actor"]),
     ("1.1", "a computation and 'terminate' have no look", &["look_not_for_computations"]),
     (
         "1.2",

@@ -123,6 +123,7 @@ codes! {
     E0312 Warning "loop too long for one step"
     E0313 Warning "sub-plan that fails without an 'Error' edge"
     E0314 Note "fault whose reason is lost"
+    E0315 Warning "actor that nothing can end"
     E0320 Warning "end of a plan that is to run forever"
     E0401 Error "time that cannot be used"
     E0402 Error "deadline longer than the period"

@@ -283,9 +283,21 @@ fn without_outcomes(node: &ast::Template, template: &Template, diags: &mut Diagn
         return;
     }
     let (what, help) = match template.kind {
+        TemplateKind::Actor => return lasting(template, diags),
         TemplateKind::Supervisor => ("event", "add 'event' and a name"),
-        _ => ("state", "add 'state' and a name"),
+        TemplateKind::Computation => ("state", "add 'state' and a name"),
     };
     let message = format!("'{}' has no {what}", template.name);
     diags.push(Diagnostic::new(Code::E0512, template.span, message).help(help));
+}
+
+/// An actor without a state lasts until an event ends it, so that it never writes anything.
+fn lasting(template: &Template, diags: &mut Diagnostics) {
+    for port in &template.outputs {
+        let message = format!("'{}' has no state, so nothing ever writes it", template.name);
+        diags.push(
+            Diagnostic::new(Code::E0514, port.span, message)
+                .help("remove it, or add 'state' and a name"),
+        );
+    }
 }

@@ -1,0 +1,50 @@
+//! Keep the robot standing until an event leads on.
+
+use crate::devices::Navigator;
+use crate::templates;
+use crate::templates::hold::{Inputs, Live, State};
+use afp_core::{Actor, Fault, Instant, Poll};
+
+/// Asks for a standstill again and again, so that nothing that pushes or lets go of the drive keeps it moving.
+#[derive(Clone, Copy, Debug)]
+pub struct Hold;
+
+impl<E: Navigator + ?Sized> Actor<templates::Hold, E> for Hold {
+    fn start(_: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
+        env.halt(now);
+        Ok(Hold)
+    }
+
+    fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
+        env.halt(now);
+        Ok(Poll::Pending)
+    }
+
+    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        env.halt(now);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fake::Fake;
+    use afp_core::quantity::{AngularSpeed, Speed};
+
+    #[test]
+    fn stands_from_its_start_on_whatever_moves_the_drive() {
+        let mut robot = Fake::new(&[]);
+        let now = robot.now;
+        let roll = |robot: &mut Fake| {
+            robot.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.1), now);
+        };
+        roll(&mut robot);
+        let hold = Actor::<templates::Hold, Fake>::start(Inputs {}, &mut robot, now);
+        let mut hold: Hold = hold.unwrap();
+        assert_eq!(robot.command, (0.0, 0.0));
+        roll(&mut robot);
+        let polled = Actor::<templates::Hold, Fake>::poll(&mut hold, Live {}, &mut robot, now);
+        assert_eq!((polled, robot.command), (Ok(Poll::Pending), (0.0, 0.0)));
+    }
+}

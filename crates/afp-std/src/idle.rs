@@ -1,0 +1,24 @@
+//! Do nothing until an event leads on.
+
+use afp_core::{Actor, Fault, Instant, Poll};
+
+use crate::templates;
+use crate::templates::idle::{Inputs, Live, State};
+
+/// Lasts until it is interrupted.
+#[derive(Clone, Copy, Debug)]
+pub struct Idle;
+
+impl<E: ?Sized> Actor<templates::Idle, E> for Idle {
+    fn start(_: Inputs, _: &mut E, _: Instant) -> Result<Self, Fault> {
+        Ok(Idle)
+    }
+
+    fn poll(&mut self, _: Live, _: &mut E, _: Instant) -> Result<Poll<State>, Fault> {
+        Ok(Poll::Pending)
+    }
+
+    fn interrupt(&mut self, _: &mut E, _: Instant) -> Result<(), Fault> {
+        Ok(())
+    }
+}
