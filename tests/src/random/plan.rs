@@ -152,7 +152,7 @@ impl Builder<'_> {
         if self.dice.percent(if self.number == 0 { 4 } else { 20 }) {
             return "terminate".to_owned();
         }
-        if self.dice.percent(if self.number == 0 { 1 } else { 6 }) {
+        if self.dice.percent(if self.number == 0 { 2 } else { 8 }) {
             return self.dice.pick(&["fail", "fail \"it is stuck\"", "fail \"it is gone\""]).into();
         }
         let least = computation.map_or(1, |index| index + 1);

@@ -29,7 +29,7 @@ const RULES: &[Rule] = &[
     ("a supervisor fails", |trace| any(trace, |line| line.contains("polled: fault "))),
     ("a fault ends a plan", |trace| any(trace, |line| line.contains(" ended Error("))),
     ("a plan fails for a reason of its own", |trace| {
-        any(trace, |line| line.contains(" ended Error(failed: it is "))
+        any(trace, |line| line.contains(" ended Error(failed: "))
     }),
     ("a formula has no value", |trace| any(trace, |line| line.contains(" fault arithmetic"))),
     ("a value is out of range", |trace| any(trace, |line| line.contains(" fault range"))),

@@ -36,7 +36,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [bool; 2] {
 
 /// Warns where a plan that is meant to run for ever ends although nothing has happened to it.
 fn by_itself(view: &View<'_>, forth: &[bool], diags: &mut Diagnostics) {
-    let ending = [view.end(OK), view.end(INTERRUPTED)];
+    let ending = [view.end(OK), view.end(INTERRUPTED), view.end(FAILED)];
     for edge in view.edges.iter().filter(|edge| ending.contains(&edge.to) && forth[edge.from]) {
         let Cause::State(id, state) = edge.cause else { continue };
         let element = &view.plan.elements[id.index()];

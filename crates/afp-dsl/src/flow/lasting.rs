@@ -4,8 +4,11 @@ use crate::flow::view::{Cause, Edge, View};
 use crate::graph::Component;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
-/// Warns of each, at its name. What the plans around it watch for does not count.
+/// Warns of each, at its name, unless the plan is to run for ever. What the plans around it watch for does not count.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
+    if view.plan.forever {
+        return;
+    }
     for (node, element) in view.elements() {
         let Component::Actor(id) = element.component else { continue };
         let template = view.model.template(id);
@@ -13,7 +16,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
             matches!(edge.cause, Cause::Event(..) | Cause::Miss(_)) && edge.to != node
         };
         let all = || view.from(node).iter().chain(view.from(view.anywhere()));
-        if !template.outcomes.is_empty() || all().any(leads_on) {
+        if !element.states.is_empty() || all().any(leads_on) {
             continue;
         }
         let message = format!("nothing can end '{}'", element.name);
