@@ -202,6 +202,7 @@ impl Checker<'_> {
                 Some(format!("{home}{}", self.paths.name(found)))
             }
             Target::Terminate => Some("terminate".to_owned()),
+            Target::Fail(_) => Some("fail".to_owned()),
             Target::Ignore => None,
         };
         let goals =
@@ -351,7 +352,8 @@ impl Checker<'_> {
             let outcomes = paths.outcomes(found).into_iter().chain([paths.special(found)]);
             outcomes.filter_map(move |outcome| {
                 let target = paths.target(found, paths.outcome(found, outcome)?);
-                (target == Some(Target::Terminate)).then(|| format!("{name}.{outcome}"))
+                let ends = matches!(target, Some(Target::Terminate | Target::Fail(_)));
+                ends.then(|| format!("{name}.{outcome}"))
             })
         });
         let ending: Vec<_> = ending.collect();
