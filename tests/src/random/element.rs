@@ -204,21 +204,26 @@ pub fn computation(entries: &Entries, dice: &mut Dice) -> Made {
             ("Log", vec!["Done"])
         }
         _ => {
-            let choice = match dice.percent(50) {
-                true => format!("{} % 4", dice.pick(&entries.changing(Type::Int))),
-                false => converted(Type::Int, entries, dice),
-            };
-            bindings.bind("choice", &choice);
-            bindings.maybe("value", Type::Float, dice);
-            bindings.maybe("label", Type::Text, dice);
-            bindings.maybe_ranged("size", dice);
-            bindings.output("result", NUMBERS, dice);
-            bindings.output("text", TEXTS, dice);
-            bindings.output("next", NUMBERS, dice);
+            pick(&mut bindings, entries, dice);
             ("Pick", vec!["One", "Two", "Three"])
         }
     };
     Made { word: "computation", call: bindings.call(template), outcomes }
+}
+
+/// The ports of `Pick`.
+fn pick(bindings: &mut Bindings<'_>, entries: &Entries, dice: &mut Dice) {
+    let choice = match dice.percent(50) {
+        true => format!("{} % 4", dice.pick(&entries.changing(Type::Int))),
+        false => converted(Type::Int, entries, dice),
+    };
+    bindings.bind("choice", &choice);
+    bindings.maybe("value", Type::Float, dice);
+    bindings.maybe("label", Type::Text, dice);
+    bindings.maybe_ranged("size", dice);
+    bindings.output("result", NUMBERS, dice);
+    bindings.output("text", TEXTS, dice);
+    bindings.output("next", NUMBERS, dice);
 }
 
 /// A use of another plan.

@@ -22,15 +22,11 @@ pub fn rules(context: &Context<'_>) -> TokenStream {
         .collect();
     let edges = edges(context);
     let sweeps = sweeps(context);
-    let reasons = rows
-        .reasons
-        .iter()
-        .map(|text| quote!(Fault::new(&Reason { code: Fault::FAILED, text: #text })));
-    let reasons: Vec<_> = reasons.collect();
+    let (reasons, static_reasons) = reasons(&rows.reasons);
     let start = context.elements.get(rows.start.index()).map(|names| &names.number);
     let [globals, entries] = [rows.globals, rows.entries].map(Literal::u16_unsuffixed);
-    let [n_elements, n_supervisors, n_edges, n_sweeps, n_reasons] =
-        [elements.len(), supervisors.len(), edges.len(), sweeps.len(), reasons.len()]
+    let [n_elements, n_supervisors, n_edges, n_sweeps] =
+        [elements.len(), supervisors.len(), edges.len(), sweeps.len()]
             .map(Literal::usize_unsuffixed);
     let about = doc("", "Where the scheduler reads the rules of the plan.");
     let notes = [
@@ -38,17 +34,8 @@ pub fn rules(context: &Context<'_>) -> TokenStream {
         "The elements.",
         "The supervisors: global ones, then local ones.",
         "Who is polled while an element is active, in order.",
-        "Why the plan fails.",
     ];
-    let [of_edges, of_elements, of_supervisors, of_sweeps, of_reasons] =
-        notes.map(|note| doc("", note));
-    let (named, listed) = match reasons.is_empty() {
-        true => (quote!(&[]), None),
-        false => {
-            let list = quote!(#of_reasons static REASONS: [Fault; #n_reasons] = [#(#reasons),*];);
-            (quote!(&REASONS), Some(list))
-        }
-    };
+    let [of_edges, of_elements, of_supervisors, of_sweeps] = notes.map(|note| doc("", note));
     quote! {
         #about
         #[derive(Clone, Copy, Debug)]
@@ -63,14 +50,14 @@ pub fn rules(context: &Context<'_>) -> TokenStream {
                     entries: #entries,
                     elements: &ELEMENTS,
                     supervisors: &SUPERVISORS,
-                    reasons: #named,
+                    reasons: #reasons,
                     edges: &EDGES,
                     sweeps: &SWEEPS,
                 }
             }
         }
 
-        #listed
+        #static_reasons
         #of_edges
         static EDGES: [Target; #n_edges] = [#(#edges),*];
         #of_elements
@@ -80,6 +67,17 @@ pub fn rules(context: &Context<'_>) -> TokenStream {
         #of_sweeps
         static SWEEPS: [u16; #n_sweeps] = [#(#sweeps),*];
     }
+}
+
+/// Why the plan fails, as the rules name it, and the table where there is one.
+fn reasons(texts: &[String]) -> (TokenStream, Option<TokenStream>) {
+    if texts.is_empty() {
+        return (quote!(&[]), None);
+    }
+    let faults =
+        texts.iter().map(|text| quote!(Fault::new(&Reason { code: Fault::FAILED, text: #text })));
+    let (about, length) = (doc("", "Why the plan fails."), Literal::usize_unsuffixed(texts.len()));
+    (quote!(&REASONS), Some(quote!(#about static REASONS: [Fault; #length] = [#(#faults),*];)))
 }
 
 /// One element.

@@ -138,7 +138,14 @@ impl Inside {
         let typed = read.filter(|read| !diags.has_errors() && whole_text(read));
         let typed = typed.and_then(|formula| scope.check(&formula, want, &mut diags));
         typed.map(|(formula, _)| formula).ok_or_else(|| match diags.iter().next() {
-            Some(first) => WatchError { message: first.message.clone(), help: first.help.clone() },
+            Some(first) => {
+                // The bracket that ends the text is not the reader's.
+                let message = match text.contains('}') {
+                    true => first.message.clone(),
+                    false => first.message.replace(", found '}'", ""),
+                };
+                WatchError { message, help: first.help.clone() }
+            }
             None => WatchError {
                 message: format!("'{}' is no formula", text.trim()),
                 help: "write an entry, or a formula of entries".to_owned(),

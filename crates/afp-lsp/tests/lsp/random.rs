@@ -154,6 +154,40 @@ proptest! {
     }
 }
 
+/// Names of fields that mean something to the server.
+const KEYS: &[&str] = &[
+    "textDocument",
+    "uri",
+    "version",
+    "text",
+    "languageId",
+    "contentChanges",
+    "position",
+    "line",
+    "character",
+    "range",
+    "start",
+    "end",
+    "context",
+    "diagnostics",
+    "positions",
+    "changes",
+    "connect",
+    "from",
+    "outcome",
+    "to",
+    "add",
+    "plan",
+    "places",
+    "P.go",
+    "item",
+    "port",
+    "format",
+    "query",
+    "newName",
+    "subscribe",
+];
+
 /// JSON of any shape, often with keys that parameters have.
 fn any_json() -> impl Strategy<Value = Value> {
     let leaf = prop_oneof![
@@ -175,41 +209,8 @@ fn any_json() -> impl Strategy<Value = Value> {
         ])
         .prop_map(Value::from),
     ];
-    let keys = vec![
-        "textDocument",
-        "uri",
-        "version",
-        "text",
-        "languageId",
-        "contentChanges",
-        "position",
-        "line",
-        "character",
-        "range",
-        "start",
-        "end",
-        "context",
-        "diagnostics",
-        "positions",
-        "changes",
-        "connect",
-        "from",
-        "outcome",
-        "to",
-        "add",
-        "plan",
-        "places",
-        "P.go",
-        "item",
-        "port",
-        "format",
-        "query",
-        "newName",
-        "subscribe",
-    ];
-    leaf.prop_recursive(5, 40, 6, move |inner| {
-        let object =
-            prop::collection::vec((prop::sample::select(keys.clone()), inner.clone()), 0..6);
+    leaf.prop_recursive(5, 40, 6, |inner| {
+        let object = prop::collection::vec((prop::sample::select(KEYS), inner.clone()), 0..6);
         prop_oneof![
             prop::collection::vec(inner, 0..4).prop_map(Value::from),
             object.prop_map(|pairs| Value::Object(
