@@ -66,6 +66,8 @@ icons! {
     "curve",
     "every",
     "forward",
+    "hold",
+    "idle",
     "is",
     "log",
     "search_wall",

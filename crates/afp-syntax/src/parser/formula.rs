@@ -32,6 +32,7 @@ const WORDS_BEHIND_NUMBERS: &[&str] = &[
     "on",
     "once",
     "out",
+    "over",
     "plan",
     "robot",
     "scenario",

@@ -86,8 +86,9 @@ impl Parser<'_, '_> {
             }
         } else if self.eat_word("worlds") {
             self.expect(Kind::Text, "write the worlds' files in double quotes");
-            while self.eat(Kind::Comma) {
-                self.expect(Kind::Text, "write the next world's file in double quotes");
+            // Any other comma ends the line.
+            while self.nth(1) == Kind::Text && self.eat(Kind::Comma) {
+                self.eat(Kind::Text);
             }
         } else {
             self.expected("'seeds' or 'worlds'", "write 'over seeds 0..20'");
