@@ -22,7 +22,7 @@ pub fn text(formula: &Formula, plan: &Plan, sources: Option<&Sources>) -> String
 }
 
 /// A value as text, in a unit that suits its size.
-pub(super) fn constant(value: &Constant, ty: Option<&Type>) -> String {
+pub fn constant(value: &Constant, ty: Option<&Type>) -> String {
     match (value, ty) {
         (Constant::Bool(value), _) => value.to_string(),
         (Constant::Int(value), _) => value.to_string(),

@@ -1,7 +1,8 @@
 //! What an exit can lead to and what a port can be bound to.
 
 use crate::View;
-use crate::describe::{bound, constant};
+use crate::describe::bound;
+use afp_draw::formula::constant;
 use afp_dsl::graph::EntryKind;
 use afp_dsl::outline::{Component, Entry, ExitKind, Input};
 use afp_dsl::types::{Dimension, Type};

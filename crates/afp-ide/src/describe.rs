@@ -3,7 +3,7 @@
 use crate::View;
 use afp_dsl::index::{Definition, DefinitionId, DefinitionKind, Meaning, Word};
 use afp_dsl::outline::{Component, ComponentKind, Entry};
-use afp_dsl::toolbox::{Constant, TemplateKind};
+use afp_dsl::toolbox::TemplateKind;
 use afp_dsl::types::Type;
 use afp_dsl::types::text::{number, quantity};
 
@@ -86,22 +86,6 @@ pub(crate) fn component_kind(kind: TemplateKind) -> ComponentKind {
         TemplateKind::Actor => ComponentKind::Actor,
         TemplateKind::Supervisor => ComponentKind::Supervisor,
         TemplateKind::Computation => ComponentKind::Computation,
-    }
-}
-
-/// A value in the spelling of literals.
-pub(crate) fn constant(value: &Constant, ty: Option<&Type>) -> String {
-    match (value, ty) {
-        (Constant::Bool(value), _) => value.to_string(),
-        (Constant::Int(value), _) => value.to_string(),
-        (Constant::Float(value), Some(Type::Quantity(dimension))) => quantity(*value, *dimension),
-        (Constant::Float(value), _) => number(*value),
-        (Constant::Text(value), _) => format!("{value:?}"),
-        (Constant::Choice(place), Some(Type::Enum(choices))) => {
-            let variant = choices.variants.get(usize::from(*place));
-            format!("{}.{}", choices.name, variant.map_or("", String::as_str))
-        }
-        (Constant::Choice(place), _) => place.to_string(),
     }
 }
 

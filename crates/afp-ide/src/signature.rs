@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use crate::View;
-use crate::describe::{bound, constant};
+use crate::describe::bound;
+use afp_draw::formula::constant;
 use afp_dsl::outline::{Component, Input, Output};
 use afp_dsl::toolbox::Constant;
 use afp_syntax::source::Span;
