@@ -93,10 +93,11 @@ mod tests {
         let reader = SerializedFileReader::new(parquet_bytes(bytes)).unwrap();
         let rows: Vec<_> = reader.get_row_iter(None).unwrap().map(Result::unwrap).collect();
         assert_eq!(rows.len(), 2);
-        assert_eq!(rows[1].get_ulong(0).unwrap(), u64::MAX / 4 * 4);
-        assert_eq!(rows[0].get_string(6).unwrap(), "a, \"b\"");
-        assert!(rows[0].get_double(12).is_err());
-        assert_eq!(rows[1].get_double(12).unwrap(), 0.1);
+        let at = |name| rows[0].get_column_iter().position(|(column, _)| column == name).unwrap();
+        assert_eq!(rows[1].get_ulong(at("run")).unwrap(), u64::MAX / 4 * 4);
+        assert_eq!(rows[0].get_string(at("why")).unwrap(), "a, \"b\"");
+        assert!(rows[0].get_double(at("wall_error_mean_m")).is_err());
+        assert_eq!(rows[1].get_double(at("wall_error_mean_m")).unwrap(), 0.1);
     }
 
     fn parquet_bytes(bytes: Vec<u8>) -> std::fs::File {
