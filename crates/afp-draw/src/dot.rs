@@ -39,7 +39,9 @@ impl<'a> Cluster<'a, '_> {
         let start = format!("{}!start", self.prefix);
         line(text, 1, &format!("subgraph cluster_{index} {{"));
         line(text, 2, &format!("label={};", quoted(view.name())));
-        line(text, 2, &format!("{} [label={}, shape=cds];", quoted(&start), quoted(view.name())));
+        let label =
+            if plan.forever { format!("{}\nforever", view.name()) } else { view.name().to_owned() };
+        line(text, 2, &format!("{} [label={}, shape=cds];", quoted(&start), quoted(&label)));
         for element in &plan.elements {
             self.node(text, element);
         }

@@ -11,7 +11,7 @@ use afp_syntax::item::Item;
 
 /// The plan as one indented JSON object, with where everything is drawn.
 ///
-/// Keys of a plan: `plan` (its name), `doc`, `first`, `global_supervisors`, `actors` (all elements as
+/// Keys of a plan: `plan` (its name), `doc`, `forever` (where it says so), `first`, `global_supervisors`, `actors` (all elements as
 /// written), `entries`, `timing` and `edges`; of the main plan also `sub_plans`, an array of plans. An
 /// element has `name`, `kind`, `template`, `inputs` (the texts of the bound inputs in the order of
 /// the template's ports), `outputs` (entries, likewise), `states` (targets by state, `Error`
@@ -36,6 +36,7 @@ fn plan_object(drawn: &DrawnPlan) -> Map<String, Value> {
     let mut object = Map::new();
     put(&mut object, "plan", json!(view.name()));
     put(&mut object, "doc", json!(plan.doc));
+    put(&mut object, "forever", json!(plan.forever.then_some(true)));
     put(&mut object, "first", json!(first.map(|first| view.target_name(first))));
     put(&mut object, "global_supervisors", supervisor_objects(view, &plan.supervisors));
     put(&mut object, "actors", Value::Array(elements));

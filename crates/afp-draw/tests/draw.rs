@@ -1,6 +1,6 @@
 //! Drawings as callers get them: JSON and GraphViz text of whole plans.
 
-use afp_draw::{Options, dot, json};
+use afp_draw::{Options, dot, json, svg};
 use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
 use afp_dsl::{Compiled, compile};
@@ -103,4 +103,17 @@ fn dot_names_every_element_and_every_edge_but_ignored_ones() {
     }
     assert!(!text.contains("Below"));
     assert_eq!(text.matches('{').count(), text.matches('}').count());
+}
+
+#[test]
+fn a_plan_that_runs_forever_says_so_in_every_drawing() {
+    let plan = "use std plan Patrol forever { start go actor go: Wait { Elapsed -> go } }";
+    assert_eq!(json_of(plan)["forever"], true);
+    assert_eq!(json_of(EVERY_PART).get("forever"), None);
+    let outline = compiled(plan).outline;
+    let text = dot(&outline, &Options::default());
+    assert!(text.contains(r#""Patrol!start" [label="Patrol\nforever", shape=cds];"#), "{text}");
+    let shown = |outline| svg(outline, &Options::default()).contains(">forever<");
+    assert!(shown(&outline));
+    assert!(!shown(&compiled(EVERY_PART).outline));
 }

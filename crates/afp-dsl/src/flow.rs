@@ -49,14 +49,14 @@ impl Model<'_> {
 pub(crate) const OK: usize = 0;
 /// Index of the ending `Interrupted`.
 pub(crate) const INTERRUPTED: usize = 1;
-/// The node after [`INTERRUPTED`]: `fail`, which has no place in those tables.
+/// Index of failing, which has a place in [`Summary::ends`] alone: no state of a sub-plan stands for it.
 pub(crate) const FAILED: usize = 2;
 
 /// What the users of a plan need to know of its flow.
 #[derive(Clone, Debug)]
 pub(crate) struct Summary {
-    /// Whether it can end as `OK`, as `Interrupted`.
-    pub ends: [bool; 2],
+    /// Whether it can end as `OK`, as `Interrupted`, by failing.
+    pub ends: [bool; 3],
     /// Whether it can do so within the step that starts it.
     pub instant: [bool; 2],
     /// An edge to `fail` that can be reached.

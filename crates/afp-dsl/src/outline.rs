@@ -160,6 +160,8 @@ pub struct Plan {
     /// Whether an event or `DeadlineMissed` edge leads to `terminate`, so that the plan can end as
     /// `Interrupted`.
     pub interruptible: bool,
+    /// Whether it says that it is meant to run on.
+    pub forever: bool,
     /// What there is to say about nothing smaller.
     pub findings: Findings,
 }

@@ -22,6 +22,9 @@ const STUB: f64 = 20.0;
 /// Distance between the configuration and the tag.
 const GAP: f64 = 28.0;
 
+/// What stands below the name of a plan that is meant to run on.
+const FOREVER: &str = "forever";
+
 /// Width of the words `in`, `out`, `var`, `const` with the space after them.
 const KIND: f64 = 40.0;
 
@@ -32,7 +35,8 @@ pub(in super::super) fn start<'a>(view: &View<'a>) -> Card<'a> {
     let table = configuration(view, &mut card.sketch);
     let left = if table.width > 0.0 { table.width + GAP } else { 0.0 };
     let stack = Stack::new(view, &plan.supervisors);
-    let name = width(view.name(), NAME, true);
+    let below = if plan.forever { FOREVER } else { "" };
+    let name = width(view.name(), NAME, true).max(width(below, PORT_SIZE, false));
     let rect = Rect { x: left, y: 0.0, width: name + 66.0, height: stack.first.max(46.0) };
     let shape = if stack.height > 0.0 { Shape::Round(9.0) } else { Shape::Round(23.0) };
     let title = if plan.doc.is_empty() { view.name().to_owned() } else { plan.doc.clone() };
@@ -46,15 +50,13 @@ pub(in super::super) fn start<'a>(view: &View<'a>) -> Card<'a> {
         icon: None,
         fallback: Glyph::Start,
     });
-    card.sketch.labels.push(Label {
-        x: rect.x + 46.0,
-        y: middle + 0.36 * NAME,
-        text: view.name().to_owned(),
-        size: NAME,
-        bold: true,
-        anchor: Anchor::Start,
-        class: "start".into(),
-    });
+    let base = middle + 0.36 * NAME - if plan.forever { 0.5 * PORT_SIZE } else { 0.0 };
+    let named = label((rect.x + 46.0, base), view.name(), NAME, "start");
+    card.sketch.labels.push(Label { bold: true, ..named });
+    if plan.forever {
+        let place = (rect.x + 46.0, base + 1.4 * PORT_SIZE);
+        card.sketch.labels.push(label(place, below, PORT_SIZE, "start"));
+    }
     card.width = rect.right();
     card.height = rect.bottom().max(table.height);
     card.rect = rect;

@@ -1,19 +1,19 @@
 //! Plans that never end, and elements that none of their endings can be reached from.
 
-use crate::flow::view::{Cause, View};
+use crate::flow::view::{Cause, Node, View};
 use crate::flow::{FAILED, INTERRUPTED, OK};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// Warns of a plan that cannot end, notes elements from which it cannot; tells which endings can
 /// come.
-pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [bool; 2] {
+pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [bool; 3] {
     let forth = forward(view);
     let ends = ends(view, &forth);
     if view.plan.forever {
         by_itself(view, &forth, diags);
         return ends;
     }
-    if ends == [false, false] && !forth[view.end(FAILED)] {
+    if ends == [false; 3] {
         let message = format!("'{}' can never end: nothing leads to 'terminate'", view.plan.name);
         diags.push(
             Diagnostic::new(Code::E0307, view.plan.span, message)
@@ -50,12 +50,21 @@ fn by_itself(view: &View<'_>, forth: &[bool], diags: &mut Diagnostics) {
 }
 
 /// Which endings can come.
-pub(super) fn endings(view: &View<'_>) -> [bool; 2] {
+pub(super) fn endings(view: &View<'_>) -> [bool; 3] {
     ends(view, &forward(view))
 }
 
-fn ends(view: &View<'_>, forth: &[bool]) -> [bool; 2] {
-    [forth[view.end(OK)], forth[view.end(INTERRUPTED)]]
+fn ends(view: &View<'_>, forth: &[bool]) -> [bool; 3] {
+    let mut ends = [OK, INTERRUPTED, FAILED].map(|ending| forth[view.end(ending)]);
+    ends[FAILED] |= failing(view).any(|node| forth[node]);
+    ends
+}
+
+/// The sub-plans that can fail and, without an `Error` edge, end the plan with them.
+fn failing<'v>(view: &'v View<'_>) -> impl Iterator<Item = Node> + 'v {
+    let fails = |element| view.summary(element).is_some_and(|inner| inner.ends[FAILED]);
+    let elements = view.plan.elements.iter().enumerate();
+    elements.filter(move |(_, e)| e.on_error.is_none() && fails(e)).map(|(node, _)| node)
 }
 
 fn forward(view: &View<'_>) -> Vec<bool> {
@@ -86,6 +95,7 @@ fn backward(view: &View<'_>) -> Vec<bool> {
     }
     let mut seen = vec![false; view.nodes()];
     let mut open = vec![view.end(OK), view.end(INTERRUPTED), view.end(FAILED)];
+    open.extend(failing(view));
     while let Some(node) = open.pop() {
         if !std::mem::replace(&mut seen[node], true) {
             open.extend(&into[first[node] as usize..first[node + 1] as usize]);

@@ -141,6 +141,7 @@ fn plan(material: &Material<'_>, head: &PlanHead, members: Members, item: String
         note: node.note(),
         span: node.span(),
         interruptible: head.interrupting.is_some(),
+        forever: node.forever().is_some(),
         findings: Findings::default(),
         item: Item::plan(item),
     }

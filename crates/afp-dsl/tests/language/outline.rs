@@ -94,7 +94,8 @@ fn plan(text: &mut String, outline: &Outline, plan: &Plan, said: &dyn Fn(&Findin
         let _ = writeln!(text, "{:width$}{content}", "", width = 2 * depth);
     };
     let interruptible = if plan.interruptible { " (interruptible)" } else { "" };
-    line(1, format!("plan {}{interruptible}{}", plan.item, said(&plan.findings)));
+    let forever = if plan.forever { " (forever)" } else { "" };
+    line(1, format!("plan {}{forever}{interruptible}{}", plan.item, said(&plan.findings)));
     for entry in &plan.entries {
         let ty = entry.ty.as_ref().map_or("?".to_owned(), ToString::to_string);
         let written = entry.written_type.as_ref().map_or("", |ty| &ty.text);
