@@ -12,7 +12,7 @@ const PROGRAM: &str = "debug.js";
 /// No node or npm, no network for the client, or an answer that is wrong.
 pub fn run() -> Result<(), Failure> {
     let folder = npm::installed("dap", PROGRAM)?;
-    run_command(cargo().args(["build", "--quiet", "--package", "afpc"]))?;
+    run_command(cargo().args(["build", "--quiet", "--package", "afpc", "--features", "full"]))?;
     let afpc = target().join("debug").join(format!("afpc{}", std::env::consts::EXE_SUFFIX));
     let debug = folder.join(PROGRAM);
     run_command(program("node").arg(debug).env("AFPC", afpc).env("AFP_PLANS", root().join("plans")))

@@ -18,8 +18,8 @@ pub use folder::cache;
 /// What parts are linked into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Product {
-    /// The command line.
-    Runner,
+    /// The command line, with these features.
+    Runner(&'static [&'static str]),
     /// The native half of the Python package.
     Extension,
 }
@@ -28,15 +28,23 @@ impl Product {
     /// What it is called in the names of folders and packages.
     fn name(self) -> &'static str {
         match self {
-            Product::Runner => "runner",
+            Product::Runner(_) => "runner",
             Product::Extension => "extension",
+        }
+    }
+
+    /// Features of what does everything.
+    fn features(self) -> &'static [&'static str] {
+        match self {
+            Product::Runner(features) => features,
+            Product::Extension => &[],
         }
     }
 
     /// What it is called in messages.
     fn words(self) -> &'static str {
         match self {
-            Product::Runner => "a runner",
+            Product::Runner(_) => "a runner",
             Product::Extension => "a Python extension",
         }
     }
@@ -71,6 +79,7 @@ impl Kept {
             robot: parts.robot.as_ref().map(RobotLink::rust_type),
             toolboxes: Vec::new(),
             dependencies: parts.crates().map(origin::dependency).collect(),
+            features: product.features().iter().map(|&name| name.to_owned()).collect(),
         };
         for own in &parts.toolboxes {
             options.toolboxes.push((own.name.clone(), own.krate.rust_path()));
@@ -95,7 +104,7 @@ impl Kept {
                     .to_owned(),
         };
         let files = match self.product {
-            Product::Runner => runner_files(&self.options),
+            Product::Runner(_) => runner_files(&self.options),
             Product::Extension => extension_files(&self.options),
         };
         let files = files.map_err(|path| {
@@ -110,7 +119,7 @@ impl Kept {
             target: Some(&self.target),
             toolchain: None,
             artifact: match self.product {
-                Product::Runner => Artifact::Program,
+                Product::Runner(_) => Artifact::Program,
                 Product::Extension => Artifact::Extension,
             },
             blame: Blame { generated: None, toolboxes: &parts.toolboxes },

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use afp_codegen::{Dependency, Origin};
+use afp_codegen::{Dependency, Features, Origin};
 use afp_project::{CrateLink, ProjectFile};
 use afp_run::RunError;
 
@@ -24,7 +24,7 @@ pub fn dependency(krate: &CrateLink) -> Dependency {
         key: krate.key.clone(),
         package: krate.package.clone(),
         origin: origin_in(Path::new(""), &krate.origin),
-        defaults: true,
+        features: Features::Default,
     }
 }
 

@@ -88,11 +88,11 @@ fn cargo_toml(graph: &Graph, options: &CrateOptions) -> String {
 /// The crates that a plan needs: those of its toolboxes beside `afp` and what runs it.
 fn dependencies(graph: &Graph, options: &CrateOptions) -> Vec<Dependency> {
     let origin = &options.origin;
-    let mut all = vec![Dependency::ours("afp", origin).without_defaults()];
+    let mut all = vec![Dependency::ours("afp", origin).with_only(&[])];
     if !options.lib {
-        all.push(Dependency::ours("afp-run", origin).without_defaults());
+        all.push(Dependency::ours("afp-run", origin).with_only(&[]));
         match &options.robot {
-            None => all.push(Dependency::ours("afp-sim", origin).without_defaults()),
+            None => all.push(Dependency::ours("afp-sim", origin).with_only(&[])),
             Some(path) => all.extend(given(options, path).cloned()),
         }
     }

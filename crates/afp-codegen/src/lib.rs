@@ -23,7 +23,7 @@ use quote::quote;
 pub use krate::{CrateFile, CrateOptions, crate_files};
 pub use layout::{code, file};
 pub use linked::{LinkOptions, extension_files, runner_files};
-pub use manifest::{Dependency, MADE_BY, Origin};
+pub use manifest::{Dependency, Features, MADE_BY, Origin};
 pub use places::Places;
 pub use plan::{Generated, Module, plan};
 pub use toolbox::{Support, declaration, register_supported, toolbox};

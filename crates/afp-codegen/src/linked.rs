@@ -19,6 +19,8 @@ pub struct LinkOptions {
     pub toolboxes: Vec<(String, String)>,
     /// The crates of the robot and of the toolboxes.
     pub dependencies: Vec<Dependency>,
+    /// The features of the command line, where that is linked.
+    pub features: Vec<String>,
 }
 
 /// A plan is interpreted here: what counts is that the build is done soon.
@@ -30,7 +32,8 @@ const PROFILE: &str = "[profile.release]\n\
 /// # Errors
 /// A path that Rust cannot say; it is given back.
 pub fn runner_files(options: &LinkOptions) -> Result<Vec<(String, String)>, String> {
-    let dependencies = dependencies(options, Dependency::ours("afpc", &options.origin));
+    let ours = Dependency::ours("afpc", &options.origin).with_only(&options.features);
+    let dependencies = dependencies(options, ours);
     let manifest = manifest(" run' as a runner", &options.package, dependencies, PROFILE);
     Ok(vec![("Cargo.toml".to_owned(), manifest), ("src/main.rs".to_owned(), program(options)?)])
 }
@@ -42,7 +45,7 @@ pub fn runner_files(options: &LinkOptions) -> Result<Vec<(String, String)>, Stri
 pub fn extension_files(options: &LinkOptions) -> Result<Vec<(String, String)>, String> {
     let ours = Dependency::ours("afp-py", &options.origin);
     // The Carbot is a feature of it.
-    let ours = if options.robot.is_some() { ours.without_defaults() } else { ours };
+    let ours = if options.robot.is_some() { ours.with_only(&[]) } else { ours };
     let library = format!("[lib]\ncrate-type = [\"cdylib\"]\n\n{PROFILE}");
     let manifest =
         manifest("' for Python", &options.package, dependencies(options, ours), &library);

@@ -23,8 +23,17 @@ pub struct Dependency {
     pub package: String,
     /// Where it comes from; a path is that of the package.
     pub origin: Origin,
-    /// Whether it comes with its default features.
-    pub defaults: bool,
+    /// What it comes with.
+    pub features: Features,
+}
+
+/// Features of a package.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Features {
+    /// Those that it has by default.
+    Default,
+    /// These and none else.
+    Only(Vec<String>),
 }
 
 impl Dependency {
@@ -37,16 +46,16 @@ impl Dependency {
             other => other.clone(),
         };
         let [key, package] = [package; 2].map(str::to_owned);
-        Dependency { key, package, origin, defaults: true }
+        Dependency { key, package, origin, features: Features::Default }
     }
 
-    /// The same with no feature but those that others ask for.
-    pub(super) fn without_defaults(self) -> Dependency {
-        Dependency { defaults: false, ..self }
+    /// The same with no feature but these and those that others ask for.
+    pub(super) fn with_only(self, features: &[String]) -> Dependency {
+        Dependency { features: Features::Only(features.to_vec()), ..self }
     }
 
     fn line(&self) -> String {
-        let Dependency { key, package, origin, defaults } = self;
+        let Dependency { key, package, origin, features } = self;
         let (kind, value) = match origin {
             Origin::Path(path) => ("path", path),
             Origin::Git(url) => ("git", url),
@@ -54,7 +63,14 @@ impl Dependency {
         };
         let package =
             if key == package { String::new() } else { format!(", package = {}", quoted(package)) };
-        let features = if *defaults { "" } else { ", default-features = false" };
+        let features = match features {
+            Features::Default => String::new(),
+            Features::Only(none) if none.is_empty() => ", default-features = false".to_owned(),
+            Features::Only(some) => {
+                let some: Vec<_> = some.iter().map(|name| quoted(name)).collect();
+                format!(", default-features = false, features = [{}]", some.join(", "))
+            }
+        };
         format!("{key} = {{ {kind} = {}{package}{features} }}\n", quoted(value))
     }
 }

@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-use afp_codegen::{CrateOptions, Dependency, Module, Options, Origin};
+use afp_codegen::{CrateOptions, Dependency, Features, Module, Options, Origin};
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
 use afp_dsl::toolbox::{Toolbox, Toolboxes};
@@ -150,7 +150,7 @@ fn a_library_takes_its_dependencies_from_where_it_is_told() {
         key: "afp-carbot".to_owned(),
         package: "mine".to_owned(),
         origin: Origin::Path("../mine".to_owned()),
-        defaults: true,
+        features: Features::Default,
     }];
     let files = afp_codegen::crate_files(&graph, &options);
     assert!(files.iter().all(|file| file.path != "src/main.rs"));

@@ -5,9 +5,13 @@ use afp_run::{EXIT_OK, RunError, say};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
+#[cfg(feature = "dap")]
+use crate::commands::dap;
+#[cfg(feature = "lsp")]
+use crate::commands::lsp;
 use crate::commands::{
-    build, check, completions, dap, explain, fmt, graph, later, log, lsp, new, print, run, sweep,
-    templates, test,
+    build, check, completions, explain, fmt, graph, later, log, new, print, run, sweep, templates,
+    test,
 };
 use crate::plan_file::NoPlan;
 use crate::{Linked, declared};
@@ -56,9 +60,11 @@ pub enum Command {
     #[command(after_help = log::EXAMPLES)]
     Log(log::Arguments),
     /// Serves editors over standard input and output: the Language Server Protocol
+    #[cfg(feature = "lsp")]
     #[command(after_help = lsp::EXAMPLES)]
     Lsp,
     /// Serves debuggers: the Debug Adapter Protocol over a simulated run
+    #[cfg(feature = "dap")]
     #[command(after_help = dap::EXAMPLES)]
     Dap(dap::Arguments),
     /// Prints completions for a shell
@@ -145,7 +151,7 @@ fn without_command(error: &clap::Error) -> Option<RunError> {
     })
 }
 
-/// The grammar, with the commands that later releases bring: hidden, but told apart from typing
+/// The grammar, with the commands that later releases or other builds bring: hidden, but told apart from typing
 /// errors.
 pub fn command() -> clap::Command {
     let later = later::names().map(|name| {

@@ -3,12 +3,14 @@
 pub mod build;
 pub mod check;
 pub mod completions;
+#[cfg(feature = "dap")]
 pub mod dap;
 pub mod explain;
 pub mod fmt;
 pub mod graph;
 pub mod later;
 pub mod log;
+#[cfg(feature = "lsp")]
 pub mod lsp;
 pub mod new;
 pub mod run;
@@ -40,9 +42,11 @@ pub fn dispatch(command: &Command, linked: &Linked<'_>) -> ExitCode {
         Command::Sweep(arguments) => sweep::run(arguments, linked),
         Command::Build(arguments) => build::run(arguments),
         Command::Log(arguments) => log::run(arguments, linked),
+        #[cfg(feature = "lsp")]
         Command::Lsp => lsp::run(),
         Command::New(arguments) => new::run(arguments),
         Command::Templates(arguments) => templates::run(arguments),
+        #[cfg(feature = "dap")]
         Command::Dap(arguments) => dap::run(arguments, linked),
         Command::Completions(arguments) => completions::run(arguments),
     };

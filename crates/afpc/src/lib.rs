@@ -24,6 +24,18 @@ pub use afp_sim::carbot;
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
+/// What this program was built with, of what can be left out: the runners that it builds have the same.
+const FEATURES: &[&str] = &[
+    #[cfg(feature = "dap")]
+    "dap",
+    #[cfg(feature = "lsp")]
+    "lsp",
+    #[cfg(feature = "parquet")]
+    "parquet",
+    #[cfg(feature = "png")]
+    "png",
+];
+
 /// What is linked into the program.
 #[derive(Clone, Copy)]
 pub struct Linked<'a> {

@@ -14,8 +14,8 @@ use afp_dsl::graph::Graph;
 use afp_project::ProjectFile;
 use afp_run::RunError;
 
-use crate::Linked;
 use crate::plan_file::NoPlan;
+use crate::{FEATURES, Linked};
 
 /// Comes back when this program has the robot and the toolboxes of all of these plans; otherwise builds, if need be,
 /// the one runner that has them, and goes on as that, with the arguments of this process.
@@ -56,7 +56,7 @@ fn become_one(parts: Parts<'_>, linked: &Linked<'_>) -> Result<(), NoPlan> {
         let message = format!("this runner was built for other parts than {}", parts.names());
         return Err(RunError::usage(message, "start 'afpc' instead").into());
     }
-    Err(turn_into(&parts.product(Product::Runner)?).into())
+    Err(turn_into(&parts.product(Product::Runner(FEATURES))?).into())
 }
 
 /// Goes on as another program with the same arguments; comes back only when that fails.

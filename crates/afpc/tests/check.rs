@@ -155,12 +155,21 @@ fn a_wrong_plan_is_neither_charted_nor_run_nor_built() {
 }
 
 #[test]
-fn commands_of_later_releases_say_so() {
+fn commands_of_later_releases_and_of_other_builds_say_so() {
     let place = Place::new();
     for name in ["replay", "deploy", "attach", "studio"] {
         let said = place.afpc(&format!("{name} some --option"));
         said.fails(2, &[&format!("'afpc {name}' is not in release"), "it comes with"]);
         assert!(!place.afpc("--help").out.contains(&format!("\n  {name} ")));
+    }
+    for name in [
+        #[cfg(not(feature = "dap"))]
+        "dap",
+        #[cfg(not(feature = "lsp"))]
+        "lsp",
+    ] {
+        let built = format!("built without '{name}'");
+        place.afpc(name).fails(2, &[&built, "--features full"]);
     }
     place.afpc("fly").fails(2, &["unrecognized subcommand 'fly'"]);
     place.afpc("check").fails(2, &["FILE"]);

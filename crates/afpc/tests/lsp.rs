@@ -1,5 +1,7 @@
 //! `afpc lsp` over standard input and output: spoken to by hand, and by Neovim with its own client.
 
+#![cfg(feature = "lsp")]
+
 mod common;
 
 use std::io::{BufRead, BufReader, Read, Write};

@@ -1,4 +1,4 @@
-//! Commands that are designed but not in this release.
+//! Commands that are not in this program: designed for another release, or left out of this build.
 
 use afp_run::RunError;
 
@@ -10,13 +10,27 @@ const LATER: &[(&str, &str)] = &[
     ("studio", "the graphical editor"),
 ];
 
+/// Commands that this program was built without; each is a feature of its name.
+const LEFT_OUT: &[&str] = &[
+    #[cfg(not(feature = "dap"))]
+    "dap",
+    #[cfg(not(feature = "lsp"))]
+    "lsp",
+];
+
 /// The names of such commands.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    LATER.iter().map(|(name, _)| *name)
+    LATER.iter().map(|(name, _)| *name).chain(LEFT_OUT.iter().copied())
 }
 
 /// What to say to somebody who asks for such a command.
 pub fn refusal(name: &str) -> Option<RunError> {
+    if LEFT_OUT.contains(&name) {
+        return Some(RunError::usage(
+            format!("this afpc was built without '{name}'"),
+            "'cargo install --path crates/afpc --features full' brings everything there is",
+        ));
+    }
     let (_, what) = LATER.iter().find(|(later, _)| *later == name)?;
     let version = env!("CARGO_PKG_VERSION");
     Some(RunError::usage(
