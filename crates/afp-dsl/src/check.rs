@@ -7,6 +7,7 @@ mod assemble;
 mod bindings;
 mod callee;
 mod choices;
+mod consequences;
 mod constant;
 mod convert;
 pub(crate) mod edges;
@@ -155,6 +156,7 @@ pub(crate) fn check(
     }
     let ready = scenario::Plans { plans: &plans, order: &order, members: &members };
     let scenarios = scenario::check(&program, files, &ready, diags);
+    consequences::hold_back(&program, files, diags);
     let main = files.first().and_then(|file| select(&program, file, main, diags));
     note_files(files, &record);
     let (meanings, declared) = names(files, toolboxes, &record, diags);

@@ -4,10 +4,12 @@
 //! meets what it does not expect reports it once, skips to where an item of some level can begin
 //! again, and goes on.
 
+mod braces;
 mod device;
 mod file;
 mod formula;
 mod plan;
+mod recovery;
 mod scenario;
 mod toolbox;
 
@@ -22,9 +24,12 @@ use crate::source::Span;
 const MAX_DEPTH: usize = 64;
 
 /// Parses a whole file.
-pub(super) fn parse(tokens: &[Token<'_>], file: u16, diags: &mut Diagnostics) -> GreenNode {
-    let mut parser = Parser::new(tokens, file, diags);
+pub(super) fn parse(mut tokens: Vec<Token<'_>>, file: u16, diags: &mut Diagnostics) -> GreenNode {
+    let mended = braces::mend(&mut tokens, file, diags);
+    let mut parser = Parser::new(&tokens, &mended.strays, file, diags);
+    parser.told = mended.told;
     parser.file();
+    parser.withdraw_fixes();
     parser.builder.finish()
 }
 
@@ -41,17 +46,30 @@ struct Parser<'t, 'd> {
     depth: usize,
     /// Whether the item before this one stands outside of a plan and is reported.
     misplaced: bool,
-    /// Where the last error is; no second one is reported there.
-    last_error: Option<Span>,
+    /// Places on lines of which something is said that comes before the grammar, each with the place of that.
+    told: Vec<(u32, u32)>,
+    /// Where the lines end on which something is wrong that is not said.
+    hidden: Vec<u32>,
+    /// Where the line behind the last error begins: what is wrong before it comes of that.
+    quiet: u32,
     builder: GreenNodeBuilder<'static>,
     diags: &'d mut Diagnostics,
 }
 
 impl<'t, 'd> Parser<'t, 'd> {
-    fn new(tokens: &'t [Token<'t>], file: u16, diags: &'d mut Diagnostics) -> Parser<'t, 'd> {
+    fn new(
+        tokens: &'t [Token<'t>],
+        strays: &[u32],
+        file: u16,
+        diags: &'d mut Diagnostics,
+    ) -> Parser<'t, 'd> {
         let mut solid = Vec::with_capacity(tokens.len());
         let places = (0..).zip(tokens).filter(|(_, token)| !token.kind.is_trivia());
-        solid.extend(places.map(|(place, _)| place));
+        let solid_places = places.map(|(place, _)| place);
+        match strays {
+            [] => solid.extend(solid_places),
+            strays => solid.extend(solid_places.filter(|place| !strays.contains(place))),
+        }
         let builder = GreenNodeBuilder::new();
         Parser {
             tokens,
@@ -61,7 +79,9 @@ impl<'t, 'd> Parser<'t, 'd> {
             file,
             depth: 0,
             misplaced: false,
-            last_error: None,
+            told: Vec::new(),
+            hidden: Vec::new(),
+            quiet: 0,
             builder,
             diags,
         }
@@ -109,9 +129,21 @@ impl<'t, 'd> Parser<'t, 'd> {
 
     /// Whether the next token stands on the line of the one before it.
     fn on_same_line(&self) -> bool {
-        let Some(before) = self.at.checked_sub(1) else { return true };
-        let from = self.solid[before] as usize + 1;
-        !self.tokens[from..self.place(0)].iter().any(|token| token.text.contains('\n'))
+        self.at == 0 || !self.begins_line(0)
+    }
+
+    /// Whether a token ahead stands on another line than the one before it.
+    fn begins_line(&self, ahead: usize) -> bool {
+        let before = (self.at + ahead).checked_sub(1).and_then(|before| self.solid.get(before));
+        let from = before.map_or(0, |before| *before as usize + 1);
+        self.tokens[from..self.place(ahead)].iter().any(|token| token.text.contains('\n'))
+    }
+
+    /// How many tokens stand before a kind of token on this line.
+    fn ahead_on_line(&self, kind: Kind) -> Option<usize> {
+        let on_line = |ahead: &usize| !self.begins_line(*ahead);
+        let mut ahead = (0..self.solid.len() - self.at).take_while(on_line);
+        ahead.find(|ahead| self.nth(*ahead) == kind)
     }
 
     /// Whether no white space stands before the next token.
@@ -156,6 +188,10 @@ impl<'t, 'd> Parser<'t, 'd> {
     // Building.
 
     fn emit(&mut self, kind: Kind, text: &str) {
+        // A brace that is missing has no text.
+        if text.is_empty() {
+            return;
+        }
         self.builder.token(Afp::kind_to_raw(kind), text);
     }
 
@@ -266,119 +302,6 @@ impl<'t, 'd> Parser<'t, 'd> {
             break;
         }
         self.trivia_to(own, false);
-        self.close();
-    }
-
-    // Errors.
-
-    fn error(&mut self, diagnostic: Diagnostic) {
-        if self.last_error != Some(diagnostic.span) {
-            self.last_error = Some(diagnostic.span);
-            self.diags.push(diagnostic);
-        }
-    }
-
-    /// Reports that something is missing here.
-    fn expected(&mut self, what: &str, help: &str) {
-        let here = self.here();
-        self.expected_at(here, what, help);
-    }
-
-    fn expected_at(&mut self, here: Span, what: &str, help: &str) {
-        match self.nth(0) {
-            // The lexer has reported it.
-            Kind::Unknown => return self.last_error = Some(here),
-            Kind::OpenBracket | Kind::CloseBracket | Kind::At => return self.reserved(),
-            _ => {}
-        }
-        let message = format!("expected {what}, found {}", self.found());
-        self.error(Diagnostic::new(Code::E0102, here, message).help(help));
-    }
-
-    fn expect(&mut self, kind: Kind, help: &str) -> bool {
-        let fits = self.eat(kind);
-        if !fits {
-            self.expected(kind.describe(), help);
-        }
-        fits
-    }
-
-    /// Takes a name, or reports that one is missing.
-    fn name(&mut self, help: &str) -> bool {
-        if !self.on_same_line() && self.begins_item() {
-            self.expected("a name", help);
-            return false;
-        }
-        if self.at(Kind::Name) {
-            self.take_name();
-            return true;
-        }
-        self.expect(Kind::Name, help)
-    }
-
-    /// Takes the next token, which is a name.
-    fn take_name(&mut self) {
-        if matches!(self.word(0), "resume" | "repeat") {
-            self.reserved();
-        }
-        self.bump();
-    }
-
-    /// Whether an item of some level surely begins here, so that no name can be meant.
-    fn begins_item(&self) -> bool {
-        let first = matches!(self.word(0), "start" | "supervise") && self.nth(1) == Kind::Name;
-        (first && !self.names_something(0)) || self.leaves_body() || self.at_tool()
-    }
-
-    fn reserved(&mut self) {
-        let message = format!("{} is reserved for a later version", self.found());
-        let help = if self.at(Kind::Name) { "choose another name" } else { "remove it" };
-        let here = self.next_span();
-        self.error(Diagnostic::new(Code::E0112, here, message).help(help));
-    }
-
-    /// Closes a bracket, or reports where it was opened.
-    fn close_bracket(&mut self, kind: Kind, opened: Span) {
-        if self.eat(kind) {
-            return;
-        }
-        let sign = kind.describe();
-        let here = self.behind();
-        self.error(
-            Diagnostic::new(Code::E0103, here, format!("missing {sign}, found {}", self.found()))
-                .note(opened, "opened here")
-                .help(format!("add {sign}"))
-                .fix(here, sign.trim_matches('\'')),
-        );
-    }
-
-    /// Reports the next token as unexpected and skips to where `stop` holds, brackets and braces
-    /// as a whole.
-    fn skip(&mut self, what: &str, help: &str, stop: impl Fn(&Self) -> bool) {
-        match self.nth(0) {
-            Kind::Name if matches!(self.word(0), "resume" | "repeat") => self.reserved(),
-            _ => {
-                let here = self.next_span();
-                self.expected_at(here, what, help);
-            }
-        }
-        self.open(Kind::Error);
-        let mut depth = 0_usize;
-        loop {
-            match self.nth(0) {
-                Kind::End => break,
-                Kind::OpenBrace | Kind::OpenParen => depth += 1,
-                Kind::CloseBrace | Kind::CloseParen => {
-                    if depth == 0 && stop(self) {
-                        break;
-                    }
-                    depth = depth.saturating_sub(1);
-                }
-                _ if depth == 0 && stop(self) => break,
-                _ => {}
-            }
-            self.bump();
-        }
         self.close();
     }
 }

@@ -44,7 +44,7 @@ impl Parse {
 /// Takes time and memory linear in the length of the text, and a stack of bounded depth.
 pub fn parse(text: &str, file: u16, diags: &mut Diagnostics) -> Parse {
     let tokens = lexer::lex(text, file, diags);
-    let green = parser::parse(&tokens, file, diags);
+    let green = parser::parse(tokens, file, diags);
     Parse { green, file }
 }
 

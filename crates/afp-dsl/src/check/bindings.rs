@@ -50,7 +50,9 @@ pub(crate) fn check(
         .map(|bound| bound.map(|formula| formula.and_then(|f| scope.infer(f, diags))))
         .collect();
     let generic = generic::decide(scope, signature, &inferred, &ports, diags);
-    let inputs = inputs(scope, signature, inferred, &generic, site, diags);
+    // What has no port stands for what has no value.
+    let broken = site.broken || !ports.complete;
+    let inputs = inputs(scope, signature, inferred, &generic, &Site { broken, ..*site }, diags);
     let outputs = outputs::check(scope, signature, &ports, &generic, diags);
     let sound = inputs.zip(outputs);
     match generic {

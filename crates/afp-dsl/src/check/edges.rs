@@ -180,6 +180,7 @@ pub(crate) fn check(
     let spans = EdgeSpans { outcomes: vec![None; count], extra: None };
     let mut connected = Connected { outcomes: vec![None; count], extra: None, spans };
     let mut seen: Vec<&Name> = Vec::new();
+    let mut unknown = 0;
     let extra = if origin.supervisor { DEADLINE_MISSED } else { ERROR };
     for edge in edges {
         let name = &edge.name;
@@ -211,13 +212,14 @@ pub(crate) fn check(
             }
             None => {
                 diags.push(unknown_outcome(origin, name, extra));
+                unknown += usize::from(word(&name.text).is_none());
                 continue;
             }
         }
         seen.push(name);
     }
     if !origin.broken {
-        report_missing(origin, &seen, diags);
+        report_missing(origin, &seen, unknown, diags);
     }
     connected
 }
@@ -342,7 +344,8 @@ pub(crate) fn find(
     u16::try_from(place).ok().map(ElementId)
 }
 
-fn report_missing(origin: &Origin<'_>, seen: &[&Name], diags: &mut Diagnostics) {
+/// Reports what is not connected; each unknown one stands for one of those.
+fn report_missing(origin: &Origin<'_>, seen: &[&Name], unknown: usize, diags: &mut Diagnostics) {
     let signature = origin.signature;
     let is_plan = matches!(signature.kind, SignatureKind::Plan(_));
     let missing = signature.outcomes.iter().map(|outcome| &**outcome).filter(|outcome| {
@@ -351,7 +354,7 @@ fn report_missing(origin: &Origin<'_>, seen: &[&Name], diags: &mut Diagnostics) 
     });
     let missing: Vec<&str> = missing.collect();
     let name = origin.name.map_or("", |name| name.text.as_str());
-    if !missing.is_empty() {
+    if missing.len() > unknown {
         let verb = if missing.len() == 1 { "leads" } else { "lead" };
         let message =
             format!("{} of '{name}' {verb} nowhere", words::list(missing.iter().copied(), "and"));

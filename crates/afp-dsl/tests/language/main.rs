@@ -5,6 +5,7 @@ mod explanations;
 mod graph;
 mod index;
 mod limits;
+mod mutations;
 mod outline;
 mod scale;
 mod support;

@@ -89,6 +89,12 @@ impl Plan {
         words.find(|word| word.text == "forever").map(|word| word.span)
     }
 
+    /// Every name in it, of whatever it is.
+    pub fn names(&self) -> impl Iterator<Item = String> + use<> {
+        let tokens = self.node.descendants_with_tokens().filter_map(|each| each.into_token());
+        tokens.filter(|token| token.kind() == Kind::Name).map(|token| token.text().to_owned())
+    }
+
     /// Its entries as written.
     pub fn entries(&self) -> Vec<Entry> {
         children(&self.node, Kind::Entry).map(|node| Entry::new(node, self.file)).collect()

@@ -1,11 +1,14 @@
 //! Plans: entries, elements, supervisors, edges and bindings.
 
 use super::Parser;
-use crate::diagnostics::{Code, Diagnostic};
+use crate::diagnostics::{Code, Diagnostic, words};
 use crate::kind::Kind;
 
 /// Tokens that are looked at in search of the arrow behind the names of states.
 const MAX_NAMES: usize = 128;
+/// The words that items of a plan begin with.
+const WORDS: &[&str] =
+    &["in", "out", "var", "const", "start", "supervise", "actor", "computation", "subplan"];
 const ITEMS: &str = "an item of the plan";
 const ITEM_HELP: &str =
     "write 'in', 'out', 'var', 'const', 'start', 'supervise', 'actor', 'computation' or 'subplan'";
@@ -17,15 +20,13 @@ impl Parser<'_, '_> {
         self.name("give the plan a name");
         self.eat_word("forever");
         let opened = self.here();
-        if self.expect(Kind::OpenBrace, "put the plan's items in braces") {
+        if self.open_body("put the plan's items in braces", Self::at_plan_item) {
             while !self.at_end() && !self.at(Kind::CloseBrace) && !self.at_top_item() {
                 self.repeat(|parser| {
                     if parser.at_plan_item() {
                         parser.plan_item();
                     } else {
-                        parser.skip(ITEMS, ITEM_HELP, |p| {
-                            p.at_plan_item() || p.at(Kind::CloseBrace) || p.at_top_item()
-                        });
+                        parser.no_plan_item();
                     }
                 });
             }
@@ -35,17 +36,29 @@ impl Parser<'_, '_> {
     }
 
     fn at_plan_item(&self) -> bool {
-        matches!(
-            self.word(0),
-            "in" | "out"
-                | "var"
-                | "const"
-                | "start"
-                | "supervise"
-                | "actor"
-                | "computation"
-                | "subplan"
-        ) && (!self.names_something(0) || self.nth(1) == Kind::Colon)
+        WORDS.contains(&self.word(0)) && (!self.names_something(0) || self.nth(1) == Kind::Colon)
+    }
+
+    /// Passes over what is no item of a plan.
+    fn no_plan_item(&mut self) {
+        let meant = words::nearest(self.word(0), WORDS.iter().copied());
+        let help = match meant.filter(|_| self.nth(1) == Kind::Name) {
+            Some(meant) => format!("write '{meant}'"),
+            None => ITEM_HELP.to_owned(),
+        };
+        let is_body = self.begins_body();
+        self.skip(ITEMS, &help, |p| p.at_plan_item() || p.at(Kind::CloseBrace) || p.at_top_item());
+        // Edges whose element cannot be read have its brace behind them.
+        if is_body && self.at(Kind::CloseBrace) && self.nth(1) != Kind::End {
+            self.open(Kind::Error);
+            self.bump();
+            self.close();
+        }
+    }
+
+    /// Whether an edge begins here, which stands in a body alone: its brace is missing.
+    fn begins_body(&self) -> bool {
+        self.at(Kind::Name) && self.nth(1) == Kind::Arrow
     }
 
     pub(super) fn plan_item(&mut self) {
@@ -84,7 +97,7 @@ impl Parser<'_, '_> {
         self.keyword();
         self.head("an actor's template, a computation's or a plan");
         let opened = self.here();
-        if self.expect(Kind::OpenBrace, "put supervisors and edges in braces") {
+        if self.open_body("put supervisors and edges in braces", Self::begins_body) {
             while !self.at_end() && !self.at(Kind::CloseBrace) && !self.leaves_body() {
                 self.repeat(|parser| {
                     if parser.at_word("supervise") {
@@ -107,7 +120,7 @@ impl Parser<'_, '_> {
             self.timing();
         }
         let opened = self.here();
-        if self.expect(Kind::OpenBrace, "put the edges of the events in braces") {
+        if self.open_body("put the edges of the events in braces", Self::begins_body) {
             while !self.at_end() && !self.at(Kind::CloseBrace) && !self.leaves_body() {
                 if self.at_word("supervise") {
                     break;
@@ -200,6 +213,15 @@ impl Parser<'_, '_> {
             Kind::FatArrow | Kind::Equal => {
                 self.wrong_arrow("'->' leads from a state or event to what comes next", "->");
             }
+            // The arrow alone is missing.
+            Kind::Name if self.on_same_line() && !self.names_something(0) => {
+                let here = self.here().before();
+                self.error(
+                    Diagnostic::new(Code::E0109, here, "no '->' before the target")
+                        .help("write '->'")
+                        .fix(here, "-> "),
+                );
+            }
             _ => {
                 let here = self.behind();
                 self.error(
@@ -265,6 +287,8 @@ impl Parser<'_, '_> {
     fn ends_args(&self) -> bool {
         matches!(self.nth(0), Kind::End | Kind::CloseParen | Kind::OpenBrace | Kind::CloseBrace)
             || self.leaves_body()
+            // An edge on a line of its own, whose arrow is no mistake for '=>'.
+            || (!self.on_same_line() && self.at(Kind::Name) && self.nth(1) == Kind::Arrow)
             || (self.word(0) == "supervise"
                 && self.nth(1) == Kind::Name
                 && self.nth(2) == Kind::Colon)

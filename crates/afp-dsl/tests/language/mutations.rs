@@ -1,0 +1,238 @@
+//! One slip of the pen is one error, where it is: single mutations of the shipped plans.
+//!
+//! `AFP_MUTANTS=5000` draws more of them, and shows all that are not answered by one error nearby.
+
+use std::collections::BTreeMap;
+
+use afp_dsl::Compiled;
+use afp_dsl::files::Texts;
+use afp_dsl::toolbox::Toolboxes;
+use afp_syntax::diagnostics::{Diagnostic, Diagnostics, Edit, Severity};
+use afp_syntax::source::Source;
+use proptest::strategy::{Strategy, ValueTree};
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+
+use crate::support::{self, files, read};
+
+/// Folders of shipped plans, and toolboxes that some of them use.
+const FOLDERS: [&str; 3] =
+    ["../../plans", "../../examples/vacuum/plans", "../../examples/embed/plans"];
+const TOOLBOXES: [&str; 2] = ["../../examples/vacuum/vacuum.afp", "../../examples/embed/shop.afp"];
+
+/// How many mutants with an error are drawn.
+const MUTANTS: usize = 500;
+
+/// Text that somebody got wrong in one place.
+struct Mutant {
+    text: String,
+    /// What was done to it.
+    what: String,
+    /// The first and the last line that are not as they were, from 0.
+    lines: (usize, usize),
+}
+
+/// Numbers below a bound.
+struct Dice(TestRunner);
+
+impl Dice {
+    fn below(&mut self, bound: usize) -> usize {
+        (0..bound).new_tree(&mut self.0).unwrap().current()
+    }
+
+    fn one_of<'a, T>(&mut self, all: &'a [T]) -> &'a T {
+        &all[self.below(all.len())]
+    }
+}
+
+/// The places of the words and signs of a text.
+fn tokens(text: &str) -> Vec<std::ops::Range<usize>> {
+    let parse = afp_syntax::parse(text, 0, &mut Diagnostics::default());
+    let elements = parse.root().descendants_with_tokens();
+    let tokens = elements.filter_map(|element| element.into_token());
+    let solid = tokens.filter(|token| !token.kind().is_trivia());
+    solid.map(|token| token.text_range().into()).collect()
+}
+
+/// Changes one thing in a text.
+fn mutate(text: &str, dice: &mut Dice) -> Mutant {
+    const SIGNS: [&str; 14] =
+        ["{", "}", "(", ")", ",", ":", "=", "=>", "->", ";", ".", "#", "-", "x"];
+    const UNITS: [&str; 6] = ["cm", "deg", "s", "m/s", "kg", "parsec"];
+    let tokens = tokens(text);
+    let at = dice.below(tokens.len() - 1);
+    let (token, next) = (tokens[at].clone(), tokens[at + 1].clone());
+    let old = &text[token.clone()];
+    let is_word = old.starts_with(|letter: char| letter.is_ascii_alphabetic());
+    let is_number = old.starts_with(|letter: char| letter.is_ascii_digit());
+    let same_line = !text[token.end..next.start].contains('\n');
+    let (range, new) = match dice.below(7) {
+        0 | 1 if is_word => (token.clone(), misspelt(old, dice)),
+        0 | 1 if is_number => {
+            // The unit is the next token.
+            (next, (*dice.one_of(&UNITS)).to_owned())
+        }
+        2 => (token.clone(), format!("{old} {old}")),
+        3 => (token.start..token.start, format!("{} ", dice.one_of(&SIGNS))),
+        4 if !is_word && !is_number => (token.clone(), (*dice.one_of(&SIGNS)).to_owned()),
+        4 | 5 if same_line => {
+            let between = &text[token.end..next.start];
+            let swapped = format!("{}{between}{old}", &text[next.clone()]);
+            (token.start..next.end, swapped)
+        }
+        _ => (token.clone(), String::new()),
+    };
+    let line = |at: usize| text[..at].matches('\n').count();
+    let lines = (line(range.start), line(range.end));
+    let what = format!("{:?} -> {new:?}", &text[range.clone()]);
+    Mutant { text: format!("{}{new}{}", &text[..range.start], &text[range.end..]), what, lines }
+}
+
+/// A word with a letter too many, too few, or two swapped.
+fn misspelt(word: &str, dice: &mut Dice) -> String {
+    let mut letters: Vec<char> = word.chars().collect();
+    let at = dice.below(letters.len());
+    match dice.below(3) {
+        0 => letters.insert(at, letters[at]),
+        1 if letters.len() > 1 => {
+            letters.remove(at);
+        }
+        _ if at + 1 < letters.len() => letters.swap(at, at + 1),
+        _ => letters.push('q'),
+    }
+    letters.into_iter().collect()
+}
+
+/// The shipped plans, and what they need.
+fn corpus() -> (Vec<(String, String)>, Toolboxes) {
+    let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+    for path in TOOLBOXES {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+        toolboxes.add(Source::new(path.display().to_string(), read(&path)), "extra");
+    }
+    let paths = FOLDERS.iter().flat_map(|folder| files(folder));
+    let name = |path: &std::path::Path| path.file_name().unwrap().to_string_lossy().into_owned();
+    let texts: Vec<_> = paths.map(|path| (name(&path), read(&path))).collect();
+    for (name, text) in &texts {
+        let compiled = compile(text, &toolboxes);
+        assert!(errors(&compiled).is_empty(), "{name}: {}", compiled.render(false));
+    }
+    (texts, toolboxes)
+}
+
+fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
+    afp_dsl::compile(&Source::new(support::CASE, text), toolboxes, &Texts::default())
+}
+
+fn errors(compiled: &Compiled) -> Vec<&Diagnostic> {
+    compiled.diags.iter().filter(|each| each.severity == Severity::Error).collect()
+}
+
+/// Mutants with an error, each with what is said about it.
+fn mutants(count: usize) -> Vec<(Mutant, Compiled)> {
+    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[13; 32]);
+    let mut dice = Dice(TestRunner::new_with_rng(Config::default(), rng));
+    let (texts, toolboxes) = corpus();
+    let mut all = Vec::new();
+    while all.len() < count {
+        let (_, text) = &texts[dice.below(texts.len())];
+        let mutant = mutate(text, &mut dice);
+        let compiled = compile(&mutant.text, &toolboxes);
+        if !errors(&compiled).is_empty() {
+            all.push((mutant, compiled));
+        }
+    }
+    all
+}
+
+#[test]
+fn one_slip_is_one_error_where_it_is() {
+    let asked = std::env::var("AFP_MUTANTS").ok().and_then(|count| count.parse().ok());
+    let all = mutants(asked.unwrap_or(MUTANTS));
+    let (mut numbers, mut far, mut shown) = (BTreeMap::<_, usize>::new(), 0, String::new());
+    for (mutant, compiled) in &all {
+        let errors = errors(compiled);
+        *numbers.entry(errors.len()).or_default() += 1;
+        let source = &compiled.sources.get(errors[0].span.file).unwrap().text;
+        let line = source[..errors[0].span.start as usize].matches('\n').count();
+        let is_far = line + 1 < mutant.lines.0 || line > mutant.lines.1 + 1;
+        far += usize::from(is_far);
+        if is_far || errors.len() > 1 {
+            let what = if is_far { "far: " } else { "" };
+            shown += &format!("\n==== {what}line {}: {}\n", mutant.lines.0 + 1, mutant.what);
+            shown += &compiled.diags.render(&compiled.sources, false);
+        }
+    }
+    let share = |count: usize| count as f64 / all.len() as f64 * 100.0;
+    let one = numbers.get(&1).copied().unwrap_or(0);
+    let many: usize = numbers.range(3..).map(|(_, count)| count).sum();
+    let account = format!(
+        "{} mutants: {:.1} % one error, {:.1} % more than two, {:.1} % far; {numbers:?}",
+        all.len(),
+        share(one),
+        share(many),
+        share(far)
+    );
+    if asked.is_some() {
+        println!("{shown}");
+    }
+    println!("{account}");
+    assert!(share(one) >= 95.0 && share(many) <= 2.0 && share(far) <= 5.0, "{account}{shown}");
+}
+
+/// What is left to do after a fix.
+fn mended(before: &Compiled, fix: &Edit, toolboxes: &Toolboxes) -> Compiled {
+    let mut text = before.sources.get(fix.span.file).unwrap().text.clone();
+    text.replace_range(fix.span.start as usize..fix.span.end as usize, &fix.text);
+    compile(&text, toolboxes)
+}
+
+/// Notes ask for nothing.
+fn to_do(compiled: &Compiled) -> usize {
+    compiled.diags.iter().filter(|each| each.severity != Severity::Note).count()
+}
+
+#[test]
+fn a_fix_that_is_applied_leaves_fewer_to_do() {
+    let (_, toolboxes) = corpus();
+    let (mut tried, mut wrong) = (0, String::new());
+    for (mutant, before) in mutants(MUTANTS) {
+        for fix in before.diags.iter().filter_map(|each| each.fix.as_ref()) {
+            let after = mended(&before, fix, &toolboxes);
+            tried += 1;
+            if to_do(&after) >= to_do(&before) {
+                let (before, after) = (before.render(false), after.render(false));
+                let what = &mutant.what;
+                wrong += &format!("\n==== {what}, mended by {fix:?}\n{before}---- then\n{after}");
+            }
+        }
+    }
+    assert!(tried > 100, "{tried} fixes");
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+#[test]
+fn a_fix_of_a_case_mends_what_it_is_for() {
+    let toolboxes = support::toolboxes();
+    let cases = files("tests/errors").into_iter().map(|path| (path.clone(), read(&path)));
+    let one = |text: &str| !text.contains("// file: ") && !text.contains("\ntoolbox ");
+    let (mut tried, mut wrong) = (0, String::new());
+    for (path, text) in cases.filter(|(_, text)| one(text)) {
+        let before = compile(&text, &toolboxes);
+        for each in before.diags.iter() {
+            let Some(fix) = &each.fix else { continue };
+            let after = mended(&before, fix, &toolboxes);
+            tried += 1;
+            // Other mistakes may be said now that nothing comes before them.
+            let same = |other: &Diagnostic| (other.code, other.span) == (each.code, each.span);
+            if after.diags.iter().any(same) {
+                wrong += &format!(
+                    "\n==== {}: {each:?}\n---- then\n{}",
+                    path.display(),
+                    after.render(false)
+                );
+            }
+        }
+    }
+    assert!(tried > 30, "{tried} fixes");
+    assert!(wrong.is_empty(), "{wrong}");
+}

@@ -1,0 +1,306 @@
+//! The brace that is missing or too much, found by how lines are indented.
+//!
+//! Nothing of the grammar depends on white space. Where the braces of a file do not match, though, the one that is
+//! wrong stands, more often than not, where the indentation stops following them; what comes of it elsewhere is no
+//! mistake of its own. The tokens are mended and read on as if nothing had been wrong. Where the indentation says
+//! nothing, the grammar reports what it misses.
+
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, Severity};
+use crate::kind::Kind;
+use crate::lexer::Token;
+use crate::source::Span;
+
+/// Words before what has a body.
+const HEADS: &[&str] = &[
+    "plan",
+    "actor",
+    "computation",
+    "subplan",
+    "supervise",
+    "supervisor",
+    "scenario",
+    "enum",
+    "device",
+    "sensor",
+    "robot",
+];
+
+/// Words that bodies begin with.
+const ITEMS: &[&str] = &[
+    "in",
+    "out",
+    "var",
+    "const",
+    "start",
+    "supervise",
+    "actor",
+    "computation",
+    "subplan",
+    "state",
+    "event",
+    "uses",
+    "icon",
+    "press",
+    "signal",
+    "truth",
+    "fault",
+    "world",
+    "robot",
+    "seed",
+    "set",
+    "at",
+    "expect",
+    "never",
+    "until",
+    "on",
+];
+
+/// So many braces of a file are mended.
+const MOST: usize = 16;
+
+/// What is wrong with a brace.
+enum Wrong {
+    /// One token is a brace too much.
+    Stray(usize),
+    /// One is missing behind a token; the other token opened it.
+    Missing(usize, usize),
+    /// One that opens a body is missing behind a token.
+    Unopened(usize),
+}
+
+/// A line of the text, as far as it has been read.
+#[derive(Clone, Copy)]
+struct Line {
+    number: usize,
+    /// The column of its first token.
+    indent: usize,
+    /// Whether it begins what has a body.
+    is_head: bool,
+    /// Whether a brace was opened on it.
+    opens: bool,
+    /// Its first and last token.
+    first: usize,
+    last: usize,
+}
+
+/// What is known of a file before it is parsed.
+pub(super) struct Mended {
+    /// The places of the braces that are too much; they are passed over.
+    pub strays: Vec<u32>,
+    /// Places on lines of which something is said already, each with the place of that.
+    pub told: Vec<(u32, u32)>,
+}
+
+/// Reports braces that are missing or too much. A missing one is added, without any text.
+pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnostics) -> Mended {
+    let is_told = |each: &&Diagnostic| each.span.file == file && each.severity == Severity::Error;
+    let starts = diags.iter().filter(is_told).map(|each| each.span.start);
+    let mut told: Vec<_> = starts.map(|start| (start, start)).collect();
+    let mut strays = Vec::new();
+    for _ in 0..MOST {
+        let Some(wrong) = find(tokens, &strays) else { break };
+        let (behind, error, brace) = match wrong {
+            Wrong::Stray(at) => {
+                diags.push(stray(tokens[at], file));
+                told.push((tokens[at].start, tokens[at].start));
+                tokens[at].kind = Kind::Unknown;
+                strays.push(at);
+                continue;
+            }
+            Wrong::Missing(behind, opener) => {
+                let message = format!("missing '}}', found {}", found(tokens, behind));
+                let here = span(tokens[behind], file).after();
+                let error =
+                    Diagnostic::new(Code::E0103, here, message).help("add '}'").fix(here, "}");
+                (behind, error.note(span(tokens[opener], file), "opened here"), Kind::CloseBrace)
+            }
+            Wrong::Unopened(behind) => {
+                let message = format!("expected '{{', found {}", found(tokens, behind));
+                let here = span(tokens[behind], file).after();
+                let error = Diagnostic::new(Code::E0102, here, message);
+                (behind, error.help("add '{'").fix(here, " {"), Kind::OpenBrace)
+            }
+        };
+        let start = error.span.start;
+        diags.push(error);
+        // Who finds it is the line behind.
+        let finder = tokens[behind + 1..].iter().find(|token| !token.kind.is_trivia());
+        let lines = finder.map(|token| token.start).into_iter().chain([start]);
+        told.extend(lines.map(|line| (line, start)));
+        tokens.insert(behind + 1, Token { kind: brace, text: "", start });
+        strays.iter_mut().filter(|at| **at > behind).for_each(|at| *at += 1);
+    }
+    let strays = strays.into_iter().filter_map(|at| u32::try_from(at).ok()).collect();
+    Mended { strays, told }
+}
+
+fn stray(token: Token<'_>, file: u16) -> Diagnostic {
+    let message = format!("this '{}' is too much", token.text);
+    Diagnostic::new(Code::E0102, span(token, file), message).help("remove it").replace("")
+}
+
+/// What stands behind a token.
+fn found(tokens: &[Token<'_>], behind: usize) -> String {
+    let next = tokens[behind + 1..].iter().find(|token| !token.kind.is_trivia());
+    next.map_or_else(
+        || "the end of the file".to_owned(),
+        |token| format!("'{}'", token.text.chars().take(30).collect::<String>()),
+    )
+}
+
+fn span(token: Token<'_>, file: u16) -> Span {
+    let end = token.start + u32::try_from(token.text.len()).unwrap_or(0);
+    Span { file, start: token.start, end }
+}
+
+/// The first brace that is wrong, in a file whose braces do not match.
+fn find(tokens: &[Token<'_>], strays: &[usize]) -> Option<Wrong> {
+    let count = |kind: Kind| tokens.iter().filter(|token| token.kind == kind).count();
+    let (opened, closed) = (count(Kind::OpenBrace), count(Kind::CloseBrace));
+    if opened == closed {
+        return None;
+    }
+    let mut reader =
+        Reader { tokens, too_many: closed > opened, open: Vec::new(), lines: Vec::new() };
+    let (mut number, mut indent, mut last) = (0, 0, None);
+    let mut is_first = true;
+    for (at, token) in tokens.iter().enumerate() {
+        if token.kind.is_trivia() || strays.contains(&at) {
+            if let Some((_, line)) = token.text.rsplit_once('\n') {
+                number += token.text.matches('\n').count();
+                indent = line.len() - line.trim_start().len();
+                is_first = true;
+            }
+            continue;
+        }
+        if std::mem::take(&mut is_first) {
+            let is_head = HEADS.contains(&token.text);
+            reader.lines.push(Line { number, indent, is_head, opens: false, first: at, last: at });
+            if let Some(wrong) = reader.line(at, last) {
+                return Some(wrong);
+            }
+        }
+        let wrong = match token.kind {
+            Kind::OpenBrace => reader.opening(at),
+            Kind::CloseBrace => reader.closing(at, last),
+            _ => None,
+        };
+        if wrong.is_some() {
+            return wrong;
+        }
+        if let Some(line) = reader.lines.last_mut() {
+            line.last = at;
+        }
+        last = Some(at);
+    }
+    None
+}
+
+struct Reader<'t, 's> {
+    tokens: &'s [Token<'t>],
+    /// Whether braces are too much, rather than missing.
+    too_many: bool,
+    /// The braces that are open, each with its line.
+    open: Vec<(usize, Line)>,
+    /// The lines so far.
+    lines: Vec<Line>,
+}
+
+impl Reader<'_, '_> {
+    /// A line begins with a token that does not close anything: bodies that began farther to the right, or as far, are
+    /// over.
+    fn line(&self, at: usize, last: Option<usize>) -> Option<Wrong> {
+        let line = self.lines.last()?;
+        let (opener, from) = self.open.last()?;
+        let is_over = self.tokens[at].kind != Kind::CloseBrace
+            && line.number > from.number
+            && line.indent <= from.indent;
+        (is_over && !self.too_many).then(|| Wrong::Missing(last.unwrap_or(*opener), *opener))
+    }
+
+    fn opening(&mut self, at: usize) -> Option<Wrong> {
+        if !self.too_many && !self.can_open(at) {
+            return Some(Wrong::Stray(at));
+        }
+        let line = self.lines.last_mut()?;
+        line.opens = true;
+        self.open.push((at, *line));
+        None
+    }
+
+    /// Whether a body may begin with this brace.
+    fn can_open(&self, at: usize) -> bool {
+        let mut behind = self.tokens[at + 1..].iter();
+        let mut ends_line = false;
+        let next = behind.find(|token| {
+            ends_line |= token.text.contains('\n');
+            !token.kind.is_trivia()
+        });
+        let Some(next) = next.filter(|_| !ends_line) else { return true };
+        let mut on_line = behind.take_while(|token| !token.text.contains('\n'));
+        let sign = on_line.find(|token| !token.kind.is_trivia()).map(|token| token.kind);
+        match next.kind {
+            Kind::CloseBrace => true,
+            Kind::Name if ITEMS.contains(&next.text) => {
+                self.lines.last().is_none_or(|it| it.first != at)
+            }
+            Kind::Name => {
+                matches!(sign, Some(Kind::Arrow | Kind::Comma | Kind::Name)) || self.is_list(at)
+            }
+            _ => false,
+        }
+    }
+
+    /// Whether names stand in the body, and nothing else.
+    fn is_list(&self, at: usize) -> bool {
+        let solid: Vec<_> =
+            self.tokens[..at].iter().rev().filter(|it| !it.kind.is_trivia()).take(2).collect();
+        solid.last().is_some_and(|token| token.text == "enum")
+    }
+
+    fn closing(&mut self, at: usize, last: Option<usize>) -> Option<Wrong> {
+        let line = *self.lines.last()?;
+        let leads = line.last == at;
+        let is_deeper = self.open.last().is_none_or(|(_, from)| line.indent > from.indent);
+        if self.too_many
+            && leads
+            && is_deeper
+            && let Some(head) = self.head_without_brace(line)
+        {
+            return Some(Wrong::Unopened(head));
+        }
+        let Some((opener, from)) = self.open.pop() else {
+            return self.too_many.then_some(Wrong::Stray(at));
+        };
+        if line.number == from.number {
+            return None;
+        }
+        if self.too_many && (!leads || line.indent > from.indent) {
+            let head = self.body_without_brace(line).filter(|_| !leads);
+            return Some(head.map_or(Wrong::Stray(at), Wrong::Unopened));
+        }
+        let is_outer = leads && line.indent < from.indent;
+        (is_outer && !self.too_many).then(|| Wrong::Missing(last.unwrap_or(opener), opener))
+    }
+
+    /// The end of the line that began, as far to the right, what this line closes, without a brace being opened.
+    fn head_without_brace(&self, line: Line) -> Option<usize> {
+        let before = self.lines.iter().rev().skip(1);
+        let mut inside = before.take_while(|other| other.indent >= line.indent);
+        let head = inside.find(|other| other.indent == line.indent)?;
+        (head.is_head && !head.opens).then_some(head.last)
+    }
+
+    /// The token before the first edge of a body on the line of its head, without a brace being opened.
+    fn body_without_brace(&self, line: Line) -> Option<usize> {
+        if !line.is_head || line.opens {
+            return None;
+        }
+        let solid: Vec<usize> =
+            (line.first..=line.last).filter(|at| !self.tokens[*at].kind.is_trivia()).collect();
+        let edge = solid.windows(2).position(|pair| {
+            self.tokens[pair[0]].kind == Kind::Name && self.tokens[pair[1]].kind == Kind::Arrow
+        })?;
+        solid.get(edge.checked_sub(1)?).copied()
+    }
+}

@@ -1,0 +1,206 @@
+//! What is said of text that does not fit, and where reading goes on.
+//!
+//! One thing is said about a line: what else does not fit there comes of it, more often than not.
+
+use super::Parser;
+use crate::diagnostics::{Code, Diagnostic};
+use crate::kind::Kind;
+use crate::source::Span;
+
+impl Parser<'_, '_> {
+    /// Reports what is wrong, unless something before it on the same line is.
+    pub(super) fn error(&mut self, diagnostic: Diagnostic) {
+        let place = diagnostic.span.start;
+        if let Some(cause) = self.told(place) {
+            return self.hidden.push(self.next_line(cause));
+        }
+        if place < self.quiet {
+            return self.hidden.push(self.next_line(place));
+        }
+        // What was read as if it had been right has no consequences.
+        if diagnostic.code != Code::E0108 {
+            self.be_quiet(place);
+        }
+        self.diags.push(diagnostic);
+    }
+
+    /// Takes back edits that do not mend all that is wrong on their lines.
+    pub(super) fn withdraw_fixes(&mut self) {
+        let (hidden, file) = (std::mem::take(&mut self.hidden), self.file);
+        if hidden.is_empty() {
+            return;
+        }
+        let mut diags = std::mem::take(self.diags);
+        diags.change(|each| {
+            let is_in_part =
+                each.span.file == file && hidden.contains(&self.next_line(each.span.start));
+            // What the lexer mends it mends by itself.
+            let is_of_grammar =
+                matches!(each.code, Code::E0101 | Code::E0102 | Code::E0103 | Code::E0109);
+            if is_in_part && is_of_grammar {
+                each.fix = None;
+            }
+        });
+        *self.diags = diags;
+    }
+
+    /// What else is wrong on the line of a place is not worth a word.
+    pub(super) fn be_quiet(&mut self, place: u32) {
+        self.quiet = self.quiet.max(self.next_line(place));
+    }
+
+    /// The place of what is said already of the line of a place.
+    pub(super) fn told(&self, place: u32) -> Option<u32> {
+        if self.told.is_empty() {
+            return None;
+        }
+        let line = self.next_line(place);
+        let told = self.told.iter().find(|(told, _)| self.next_line(*told) == line);
+        told.map(|(_, cause)| *cause)
+    }
+
+    /// Where the line behind that of a place begins.
+    pub(super) fn next_line(&self, place: u32) -> u32 {
+        let at = self.tokens.partition_point(|token| token.start < place);
+        let newline = self.tokens[at.saturating_sub(1)..].iter().find_map(|token| {
+            let ends = token.text.bytes().zip(token.start..);
+            { ends }.find(|(byte, end)| *byte == b'\n' && *end >= place).map(|(_, end)| end)
+        });
+        newline.map_or(u32::MAX, |end| end + 1)
+    }
+
+    /// Reports that something is missing here.
+    pub(super) fn expected(&mut self, what: &str, help: &str) {
+        let here = self.here();
+        self.expected_at(here, what, help);
+    }
+
+    pub(super) fn expected_at(&mut self, here: Span, what: &str, help: &str) {
+        match self.nth(0) {
+            // The lexer has reported it, and it stands where something else should.
+            Kind::Unknown => {
+                self.hidden.push(self.next_line(here.start));
+                return self.be_quiet(here.start);
+            }
+            Kind::OpenBracket | Kind::CloseBracket | Kind::At => return self.reserved(),
+            _ => {}
+        }
+        let message = format!("expected {what}, found {}", self.found());
+        self.error(Diagnostic::new(Code::E0102, here, message).help(help));
+    }
+
+    /// Opens a body, or reports that its brace is missing. What else stands before the brace on this line belongs to the
+    /// same mistake; without a brace there may be a body all the same.
+    pub(super) fn open_body(&mut self, help: &str, begins: impl Fn(&Self) -> bool) -> bool {
+        if self.eat(Kind::OpenBrace) {
+            return true;
+        }
+        self.expected("'{'", help);
+        let Some(ahead) = self.ahead_on_line(Kind::OpenBrace) else {
+            return !self.on_same_line() && begins(self);
+        };
+        if self.ahead_on_line(Kind::CloseBrace).is_some_and(|close| close < ahead) {
+            return false;
+        }
+        self.open(Kind::Error);
+        (0..ahead).for_each(|_| self.bump());
+        self.close();
+        self.eat(Kind::OpenBrace)
+    }
+
+    pub(super) fn expect(&mut self, kind: Kind, help: &str) -> bool {
+        let fits = self.eat(kind);
+        if !fits {
+            self.expected(kind.describe(), help);
+        }
+        fits
+    }
+
+    /// Takes a name, or reports that one is missing.
+    pub(super) fn name(&mut self, help: &str) -> bool {
+        if !self.on_same_line() && self.begins_item() {
+            self.expected("a name", help);
+            return false;
+        }
+        if self.at(Kind::Name) {
+            self.take_name();
+            return true;
+        }
+        self.expect(Kind::Name, help)
+    }
+
+    /// Takes the next token, which is a name.
+    pub(super) fn take_name(&mut self) {
+        if matches!(self.word(0), "resume" | "repeat") {
+            self.reserved();
+        }
+        self.bump();
+    }
+
+    /// Whether an item of some level surely begins here, so that no name can be meant.
+    pub(super) fn begins_item(&self) -> bool {
+        let first = matches!(self.word(0), "start" | "supervise") && self.nth(1) == Kind::Name;
+        (first && !self.names_something(0)) || self.leaves_body() || self.at_tool()
+    }
+
+    pub(super) fn reserved(&mut self) {
+        let message = format!("{} is reserved for a later version", self.found());
+        let help = if self.at(Kind::Name) { "choose another name" } else { "remove it" };
+        let here = self.next_span();
+        self.error(Diagnostic::new(Code::E0112, here, message).help(help));
+    }
+
+    /// Closes a bracket, or reports where it was opened.
+    pub(super) fn close_bracket(&mut self, kind: Kind, opened: Span) {
+        if self.eat(kind) {
+            return;
+        }
+        let sign = kind.describe();
+        let here = self.behind();
+        self.error(
+            Diagnostic::new(Code::E0103, here, format!("missing {sign}, found {}", self.found()))
+                .note(opened, "opened here")
+                .help(format!("add {sign}"))
+                .fix(here, sign.trim_matches('\'')),
+        );
+    }
+
+    /// Whether the bracket that begins here is closed before any brace.
+    pub(super) fn is_closed(&self) -> bool {
+        let mut depth = 0_usize;
+        for ahead in 0.. {
+            match self.nth(ahead) {
+                Kind::OpenParen => depth += 1,
+                Kind::CloseParen if depth == 1 => return true,
+                Kind::CloseParen => depth -= 1,
+                Kind::OpenBrace | Kind::CloseBrace | Kind::End => return false,
+                _ => {}
+            }
+        }
+        false
+    }
+
+    /// Reports the next token as unexpected and skips to where `stop` holds, brackets and braces
+    /// as a whole.
+    pub(super) fn skip(&mut self, what: &str, help: &str, stop: impl Fn(&Self) -> bool) {
+        match self.nth(0) {
+            Kind::Name if matches!(self.word(0), "resume" | "repeat") => self.reserved(),
+            _ => {
+                let here = self.next_span();
+                self.expected_at(here, what, help);
+            }
+        }
+        self.open(Kind::Error);
+        let mut depth = 0_usize;
+        while !(self.at_end() || depth == 0 && stop(self)) {
+            match self.nth(0) {
+                Kind::OpenBrace => depth += 1,
+                Kind::OpenParen if depth > 0 || self.is_closed() => depth += 1,
+                Kind::CloseBrace | Kind::CloseParen => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+            self.bump();
+        }
+        self.close();
+    }
+}
