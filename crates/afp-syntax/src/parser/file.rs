@@ -70,7 +70,8 @@ impl Parser<'_, '_> {
             "use" => matches!(self.nth(1), Kind::Name | Kind::Text),
             "scenario" => self.nth(1) == Kind::Text,
             "plan" | "enum" => {
-                let braces = 1 + usize::from(self.nth(1) == Kind::Name);
+                let named = 1 + usize::from(self.nth(1) == Kind::Name);
+                let braces = named + usize::from(self.word(named) == "forever");
                 self.nth(braces) == Kind::OpenBrace
             }
             "toolbox" => self.nth(1) == Kind::Name && !self.word(2).is_empty(),
