@@ -2,9 +2,11 @@
 
 mod launch;
 mod look;
+mod outside;
 mod places;
 mod steer;
 mod stop;
+mod time;
 
 use std::time::Duration as Wall;
 
@@ -181,6 +183,7 @@ impl<'h> Adapter<'h> {
             request::BreakpointLocations::COMMAND => {
                 self.on::<request::BreakpointLocations>(arguments, Self::locations)
             }
+            request::Source::COMMAND => self.on::<request::Source>(arguments, Self::source),
             request::ExceptionInfo::COMMAND => {
                 self.on::<request::ExceptionInfo>(arguments, |me, _| me.exception_info())
             }

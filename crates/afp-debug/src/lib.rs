@@ -3,7 +3,7 @@
 //! An [`Adapter`] is handed the messages of a client and gives those that go back, and it is told from time to time
 //! how late it is. It has no thread, no socket and no clock. What it debugs is a [`Target`]: [`SessionTarget`] is a
 //! session over a simulated robot, whose time stands still while the plan is held, so that a run which was paused,
-//! stepped and stepped back has the trace of one which was not.
+//! stepped and stepped back has the trace of one which was not; [`LogTarget`] is a run that is over, from its log.
 //!
 //! How a plan is a program: thread 1 is the flow of action, its stack the active element of each nested plan; every
 //! supervisor that is watching is a thread of its own. A breakpoint belongs to a place in the text: an element that
@@ -15,14 +15,17 @@
 
 mod adapter;
 mod breakpoints;
+mod log_target;
 mod program;
 mod session_target;
 mod state;
 mod target;
+mod text;
 mod watched;
 pub mod wire;
 
 pub use adapter::{Adapter, Host, Launch};
+pub use log_target::LogTarget;
 pub use program::{Entry, Place, Program, Spot, Unit};
 pub use session_target::SessionTarget;
 pub use state::State;

@@ -21,6 +21,8 @@ pub struct Program {
     lines: BTreeMap<(usize, u32), Vec<Spot>>,
     /// The graph.
     pub(crate) graph: Graph,
+    /// Texts that files have not, or not any more.
+    texts: BTreeMap<usize, String>,
 }
 
 /// A component: the plan, an element, a supervisor.
@@ -122,6 +124,7 @@ impl Program {
             entries,
             lines: BTreeMap::new(),
             graph: graph.clone(),
+            texts: BTreeMap::new(),
         };
         for (number, place) in (0..).zip(&places).skip(1) {
             let id = ComponentId(number);
@@ -141,6 +144,19 @@ impl Program {
             }
         }
         program
+    }
+
+    /// Keeps the texts for clients that their own files do not show: `is_file` says whether a file of that path has
+    /// that text.
+    pub fn keep_texts(&mut self, sources: &Sources, is_file: &dyn Fn(&str, &str) -> bool) {
+        let named = self.files.iter().zip(sources.iter()).enumerate();
+        let others = named.filter(|(_, (path, source))| !is_file(path, &source.text));
+        self.texts = others.map(|(file, (_, source))| (file, source.text.to_string())).collect();
+    }
+
+    /// The text of a file that clients have no file for.
+    pub fn text_of(&self, file: usize) -> Option<&str> {
+        self.texts.get(&file).map(String::as_str)
     }
 
     /// Something can happen at a line. Where a component is declared in one line, that line stands for its start.

@@ -230,15 +230,15 @@ struct Ears<'a> {
 }
 
 impl Ears<'_> {
-    fn tell(&mut self, event: RunEvent, text: &str) {
+    fn tell(&mut self, event: RunEvent) {
         self.state.apply(&event, self.program);
-        (self.tell)(&Happened { event, text: text.to_owned() }, self.state);
+        (self.tell)(&Happened::new(event), self.state);
     }
 }
 
 impl Observer for Ears<'_> {
     fn on_record(&mut self, record: &NamedRecord<'_>) {
-        self.tell(RunEvent::new(record.at, record.record, record.names), record.text());
+        self.tell(RunEvent::new(record.at, record.record, record.names));
     }
 
     fn after_step(&mut self, _: &View<'_>) {
@@ -246,6 +246,6 @@ impl Observer for Ears<'_> {
     }
 
     fn on_request(&mut self, applied: &Applied<'_>) {
-        self.tell(applied.event(), "");
+        self.tell(applied.event());
     }
 }

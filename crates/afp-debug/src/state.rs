@@ -41,6 +41,8 @@ impl State {
                 self.entries.insert(event.entry_id, value);
             }
             EventKind::Input => self.read(event),
+            // What saw nothing leaves what was seen last.
+            EventKind::Polled if event.outcome.is_empty() && event.fault.is_empty() => {}
             EventKind::Polled => {
                 let said = match &*event.fault_text {
                     "" => event.outcome.clone(),

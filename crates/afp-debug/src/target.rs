@@ -8,6 +8,7 @@ use afp_session::{Request, RunEvent};
 
 use crate::program::Program;
 use crate::state::State;
+use crate::text::Line;
 
 /// A plan that runs, or that ran.
 pub trait Target {
@@ -22,6 +23,11 @@ pub trait Target {
 
     /// How many steps the scheduler has made.
     fn steps(&self) -> u64;
+
+    /// Whether all of it is over, so that it can be looked at and not changed.
+    fn is_recorded(&self) -> bool {
+        false
+    }
 
     /// Lets time pass up to the next instant at which something is done, but not beyond `limit`, and tells what
     /// happened, in order, with what is the case then.
@@ -66,6 +72,14 @@ pub struct Happened {
     pub event: RunEvent,
     /// The same as a line of the trace, without its time; empty for what comes from outside.
     pub text: String,
+}
+
+impl Happened {
+    /// Something that happened, with its line.
+    pub fn new(event: RunEvent) -> Happened {
+        let text = Line(&event).to_string();
+        Happened { event, text }
+    }
 }
 
 /// How far time has passed.

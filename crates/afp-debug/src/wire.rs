@@ -22,6 +22,8 @@ pub enum WireError {
     TooLong(usize),
     /// The message is no text.
     NoText,
+    /// The stream ends within a message.
+    CutOff,
 }
 
 impl Frames {
@@ -52,6 +54,18 @@ impl Frames {
         let text = std::str::from_utf8(&whole[from..]).map_err(|_| WireError::NoText)?;
         Ok(Some(text.to_owned()))
     }
+
+    /// Nothing arrives any more.
+    ///
+    /// # Errors
+    /// The last message is not whole, or no message.
+    pub fn finish(self) -> Result<(), WireError> {
+        match &*self.arrived {
+            [] => Ok(()),
+            rest if rest.windows(4).any(|four| four == b"\r\n\r\n") => Err(WireError::CutOff),
+            _ => Err(WireError::Header),
+        }
+    }
 }
 
 /// The length that a header says.
@@ -72,12 +86,13 @@ impl fmt::Display for WireError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             WireError::Header => {
-                f.write_str("a message begins with 'Content-Length: ' and its number of bytes")
+                f.write_str("it does not speak the Debug Adapter Protocol, whose messages begin with 'Content-Length: ' and a number of bytes")
             }
             WireError::TooLong(length) => {
                 write!(f, "a message of {length} bytes; the longest may have {MAX_MESSAGE}")
             }
             WireError::NoText => f.write_str("a message that is no UTF-8"),
+            WireError::CutOff => f.write_str("its last message ends before its length"),
         }
     }
 }
@@ -121,5 +136,21 @@ mod tests {
         let mut frames = Frames::default();
         frames.push(b"Content-Length: 2\r\n\r\n\xff\xff");
         assert_eq!(frames.next_message(), Err(WireError::NoText));
+    }
+
+    #[test]
+    fn a_stream_that_ends_within_a_message_is_told_from_one_that_ends_behind_it() {
+        for (bytes, ends) in [
+            ("", Ok(())),
+            ("Content-Length: 2\r\n\r\n{}", Ok(())),
+            ("Content-Length: 2\r\n\r\n{", Err(WireError::CutOff)),
+            ("Content-Length: 2\r\n\r\n{}Content", Err(WireError::Header)),
+            ("hello\n", Err(WireError::Header)),
+        ] {
+            let mut frames = Frames::default();
+            frames.push(bytes.as_bytes());
+            while let Ok(Some(_)) = frames.next_message() {}
+            assert_eq!(frames.finish(), ends, "{bytes:?}");
+        }
     }
 }

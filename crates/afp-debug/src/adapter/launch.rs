@@ -18,7 +18,11 @@ use crate::breakpoints::Filters;
 #[serde(rename_all = "camelCase")]
 pub struct Launch {
     /// The plan's file; `FILE:Plan` for another than its first.
+    #[serde(default)]
     pub program: String,
+    /// The log of a run that is over, to be looked at in place of a run.
+    #[serde(default)]
+    pub log: Option<String>,
     /// The world; without one that of the plan.
     #[serde(default)]
     pub world: Option<String>,
@@ -104,7 +108,26 @@ impl Adapter<'_> {
         if launch.until.is_some_and(|until| !(until > 0.0 && until < 1e9)) {
             return Err("'until' is a number of seconds above 0; leave it out for no end".into());
         }
+        let fresh = launch.world.is_some() || !launch.set.is_empty() || launch.until.is_some();
+        match &launch.log {
+            None if launch.program.is_empty() => {
+                return Err(
+                    "'program' is the file of the plan; 'log' is that of a run that is over".into(),
+                );
+            }
+            Some(_) if fresh => {
+                return Err(
+                    "a log is run again as it was: leave 'world', 'set' and 'until' out".into()
+                );
+            }
+            _ => {}
+        }
         self.begin(launch, now)?;
+        if self.run()?.target.is_recorded() {
+            let capabilities =
+                dapts::Capabilities { supports_set_variable: Some(false), ..Default::default() };
+            self.event::<event::Capabilities>(&dapts::CapabilitiesEvent { capabilities });
+        }
         self.event::<event::Initialized>(&None);
         Ok(Value::Null)
     }

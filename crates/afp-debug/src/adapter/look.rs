@@ -94,6 +94,18 @@ impl Adapter<'_> {
         Ok(dapts::StackTraceResponse { stack_frames, total_frames: total })
     }
 
+    /// The text of a file that the client has not.
+    pub(super) fn source(
+        &mut self,
+        asked: dapts::SourceArguments,
+    ) -> Answer<dapts::SourceResponse> {
+        let file = asked.source_reference.checked_sub(1);
+        let program = self.run()?.target.program();
+        let text = file.and_then(|file| program.text_of(file as usize));
+        let content = text.ok_or("its text is that of the file")?.to_owned();
+        Ok(dapts::SourceResponse { content, mime_type: None })
+    }
+
     pub(super) fn scopes(
         &mut self,
         asked: dapts::ScopesArguments,

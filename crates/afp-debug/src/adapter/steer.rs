@@ -2,26 +2,23 @@
 
 use std::time::Duration as Wall;
 
-use afp_core::devices::{find_control, find_fault};
 use afp_core::trace::ComponentId;
 use afp_core::{Duration, Instant};
-use afp_session::{EventKind, HOLD, Request};
+use afp_session::EventKind;
 use dapts::{SteppingGranularity, StoppedEventReason as Reason};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::{Adapter, Answer, Refusal, Run, parse};
 use crate::breakpoints::Hits;
-use crate::target::{Advance, Happened, Position};
+use crate::program::Program;
+use crate::target::{Advance, Happened};
 
 /// How many instants pass between two looks at the client, where nothing holds time back.
-const BATCH: usize = 2_000;
+pub(super) const BATCH: usize = 2_000;
 
 /// How much time on the wall lies between two messages about what is the case.
 const STATES: Wall = Wall::from_millis(50);
-
-/// How far ahead a run is taken at once: nobody can stop it meanwhile.
-const MOST_AHEAD: Duration = Duration::from_secs(3600);
 
 /// How a run goes on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,6 +35,8 @@ pub(super) enum Mode {
     Out(ComponentId),
     /// One step of the scheduler.
     One,
+    /// Up to an instant, whatever happens.
+    Seek(Instant),
     /// The plan has ended.
     Over,
 }
@@ -70,31 +69,8 @@ impl Pace {
 }
 
 #[derive(Deserialize)]
-struct Step {
-    granularity: Option<SteppingGranularity>,
-}
-
-#[derive(Deserialize)]
-struct Press {
-    control: String,
-    held: Option<bool>,
-}
-
-#[derive(Deserialize)]
-struct Break {
-    fault: String,
-    amount: Option<f64>,
-    seconds: Option<f64>,
-}
-
-#[derive(Deserialize)]
-struct Speed {
-    factor: Option<f64>,
-}
-
-#[derive(Deserialize)]
-struct Seek {
-    at: f64,
+pub(super) struct Step {
+    pub granularity: Option<SteppingGranularity>,
 }
 
 #[derive(Deserialize)]
@@ -134,6 +110,7 @@ impl Adapter<'_> {
         let run = self.run.as_ref()?;
         match run.mode {
             Mode::Held | Mode::Over => None,
+            Mode::Seek(_) => Some(Wall::ZERO),
             _ if run.pace.factor.is_none() => Some(Wall::ZERO),
             _ => Some(Wall::from_millis(10)),
         }
@@ -175,107 +152,17 @@ impl Adapter<'_> {
         Ok(Value::Null)
     }
 
-    /// To before the last transition, or the last step.
-    fn back(&mut self, step: &Step) -> Answer<Value> {
-        let run = self.run()?;
-        let now = run.target.steps();
-        let to = match step.granularity {
-            Some(SteppingGranularity::Instruction) => now.saturating_sub(1),
-            _ => run.transitions.iter().rfind(|step| **step < now).copied().unwrap_or(0),
-        };
-        run.target.seek(Position::Step(to))?;
-        let reason = if to == 0 { Reason::Entry } else { Reason::Step };
-        self.stopped(reason, "stepped back", Vec::new());
-        Ok(Value::Null)
-    }
-
-    /// To the last breakpoint before, or the start.
-    fn reverse(&mut self) -> Answer<Value> {
-        let (run, breakpoints) = (self.run.as_mut(), &mut self.breakpoints);
-        let run = run.ok_or("nothing runs yet: 'launch' comes first")?;
-        let end = run.target.steps();
-        let program = run.target.program().clone();
-        run.target.seek(Position::Step(0))?;
-        let mut last = None;
-        while run.target.steps() + 1 < end {
-            let mut hit = Hits::default();
-            let advance = run.target.advance(Instant::MAX, &mut |happened, state| {
-                let hits = breakpoints.hits(&happened.event, &program, state);
-                hit.stop.extend(hits.stop);
-                hit.exception = hit.exception.or(hits.exception);
-            })?;
-            if !hit.stop.is_empty() || hit.exception.is_some() {
-                last = Some((run.target.steps(), hit.stop));
-            }
-            if advance == Advance::Ended {
-                break;
-            }
-        }
-        let (to, hits) = last.unwrap_or_default();
-        run.target.seek(Position::Step(to))?;
-        let reason = if to == 0 { Reason::Entry } else { Reason::Breakpoint };
-        let ids = hits.into_iter().map(|(id, _)| id).collect();
-        self.stopped(reason, "went back", ids);
-        Ok(Value::Null)
-    }
-
-    fn seek(&mut self, seek: &Seek) -> Answer<Value> {
-        if !(seek.at >= 0.0 && seek.at < 1e9) {
-            return Err("'at' is a time in seconds from the start".into());
-        }
-        let at = Instant::from_nanos((seek.at * 1e9) as u64);
-        let target = &mut self.run()?.target;
-        if at > target.now() + MOST_AHEAD {
-            return Err("'at' is more than an hour ahead: let the run go on in between".into());
-        }
-        target.seek(Position::At(at))?;
-        self.stopped(Reason::Goto, "went to another time", Vec::new());
-        Ok(Value::Null)
-    }
-
-    fn press(&mut self, press: &Press) -> Answer<Value> {
-        let target = &mut self.run()?.target;
-        let devices = target.devices();
-        let unknown = || Refusal(format!("the robot has no control '{}'", press.control));
-        let id = find_control(devices, &press.control).ok_or_else(unknown)?;
-        target.ask(Duration::ZERO, Request::Press(id, press.held.unwrap_or(true)))?;
-        if press.held.is_none() {
-            target.ask(HOLD, Request::Press(id, false))?;
-        }
-        Ok(Value::Null)
-    }
-
-    fn fault(&mut self, fault: &Break) -> Answer<Value> {
-        let target = &mut self.run()?.target;
-        let named = fault.fault.split_once('.');
-        let found = named.and_then(|(device, name)| find_fault(target.devices(), device, name));
-        let unknown = || Refusal(format!("nothing of the robot fails as '{}'", fault.fault));
-        let id = found.ok_or_else(unknown)?;
-        let lasting = match fault.seconds {
-            None => Duration::MAX,
-            Some(seconds) if seconds > 0.0 && seconds < 1e9 => {
-                Duration::from_nanos((seconds * 1e9) as u64)
-            }
-            Some(_) => return Err("'seconds' is a number above 0".into()),
-        };
-        target.ask(Duration::ZERO, Request::Break(id, fault.amount, lasting))?;
-        Ok(Value::Null)
-    }
-
-    fn speed(&mut self, speed: &Speed, now: Wall) -> Answer<Value> {
-        if speed.factor.is_some_and(|factor| !(factor > 0.0 && factor.is_finite())) {
-            return Err("'factor' is a number above 0; leave it out for as fast as can be".into());
-        }
-        let run = self.run()?;
-        run.pace = Pace::new(speed.factor, run.target.now(), now);
-        Ok(Value::Null)
-    }
-
     /// Lets time pass until something holds the run, the time on the wall is reached, or enough was done for once.
     pub(super) fn drive(&mut self, now: Wall) {
         let Some(mut run) = self.run.take() else { return };
-        if !matches!(run.mode, Mode::Held | Mode::Over) {
-            self.drive_run(&mut run, now);
+        match run.mode {
+            Mode::Held | Mode::Over => {}
+            Mode::Seek(at) => self.seek_on(&mut run, at),
+            _ => self.drive_run(&mut run, now),
+        }
+        if run.mode != Mode::Held && now.saturating_sub(run.told_at) >= STATES {
+            run.told_at = now;
+            self.tell_state_of(&run);
         }
         self.run = Some(run);
     }
@@ -283,6 +170,7 @@ impl Adapter<'_> {
     fn drive_run(&mut self, run: &mut Run<'_>, now: Wall) {
         let limit = run.pace.limit(now).min(run.end);
         let program = run.target.program().clone();
+        let begun = run.target.steps();
         let (mut happened, mut hits) = (Vec::new(), Vec::new());
         for _ in 0..BATCH {
             let before = run.target.steps();
@@ -299,15 +187,15 @@ impl Adapter<'_> {
             happened.clear();
             match advance {
                 _ if held => return,
+                Advance::Ended if run.target.is_recorded() && run.target.steps() > begun => {
+                    // One who looks at a log goes back from here.
+                    return self.stopped_at(run, Reason::Pause, "the log ends", Vec::new());
+                }
                 Advance::Ended => return self.end(run),
                 Advance::Limit if limit == run.end => return self.time_up(run),
                 Advance::Limit => break,
                 Advance::On => {}
             }
-        }
-        if now.saturating_sub(run.told_at) >= STATES {
-            run.told_at = now;
-            self.tell_state_of(run);
         }
     }
 
@@ -336,7 +224,9 @@ impl Adapter<'_> {
             }
         }
         let steps = run.target.steps();
-        if steps > before && happened.iter().any(|what| is_transition(what, run, None)) {
+        if steps > before
+            && happened.iter().any(|what| is_transition(what, run.target.program(), None))
+        {
             run.note(steps);
         }
         self.hold(run, &all, happened, steps > before)
@@ -350,7 +240,8 @@ impl Adapter<'_> {
         stepped: bool,
     ) -> bool {
         let ids = hits.stop.iter().map(|(id, _)| *id).collect();
-        let why = happened.iter().rev().find(|what| is_transition(what, run, None));
+        let why =
+            happened.iter().rev().find(|what| is_transition(what, run.target.program(), None));
         let why = why.or(happened.last()).map_or("one step", |what| &*what.text).to_owned();
         let reason = match (hits.exception, hits.stop.first()) {
             (Some(_), _) => Reason::Exception,
@@ -365,7 +256,7 @@ impl Adapter<'_> {
 
 impl Run<'_> {
     /// Keeps in mind that a step made a transition.
-    fn note(&mut self, step: u64) {
+    pub(super) fn note(&mut self, step: u64) {
         if self.transitions.last().is_none_or(|last| *last < step) {
             self.transitions.push(step);
         }
@@ -373,7 +264,8 @@ impl Run<'_> {
 
     /// Whether a step of the client is over.
     fn is_through(&self, happened: &[Happened], stepped: bool) -> bool {
-        let any = |plan| happened.iter().any(|what| is_transition(what, self, plan));
+        let any =
+            |plan| happened.iter().any(|what| is_transition(what, self.target.program(), plan));
         let ended = |plan| {
             happened.iter().any(|what| {
                 let (kind, id) = (what.event.kind, what.event.component_id);
@@ -389,16 +281,16 @@ impl Run<'_> {
             Mode::Into => any(None),
             Mode::Out(plan) => ended(plan),
             Mode::One => stepped,
-            Mode::On | Mode::Held | Mode::Over => false,
+            Mode::On | Mode::Seek(_) | Mode::Held | Mode::Over => false,
         }
     }
 }
 
 /// Whether an element of a plan, of any without one, became active or stopped being so.
-fn is_transition(what: &Happened, run: &Run<'_>, plan: Option<ComponentId>) -> bool {
+pub(super) fn is_transition(what: &Happened, program: &Program, plan: Option<ComponentId>) -> bool {
     use afp_dsl::unfold::Kind;
     let event = &what.event;
-    let Some(unit) = run.target.program().unit(event.component_id) else { return false };
+    let Some(unit) = program.unit(event.component_id) else { return false };
     let element = matches!(unit.kind, Kind::Actor | Kind::SubPlan | Kind::Computation);
     let kind = matches!(
         event.kind,

@@ -113,14 +113,24 @@ impl Adapter<'_> {
 
     /// Tells how the plan ended.
     pub(super) fn ended(&mut self, run: &Run<'_>) {
-        let (ending, why) = run.target.state().ended().unwrap_or((EndingKind::Interrupted, ""));
+        let ended = run.target.state().ended();
         let at = run.target.now().as_secs_f64();
         let name = run.target.program().units.first().map_or("", |plan| &*plan.name);
-        let sentence = match ending {
-            EndingKind::Ok => format!("{name} ended as it says itself, after {at:.3} s"),
-            EndingKind::Interrupted => format!("{name} was interrupted after {at:.3} s"),
-            EndingKind::Error => format!("{name} ended in Error after {at:.3} s: {why}"),
+        let sentence = match ended {
+            Some((EndingKind::Ok, _)) => {
+                format!("{name} ended as it says itself, after {at:.3} s")
+            }
+            None if run.target.is_recorded() => {
+                format!("the log of {name} ends after {at:.3} s, before the plan does")
+            }
+            Some((EndingKind::Interrupted, _)) | None => {
+                format!("{name} was interrupted after {at:.3} s")
+            }
+            Some((EndingKind::Error, why)) => {
+                format!("{name} ended in Error after {at:.3} s: {why}")
+            }
         };
+        let ending = ended.map_or(EndingKind::Interrupted, |(ending, _)| ending);
         self.output("important", &format!("{sentence}\n"));
         let ended = json!({"ending": ending.word(), "at": at, "sentences": [sentence]});
         self.tell("afp/ended", ended);
@@ -164,5 +174,8 @@ impl Adapter<'_> {
 pub(super) fn source(program: &Program, file: usize) -> Option<dapts::Source> {
     let path = program.files.get(file)?;
     let name = path.rsplit(['/', '\\']).next().unwrap_or(path).to_owned();
-    Some(dapts::Source { name: Some(name), path: Some(path.clone()), ..dapts::Source::default() })
+    // A text that is not that of the file is asked for by its number.
+    let source_reference = program.text_of(file).and(u32::try_from(file + 1).ok());
+    let path = Some(path.clone());
+    Some(dapts::Source { name: Some(name), path, source_reference, ..dapts::Source::default() })
 }

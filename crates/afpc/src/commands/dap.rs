@@ -9,8 +9,9 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use afp_debug::wire::{Frames, frame};
-use afp_debug::{Adapter, Host, Launch, Program, SessionTarget, Target};
+use afp_debug::wire::{Frames, WireError, frame};
+use afp_debug::{Adapter, Host, Launch, LogTarget, Program, SessionTarget, Target};
+use afp_dsl::graph::Graph;
 use afp_run::{EXIT_OK, RunError, say, world};
 use clap::Args;
 
@@ -35,12 +36,13 @@ Examples:
   afpc dap                         an editor starts this and talks on standard input and output
   afpc dap --port 4711             waits for editors; 'launch' needs the token that is printed
 
-'launch' takes: program, world, seed, set (values by name), until (seconds), speed (a factor), stopOnEntry";
+'launch' takes: program, world, seed, set (values by name), until (seconds), speed (a factor), stopOnEntry; or
+log, the log of a run that is over";
 
 /// Serves clients; gives the exit code.
 ///
 /// # Errors
-/// The plan is wrong, the port is taken.
+/// The plan is wrong, the port is taken, what comes on standard input is not the protocol.
 pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     if let Some(plan) = &arguments.plan {
         let file = PlanFile::read(plan)?;
@@ -49,7 +51,10 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     match arguments.port {
         None => {
             let adapter = Adapter::new(Box::new(Simulator { linked: *linked }));
-            serve(adapter, std::io::stdin(), std::io::stdout());
+            let served = serve(adapter, std::io::stdin(), std::io::stdout());
+            let failed =
+                RunError::file("cannot talk to the editor over", "standard input".as_ref());
+            served.map_err(|why| failed(std::io::Error::other(why)))?;
         }
         Some(port) => listen(port, linked)?,
     }
@@ -69,7 +74,9 @@ fn listen(port: u16, linked: &Linked<'_>) -> Result<(), RunError> {
         let Ok(back) = stream.try_clone() else { continue };
         let _ = stream.set_nodelay(true);
         let adapter = Adapter::guarded(Box::new(Simulator { linked: *linked }), &token);
-        serve(adapter, stream, back);
+        if let Err(why) = serve(adapter, stream, back) {
+            say(format!("warning: a client was sent away: {why}\n"));
+        }
     }
     Ok(())
 }
@@ -82,7 +89,14 @@ fn token() -> std::io::Result<String> {
 }
 
 /// Talks with a client until it says goodbye or goes away; then the robot has stopped.
-fn serve(mut adapter: Adapter<'_>, from: impl Read + Send + 'static, mut to: impl Write) {
+///
+/// # Errors
+/// What arrives are no messages.
+fn serve(
+    mut adapter: Adapter<'_>,
+    from: impl Read + Send + 'static,
+    mut to: impl Write,
+) -> Result<(), WireError> {
     let (sender, arrived) = channel();
     // It ends with the stream, or with the program.
     thread::spawn(move || read(from, &sender));
@@ -91,19 +105,17 @@ fn serve(mut adapter: Adapter<'_>, from: impl Read + Send + 'static, mut to: imp
         let out = match wait(&arrived, adapter.due()) {
             Arrived::Bytes(bytes) => {
                 frames.push(&bytes);
-                match answers(&mut adapter, &mut frames, begin) {
-                    Ok(out) => out,
-                    Err(()) => return,
-                }
+                answers(&mut adapter, &mut frames, begin)?
             }
             Arrived::Nothing => adapter.tick(begin.elapsed()),
-            Arrived::End => return,
+            Arrived::End => return frames.finish(),
         };
         let bytes: Vec<u8> = out.iter().flat_map(|message| frame(message)).collect();
         if to.write_all(&bytes).and_then(|()| to.flush()).is_err() {
-            return;
+            return Ok(());
         }
     }
+    Ok(())
 }
 
 enum Arrived {
@@ -128,25 +140,17 @@ fn wait(arrived: &Receiver<Vec<u8>>, due: Option<Duration>) -> Arrived {
 /// Answers all messages that are there.
 ///
 /// # Errors
-/// What arrived are no messages; it has been said.
+/// What arrived are no messages.
 fn answers(
     adapter: &mut Adapter<'_>,
     frames: &mut Frames,
     begin: Instant,
-) -> Result<Vec<String>, ()> {
+) -> Result<Vec<String>, WireError> {
     let mut out = Vec::new();
-    loop {
-        match frames.next_message() {
-            Ok(Some(message)) => out.extend(adapter.handle(&message, begin.elapsed())),
-            Ok(None) => return Ok(out),
-            Err(why) => {
-                say(format!(
-                    "error: the client does not speak the Debug Adapter Protocol: {why}\n"
-                ));
-                return Err(());
-            }
-        }
+    while let Some(message) = frames.next_message()? {
+        out.extend(adapter.handle(&message, begin.elapsed()));
     }
+    Ok(out)
 }
 
 fn read(mut from: impl Read, to: &Sender<Vec<u8>>) {
@@ -169,6 +173,9 @@ struct Simulator<'a> {
 
 impl<'a> Host<'a> for Simulator<'a> {
     fn launch(&mut self, launch: &Launch) -> Result<Box<dyn Target + 'a>, String> {
+        if let Some(log) = &launch.log {
+            return Ok(Box::new(recorded(Path::new(log))?));
+        }
         let file = PlanFile::read(&launch.program).map_err(|why| why.to_string())?;
         let shown = file.compiled.render(false);
         let graph = file.compiled.graph.clone().ok_or(shown)?;
@@ -182,7 +189,7 @@ impl<'a> Host<'a> for Simulator<'a> {
         let robot = self.linked.robot;
         let asked = launch.world.as_deref().map(Path::new);
         let found = world::find(asked, &file.path, robot.kind()).map_err(|why| why.to_string())?;
-        let program = Program::new(&graph, &file.compiled.sources, &absolute);
+        let program = program(&graph, &file);
         let launch = launch.clone();
         let make = move || {
             let session = robot.session(&graph, &*found.world, launch.seed, &[]);
@@ -198,6 +205,24 @@ impl<'a> Host<'a> for Simulator<'a> {
     fn path(&self, path: &str) -> String {
         absolute(path)
     }
+}
+
+/// A run that is over.
+fn recorded(path: &Path) -> Result<LogTarget, String> {
+    let log = afp_log::read(path).map_err(|why| why.to_string())?;
+    let file = PlanFile::of_log(&log).map_err(|why| why.to_string())?;
+    let shown = file.compiled.render(false);
+    let graph = file.compiled.graph.clone().ok_or(shown)?;
+    LogTarget::new(Arc::new(program(&graph, &file)), log.events)
+}
+
+/// A plan with its places; texts that are not those of files go along.
+fn program(graph: &Graph, file: &PlanFile) -> Program {
+    let mut program = Program::new(graph, &file.compiled.sources, &absolute);
+    program.keep_texts(&file.compiled.sources, &|path, text| {
+        fs::read_to_string(path).is_ok_and(|known| known == text)
+    });
+    program
 }
 
 /// A path from the root, without links, where the file is there.

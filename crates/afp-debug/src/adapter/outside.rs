@@ -1,0 +1,70 @@
+//! What comes from outside by the hand of a client: buttons, faults, how fast time passes.
+
+use std::time::Duration as Wall;
+
+use afp_core::Duration;
+use afp_core::devices::{find_control, find_fault};
+use afp_session::{HOLD, Request};
+use serde::Deserialize;
+use serde_json::Value;
+
+use super::steer::Pace;
+use super::{Adapter, Answer, Refusal};
+
+#[derive(Deserialize)]
+pub(super) struct Press {
+    control: String,
+    held: Option<bool>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Break {
+    fault: String,
+    amount: Option<f64>,
+    seconds: Option<f64>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Speed {
+    factor: Option<f64>,
+}
+
+impl Adapter<'_> {
+    pub(super) fn press(&mut self, press: &Press) -> Answer<Value> {
+        let target = &mut self.run()?.target;
+        let devices = target.devices();
+        let unknown = || Refusal(format!("the robot has no control '{}'", press.control));
+        let id = find_control(devices, &press.control).ok_or_else(unknown)?;
+        target.ask(Duration::ZERO, Request::Press(id, press.held.unwrap_or(true)))?;
+        if press.held.is_none() {
+            target.ask(HOLD, Request::Press(id, false))?;
+        }
+        Ok(Value::Null)
+    }
+
+    pub(super) fn fault(&mut self, fault: &Break) -> Answer<Value> {
+        let target = &mut self.run()?.target;
+        let named = fault.fault.split_once('.');
+        let found = named.and_then(|(device, name)| find_fault(target.devices(), device, name));
+        let unknown = || Refusal(format!("nothing of the robot fails as '{}'", fault.fault));
+        let id = found.ok_or_else(unknown)?;
+        let lasting = match fault.seconds {
+            None => Duration::MAX,
+            Some(seconds) if seconds > 0.0 && seconds < 1e9 => {
+                Duration::from_nanos((seconds * 1e9) as u64)
+            }
+            Some(_) => return Err("'seconds' is a number above 0".into()),
+        };
+        target.ask(Duration::ZERO, Request::Break(id, fault.amount, lasting))?;
+        Ok(Value::Null)
+    }
+
+    pub(super) fn speed(&mut self, speed: &Speed, now: Wall) -> Answer<Value> {
+        if speed.factor.is_some_and(|factor| !(factor > 0.0 && factor.is_finite())) {
+            return Err("'factor' is a number above 0; leave it out for as fast as can be".into());
+        }
+        let run = self.run()?;
+        run.pace = Pace::new(speed.factor, run.target.now(), now);
+        Ok(Value::Null)
+    }
+}

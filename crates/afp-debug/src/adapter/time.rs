@@ -1,0 +1,106 @@
+//! Going to another time: back, and ahead without being held on the way.
+
+use afp_core::Instant;
+use dapts::{SteppingGranularity, StoppedEventReason as Reason};
+use serde::Deserialize;
+use serde_json::Value;
+
+use super::steer::{BATCH, Mode, Step, is_transition};
+use super::{Adapter, Answer, Run};
+use crate::breakpoints::Hits;
+use crate::target::{Advance, Position};
+
+#[derive(Deserialize)]
+pub(super) struct Seek {
+    at: f64,
+}
+
+impl Adapter<'_> {
+    /// To before the last transition, or the last step.
+    pub(super) fn back(&mut self, step: &Step) -> Answer<Value> {
+        let run = self.run()?;
+        let now = run.target.steps();
+        let to = match step.granularity {
+            Some(SteppingGranularity::Instruction) => now.saturating_sub(1),
+            _ => run.transitions.iter().rfind(|step| **step < now).copied().unwrap_or(0),
+        };
+        run.target.seek(Position::Step(to))?;
+        let reason = if to == 0 { Reason::Entry } else { Reason::Step };
+        self.stopped(reason, "stepped back", Vec::new());
+        Ok(Value::Null)
+    }
+
+    /// To the last breakpoint before, or the start.
+    pub(super) fn reverse(&mut self) -> Answer<Value> {
+        let (run, breakpoints) = (self.run.as_mut(), &mut self.breakpoints);
+        let run = run.ok_or("nothing runs yet: 'launch' comes first")?;
+        let end = run.target.steps();
+        let program = run.target.program().clone();
+        run.target.seek(Position::Step(0))?;
+        let mut last = None;
+        while run.target.steps() + 1 < end {
+            let mut hit = Hits::default();
+            let advance = run.target.advance(Instant::MAX, &mut |happened, state| {
+                let hits = breakpoints.hits(&happened.event, &program, state);
+                hit.stop.extend(hits.stop);
+                hit.exception = hit.exception.or(hits.exception);
+            })?;
+            if !hit.stop.is_empty() || hit.exception.is_some() {
+                last = Some((run.target.steps(), hit.stop));
+            }
+            if advance == Advance::Ended {
+                break;
+            }
+        }
+        let (to, hits) = last.unwrap_or_default();
+        run.target.seek(Position::Step(to))?;
+        let reason = if to == 0 { Reason::Entry } else { Reason::Breakpoint };
+        let ids = hits.into_iter().map(|(id, _)| id).collect();
+        self.stopped(reason, "went back", ids);
+        Ok(Value::Null)
+    }
+
+    /// Goes to an instant. What lies behind is there at once, but for what is run again from a keyframe; what lies
+    /// ahead is run as fast as it can be computed, and `pause` holds it on its way.
+    pub(super) fn seek(&mut self, seek: &Seek) -> Answer<Value> {
+        if !(seek.at >= 0.0 && seek.at < 1e9) {
+            return Err("'at' is a time in seconds from the start".into());
+        }
+        let at = Instant::from_nanos((seek.at * 1e9) as u64);
+        let run = self.run()?;
+        if at > run.target.now() && run.mode != Mode::Over {
+            run.mode = Mode::Seek(at);
+            return Ok(Value::Null);
+        }
+        if at < run.target.now() {
+            run.target.seek(Position::At(at))?;
+        }
+        self.stopped(Reason::Goto, "went to another time", Vec::new());
+        Ok(Value::Null)
+    }
+
+    /// Goes on to the instant that is looked for, or the end of the run.
+    pub(super) fn seek_on(&mut self, run: &mut Run<'_>, at: Instant) {
+        let limit = at.min(run.end);
+        let program = run.target.program().clone();
+        for _ in 0..BATCH {
+            let mut changed = false;
+            let advance = run.target.advance(limit, &mut |what, _| {
+                changed |= is_transition(what, &program, None);
+            });
+            if changed {
+                run.note(run.target.steps());
+            }
+            match advance {
+                Ok(Advance::On) => {}
+                Ok(Advance::Limit) => {
+                    return self.stopped_at(run, Reason::Goto, "went to another time", Vec::new());
+                }
+                Ok(Advance::Ended) => {
+                    return self.stopped_at(run, Reason::Goto, "went to the end", Vec::new());
+                }
+                Err(why) => return self.failed(run, &why),
+            }
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! A log as something to be debugged: what was recorded is told again, and nothing of it can be changed.
+
+use std::sync::Arc;
+
+use afp_core::devices::DeviceRow;
+use afp_core::{Duration, Instant};
+use afp_session::{Request, RunEvent};
+
+use crate::program::Program;
+use crate::state::State;
+use crate::target::{Advance, Happened, Position, Target};
+
+/// So many moments lie between two kept states: as many are told again, at most, when a client goes back.
+const KEYFRAMES: usize = 1024;
+
+/// What a client hears that wants to change what is over.
+const READ_ONLY: &str = "a log shows what was: launch its plan to change something";
+
+/// A run that was recorded. All events of an instant are one step.
+pub struct LogTarget {
+    program: Arc<Program>,
+    events: Vec<RunEvent>,
+    /// For each moment the first event that does not belong to it any more.
+    moments: Vec<usize>,
+    /// What was the case before each [`KEYFRAMES`]th moment.
+    keyframes: Vec<State>,
+    /// How many moments are over.
+    passed: usize,
+    now: Instant,
+    state: State,
+}
+
+impl LogTarget {
+    /// The run of a program that those events tell of, at its start.
+    ///
+    /// # Errors
+    /// The events are those of another program: why.
+    pub fn new(program: Arc<Program>, events: Vec<RunEvent>) -> Result<LogTarget, String> {
+        let known = |event: &RunEvent| match program.unit(event.component_id) {
+            Some(unit) => event.component.is_empty() || unit.path == event.component,
+            None => event.component_id == afp_session::OUTSIDE,
+        };
+        if let Some(stranger) = events.iter().find(|event| !known(event)) {
+            let name = &stranger.component;
+            return Err(format!(
+                "the log tells of '{name}', which its plan has not any more: the toolboxes have changed since"
+            ));
+        }
+        let mut moments: Vec<_> = events
+            .windows(2)
+            .zip(1..)
+            .filter_map(|(pair, next)| (pair[0].at != pair[1].at).then_some(next))
+            .collect();
+        moments.extend((!events.is_empty()).then_some(events.len()));
+        let (now, state) = (Instant::ZERO, State::default());
+        let keyframes = vec![state.clone()];
+        Ok(LogTarget { program, events, moments, keyframes, passed: 0, now, state })
+    }
+
+    /// The events of the next moment.
+    fn next(&self) -> Option<std::ops::Range<usize>> {
+        let end = *self.moments.get(self.passed)?;
+        let begin = self.passed.checked_sub(1).and_then(|before| self.moments.get(before));
+        Some(begin.copied().unwrap_or(0)..end)
+    }
+
+    /// Lets the next moment pass.
+    fn pass(&mut self, tell: &mut dyn FnMut(&Happened, &State)) {
+        let Some(events) = self.next() else { return };
+        for event in &self.events[events] {
+            self.state.apply(event, &self.program);
+            self.now = event.at;
+            tell(&Happened::new(event.clone()), &self.state);
+        }
+        self.passed += 1;
+        if self.passed.is_multiple_of(KEYFRAMES) && self.passed / KEYFRAMES == self.keyframes.len()
+        {
+            self.keyframes.push(self.state.clone());
+        }
+    }
+
+    /// Goes to where so many moments are over.
+    fn go(&mut self, passed: usize) {
+        let passed = passed.min(self.moments.len());
+        let frame = (passed / KEYFRAMES).min(self.keyframes.len() - 1);
+        if passed < self.passed || frame * KEYFRAMES > self.passed {
+            self.state = self.keyframes[frame].clone();
+            self.passed = frame * KEYFRAMES;
+            self.now = self.at(self.passed);
+        }
+        while self.passed < passed {
+            self.pass(&mut |_, _| {});
+        }
+    }
+
+    /// When the last of so many moments was.
+    fn at(&self, passed: usize) -> Instant {
+        let last = passed.checked_sub(1).and_then(|last| self.moments.get(last));
+        last.and_then(|end| self.events.get(end - 1)).map_or(Instant::ZERO, |event| event.at)
+    }
+}
+
+impl Target for LogTarget {
+    fn program(&self) -> &Arc<Program> {
+        &self.program
+    }
+
+    fn state(&self) -> &State {
+        &self.state
+    }
+
+    fn now(&self) -> Instant {
+        self.now
+    }
+
+    fn steps(&self) -> u64 {
+        self.passed as u64
+    }
+
+    fn is_recorded(&self) -> bool {
+        true
+    }
+
+    fn advance(
+        &mut self,
+        limit: Instant,
+        tell: &mut dyn FnMut(&Happened, &State),
+    ) -> Result<Advance, String> {
+        let Some(events) = self.next() else { return Ok(Advance::Ended) };
+        if self.events[events.start].at > limit {
+            self.now = self.now.max(limit);
+            return Ok(Advance::Limit);
+        }
+        self.pass(tell);
+        Ok(if self.passed == self.moments.len() { Advance::Ended } else { Advance::On })
+    }
+
+    fn seek(&mut self, to: Position) -> Result<(), String> {
+        let over = |at: Instant| {
+            self.moments
+                .partition_point(|end| self.events.get(end - 1).is_some_and(|it| it.at <= at))
+        };
+        match to {
+            Position::Step(step) => self.go(usize::try_from(step).unwrap_or(usize::MAX)),
+            Position::At(at) => {
+                self.go(over(at));
+                self.now = at.min(self.at(self.moments.len()));
+            }
+        }
+        Ok(())
+    }
+
+    fn set(&mut self, _: &str, _: &str) -> Result<String, String> {
+        Err(READ_ONLY.to_owned())
+    }
+
+    fn devices(&self) -> &'static [DeviceRow] {
+        &[]
+    }
+
+    fn ask(&mut self, _: Duration, _: Request) -> Result<(), String> {
+        Err(READ_ONLY.to_owned())
+    }
+
+    fn stop(&mut self, _: &mut dyn FnMut(&Happened, &State)) {}
+}

@@ -1,0 +1,189 @@
+//! A log is debugged as the run was from which it comes.
+
+mod common;
+
+use std::sync::Arc;
+
+use afp_core::{Duration, Instant};
+use afp_debug::{Host, Launch, LogTarget, Target};
+use afp_log::{About, LogData, OwnedNames, SessionLog};
+use afp_session::{Open, Request};
+use common::{Client, Texted, compiled, session};
+
+/// A plan's text and the file of a log of it.
+struct Recorded(String, LogData);
+
+impl Host<'static> for Recorded {
+    fn launch(&mut self, launch: &Launch) -> Result<Box<dyn Target>, String> {
+        let (_, program) = compiled(&self.0, launch.log.as_deref().unwrap_or_default())?;
+        Ok(Box::new(LogTarget::new(Arc::new(program), self.1.events.clone())?))
+    }
+
+    fn path(&self, path: &str) -> String {
+        path.to_owned()
+    }
+}
+
+/// Runs a plan for so many seconds with a log; the bumper may be pressed.
+fn recorded(text: &str, name: &str, seconds: u64, press: Option<Duration>) -> LogData {
+    let (graph, _) = compiled(text, name).expect("the plan is sound");
+    let mut session = session(&graph, &Launch::default()).expect("a session");
+    let path = tempfile::tempdir().expect("a folder").keep().join("run.mcap");
+    let names = OwnedNames::new(session.names());
+    let log =
+        SessionLog::create(&path, &About::default(), names, session.devices(), Vec::new(), false);
+    let mut log = log.expect("a log");
+    if let Some(after) = press {
+        let button = afp_core::devices::find_control(session.devices(), "touch.touch");
+        let request = Request::Press(button.expect("a button"), true);
+        session.at(Instant::ZERO + after, request).expect("it can be pressed");
+    }
+    let end = Instant::ZERO + Duration::from_secs(seconds);
+    session.run(end, &mut Open, &mut [&mut log]).expect("it starts");
+    session.stop(&mut [&mut log]);
+    log.finish(&*session).expect("it is written");
+    let read = afp_log::read(&path).expect("it is read");
+    std::fs::remove_dir_all(path.parent().expect("a folder")).expect("it is removed");
+    read
+}
+
+/// What a client sees where a run stands still.
+fn look(client: &mut Client) -> String {
+    client.told.clear();
+    client.say("threads");
+    client.say(r#"stackTrace {"threadId":1}"#);
+    for frame in 1..40 {
+        client.say(&format!(r#"scopes {{"frameId":{frame}}}"#));
+    }
+    for group in 1..320 {
+        client.say(&format!(r#"variables {{"variablesReference":{group}}}"#));
+    }
+    // Only a run can be written to.
+    std::mem::take(&mut client.told)
+}
+
+/// The lines of what happened, by time.
+fn happened(told: &str) -> Vec<&str> {
+    told.lines().filter(|line| line.contains(r#""category":"console""#)).collect()
+}
+
+const SHIPPED: &str = include_str!("../../../plans/wall_following.afp");
+
+fn plans() -> [(String, &'static str, u64); 4] {
+    let case = |text: &str| text.split_once("\n---\n").expect("a plan and a talk").0.to_owned();
+    [
+        (case(include_str!("dap/conditions.txt")), "plan.afp:Blink", 10),
+        (case(include_str!("dap/nested.txt")), "plan.afp:Outer", 6),
+        (case(include_str!("dap/breakpoints.txt")), "plan.afp", 8),
+        (SHIPPED.to_owned(), "plan.afp", 20),
+    ]
+}
+
+#[test]
+fn a_log_shows_what_its_run_showed() {
+    for (text, name, seconds) in plans() {
+        let log = recorded(&text, name, seconds, None);
+        let mut run = Client::new(Box::new(Texted(text.clone())));
+        let mut past = Client::new(Box::new(Recorded(text, log)));
+        for (client, launch) in [
+            (&mut run, format!(r#"{{"program":"{name}","until":{seconds},"stopOnEntry":true}}"#)),
+            (&mut past, format!(r#"{{"log":"{name}","stopOnEntry":true}}"#)),
+        ] {
+            client.say(r#"initialize {"adapterID":"afp"}"#);
+            client.say(&format!("launch {launch}"));
+            client.say("configurationDone");
+        }
+        run.say(r#"afp/fault {"fault":"nothing"}"#);
+        let mut stops = 0;
+        loop {
+            run.told.clear();
+            past.told.clear();
+            run.say(r#"stepIn {"threadId":1}"#);
+            past.say(r#"stepIn {"threadId":1}"#);
+            run.tick(None);
+            past.tick(None);
+            let [one, other] = [&run, &past].map(|client| happened(&client.told).join("\n"));
+            if run.told.contains("event terminated") {
+                assert_eq!(one, other, "{name}");
+                break;
+            }
+            assert_eq!(one, other, "{name}");
+            assert_eq!(look(&mut run), look(&mut past), "{name}");
+            stops += 1;
+        }
+        assert!(stops > 3, "{name} stood still {stops} times only");
+    }
+}
+
+#[test]
+fn a_log_is_sought_through_and_cannot_be_changed() {
+    let log = recorded(SHIPPED, "plan.afp", 12, Some(Duration::from_secs(3)));
+    let mut past = Client::new(Box::new(Recorded(SHIPPED.to_owned(), log)));
+    past.say(r#"initialize {"adapterID":"afp"}"#);
+    past.say(r#"launch {"log":"plan.afp","until":3}"#);
+    assert!(past.told.contains("leave 'world', 'set' and 'until' out"), "{}", past.told);
+    past.say(r#"launch {"log":"plan.afp"}"#);
+    assert!(past.told.contains(r#""supportsSetVariable":false"#), "{}", past.told);
+    past.say(r#"setFunctionBreakpoints {"breakpoints":[{"name":"backupCollision"}]}"#);
+    past.say("configurationDone");
+    past.tick(None);
+    assert!(past.told.contains("press touch.touch (from outside)"), "{}", past.told);
+    let told = std::mem::take(&mut past.told);
+    let stop = told.lines().find(|line| line.contains("event stopped")).expect("it stands still");
+    assert!(stop.contains(r#""reason":"function breakpoint""#), "{stop}");
+    let seen = look(&mut past);
+    assert!(seen.contains("backupCollision: Forward"), "{seen}");
+    for change in
+        [r#"evaluate {"expression":"walldist = 20 cm"}"#, r#"afp/press {"control":"touch.touch"}"#]
+    {
+        past.told.clear();
+        past.say(change);
+        assert!(past.told.contains("refused"), "{}", past.told);
+    }
+    // Wherever one comes from, an instant looks the same.
+    past.say(r#"afp/seek {"at":11.5}"#);
+    past.tick(None);
+    let late = look(&mut past);
+    past.say(r#"afp/seek {"at":2}"#);
+    assert_ne!(look(&mut past), late);
+    past.say(r#"afp/seek {"at":11.5}"#);
+    past.tick(None);
+    assert_eq!(look(&mut past), late);
+    past.say(r#"afp/seek {"at":1}"#);
+    past.say(r#"continue {"threadId":1}"#);
+    past.tick(None);
+    assert_eq!(look(&mut past), seen, "the breakpoint holds again");
+    past.say(r#"setFunctionBreakpoints {"breakpoints":[]}"#);
+    past.say(r#"continue {"threadId":1}"#);
+    past.tick(None);
+    assert!(past.told.contains("the log ends at 12.000 s"), "{}", past.told);
+    past.say(r#"reverseContinue {"threadId":1}"#);
+    past.say(r#"continue {"threadId":1}"#);
+    past.tick(None);
+    past.told.clear();
+    past.say(r#"continue {"threadId":1}"#);
+    past.tick(None);
+    assert!(past.told.contains("event terminated"), "{}", past.told);
+}
+
+#[test]
+fn a_log_that_was_cut_short_says_so() {
+    let mut log = recorded(SHIPPED, "plan.afp", 5, None);
+    log.events.truncate(40);
+    let mut past = Client::new(Box::new(Recorded(SHIPPED.to_owned(), log)));
+    past.say(r#"launch {"log":"plan.afp"}"#);
+    past.say("configurationDone");
+    past.tick(None);
+    past.say(r#"continue {"threadId":1}"#);
+    past.tick(None);
+    assert!(past.told.contains("before the plan does"), "{}", past.told);
+}
+
+#[test]
+fn a_log_of_another_plan_is_refused() {
+    let log = recorded(SHIPPED, "plan.afp", 1, None);
+    let other = plans()[1].0.clone();
+    let mut past = Client::new(Box::new(Recorded(other, log)));
+    past.say(r#"launch {"log":"plan.afp:Outer"}"#);
+    assert!(past.told.contains("which its plan has not any more"), "{}", past.told);
+}
