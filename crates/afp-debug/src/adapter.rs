@@ -1,5 +1,6 @@
 //! The adapter: messages of a client in, messages to it out.
 
+mod force;
 mod launch;
 mod look;
 mod outside;
@@ -7,6 +8,7 @@ mod places;
 mod steer;
 mod stop;
 mod time;
+mod why;
 
 use std::time::Duration as Wall;
 
@@ -73,6 +75,8 @@ struct Run<'h> {
     told_at: Wall,
     /// When the plan is stopped at the latest.
     end: Instant,
+    /// What the client holds in place.
+    forces: Vec<force::Force>,
 }
 
 /// Why a request is refused.

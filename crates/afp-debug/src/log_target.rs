@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use afp_core::devices::DeviceRow;
+use afp_core::trace::ComponentId;
 use afp_core::{Duration, Instant};
 use afp_session::{Request, RunEvent};
 
@@ -159,6 +160,10 @@ impl Target for LogTarget {
     }
 
     fn ask(&mut self, _: Duration, _: Request) -> Result<(), String> {
+        Err(READ_ONLY.to_owned())
+    }
+
+    fn fire(&mut self, _: ComponentId, _: &str) -> Result<(), String> {
         Err(READ_ONLY.to_owned())
     }
 

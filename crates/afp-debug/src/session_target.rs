@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use afp_core::devices::DeviceRow;
-use afp_core::trace::TraceEntryId;
+use afp_core::trace::{ComponentId, TraceEntryId};
 use afp_core::{Duration, Instant, StartError};
 use afp_session::{
-    AnySession, Applied, Datum, NamedRecord, Observer, Open, Request, RunEvent, SetError, View,
+    AnySession, Applied, Datum, NamedRecord, Observer, Open, Request, RunEvent, SetError, Stimulus,
+    View,
 };
 
 use crate::program::Program;
@@ -199,6 +200,14 @@ impl Target for SessionTarget<'_> {
         self.forget_later()?;
         let at = self.run.session.now() + later;
         self.run.session.at(at, request).map(|_| ()).map_err(|why| why.to_string())
+    }
+
+    fn fire(&mut self, component: ComponentId, outcome: &str) -> Result<(), String> {
+        let session = &self.run.session;
+        let component = session.names().component(component).path.to_owned();
+        let what = Stimulus::Inject { component, outcome: outcome.to_owned(), outputs: Vec::new() };
+        let request = what.request(session.devices(), session.names());
+        self.ask(Duration::ZERO, request.map_err(|why| why.to_string())?)
     }
 
     fn stop(&mut self, tell: &mut dyn FnMut(&Happened, &State)) {

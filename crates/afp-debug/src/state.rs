@@ -8,6 +8,7 @@ use afp_dsl::unfold::Kind;
 use afp_session::{Datum, EndingKind, EventKind, Miss, RunEvent};
 
 use crate::program::Program;
+use crate::text::Line;
 
 /// What is active, what watches, what entries hold: all events up to an instant, put together.
 #[derive(Clone, Debug, Default)]
@@ -24,14 +25,35 @@ pub struct State {
     reports: BTreeMap<ComponentId, (Instant, String)>,
     /// Deadlines that a supervisor missed, and the last of them.
     misses: BTreeMap<ComponentId, (u64, Miss)>,
+    /// When each state was reached, and each event taken, last.
+    reached: BTreeMap<(ComponentId, u16), Instant>,
+    /// The last edge that was taken in each plan.
+    taken: BTreeMap<ComponentId, Taken>,
+    /// The edge by which each element became active last; none where its plan began with it.
+    causes: BTreeMap<ComponentId, Option<Taken>>,
+    /// When each element became active last.
+    since: BTreeMap<ComponentId, Instant>,
     /// How the plan ended, and in words why where that is `Error`.
     ended: Option<(EndingKind, String)>,
+}
+
+/// An edge that was taken.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Taken {
+    /// The component that led along it.
+    pub by: ComponentId,
+    /// Where to.
+    pub target: String,
+    /// In the words of the trace.
+    pub text: String,
+    at: Instant,
 }
 
 impl State {
     /// Takes in the next event.
     pub fn apply(&mut self, event: &RunEvent, program: &Program) {
         let id = event.component_id;
+        self.follow(event, program);
         match event.kind {
             EventKind::Started => self.start(id, program),
             EventKind::Finished | EventKind::Interrupted => self.leave(id, program),
@@ -59,6 +81,35 @@ impl State {
             EventKind::Ended => self.end(event, program),
             _ => {}
         }
+    }
+
+    /// Keeps in mind by which edges elements become active.
+    fn follow(&mut self, event: &RunEvent, program: &Program) {
+        let id = event.component_id;
+        let by = match event.kind {
+            EventKind::Finished | EventKind::Event | EventKind::Faulted => id,
+            EventKind::Diverted => event.supervisor_id,
+            EventKind::Started => return self.begin(id, event.at, program),
+            _ => return,
+        };
+        if program.unit(by).is_some_and(|unit| unit.kind == Kind::Computation) {
+            // It is done at once, without a start.
+            self.begin(by, event.at, program);
+        }
+        self.reached.insert((by, event.outcome_id), event.at);
+        let (target, text) = (event.target.clone(), Line(event).to_string());
+        if let Some(unit) = program.unit(by) {
+            self.taken.insert(unit.plan, Taken { by, target, text, at: event.at });
+        }
+    }
+
+    /// Keeps in mind why an element becomes active.
+    fn begin(&mut self, id: ComponentId, at: Instant, program: &Program) {
+        let unit = program.unit(id).filter(|unit| unit.kind != Kind::Supervisor);
+        let Some(unit) = unit else { return };
+        let led = self.taken.remove(&unit.plan);
+        self.causes.insert(id, led.filter(|led| led.at == at && led.target == unit.name));
+        self.since.insert(id, at);
     }
 
     fn start(&mut self, id: ComponentId, program: &Program) {
@@ -140,6 +191,22 @@ impl State {
     /// How many deadlines a supervisor missed, and the last of them.
     pub fn misses(&self, id: ComponentId) -> Option<(u64, Miss)> {
         self.misses.get(&id).copied()
+    }
+
+    /// When a state was reached, or an event taken, last.
+    pub fn reached(&self, id: ComponentId, outcome: u16) -> Option<Instant> {
+        self.reached.get(&(id, outcome)).copied()
+    }
+
+    /// When a component started last, and the edge that led to it; none where its plan began with it.
+    pub fn cause(&self, id: ComponentId) -> Option<(Instant, Option<&Taken>)> {
+        let since = *self.since.get(&id)?;
+        Some((since, self.causes.get(&id)?.as_ref()))
+    }
+
+    /// Whether an element is active, a supervisor watches.
+    pub fn is_on(&self, id: ComponentId) -> bool {
+        self.watching.contains(&id) || self.active.values().any(|active| *active == id)
     }
 
     /// How the plan ended, and in words why where that is `Error`.

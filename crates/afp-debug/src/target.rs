@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use afp_core::devices::DeviceRow;
+use afp_core::trace::ComponentId;
 use afp_core::{Duration, Instant};
 use afp_session::{Request, RunEvent};
 
@@ -60,6 +61,12 @@ pub trait Target {
     /// # Errors
     /// Why it cannot be.
     fn ask(&mut self, later: Duration, request: Request) -> Result<(), String>;
+
+    /// Makes a component report a state or an event at its next poll.
+    ///
+    /// # Errors
+    /// Why it cannot.
+    fn fire(&mut self, component: ComponentId, outcome: &str) -> Result<(), String>;
 
     /// Makes the plan end here and now, and the robot stop.
     fn stop(&mut self, tell: &mut dyn FnMut(&Happened, &State));

@@ -147,6 +147,7 @@ impl Adapter<'_> {
             told: false,
             told_at: now,
             end,
+            forces: Vec::new(),
         });
         Ok(())
     }

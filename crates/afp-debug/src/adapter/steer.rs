@@ -93,6 +93,9 @@ impl Adapter<'_> {
             "reverseContinue" => self.reverse(),
             "afp/press" => self.press(&parse(arguments)?),
             "afp/fault" => self.fault(&parse(arguments)?),
+            "afp/force" => self.force(parse(arguments)?),
+            "afp/release" => self.release(&parse(arguments)?),
+            "afp/why" => self.why(&parse(arguments)?),
             "afp/speed" => self.speed(&parse(arguments)?, now),
             "afp/seek" => self.seek(&parse(arguments)?),
             "afp/subscribe" => {
@@ -184,6 +187,7 @@ impl Adapter<'_> {
                 Err(why) => return self.failed(run, &why),
             };
             let held = self.look_at(run, &happened, hits.drain(..), before);
+            run.keep_forces(&happened);
             happened.clear();
             match advance {
                 _ if held => return,

@@ -163,9 +163,16 @@ impl Adapter<'_> {
         let watching: Vec<_> = state.watching().map(path).collect();
         let held = matches!(run.mode, Mode::Held | Mode::Over);
         let at = run.target.now().as_secs_f64();
-        let body = json!({
-            "at": at, "stack": stack, "watching": watching, "entries": entries, "held": held,
-        });
+        let mut body = run.forced();
+        for (name, value) in [
+            ("at", json!(at)),
+            ("stack", json!(stack)),
+            ("watching", json!(watching)),
+            ("entries", json!(entries)),
+            ("held", json!(held)),
+        ] {
+            body[name] = value;
+        }
         self.tell("afp/state", body);
     }
 }

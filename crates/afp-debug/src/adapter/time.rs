@@ -24,6 +24,7 @@ impl Adapter<'_> {
             Some(SteppingGranularity::Instruction) => now.saturating_sub(1),
             _ => run.transitions.iter().rfind(|step| **step < now).copied().unwrap_or(0),
         };
+        run.forces.clear();
         run.target.seek(Position::Step(to))?;
         let reason = if to == 0 { Reason::Entry } else { Reason::Step };
         self.stopped(reason, "stepped back", Vec::new());
@@ -36,6 +37,7 @@ impl Adapter<'_> {
         let run = run.ok_or("nothing runs yet: 'launch' comes first")?;
         let end = run.target.steps();
         let program = run.target.program().clone();
+        run.forces.clear();
         run.target.seek(Position::Step(0))?;
         let mut last = None;
         while run.target.steps() + 1 < end {
@@ -68,6 +70,7 @@ impl Adapter<'_> {
         }
         let at = Instant::from_nanos((seek.at * 1e9) as u64);
         let run = self.run()?;
+        run.forces.clear();
         if at > run.target.now() && run.mode != Mode::Over {
             run.mode = Mode::Seek(at);
             return Ok(Value::Null);

@@ -1,0 +1,154 @@
+//! Values and outcomes that a client holds in place for a while, whatever the plan does.
+
+use afp_core::trace::ComponentId;
+use afp_core::{Duration, Instant};
+use afp_session::{EventKind, OUTSIDE};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use super::{Adapter, Answer, Refusal, Run};
+use crate::program::Spot;
+use crate::target::Happened;
+
+/// How long something is forced unless a client says otherwise, and at most: seconds.
+const USUALLY: f64 = 10.0;
+const AT_MOST: f64 = 600.0;
+
+#[derive(Deserialize)]
+pub(super) struct Wanted {
+    /// An entry of the outermost plan, or a state or event: `patrol.avoid.touch.TouchSensorPressed`.
+    path: String,
+    /// The value of the entry, as people write it.
+    value: Option<String>,
+    seconds: Option<f64>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Release {
+    /// What is not forced any more; without it nothing is.
+    path: Option<String>,
+}
+
+/// Something that is forced.
+#[derive(Clone, Debug)]
+pub(super) struct Force {
+    path: String,
+    what: What,
+    until: Instant,
+}
+
+#[derive(Clone, Debug)]
+enum What {
+    /// An entry has this value.
+    Value(String),
+    /// A component reports an outcome whenever it is asked.
+    Outcome { component: ComponentId, name: String },
+}
+
+impl Adapter<'_> {
+    /// Forces an entry or an outcome; gives all that is forced.
+    pub(super) fn force(&mut self, wanted: Wanted) -> Answer<Value> {
+        let seconds = wanted.seconds.unwrap_or(USUALLY);
+        if !(seconds > 0.0 && seconds <= AT_MOST) {
+            return Err(Refusal(format!("'seconds' is a number above 0, at most {AT_MOST}")));
+        }
+        let run = self.run()?;
+        let until = run.target.now() + Duration::from_nanos((seconds * 1e9) as u64);
+        let path = wanted.path.trim().to_owned();
+        let what = match wanted.value {
+            Some(value) => {
+                run.target.set(&path, value.trim())?;
+                What::Value(value)
+            }
+            None => {
+                let what = run.outcome(&path)?;
+                run.fire(&what)?;
+                what
+            }
+        };
+        run.forces.retain(|known| known.path != path);
+        run.forces.push(Force { path, what, until });
+        Ok(run.forced())
+    }
+
+    /// Lets go of what is forced; gives what still is. Entries keep their values.
+    pub(super) fn release(&mut self, release: &Release) -> Answer<Value> {
+        let run = self.run()?;
+        let stays = |force: &Force| release.path.as_ref().is_some_and(|path| *path != force.path);
+        run.forces.retain(stays);
+        Ok(run.forced())
+    }
+}
+
+impl Run<'_> {
+    /// What is forced, and until when.
+    pub(super) fn forced(&self) -> Value {
+        let shown = |force: &Force| {
+            let mut shown = json!({"path": force.path, "until": force.until.as_secs_f64()});
+            if let What::Value(value) = &force.what {
+                shown["value"] = json!(value);
+            }
+            shown
+        };
+        json!({"forced": self.forces.iter().map(shown).collect::<Vec<_>>()})
+    }
+
+    /// The state or event of a path.
+    fn outcome(&self, path: &str) -> Result<What, String> {
+        let program = self.target.program();
+        match program.find(path) {
+            Some(Spot::Outcome(component, _)) => {
+                let name = path.rsplit('.').next().unwrap_or(path).to_owned();
+                Ok(What::Outcome { component, name })
+            }
+            _ if self.target.program().entry(ComponentId(0), path).is_some() => {
+                Err(format!("'{path}' is an entry: say its 'value'"))
+            }
+            _ => Err(format!(
+                "'{path}' is no state or event: write a path such as 'patrol.avoid.touch.TouchSensorPressed'"
+            )),
+        }
+    }
+
+    /// Makes a component report what is forced, if it is asked now; else it does once it starts.
+    fn fire(&mut self, what: &What) -> Result<(), String> {
+        let What::Outcome { component, name } = what else { return Ok(()) };
+        let waits = !self.target.state().is_on(*component) && !self.target.is_recorded();
+        if waits { Ok(()) } else { self.target.fire(*component, name) }
+    }
+
+    /// After something happened: what is forced is so again, what has had its time is not any more.
+    pub(super) fn keep_forces(&mut self, happened: &[Happened]) {
+        if self.forces.is_empty() {
+            return;
+        }
+        let now = self.target.now();
+        self.forces.retain(|force| force.until > now);
+        for force in self.forces.clone() {
+            let again = happened.iter().any(|what| {
+                let event = &what.event;
+                match &force.what {
+                    What::Value(_) => {
+                        event.kind == EventKind::Committed
+                            && event.entry == force.path
+                            && event.component_id != OUTSIDE
+                    }
+                    What::Outcome { component, .. } => {
+                        event.component_id == *component
+                            && matches!(
+                                event.kind,
+                                EventKind::Started | EventKind::AlreadyThere | EventKind::Event
+                            )
+                    }
+                }
+            });
+            if again {
+                // What cannot be now, because its plan is over, is tried again when it can.
+                let _ = match &force.what {
+                    What::Value(value) => self.target.set(&force.path, value.trim()).map(|_| ()),
+                    outcome => self.fire(outcome),
+                };
+            }
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! Why an element runs, or does not: the edge that led to it, and what all edges to it wait for.
+
+use afp_core::trace::{ComponentId, ERROR};
+use afp_dsl::unfold::Kind;
+use serde::Deserialize;
+use serde_json::{Map, Value, json};
+
+use super::{Adapter, Answer, Refusal};
+use crate::program::Program;
+use crate::state::State;
+
+#[derive(Deserialize)]
+pub(super) struct Why {
+    /// An element, or a supervisor: then it is about the element that it watches.
+    path: String,
+}
+
+impl Adapter<'_> {
+    /// When an element became active last and by which edge, and every edge that leads to it: when it was taken last,
+    /// whether its component looks now, and what that read.
+    pub(super) fn why(&mut self, why: &Why) -> Answer<Value> {
+        let run = self.run()?;
+        let (program, state) = (run.target.program(), run.target.state());
+        let found = program.units.iter().skip(1).position(|unit| unit.path == why.path);
+        let unknown = || Refusal(format!("the plan has no element '{}'", why.path));
+        let found = ComponentId(found.ok_or_else(unknown)? as u32 + 1);
+        let unit = program.unit(found).ok_or_else(unknown)?;
+        let id = unit.owner.filter(|_| unit.kind == Kind::Supervisor).unwrap_or(found);
+        let unit = program.unit(id).ok_or_else(unknown)?;
+        let mut answer = json!({
+            "path": unit.path, "active": state.is_on(id), "values": values(program, state, id),
+            "edges": edges(program, state, unit.plan, &unit.name),
+        });
+        if let Some((since, led)) = state.cause(id) {
+            answer["since"] = json!(since.as_secs_f64());
+            let plan = program.unit(unit.plan).map_or("", |plan| &*plan.path);
+            let began = || format!("{plan} begins with it");
+            answer["because"] = json!(led.map_or_else(began, |led| led.text.clone()));
+        }
+        Ok(answer)
+    }
+}
+
+/// All edges of a plan that lead to an element.
+fn edges(program: &Program, state: &State, plan: ComponentId, name: &str) -> Vec<Value> {
+    let inside = (0..).map(ComponentId).zip(&program.units).skip(1);
+    let inside = inside.filter(|(_, unit)| unit.plan == plan);
+    let mut edges = Vec::new();
+    for (id, unit) in inside {
+        let known = unit.outcomes.iter().map(|(name, target)| (&**name, &**target));
+        for (number, (outcome, _)) in
+            (0..ERROR).zip(known).filter(|(_, (_, target))| *target == name)
+        {
+            let last = state.reached(id, number).map(|at| at.as_secs_f64());
+            edges.push(json!({
+                "from": unit.path, "outcome": outcome, "last": last, "looks": state.is_on(id),
+                "values": values(program, state, id),
+            }));
+        }
+    }
+    edges
+}
+
+/// What a component read when it started last.
+fn values(program: &Program, state: &State, id: ComponentId) -> Map<String, Value> {
+    let ports = program.unit(id).map_or(&[][..], |unit| &unit.inputs);
+    let unit = |name: &str| ports.iter().find(|port| port.0 == name).map_or("", |port| &*port.1);
+    let shown = |(name, value): (&str, &afp_session::Datum)| {
+        (name.to_owned(), json!(value.in_unit(unit(name))))
+    };
+    state.inputs(id).map(shown).collect()
+}
