@@ -1,0 +1,45 @@
+// The commands of the page itself: history, panes, files, keys.
+import { command } from "./commands";
+import { finding, showingKeys } from "./finder";
+import { redo, redoLabel, undo, undoLabel } from "./history";
+import { bottom, narrow, palette, right, show } from "./layout";
+import { makeNew } from "./panes/files";
+import { words } from "./words";
+
+export function register(): void {
+  command({ id: "find", label: words.commands, key: "Ctrl+K", run: () => (finding.value = true) });
+  command({ id: "keys", label: words.keys, key: "?", run: () => (showingKeys.value = true) });
+  command({ id: "undo", label: words.undo("…"), key: "Ctrl+Z", run: undo, enabled: () => undoLabel.value !== null });
+  command({ id: "redo", label: words.redo("…"), key: ["Ctrl+Shift+Z", "Ctrl+Y"], run: redo, enabled: () => redoLabel.value !== null });
+  command({ id: "pane-next", label: words.nextPane, key: "F6", run: () => step(1) });
+  command({ id: "pane-before", label: words.lastPane, key: "Shift+F6", run: () => step(-1) });
+  command({ id: "palette", label: words.palette, run: () => toggle("palette") });
+  command({ id: "text", label: words.text, key: "Ctrl+E", run: () => toggle("text") });
+  command({ id: "inspector", label: words.inspector, key: "Ctrl+I", run: () => toggle("inspector") });
+  command({ id: "problems", label: words.problems, key: "Ctrl+M", run: () => toggle("problems") });
+  command({ id: "new", label: words.newPlan, run: makeNew });
+}
+
+function toggle(name: "palette" | "text" | "inspector" | "problems"): void {
+  const open = { palette: palette.value, problems: bottom.value === "problems", text: right.value === "text", inspector: right.value === "inspector" }[name];
+  if (!open) {
+    show(name);
+    requestAnimationFrame(() => enter(document.querySelector(`[data-when=${name}]`)));
+  } else if (name === "palette") palette.value = false;
+  else if (name === "problems") bottom.value = null;
+  else right.value = null;
+  if (open) narrow.value = "drawing";
+}
+
+/** Puts the focus into the pane after or before the one that has it. */
+function step(by: number): void {
+  const panes = [...document.querySelectorAll("[data-pane], .bar")];
+  const at = panes.findIndex((each) => each.contains(document.activeElement));
+  const start = at < 0 && by < 0 ? 0 : at;
+  enter(panes[(start + by + panes.length) % panes.length] ?? null);
+}
+
+function enter(pane: Element | null): void {
+  const inside = pane?.querySelector<HTMLElement>(".cm-content, [role=application], [role=listbox], .body button, .body input, .body, button");
+  inside?.focus();
+}

@@ -1,0 +1,99 @@
+// The bar at the top: file, plans, what is saved, undo and redo, problems.
+import { current, nameOf, saved } from "./documents";
+import { drawing, enter, leave, plan, trail } from "./drawing/model";
+import { finding } from "./finder";
+import { redo, redoLabel, undo, undoLabel } from "./history";
+import { Severity, Sign, type Icon } from "./icons";
+import { bottom, show } from "./layout";
+import { Menu } from "./menu";
+import { Files } from "./panes/files";
+import { number } from "./problems";
+import { words } from "./words";
+
+export function Bar() {
+  return (
+    <header class="bar">
+      <Menu label={words.menu} class="file" button={<FileName />}>
+        {(done) => <Files done={done} />}
+      </Menu>
+      <Breadcrumb />
+      <Saved />
+      <span class="gap" />
+      <Tool icon="undo" label={words.undo(undoLabel.value)} disabled={!undoLabel.value} run={undo} />
+      <Tool icon="redo" label={words.redo(redoLabel.value)} disabled={!redoLabel.value} run={redo} />
+      <ProblemCount />
+      <Tool icon="search" label={`${words.commands} (Ctrl+K)`} run={() => (finding.value = true)} />
+    </header>
+  );
+}
+
+const FileName = () => (
+  <>
+    <Sign name="menu" />
+    <span>{current.value ? nameOf(current.value) : words.menu}</span>
+    <Sign name="down" />
+  </>
+);
+
+/** The plans that lead to the one that is shown, and the others of the file. */
+function Breadcrumb() {
+  const plans = drawing.value?.plans ?? [];
+  if (!current.value || !plan.value) return null;
+  return (
+    <nav class="crumbs" aria-label={words.plans}>
+      {trail.value.map((name, at) => (
+        <button onClick={() => backTo(at)} title={words.out(name)} key={name}>{name}</button>
+      ))}
+      {plans.length < 2 && <span aria-current="page">{plan.value}</span>}
+      {plans.length > 1 && (
+        <Menu label={words.plans} button={<><span aria-current="page">{plan.value}</span><Sign name="down" /></>}>
+          {(done) => (
+            <div class="menu" role="menu" aria-label={words.plans}>
+              {plans.map((name) => (
+                <button role="menuitemradio" aria-checked={name === plan.value} onClick={() => { done(); enter(name); }} key={name}>
+                  <Sign name={name === plan.value ? "check" : "drawing"} />
+                  {name}
+                </button>
+              ))}
+            </div>
+          )}
+        </Menu>
+      )}
+    </nav>
+  );
+}
+
+function backTo(place: number): void {
+  while (trail.value.length > place && leave());
+}
+
+function Saved() {
+  const state = saved.value;
+  if (!current.value) return null;
+  const failed = state !== "saved" && state !== "saving";
+  return (
+    <span class={`saved ${failed ? "failed" : state}`} role="status" title={failed ? words.notSavedBecause(state) : ""}>
+      {failed ? words.notSaved : state === "saved" ? words.saved : words.saving}
+    </span>
+  );
+}
+
+function ProblemCount() {
+  if (!current.value) return null;
+  const [errors, warnings] = [number("error"), number("warning")];
+  const said = [errors && words.errors(errors), warnings && words.warnings(warnings)].filter(Boolean).join(", ") || words.ready;
+  const toggle = (): void => (bottom.value === "problems" ? void (bottom.value = null) : show("problems"));
+  return (
+    <button class="count" onClick={toggle} aria-label={words.showProblems(said)} aria-expanded={bottom.value === "problems"}>
+      {errors > 0 ? <Severity of="error" /> : warnings > 0 ? <Severity of="warning" /> : <Sign name="check" />}
+      <span>{said}</span>
+    </button>
+  );
+}
+
+/** A button with a sign alone; its name is said and shown on hover. */
+export const Tool = ({ icon, label, run, disabled = false }: { icon: Icon; label: string; run: () => unknown; disabled?: boolean }) => (
+  <button class="tool" aria-label={label} title={label} disabled={disabled} onClick={() => void run()}>
+    <Sign name={icon} />
+  </button>
+);

@@ -1,0 +1,75 @@
+// Everything that can be done by name: what `Ctrl+K`, the keys and the bar show.
+import { signal } from "@preact/signals";
+
+export interface Command {
+  id: string;
+  label: string;
+  /** As `Ctrl+Shift+Z`, `F2`, `A`; several where a Mac or a Chromebook has others. `Ctrl` is `Cmd` on a Mac. */
+  key?: string | string[];
+  run(): unknown;
+  enabled?(): boolean;
+  /** Letters act where the focus is in the drawing alone. */
+  where?: "drawing";
+}
+
+export const commands = signal<readonly Command[]>([]);
+
+/** Adds a command, in place of one of the same name; the answer takes it away again. */
+export function command(one: Command): () => void {
+  commands.value = [...commands.peek().filter((each) => each.id !== one.id), one];
+  return () => (commands.value = commands.peek().filter((each) => each !== one));
+}
+
+export const keysOf = ({ key }: Command): string[] => (key === undefined ? [] : Array.isArray(key) ? key : [key]);
+export const isEnabled = (one: Command): boolean => one.enabled?.() ?? true;
+
+interface Pressed {
+  key: string;
+  ctrlKey: boolean;
+  metaKey: boolean;
+  altKey: boolean;
+  shiftKey: boolean;
+}
+
+/** How a key is written that was pressed. Signs that need `Shift` are written without it. */
+export function keyName(event: Pressed, mac = false): string {
+  const main = mac ? event.metaKey : event.ctrlKey;
+  const key = event.key === " " ? "Space" : event.key.length === 1 ? event.key.toUpperCase() : event.key.replace(/^Arrow/, "");
+  const letter = key.length > 1 || key.toLowerCase() !== key;
+  return `${main ? "Ctrl+" : ""}${event.altKey ? "Alt+" : ""}${event.shiftKey && letter ? "Shift+" : ""}${key}`;
+}
+
+/** The command of a key, `in` the drawing or elsewhere. */
+export function commandFor(key: string, inDrawing: boolean, all = commands.peek()): Command | undefined {
+  const fits = (each: Command) => keysOf(each).includes(key) && (each.where === undefined || inDrawing);
+  // Where two have the key, that of the drawing is nearer.
+  return all.find((each) => each.where === "drawing" && fits(each) && isEnabled(each)) ?? all.find((each) => fits(each) && isEnabled(each));
+}
+
+/** Whether a key belongs to a field that is written into, as letters and its own undo do. */
+export const isForField = (key: string): boolean => !/^(F\d+|Shift\+F\d+|Ctrl\+[KP.])$/.test(key);
+
+/** Hears of the keys of the page; who has handled one before says so by `preventDefault`. */
+export function listen(page: Window): void {
+  const mac = /Mac|iPhone|iPad/.test(page.navigator.platform);
+  page.addEventListener("keydown", (event) => {
+    if (event.defaultPrevented || event.isComposing || !(event.target instanceof Element)) return;
+    const { target } = event;
+    const key = keyName(event, mac);
+    const field = target.matches("input, textarea, select");
+    if ((field || target.closest("dialog")) && isForField(key)) return;
+    const found = commandFor(key, target.closest("[data-pane=drawing]") !== null);
+    // Letters are the text pane's own.
+    if (!found || (key.length === 1 && target.closest("[contenteditable=true]"))) return;
+    event.preventDefault();
+    found.run();
+  });
+}
+
+/** Commands whose names hold all words that were typed, those that begin with them first. */
+export function matching(typed: string, all: readonly Command[]): Command[] {
+  const wanted = typed.toLowerCase().split(/\s+/).filter(Boolean);
+  const rank = (each: Command) => (each.label.toLowerCase().startsWith(wanted[0] ?? "") ? 0 : 1);
+  const fits = all.filter((each) => wanted.every((word) => each.label.toLowerCase().includes(word)));
+  return fits.map((each, at) => ({ each, at })).sort((a, b) => rank(a.each) - rank(b.each) || a.at - b.at).map(({ each }) => each);
+}

@@ -1,0 +1,228 @@
+// The texts of the page: opened from the room, changed in one place, told to the server, said to be saved by it alone.
+import { computed, signal } from "@preact/signals";
+import { attach, push, record, type Change, type Step } from "./history";
+import { Refused, type Lsp } from "./lsp";
+import { offset, position, type Range } from "./positions";
+import { select, type Part } from "./selection";
+import { files, lsp, pen, type Kept } from "./session";
+import { words } from "./words";
+
+export interface TextEdit {
+  range: Range;
+  newText: string;
+}
+
+export interface WorkspaceEdit {
+  documentChanges?: (
+    | { kind: "create"; uri: string }
+    | { textDocument: { uri: string; version: number | null }; edits: TextEdit[] }
+  )[];
+  changes?: Record<string, TextEdit[]>;
+}
+
+interface Document extends Kept {
+  /** The last version that the room has written. */
+  written: number;
+  /** The text of that version. */
+  base: string;
+  failed: string | null;
+}
+
+/** Who brought a change about, so that it is not told what it knows. */
+export type Maker = "text" | "outside" | "page";
+
+const documents = signal<ReadonlyMap<string, Document>>(new Map());
+const opening = new Map<string, Promise<void>>();
+const takers = new Set<(uri: string, changes: Change[], maker: Maker) => void>();
+
+/** The address of the plan file that is shown; empty without one. */
+export const current = signal("");
+
+/** What the server says of the texts: all written, being written, or why one is not. */
+export const saved = computed<"saved" | "saving" | (string & {})>(() => {
+  const all = [...documents.value.values()];
+  const failed = all.find((each) => each.failed !== null);
+  if (failed) return failed.failed!;
+  return all.every((each) => each.written >= each.version) ? "saved" : "saving";
+});
+
+export const text = (uri: string): string => documents.value.get(uri)?.text ?? "";
+export const version = (uri: string): number => documents.value.get(uri)?.version ?? 0;
+export const isOpen = (uri: string): boolean => documents.value.has(uri);
+/** What people call a document: its path from the root of the folder. */
+export const nameOf = (uri: string): string =>
+  files.value.find((file) => file.uri === uri)?.name ?? decodeURIComponent(uri.split("/").at(-1) ?? uri);
+
+/** Hears of every change of a text, after it was made; the answer ends that. */
+export function onText(take: (uri: string, changes: Change[], maker: Maker) => void): () => void {
+  takers.add(take);
+  return () => takers.delete(take);
+}
+
+const put = (document: Document): void => {
+  documents.value = new Map(documents.value).set(document.uri, document);
+};
+
+/** Opens a document, unless it is open. A file that is not there yet is empty. */
+export function open(uri: string): Promise<void> {
+  const before = opening.get(uri);
+  if (before) return before;
+  const read = lsp().request<Kept>("afp/read", { uri }).then(take);
+  opening.set(uri, read);
+  read.catch(() => opening.delete(uri));
+  return read;
+}
+
+/** Makes a file that is not there yet, and opens it. */
+export async function create(what: { uri: string; text: string } | { uri: string; example: string }): Promise<void> {
+  take(await lsp().request<Kept>("afp/create", what));
+  opening.set(what.uri, Promise.resolve());
+}
+
+function take(kept: Kept): void {
+  put({ ...kept, written: kept.version, base: kept.text, failed: null });
+  const { uri, version, text } = kept;
+  lsp().notify("textDocument/didOpen", { textDocument: { uri, languageId: "afp", version, text } });
+}
+
+/** Makes changes one after the other, tells the server and everybody who shows a text. */
+function make(changes: Change[], maker: Maker = "page"): Step[] {
+  const steps: Step[] = [];
+  const told = new Map<string, { range: Range; text: string }[]>();
+  for (const { uri, from, to, insert } of changes) {
+    const document = documents.peek().get(uri);
+    if (!document) continue;
+    const before = document.text;
+    const range = { start: position(before, from), end: position(before, to) };
+    told.set(uri, [...(told.get(uri) ?? []), { range, text: insert }]);
+    put({ ...document, text: before.slice(0, from) + insert + before.slice(to) });
+    steps.push({ uri, from, removed: before.slice(from, to), inserted: insert });
+  }
+  for (const [uri, contentChanges] of told) {
+    const document = documents.peek().get(uri)!;
+    if (maker !== "outside") {
+      put({ ...document, version: document.version + 1 });
+      lsp().notify("textDocument/didChange", { textDocument: { uri, version: document.version + 1 }, contentChanges });
+    }
+    const own = changes.filter((change) => change.uri === uri);
+    takers.forEach((take) => take(uri, own, maker));
+  }
+  return steps;
+}
+
+/** Makes an edit of the server as one entry of the history. Throws where it was made for another version. */
+export async function apply(edit: WorkspaceEdit, label: string, chosen?: Part[]): Promise<void> {
+  if (!pen.value) throw new Refused(0, words.watching);
+  const listed = edit.documentChanges ?? Object.entries(edit.changes ?? {}).map(edited);
+  const uris = listed.map((each) => ("kind" in each ? each.uri : each.textDocument.uri));
+  await Promise.all(uris.map(open));
+  const changes: Change[] = [];
+  for (const each of listed) {
+    if ("kind" in each) continue;
+    const { uri, version: wanted } = each.textDocument;
+    if (wanted !== null && wanted !== version(uri)) throw new Stale();
+    changes.push(...inOrder(uri, text(uri), each.edits));
+  }
+  push({ label, changes, ...(chosen ? { select: chosen } : {}) });
+}
+
+const edited = ([uri, edits]: [string, TextEdit[]]) => ({ textDocument: { uri, version: null }, edits });
+
+/** An edit is for a text that has changed meanwhile: it is to be asked for again. */
+export class Stale extends Error {}
+
+/** Asks for an edit and makes it, again where the text has changed meanwhile. */
+export async function change(ask: () => Promise<{ edit: WorkspaceEdit; label: string; select?: Part[] } | null>): Promise<void> {
+  for (let attempt = 0; attempt < 4; attempt++) {
+    const found = await ask();
+    if (!found) return;
+    try {
+      return await apply(found.edit, found.label, found.select);
+    } catch (why) {
+      if (!(why instanceof Stale)) throw why;
+    }
+  }
+}
+
+/** Edits of one text, all for the text as it is, as changes to be made one after the other. */
+export function inOrder(uri: string, text: string, edits: TextEdit[]): Change[] {
+  const changes = edits.map(({ range, newText }) => ({ uri, from: offset(text, range.start), to: offset(text, range.end), insert: newText }));
+  // From the end, so that none moves another; of two at one place the later one first.
+  return changes.map((change, at) => ({ change, at })).sort((a, b) => b.change.from - a.change.from || b.at - a.at).map(({ change }) => change);
+}
+
+/** Takes over what was typed in the text pane. Changes are made one after the other. */
+export function typed(changes: Change[]): void {
+  const steps = make(changes, "text");
+  const label = steps.every((step) => step.inserted === "") ? words.deleting : words.typing;
+  record({ label, steps, ...(steps.length === 1 ? { typed: Date.now() } : {}) });
+}
+
+/** The one change between two texts: what both begin and end with is left out. */
+export function difference(uri: string, before: string, after: string): Change[] {
+  if (before === after) return [];
+  let from = 0;
+  while (from < before.length && from < after.length && before[from] === after[from]) from++;
+  let [to, end] = [before.length, after.length];
+  while (to > from && end > from && before[to - 1] === after[end - 1]) [to, end] = [to - 1, end - 1];
+  return [{ uri, from, to, insert: after.slice(from, end) }];
+}
+
+/** Connects texts, history and server, with no text open; `ask` puts a question with choices and gives the chosen one. */
+export function begin(ask: (title: string, body: string, choices: string[]) => Promise<string | null>): void {
+  documents.value = new Map();
+  opening.clear();
+  attach({
+    make,
+    select: (parts) => select(parts, "other"),
+    agree: async (label) => (await ask(words.undoForeign, words.undoForeignBody(label), [words.undoIt])) === words.undoIt,
+  });
+  lsp().on("afp/saved", ({ uri, version, failed }) => {
+    const document = documents.peek().get(uri);
+    if (!document) return;
+    const base = version === document.version ? document.text : document.base;
+    put(failed ? { ...document, failed } : { ...document, written: Math.max(document.written, version), base, failed: null });
+  });
+  lsp().on("afp/changed", (params: { uri: string; text: string; clean: boolean; version?: number }) => {
+    if (!documents.peek().has(params.uri)) return;
+    if (params.clean) arrived(params.uri, params.text, params.version);
+    else void settle(params.uri, params.text, params.version);
+  });
+  settle = async (uri, theirs, version) => {
+    const name = nameOf(uri);
+    const keeps = (await ask(words.conflict(name), words.conflictBody, [words.theirs, words.mine])) === words.mine;
+    const mine = text(uri);
+    arrived(uri, theirs, version);
+    if (keeps) push({ label: words.mine, changes: difference(uri, theirs, mine) });
+  };
+}
+
+/** Asks which of two texts is to stay. */
+let settle = async (_uri: string, _theirs: string, _version?: number): Promise<void> => {};
+
+/** A text that the server has already. */
+function arrived(uri: string, now: string, given?: number): void {
+  const document = documents.peek().get(uri)!;
+  const changes = difference(uri, document.text, now);
+  const steps = make(changes, "outside");
+  record({ label: words.changedOutside(nameOf(uri)), steps, foreign: true });
+  const version = given ?? document.version;
+  put({ ...documents.peek().get(uri)!, version, written: version, base: now, failed: null });
+}
+
+/** On a new connection: opens everything again, and sends what the server was not told. */
+export async function again(first: Lsp): Promise<void> {
+  for (const { uri, text: mine, base } of [...documents.peek().values()]) {
+    const kept = await first.request<Kept>("afp/read", { uri });
+    const { version, text } = kept;
+    first.notify("textDocument/didOpen", { textDocument: { uri, languageId: "afp", version, text } });
+    put({ ...documents.peek().get(uri)!, ...kept, text: mine, written: version, base: text, failed: null });
+    if (text === mine) continue;
+    if (mine === base) arrived(uri, text, version);
+    else if (text !== base) void settle(uri, text, version);
+    else {
+      first.notify("textDocument/didChange", { textDocument: { uri, version: version + 1 }, contentChanges: [{ text: mine }] });
+      put({ ...documents.peek().get(uri)!, version: version + 1 });
+    }
+  }
+}

@@ -1,0 +1,131 @@
+// The one history of the page: typing, drawing, places, fixes and changes from outside are entries of one list.
+// The functions above `push` are pure: `(log, ...) -> log`.
+import { computed, signal } from "@preact/signals";
+import type { Part } from "./selection";
+
+/** Puts `insert` where `from..to` of a text stands. Those of a list are made one after the other. */
+export interface Change {
+  uri: string;
+  from: number;
+  to: number;
+  insert: string;
+}
+
+/** A change that was made, with what it took away. */
+export interface Step {
+  uri: string;
+  from: number;
+  removed: string;
+  inserted: string;
+}
+
+export interface Entry {
+  label: string;
+  steps: Step[];
+  select?: Part[];
+  /** Made by another program or person: undoing it asks first. */
+  foreign?: boolean;
+  /** When it was typed, in milliseconds: what is typed soon afterwards beside it joins it. */
+  typed?: number;
+}
+
+export interface Log {
+  past: readonly Entry[];
+  future: readonly Entry[];
+}
+
+export const EMPTY: Log = { past: [], future: [] };
+
+/** Entries that are kept; the oldest go. */
+const MOST = 2000;
+/** A pause in typing that begins a new entry, in milliseconds. */
+const PAUSE = 700;
+
+export const forward = (steps: Step[]): Change[] =>
+  steps.map(({ uri, from, removed, inserted }) => ({ uri, from, to: from + removed.length, insert: inserted }));
+
+export const backward = (steps: Step[]): Change[] =>
+  steps.map(({ uri, from, removed, inserted }) => ({ uri, from, to: from + inserted.length, insert: removed })).reverse();
+
+/** A log with one more entry, joined to the last one where both are typing at one place. */
+export function recorded(log: Log, entry: Entry): Log {
+  const last = log.past.at(-1);
+  if (last && log.future.length === 0 && joins(last, entry)) {
+    const joined = { ...last, steps: [...last.steps, ...entry.steps], typed: entry.typed! };
+    return { past: [...log.past.slice(0, -1), joined], future: [] };
+  }
+  return { past: [...log.past, entry].slice(-MOST), future: [] };
+}
+
+function joins(last: Entry, next: Entry): boolean {
+  const [before, after] = [last.steps.at(-1), next.steps[0]];
+  if (last.typed === undefined || next.typed === undefined || next.typed - last.typed > PAUSE) return false;
+  if (!before || !after || next.steps.length !== 1 || before.uri !== after.uri) return false;
+  // A new line is a new thought.
+  if (after.inserted.includes("\n") || before.inserted.endsWith("\n")) return false;
+  const end = before.from + before.inserted.length;
+  return after.from === end || after.from + after.removed.length === end;
+}
+
+/** The log without its last entry, and that entry; null where there is none. */
+export function stepBack(log: Log): [Log, Entry] | null {
+  const entry = log.past.at(-1);
+  return entry ? [{ past: log.past.slice(0, -1), future: [...log.future, entry] }, entry] : null;
+}
+
+export function stepForth(log: Log): [Log, Entry] | null {
+  const entry = log.future.at(-1);
+  return entry ? [{ past: [...log.past, entry], future: log.future.slice(0, -1) }, entry] : null;
+}
+
+const log = signal<Log>(EMPTY);
+export const undoLabel = computed(() => log.value.past.at(-1)?.label ?? null);
+export const redoLabel = computed(() => log.value.future.at(-1)?.label ?? null);
+
+interface Hands {
+  /** Makes changes of the texts, and says what they took away. */
+  make(changes: Change[]): Step[];
+  select(parts: Part[]): void;
+  /** Whether a change of others is to be undone. */
+  agree(label: string): Promise<boolean>;
+}
+let hands: Hands | null = null;
+
+/** Says who makes changes and selects: `documents.ts`, or a test. The history begins anew. */
+export function attach(own: Hands): void {
+  hands = own;
+  log.value = EMPTY;
+}
+
+/** Makes changes and records them as one entry. */
+export function push(entry: { label: string; changes: Change[]; select?: Part[]; foreign?: boolean; typed?: number }): void {
+  const { changes, ...rest } = entry;
+  const steps = hands?.make(changes) ?? [];
+  if (steps.length) log.value = recorded(log.value, { ...rest, steps });
+  if (rest.select) hands?.select(rest.select);
+}
+
+/** Records what has been made already: the text pane shows letters before anybody else knows of them. */
+export function record(entry: Entry): void {
+  if (entry.steps.length) log.value = recorded(log.value, entry);
+}
+
+async function move(step: typeof stepBack, changes: typeof backward): Promise<void> {
+  const next = step(log.value);
+  if (!next || !hands) return;
+  const before = log.value;
+  if (next[1].foreign && !(await hands.agree(next[1].label))) return;
+  // While somebody thought about it, something else may have happened.
+  if (log.value !== before) return;
+  log.value = next[0];
+  hands.make(changes(next[1].steps));
+  if (next[1].select) hands.select(next[1].select);
+}
+
+export const undo = (): Promise<void> => move(stepBack, backward);
+export const redo = (): Promise<void> => move(stepForth, forward);
+
+/** Forgets everything: who takes the pen begins anew. */
+export function clear(): void {
+  log.value = EMPTY;
+}

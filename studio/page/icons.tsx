@@ -1,0 +1,34 @@
+// The signs of the page's buttons: lines of one width in a square of 16.
+
+const PATHS = {
+  menu: "M2.5 4h11M2.5 8h11M2.5 12h11",
+  undo: "M6.5 3 3 6.5 6.5 10M3 6.5h6.2a3.8 3.8 0 0 1 0 7.6H7",
+  redo: "M9.5 3 13 6.5 9.5 10M13 6.5H6.8a3.8 3.8 0 0 0 0 7.6H9",
+  close: "M4 4l8 8M12 4l-8 8",
+  search: "M7 2.5a4.5 4.5 0 1 0 0 9 4.5 4.5 0 0 0 0-9zM10.3 10.3l3.4 3.4",
+  down: "M4 6.2 8 10.2 12 6.2",
+  check: "M3 8.5l3.2 3.2L13 4.8",
+  file: "M4 1.8h5L12.5 5v9.2H4zM9 1.8V5h3.5",
+  plus: "M8 3v10M3 8h10",
+  palette: "M2.5 2.5h4.5V7H2.5zM9 2.5h4.5V7H9zM2.5 9h4.5v4.5H2.5zM9 9h4.5v4.5H9z",
+  drawing: "M2 2.5h6v4H2zM8 9.5h6v4H8zM5 6.5v5h3",
+  inspector: "M2.5 4.5h6M11.5 4.5h2M2.5 11.5h2M7.5 11.5h6M8.5 2.5v4M4.5 9.5v4",
+  text: "M2.5 3.5h7M2.5 6.5h11M2.5 9.5h9M2.5 12.5h5",
+  problems: "M8 2 14.5 13.5h-13zM8 6.5v3.2M8 11.6v.1",
+};
+
+export type Icon = keyof typeof PATHS;
+
+export const Sign = ({ name }: { name: Icon }) => (
+  <svg class="sign" viewBox="0 0 16 16" width="16" height="16" aria-hidden="true">
+    <path d={PATHS[name]} />
+  </svg>
+);
+
+/** The sign of a severity: an octagon, a triangle, a circle; never colour alone. */
+export const Severity = ({ of }: { of: "error" | "warning" | "note" }) => (
+  <svg class={`severity ${of}`} viewBox="0 0 16 16" width="14" height="14" aria-hidden="true">
+    <path d={of === "error" ? "M5.2 1h5.6L15 5.2v5.6L10.8 15H5.2L1 10.8V5.2z" : of === "warning" ? "M8 1.2 15.4 14.4H.6z" : "M8 1a7 7 0 1 0 0 14A7 7 0 0 0 8 1z"} />
+    <path class="mark" d={of === "warning" ? "M8 5.8v4.2M8 12v.1" : "M8 4.4v4.4M8 11.2v.1"} />
+  </svg>
+);

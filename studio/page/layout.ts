@@ -1,0 +1,45 @@
+// Which panes are open, and how wide they are; remembered by the browser.
+import { effect, signal } from "@preact/signals";
+
+export type Right = "inspector" | "text";
+export type Narrow = "palette" | "drawing" | Right | "problems";
+
+export const palette = signal(true);
+export const right = signal<Right | null>("inspector");
+export const bottom = signal<"problems" | null>(null);
+/** Widths in pixels. */
+export const widths = signal({ inspector: 300, text: 460 });
+/** The pane that is shown where there is room for one alone. */
+export const narrow = signal<Narrow>("drawing");
+
+const KEY = "afp-studio-layout";
+
+/** Takes up what was remembered, and remembers from now on. */
+export function begin(storage: Storage): void {
+  try {
+    const kept = JSON.parse(storage.getItem(KEY) ?? "{}");
+    if (typeof kept.palette === "boolean") palette.value = kept.palette;
+    if (["inspector", "text", null].includes(kept.right)) right.value = kept.right;
+    if (["problems", null].includes(kept.bottom)) bottom.value = kept.bottom;
+    for (const name of ["inspector", "text"] as const) {
+      const width = kept.widths?.[name];
+      if (Number.isFinite(width)) widths.value = { ...widths.value, [name]: clamp(width) };
+    }
+  } catch {
+    // What cannot be read is forgotten.
+  }
+  effect(() => {
+    const kept = { palette: palette.value, right: right.value, bottom: bottom.value, widths: widths.value };
+    storage.setItem(KEY, JSON.stringify(kept));
+  });
+}
+
+export const clamp = (width: number): number => Math.round(Math.min(900, Math.max(220, width)));
+
+/** Shows a pane, wherever it is. */
+export function show(pane: Narrow): void {
+  narrow.value = pane;
+  if (pane === "palette") palette.value = true;
+  else if (pane === "problems") bottom.value = "problems";
+  else if (pane !== "drawing") right.value = pane;
+}

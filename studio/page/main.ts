@@ -1,0 +1,37 @@
+// Begins the page: the connection, then the screen, then what was open.
+import { effect } from "@preact/signals";
+import { h, render } from "preact";
+import { register } from "./actions";
+import { listen } from "./commands";
+import { ask } from "./dialogs";
+import * as documents from "./documents";
+import { follow } from "./drawing/model";
+import * as layout from "./layout";
+import { showFirst } from "./panes/files";
+import * as places from "./places";
+import * as problems from "./problems";
+import { Screen } from "./screen";
+import { begin, hello } from "./session";
+import { words } from "./words";
+
+const scheme = location.protocol === "https:" ? "wss" : "ws";
+begin(`${scheme}://${location.host}/lsp`, documents.again);
+documents.begin(ask);
+problems.begin();
+places.begin();
+follow();
+layout.begin(localStorage);
+register();
+listen(window);
+render(h(Screen, {}), document.getElementById("page")!);
+effect(() => {
+  document.title = words.title(documents.current.value && documents.nameOf(documents.current.value));
+});
+const begun = hello.subscribe((said) => {
+  if (!said) return;
+  // Once `subscribe` has given what ends it.
+  queueMicrotask(() => {
+    begun();
+    void showFirst();
+  });
+});

@@ -1,0 +1,126 @@
+// The files of the folder: opened, begun, copied from examples; and what is shown while there is none.
+import { signal } from "@preact/signals";
+import { create, current, isOpen, open } from "../documents";
+import { askLine } from "../dialogs";
+import { Sign } from "../icons";
+import { files, hello } from "../session";
+import { planText, words } from "../words";
+
+/** What went wrong last, as a sentence; shown until it is closed. */
+export const trouble = signal<string | null>(null);
+export const report = (why: unknown): void => {
+  console.error(why);
+  trouble.value = why instanceof Error ? why.message : String(why);
+};
+
+const plans = () => files.value.filter(({ name }) => name.endsWith(".afp"));
+const KEY = "afp-studio-open";
+
+export async function show(uri: string): Promise<void> {
+  try {
+    if (!isOpen(uri)) await open(uri);
+    current.value = uri;
+    sessionStorage.setItem(KEY, uri);
+  } catch (why) {
+    report(why);
+  }
+}
+
+/** Opens what was asked for, else what was open before, else the only plan or the first one. */
+export async function showFirst(): Promise<void> {
+  const before = sessionStorage.getItem(KEY);
+  const known = plans().some(({ uri }) => uri === before) ? before : null;
+  const first = hello.value?.open ?? known ?? plans()[0]?.uri;
+  if (first) await show(first);
+}
+
+const uriOf = (name: string): string => `${hello.value!.root.replace(/\/$/, "")}/${name.split("/").map(encodeURIComponent).join("/")}`;
+const isTaken = (name: string): boolean => files.value.some((file) => file.name === name);
+const free = (name: string, ending: string): string => {
+  let [own, number] = [name + ending, 1];
+  while (isTaken(own)) own = `${name}_${++number}${ending}`;
+  return own;
+};
+const planName = (name: string): string => name.replace(/(^|_)([a-z0-9])/g, (_, __, letter: string) => letter.toUpperCase());
+
+async function make(name: string, what: { text: string } | { example: string }): Promise<void> {
+  try {
+    const uri = uriOf(name);
+    await create({ uri, ...what });
+    await show(uri);
+  } catch (why) {
+    report(why);
+  }
+}
+
+export const makeFirst = (): Promise<void> => make(free("plan", ".afp"), { text: planText("Plan") });
+export const makeExample = (name: string): Promise<void> => make(free(name, ".afp"), { example: name });
+
+export async function makeNew(): Promise<void> {
+  const wrong = (name: string) =>
+    !/^[A-Za-z][A-Za-z0-9_]*$/.test(name) ? words.nameWrong : isTaken(`${name}.afp`) ? words.nameTaken(`${name}.afp`) : null;
+  const name = await askLine(words.newPlanName, words.newPlanHint, free("plan", "").replace(/\.afp$/, ""), words.create, wrong);
+  if (name) await make(`${name}.afp`, { text: planText(planName(name)) });
+}
+
+/** The menu of files. */
+export function Files({ done }: { done: () => void }) {
+  const pick = (run: () => unknown) => () => {
+    done();
+    run();
+  };
+  return (
+    <div class="menu" role="menu" aria-label={words.menu}>
+      {plans().length > 0 && <p class="group" role="presentation">{words.files}</p>}
+      {plans().map(({ uri, name }) => (
+        <button role="menuitemradio" aria-checked={uri === current.value} onClick={pick(() => show(uri))} key={uri}>
+          <Sign name={uri === current.value ? "check" : "file"} />
+          {name}
+        </button>
+      ))}
+      <hr role="presentation" />
+      <button role="menuitem" onClick={pick(makeNew)}>
+        <Sign name="plus" />
+        {words.newPlan}
+      </button>
+      <p class="group" role="presentation">{words.examples}</p>
+      {hello.value?.examples.map(({ name, title }) => (
+        <button role="menuitem" onClick={pick(() => makeExample(name))} key={name}>
+          <Sign name="drawing" />
+          {title}
+        </button>
+      ))}
+    </div>
+  );
+}
+
+/** What stands in place of the drawing while the folder has no plan. */
+export function Welcome() {
+  const folder = decodeURIComponent(hello.value?.root.replace(/\/$/, "").split("/").at(-1) ?? "");
+  const examples = hello.value?.examples ?? [];
+  return (
+    <div class="welcome">
+      <h1>{words.welcome(folder)}</h1>
+      <p>{words.welcomeBody}</p>
+      <div class="cards">
+        <button class="card main" onClick={makeFirst}>
+          <strong>{words.firstPlan}</strong>
+          <span>{words.firstPlanBody}</span>
+        </button>
+        <button class="card" onClick={makeNew}>
+          <strong>{words.emptyPlan}</strong>
+          <span>{words.emptyPlanBody}</span>
+        </button>
+      </div>
+      {examples.length > 0 && <h2>{words.examples}</h2>}
+      {examples.length > 0 && <p>{words.examplesBody}</p>}
+      <div class="cards">
+        {examples.map(({ name, title }) => (
+          <button class="card" onClick={() => makeExample(name)} key={name}>
+            <strong>{title}</strong>
+          </button>
+        ))}
+      </div>
+    </div>
+  );
+}

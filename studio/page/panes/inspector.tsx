@@ -1,0 +1,4 @@
+// What is selected.
+import { words } from "../words";
+
+export const Inspector = () => <p class="empty">{words.comingInspector}</p>;

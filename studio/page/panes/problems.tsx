@@ -1,0 +1,46 @@
+// What is wrong: a click selects it, a fix is made by a click.
+import { useEffect } from "preact/hooks";
+import { Severity } from "../icons";
+import { current } from "../documents";
+import { fixes, mend, problems, said, severityOf, wanted, type Diagnostic } from "../problems";
+import { reveal } from "../places";
+import { words } from "../words";
+
+export function Problems() {
+  useEffect(() => {
+    wanted.value = true;
+    return () => {
+      wanted.value = false;
+    };
+  }, []);
+  if (problems.value.length === 0) return <p class="empty">{words.noProblems}</p>;
+  return (
+    <ul class="problems">
+      {problems.value.map((each, at) => (
+        <Problem of={each} key={`${at} ${each.code} ${each.message}`} />
+      ))}
+    </ul>
+  );
+}
+
+function Problem({ of }: { of: Diagnostic }) {
+  const severity = severityOf(of);
+  const { message, help } = said(of);
+  const { line, character } = of.range.start;
+  return (
+    <li>
+      <button class="row" onClick={() => reveal(current.value, of.range, "other")}>
+        <Severity of={severity} />
+        <span class="said">
+          <span class="hidden">{words.severity[severity]}: </span>
+          {message}
+          {help && <span class="help">{help}</span>}
+        </span>
+        <span class="place">{`${of.code ?? ""} ${line + 1}:${character + 1}`}</span>
+      </button>
+      {fixes.value.get(of)?.map((fix) => (
+        <button class="fix" onClick={() => void mend(fix)} key={fix.title}>{words.fix(fix.title)}</button>
+      ))}
+    </li>
+  );
+}

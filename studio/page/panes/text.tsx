@@ -1,0 +1,2 @@
+// The text of the plan.
+export const TextPane = () => <p class="empty" />;

@@ -1,0 +1,50 @@
+// Places of the text and items of the plan, each found by the other, so that cursor and selection go together.
+import { effect, signal } from "@preact/signals";
+import { current, isOpen, open } from "./documents";
+import type { Position, Range } from "./positions";
+import { lsp } from "./session";
+import { origin, select, selected, type Origin, type Part } from "./selection";
+
+/** Where the text pane shall put its cursor: set by whoever selects elsewhere, taken by the pane. */
+export const shown = signal<{ uri: string; range: Range; focus: boolean } | null>(null);
+
+/** The item at a place of the text. */
+export const itemAt = (uri: string, position: Position): Promise<Part | null> =>
+  lsp().request<Part | null>("afp/itemAt", { textDocument: { uri }, position });
+
+/** The place of an item, or of a part of it. */
+export const spanOf = (uri: string, { item, part }: Part): Promise<Range | null> =>
+  lsp().request<Range | null>("afp/spanOf", { textDocument: { uri }, item, ...(part ? { part } : {}) });
+
+/** Shows a place in the text, and its item in the drawing. */
+export async function reveal(uri: string, range: Range, from: Origin, focus = false): Promise<void> {
+  if (!isOpen(uri)) await open(uri);
+  if (uri.endsWith(".afp")) current.value = uri;
+  shown.value = { uri, range, focus };
+  const found = await itemAt(uri, range.start).catch(() => null);
+  if (found) select([found], from);
+}
+
+/** The cursor of the text was moved by a person: the selection follows, once it rests. */
+let resting: ReturnType<typeof setTimeout>;
+export function cursorAt(uri: string, position: Position): void {
+  clearTimeout(resting);
+  resting = setTimeout(async () => {
+    const found = await itemAt(uri, position).catch(() => null);
+    if (found && current.peek() === uri) select([found], "text");
+  }, 80);
+}
+
+/** Begins to move the cursor where something is selected in the drawing. */
+export function begin(): void {
+  effect(() => {
+    const last = selected.value.at(-1);
+    const uri = current.peek();
+    if (!last || origin.peek() === "text" || !uri) return;
+    spanOf(uri, last)
+      .then((range) => {
+        if (range && selected.peek().at(-1) === last) shown.value = { uri, range, focus: false };
+      })
+      .catch(() => {});
+  });
+}

@@ -1,0 +1,79 @@
+// What the server says is wrong with each text, and the fixes that it has.
+import { computed, effect, signal } from "@preact/signals";
+import { apply, current, type WorkspaceEdit } from "./documents";
+import type { Range } from "./positions";
+import { lsp } from "./session";
+
+export type Severity = "error" | "warning" | "note";
+
+export interface Diagnostic {
+  range: Range;
+  severity?: number;
+  code?: string;
+  message: string;
+  relatedInformation?: { location: { uri: string; range: Range }; message: string }[];
+}
+
+export interface Action {
+  title: string;
+  kind?: string;
+  isPreferred?: boolean;
+  diagnostics?: Diagnostic[];
+  edit: WorkspaceEdit;
+}
+
+export const diagnostics = signal<ReadonlyMap<string, { version: number | null; list: Diagnostic[] }>>(new Map());
+/** The problems of the file that is shown, errors first, then as they stand in the text. */
+export const problems = computed(() => {
+  const list = diagnostics.value.get(current.value)?.list ?? [];
+  const place = (each: Diagnostic) => each.range.start.line * 1e5 + each.range.start.character;
+  return [...list].sort((a, b) => (a.severity ?? 1) - (b.severity ?? 1) || place(a) - place(b));
+});
+export const number = (severity: Severity): number => problems.value.filter((each) => severityOf(each) === severity).length;
+export const severityOf = ({ severity }: Diagnostic): Severity => (severity === 2 ? "warning" : (severity ?? 1) > 2 ? "note" : "error");
+
+/** What a message says, and its help below. */
+export function said({ message }: Diagnostic): { message: string; help: string | null } {
+  const [first, ...rest] = message.split("\nhelp: ");
+  return { message: first!, help: rest.length ? rest.join("\n") : null };
+}
+
+/** Everything that can be done at a place. */
+export const actionsAt = async (uri: string, range: Range, list: Diagnostic[], only?: string[]): Promise<Action[]> =>
+  (await lsp().request<Action[] | null>("textDocument/codeAction", {
+    textDocument: { uri },
+    range,
+    context: { diagnostics: list, ...(only ? { only } : {}) },
+  })) ?? [];
+
+/** The fixes of a problem. */
+export async function fixesOf(uri: string, problem: Diagnostic): Promise<Action[]> {
+  const all = await actionsAt(uri, problem.range, [problem], ["quickfix"]);
+  return all.filter((each) => each.diagnostics?.some((mended) => mended.code === problem.code && samePlace(mended.range, problem.range)));
+}
+
+const samePlace = (a: Range, b: Range): boolean => JSON.stringify(a) === JSON.stringify(b);
+
+/** Makes a fix as one entry of the history. */
+export const mend = (action: Action): Promise<void> => apply(action.edit, action.title);
+
+/** The fixes of the problems that are shown, by their place in the list; asked for while `wanted`. */
+export const fixes = signal<ReadonlyMap<Diagnostic, Action[]>>(new Map());
+export const wanted = signal(false);
+
+/** Begins to hear what is wrong. */
+export function begin(): void {
+  lsp().on("textDocument/publishDiagnostics", ({ uri, version, diagnostics: list }) => {
+    diagnostics.value = new Map(diagnostics.peek()).set(uri, { version: version ?? null, list });
+  });
+  let timer: ReturnType<typeof setTimeout>;
+  effect(() => {
+    const [list, uri] = [problems.value.slice(0, 40), current.value];
+    clearTimeout(timer);
+    if (!wanted.value || !list.length) return;
+    timer = setTimeout(async () => {
+      const all = await Promise.all(list.map((each) => fixesOf(uri, each).catch(() => [])));
+      if (problems.peek()[0] === list[0]) fixes.value = new Map(list.map((each, at) => [each, all[at]!]));
+    }, 200);
+  });
+}

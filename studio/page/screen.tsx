@@ -1,0 +1,168 @@
+// The screen: bar, palette, drawing, panes at the right and below, each where studio and browser window have room.
+import { useEffect, useRef } from "preact/hooks";
+import { Bar, Tool } from "./bar";
+import { Dialogs } from "./dialogs";
+import { current } from "./documents";
+import { mountCanvas } from "./drawing/canvas";
+import { Finder } from "./finder";
+import { Sign } from "./icons";
+import { bottom, clamp, narrow, palette, right, show, widths, type Narrow, type Right } from "./layout";
+import { trouble, Welcome } from "./panes/files";
+import { Inspector } from "./panes/inspector";
+import { Palette } from "./panes/palette";
+import { Problems } from "./panes/problems";
+import { TextPane } from "./panes/text";
+import { hello, lsp, pen } from "./session";
+import { words } from "./words";
+
+export function Screen() {
+  if (!hello.value) return <p class="connecting" role="status">{words.connecting}</p>;
+  return (
+    <div class="studio" data-narrow={narrow.value}>
+      <Bar />
+      <Banners />
+      <main class="middle">
+        {palette.value && <Side />}
+        <Centre />
+        <RightPane />
+      </main>
+      <Bottom />
+      <NarrowBar />
+      <Dialogs />
+      <Finder />
+    </div>
+  );
+}
+
+function Banners() {
+  return (
+    <div class="banners" role="status">
+      {!lsp().open.value && <p class="banner warning">{words.offline}</p>}
+      {!pen.value && (
+        <p class="banner">
+          {words.watching} <button onClick={() => void lsp().request("afp/pen", { take: true })}>{words.takePen}</button>
+        </p>
+      )}
+      {trouble.value && (
+        <p class="banner error">
+          {trouble.value} <Tool icon="close" label={words.close(words.problems)} run={() => (trouble.value = null)} />
+        </p>
+      )}
+    </div>
+  );
+}
+
+const Side = () => (
+  <section class="pane palette" data-pane="palette" data-when="palette" aria-label={words.palette}>
+    <header>
+      <h2>{words.palette}</h2>
+      <Tool icon="close" label={words.close(words.palette)} run={() => (palette.value = false)} />
+    </header>
+    <div class="body" tabIndex={-1}>{current.value && <Palette />}</div>
+  </section>
+);
+
+function Centre() {
+  return (
+    <section class="pane drawing" data-pane="drawing" data-when="drawing" aria-label={words.drawing}>
+      {current.value ? <Canvas /> : <Welcome />}
+      {!palette.value && (
+        <button class="opener" onClick={() => (palette.value = true)} aria-label={words.open(words.palette)} title={words.open(words.palette)}>
+          <Sign name="palette" />
+        </button>
+      )}
+    </section>
+  );
+}
+
+function Canvas() {
+  const host = useRef<HTMLDivElement>(null);
+  useEffect(() => mountCanvas(host.current!), []);
+  return <div class="canvas" ref={host} />;
+}
+
+const TABS: { name: Right; label: string }[] = [
+  { name: "inspector", label: words.inspector },
+  { name: "text", label: words.text },
+];
+
+function RightPane() {
+  const open = right.value;
+  const toggle = (name: Right): void => (open === name ? void (right.value = null) : show(name));
+  return (
+    <>
+      {open && <Divider of={open} />}
+      {open && (
+        <section class="pane right" data-pane="right" data-when={open} aria-label={open === "text" ? words.text : words.inspector} ref={(node) => { node?.style.setProperty("--width", `${widths.value[open]}px`); }}>
+          <div class="body" tabIndex={-1}>{open === "text" ? <TextPane /> : <Inspector />}</div>
+        </section>
+      )}
+      <nav class="rail" aria-label={words.panes}>
+        {TABS.map(({ name, label }) => (
+          <button aria-pressed={open === name} onClick={() => toggle(name)} key={name}>
+            <Sign name={name} />
+            <span>{label}</span>
+          </button>
+        ))}
+      </nav>
+    </>
+  );
+}
+
+/** The line between drawing and pane: dragged, or moved by arrows. */
+function Divider({ of }: { of: Right }) {
+  const put = (width: number): void => {
+    widths.value = { ...widths.value, [of]: clamp(width) };
+  };
+  const down = (event: PointerEvent & { currentTarget: HTMLElement }): void => {
+    const [start, width] = [event.clientX, widths.value[of]];
+    const line = event.currentTarget;
+    line.setPointerCapture(event.pointerId);
+    line.onpointermove = (moved) => put(width + start - moved.clientX);
+    line.onpointerup = line.onpointercancel = () => {
+      line.onpointermove = null;
+    };
+  };
+  const key = (event: KeyboardEvent): void => {
+    const step = { ArrowLeft: 24, ArrowRight: -24 }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    put(widths.value[of] + step);
+  };
+  return (
+    <div class="divider" role="separator" aria-orientation="vertical" tabIndex={0} aria-label={words.resize(of === "text" ? words.text : words.inspector)}
+      aria-valuenow={widths.value[of]} aria-valuemin={220} aria-valuemax={900} onPointerDown={down} onKeyDown={key} />
+  );
+}
+
+function Bottom() {
+  if (bottom.value !== "problems" && narrow.value !== "problems") return null;
+  return (
+    <section class="pane bottom" data-pane="bottom" data-when="problems" aria-label={words.problems}>
+      <header>
+        <h2>{words.problems}</h2>
+        <Tool icon="close" label={words.close(words.problems)} run={() => { bottom.value = null; narrow.value = "drawing"; }} />
+      </header>
+      <div class="body" tabIndex={-1}><Problems /></div>
+    </section>
+  );
+}
+
+const NARROW: { name: Narrow; label: string }[] = [
+  { name: "palette", label: words.palette },
+  { name: "drawing", label: words.drawing },
+  ...TABS,
+  { name: "problems", label: words.problems },
+];
+
+/** Where there is room for one pane alone: which one. */
+const NarrowBar = () => (
+  <nav class="narrow" aria-label={words.panes}>
+    {NARROW.map(({ name, label }) => (
+      <button aria-pressed={narrow.value === name} onClick={() => show(name)} key={name}>
+        <Sign name={name} />
+        <span>{label}</span>
+      </button>
+    ))}
+  </nav>
+);

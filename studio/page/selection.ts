@@ -1,0 +1,26 @@
+// What is selected: items of the plan, or parts of them. Drawing, text and inspector show the same selection.
+import { signal } from "@preact/signals";
+
+export interface Part {
+  /** The path of an item, as `WallFollowing.followWall`. */
+  item: string;
+  part?: { kind: string; name?: string; nth?: number };
+}
+
+export type Origin = "drawing" | "text" | "other";
+
+/** What is selected; the last one is where the cursor is. */
+export const selected = signal<Part[]>([]);
+/** Who selected it last, and does not need to be told. */
+export const origin = signal<Origin>("other");
+
+export function select(parts: Part[], from: Origin): void {
+  if (same(parts, selected.peek())) return;
+  origin.value = from;
+  selected.value = parts;
+}
+
+const key = ({ item, part }: Part): string => `${item} ${part?.kind ?? "whole"} ${part?.name ?? ""} ${part?.nth ?? 1}`;
+
+const same = (one: Part[], other: Part[]): boolean =>
+  one.length === other.length && one.every((part, at) => key(part) === key(other[at]!));

@@ -1,0 +1,67 @@
+// This page's conversation with the server: who greets, what the folder holds, who changes it.
+import { signal } from "@preact/signals";
+import { connect, type Lsp } from "./lsp";
+
+export interface Kept {
+  uri: string;
+  text: string;
+  version: number;
+  etag: string | null;
+}
+
+export interface Hello {
+  client: number | string;
+  root: string;
+  open: string | null;
+  pen: boolean;
+  documents: Kept[];
+  files: { uri: string; name: string }[];
+  examples: { name: string; title: string }[];
+}
+
+/** What the server said first; null before it did. */
+export const hello = signal<Hello | null>(null);
+/** The files of the folder that can be opened. */
+export const files = signal<{ uri: string; name: string }[]>([]);
+/** Whether this page changes texts, or watches. */
+export const pen = signal(true);
+/** The names of kinds and modifiers in semantic tokens. */
+export const legend = signal<{ tokenTypes: string[]; tokenModifiers: string[] }>({ tokenTypes: [], tokenModifiers: [] });
+
+let connection: Lsp | null = null;
+
+/** The connection. Whoever asks before `begin` has made a mistake. */
+export function lsp(): Lsp {
+  if (!connection) throw new Error("the session has not begun");
+  return connection;
+}
+
+const CAPABILITIES = {
+  general: { positionEncodings: ["utf-16"] },
+  textDocument: { completion: { completionItem: { snippetSupport: true } }, documentSymbol: { hierarchicalDocumentSymbolSupport: true } },
+  workspace: {
+    workspaceEdit: { documentChanges: true, resourceOperations: ["create"] },
+    semanticTokens: { refreshSupport: true },
+    inlayHint: { refreshSupport: true },
+  },
+};
+
+/** Connects to a server and greets it, on each connection anew; `again` runs on each but the first, before others may ask. */
+export function begin(url: string, again: (lsp: Lsp) => Promise<void>, make = connect): Lsp {
+  const greet = async (first: Lsp): Promise<void> => {
+    const said = await first.request<Hello>("afp/hello", {});
+    const begun = hello.value !== null;
+    const params = { processId: null, rootUri: said.root, workspaceFolders: [{ uri: said.root, name: "root" }], capabilities: CAPABILITIES };
+    const { capabilities } = await first.request<any>("initialize", params);
+    first.notify("initialized", {});
+    legend.value = capabilities.semanticTokensProvider?.legend ?? legend.value;
+    files.value = said.files;
+    pen.value = said.pen;
+    hello.value = said;
+    if (begun) await again(first);
+  };
+  connection = make(url, greet);
+  connection.on("afp/files", (params) => (files.value = params.files));
+  connection.on("afp/pen", (params) => (pen.value = params.yours));
+  return connection;
+}

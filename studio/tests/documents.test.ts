@@ -1,0 +1,164 @@
+// Texts, against a server of the test: what it is told gives the same texts, edits are made for their version alone.
+import assert from "node:assert/strict";
+import { beforeEach, test } from "node:test";
+import { apply, begin, change, current, difference, inOrder, onText, open, saved, Stale, text, typed, version } from "../page/documents";
+import { undo, undoLabel } from "../page/history";
+import type { Lsp } from "../page/lsp";
+import { offset, position } from "../page/positions";
+import * as session from "../page/session";
+import { random } from "./random";
+import { signal } from "@preact/signals";
+
+/** A room that keeps texts as the protocol says. */
+class Room {
+  texts = new Map<string, string>();
+  versions = new Map<string, number>();
+  takers = new Map<string, (params: any) => void>();
+  lsp: Lsp = {
+    open: signal(true),
+    on: (method, take) => (this.takers.set(method, take), () => {}),
+    request: async (method, params: any) => {
+      if (method === "afp/read") return { uri: params.uri, text: this.texts.get(params.uri) ?? "", version: 1, etag: null } as any;
+      throw new Error(method);
+    },
+    notify: (method, params: any) => {
+      const { uri, version } = params.textDocument;
+      this.versions.set(uri, version);
+      if (method === "textDocument/didOpen") this.texts.set(uri, params.textDocument.text);
+      for (const { range, text } of params.contentChanges ?? []) {
+        const now = this.texts.get(uri)!;
+        this.texts.set(uri, now.slice(0, offset(now, range.start)) + text + now.slice(offset(now, range.end)));
+      }
+    },
+  };
+  tell = (method: string, params: unknown) => this.takers.get(method)!(params);
+}
+
+let room: Room;
+let answers: string[] = [];
+let number = 0;
+const fresh = () => `file:///w/${++number}.afp`;
+
+beforeEach(() => {
+  room = new Room();
+  answers = [];
+  session.begin("", async () => {}, () => room.lsp);
+  begin(async () => answers.shift() ?? null);
+});
+
+test("random typing, edits and undo: the server has the page's text", async () => {
+  const below = random(7);
+  const uri = fresh();
+  room.texts.set(uri, "use carbot\n\nplan P {\n}\n");
+  await open(uri);
+  const first = text(uri);
+  for (let step = 0; step < 200; step++) {
+    const from = below(text(uri).length + 1);
+    const to = Math.min(text(uri).length, from + below(4));
+    const insert = ["", "a", "\n", "ö😀", "}\n"][below(5)]!;
+    if (below(4) === 0) await undo();
+    else if (below(2)) typed([{ uri, from, to, insert }]);
+    else {
+      const range = { start: position(text(uri), from), end: position(text(uri), to) };
+      await apply({ documentChanges: [{ textDocument: { uri, version: version(uri) }, edits: [{ range, newText: insert }] }] }, "edit");
+    }
+    assert.equal(room.texts.get(uri), text(uri));
+    assert.equal(room.versions.get(uri), version(uri));
+  }
+  while (undoLabel.value) await undo();
+  assert.equal(text(uri), first);
+  assert.equal(room.texts.get(uri), first);
+});
+
+test("edits of one text are made from its end, two at one place in their order", () => {
+  const at = (line: number, character: number) => ({ line, character });
+  const edits = [
+    { range: { start: at(0, 1), end: at(0, 1) }, newText: "1" },
+    { range: { start: at(0, 1), end: at(0, 1) }, newText: "2" },
+    { range: { start: at(0, 0), end: at(0, 1) }, newText: "" },
+    { range: { start: at(1, 0), end: at(1, 1) }, newText: "B" },
+  ];
+  const result = inOrder("u", "ab\nbc", edits).reduce((now, { from, to, insert }) => now.slice(0, from) + insert + now.slice(to), "ab\nbc");
+  assert.equal(result, "12b\nBc");
+});
+
+test("an edit for an older text is asked for again, never made", async () => {
+  const uri = fresh();
+  room.texts.set(uri, "ab");
+  await open(uri);
+  const at = { line: 0, character: 2 };
+  const edit = (own: number) => ({ documentChanges: [{ textDocument: { uri, version: own }, edits: [{ range: { start: at, end: at }, newText: "!" }] }] });
+  const old = version(uri);
+  typed([{ uri, from: 0, to: 0, insert: "x" }]);
+  await assert.rejects(apply(edit(old), "late"), Stale);
+  assert.equal(text(uri), "xab");
+  const asked: number[] = [];
+  await change(async () => {
+    asked.push(version(uri));
+    return { edit: edit(asked.length === 1 ? old : version(uri)), label: "again" };
+  });
+  assert.equal(asked.length, 2);
+  assert.equal(text(uri), "xa!b");
+});
+
+test("saved is what the server says, of the newest version", async () => {
+  const uri = fresh();
+  await open(uri);
+  assert.equal(saved.value, "saved");
+  typed([{ uri, from: 0, to: 0, insert: "a" }]);
+  typed([{ uri, from: 1, to: 1, insert: "b" }]);
+  assert.equal(saved.value, "saving");
+  room.tell("afp/saved", { uri, version: version(uri) - 1, etag: "1" });
+  assert.equal(saved.value, "saving");
+  room.tell("afp/saved", { uri, version: version(uri), failed: "the disk is full" });
+  assert.equal(saved.value, "the disk is full");
+  room.tell("afp/saved", { uri, version: version(uri), etag: "2" });
+  assert.equal(saved.value, "saved");
+});
+
+test("a change of another program arrives, is not told back, and undoing it asks", async () => {
+  const uri = fresh();
+  room.texts.set(uri, "one\ntwo\n");
+  await open(uri);
+  current.value = uri;
+  const heard: string[] = [];
+  const quiet = onText((_, changes, maker) => heard.push(`${maker} ${JSON.stringify(changes.map(({ from, to, insert }) => [from, to, insert]))}`));
+  const before = room.versions.get(uri);
+  room.tell("afp/changed", { uri, text: "one\n2\ntwo\n", clean: true });
+  quiet();
+  assert.deepEqual(heard, ['outside [[4,4,"2\\n"]]']);
+  assert.equal(room.versions.get(uri), before);
+  assert.equal(saved.value, "saved");
+  await undo();
+  assert.equal(text(uri), "one\n2\ntwo\n");
+  answers = ["Undo it"];
+  await undo();
+  assert.equal(text(uri), "one\ntwo\n");
+});
+
+test("of two changes of the same lines one is chosen", async () => {
+  for (const [chosen, stays] of [["Keep mine", "mine"], ["Take theirs", "theirs"], [null, "theirs"]] as const) {
+    const uri = fresh();
+    room.texts.set(uri, "one");
+    await open(uri);
+    typed([{ uri, from: 0, to: 3, insert: "mine" }]);
+    answers = chosen ? [chosen] : [];
+    room.tell("afp/changed", { uri, text: "theirs", clean: false });
+    await new Promise((done) => setTimeout(done));
+    assert.equal(text(uri), stays);
+    // Who kept his own can have theirs by undoing it; theirs is not undone without a question.
+    await undo();
+    assert.equal(text(uri), "theirs");
+  }
+});
+
+test("the difference of two texts is one change", () => {
+  const below = random(3);
+  for (let round = 0; round < 300; round++) {
+    const any = () => Array.from({ length: below(6) }, () => "ab\n"[below(3)]).join("");
+    const [before, after] = [any(), any()];
+    const changes = difference("u", before, after);
+    assert.ok(changes.length <= 1);
+    assert.equal(changes.reduce((now, { from, to, insert }) => now.slice(0, from) + insert + now.slice(to), before), after);
+  }
+});
