@@ -1,6 +1,6 @@
 // The texts of the page: opened from the room, changed in one place, told to the server, said to be saved by it alone.
 import { computed, signal } from "@preact/signals";
-import { attach, push, record, type Change, type Step } from "./history";
+import { attach, clear, push, record, type Change, type Step } from "./history";
 import { Refused, type Lsp } from "./lsp";
 import { offset, position, type Range } from "./positions";
 import { select, type Part } from "./selection";
@@ -85,8 +85,8 @@ function take(kept: Kept): void {
   lsp().notify("textDocument/didOpen", { textDocument: { uri, languageId: "afp", version, text } });
 }
 
-/** Makes changes one after the other, tells the server and everybody who shows a text. */
-function make(changes: Change[], maker: Maker = "page"): Step[] {
+/** Makes changes one after the other, tells everybody who shows a text, and the server unless it knows. */
+function make(changes: Change[], maker: Maker = "page", tell = true): Step[] {
   const steps: Step[] = [];
   const told = new Map<string, { range: Range; text: string }[]>();
   for (const { uri, from, to, insert } of changes) {
@@ -99,10 +99,10 @@ function make(changes: Change[], maker: Maker = "page"): Step[] {
     steps.push({ uri, from, removed: before.slice(from, to), inserted: insert });
   }
   for (const [uri, contentChanges] of told) {
-    const document = documents.peek().get(uri)!;
-    if (maker !== "outside") {
-      put({ ...document, version: document.version + 1 });
-      lsp().notify("textDocument/didChange", { textDocument: { uri, version: document.version + 1 }, contentChanges });
+    if (tell) {
+      const version = documents.peek().get(uri)!.version + 1;
+      put({ ...documents.peek().get(uri)!, version });
+      lsp().notify("textDocument/didChange", { textDocument: { uri, version }, contentChanges });
     }
     const own = changes.filter((change) => change.uri === uri);
     takers.forEach((take) => take(uri, own, maker));
@@ -183,46 +183,65 @@ export function begin(ask: (title: string, body: string, choices: string[]) => P
     const base = version === document.version ? document.text : document.base;
     put(failed ? { ...document, failed } : { ...document, written: Math.max(document.written, version), base, failed: null });
   });
-  lsp().on("afp/changed", (params: { uri: string; text: string; clean: boolean; version?: number }) => {
-    if (!documents.peek().has(params.uri)) return;
-    if (params.clean) arrived(params.uri, params.text, params.version);
-    else void settle(params.uri, params.text, params.version);
+  lsp().on("afp/changed", ({ uri, text: now, clean }: { uri: string; text: string; clean: boolean }) => {
+    if (!documents.peek().has(uri)) return;
+    if (clean) return arrived(uri, now);
+    const choose = (keep: Keep) => lsp().request<void>("afp/choose", { uri, keep });
+    if (pen.value) dispute({ uri, choices: ["mine", "theirs", "both"], choose });
   });
-  settle = async (uri, theirs, version) => {
-    const name = nameOf(uri);
-    const keeps = (await ask(words.conflict(name), words.conflictBody, [words.theirs, words.mine])) === words.mine;
-    const mine = text(uri);
-    arrived(uri, theirs, version);
-    if (keeps) push({ label: words.mine, changes: difference(uri, theirs, mine) });
-  };
+  lsp().on("afp/pen", ({ yours }) => {
+    // Who begins to change things begins a history of his own.
+    if (yours && !pen.peek()) clear();
+    pen.value = yours;
+  });
 }
 
-/** Asks which of two texts is to stay. */
-let settle = async (_uri: string, _theirs: string, _version?: number): Promise<void> => {};
+export type Keep = "mine" | "theirs" | "both";
 
-/** A text that the server has already. */
-function arrived(uri: string, now: string, given?: number): void {
-  const document = documents.peek().get(uri)!;
-  const changes = difference(uri, document.text, now);
-  const steps = make(changes, "outside");
+/** Two changes of the same lines, of which somebody has to choose. */
+export interface Conflict {
+  uri: string;
+  choices: Keep[];
+  choose(keep: Keep): Promise<void>;
+}
+
+export const conflicts = signal<readonly Conflict[]>([]);
+
+function dispute(one: Conflict): void {
+  const settled = () => conflicts.value.filter(({ uri }) => uri !== one.uri);
+  const choose = async (keep: Keep): Promise<void> => {
+    await one.choose(keep);
+    conflicts.value = settled();
+  };
+  conflicts.value = [...settled(), { ...one, choose }];
+}
+
+/** Takes over a text of the room. What was saved here is so still: theirs lies in the file. */
+function arrived(uri: string, now: string, tell = true): void {
+  const { text: before, written, version } = documents.peek().get(uri)!;
+  const steps = make(difference(uri, before, now), "outside", tell);
   record({ label: words.changedOutside(nameOf(uri)), steps, foreign: true });
-  const version = given ?? document.version;
-  put({ ...documents.peek().get(uri)!, version, written: version, base: now, failed: null });
+  const document = documents.peek().get(uri)!;
+  put({ ...document, written: written >= version ? document.version : written, base: now, failed: null });
 }
 
 /** On a new connection: opens everything again, and sends what the server was not told. */
 export async function again(first: Lsp): Promise<void> {
-  for (const { uri, text: mine, base } of [...documents.peek().values()]) {
-    const kept = await first.request<Kept>("afp/read", { uri });
-    const { version, text } = kept;
-    first.notify("textDocument/didOpen", { textDocument: { uri, languageId: "afp", version, text } });
-    put({ ...documents.peek().get(uri)!, ...kept, text: mine, written: version, base: text, failed: null });
-    if (text === mine) continue;
-    if (mine === base) arrived(uri, text, version);
-    else if (text !== base) void settle(uri, text, version);
-    else {
+  for (const uri of documents.peek().keys()) {
+    const { text: theirs, etag } = await first.request<Kept>("afp/read", { uri });
+    const { text: mine, base, version: before } = documents.peek().get(uri)!;
+    const version = before + 1;
+    first.notify("textDocument/didOpen", { textDocument: { uri, languageId: "afp", version, text: theirs } });
+    put({ ...documents.peek().get(uri)!, version, written: version, etag, base: theirs, failed: null });
+    if (theirs === base && mine !== base) {
       first.notify("textDocument/didChange", { textDocument: { uri, version: version + 1 }, contentChanges: [{ text: mine }] });
       put({ ...documents.peek().get(uri)!, version: version + 1 });
+    } else if (theirs !== mine) {
+      arrived(uri, theirs, false);
+      const choose = async (keep: Keep) => {
+        if (keep === "mine") push({ label: words.keep.mine, changes: difference(uri, text(uri), mine) });
+      };
+      if (mine !== base) dispute({ uri, choices: ["mine", "theirs"], choose });
     }
   }
 }

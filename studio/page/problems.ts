@@ -57,9 +57,17 @@ const samePlace = (a: Range, b: Range): boolean => JSON.stringify(a) === JSON.st
 /** Makes a fix as one entry of the history. */
 export const mend = (action: Action): Promise<void> => apply(action.edit, action.title);
 
-/** The fixes of the problems that are shown, by their place in the list; asked for while `wanted`. */
+/** The fixes of the problems that are shown, asked for while somebody shows them. */
 export const fixes = signal<ReadonlyMap<Diagnostic, Action[]>>(new Map());
-export const wanted = signal(false);
+const wanted = signal(0);
+
+/** Asks for fixes until the answer is called. */
+export function askFixes(): () => void {
+  wanted.value = wanted.peek() + 1;
+  return () => {
+    wanted.value = wanted.peek() - 1;
+  };
+}
 
 /** Begins to hear what is wrong. */
 export function begin(): void {

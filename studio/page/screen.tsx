@@ -2,12 +2,12 @@
 import { useEffect, useRef } from "preact/hooks";
 import { Bar, Tool } from "./bar";
 import { Dialogs } from "./dialogs";
-import { current } from "./documents";
+import { conflicts, current, nameOf } from "./documents";
 import { mountCanvas } from "./drawing/canvas";
 import { Finder } from "./finder";
 import { Sign } from "./icons";
 import { bottom, clamp, narrow, palette, right, show, widths, type Narrow, type Right } from "./layout";
-import { trouble, Welcome } from "./panes/files";
+import { report, trouble, Welcome } from "./panes/files";
 import { Inspector } from "./panes/inspector";
 import { Palette } from "./panes/palette";
 import { Problems } from "./panes/problems";
@@ -43,6 +43,14 @@ function Banners() {
           {words.watching} <button onClick={() => void lsp().request("afp/pen", { take: true })}>{words.takePen}</button>
         </p>
       )}
+      {conflicts.value.map(({ uri, choices, choose }) => (
+        <p class="banner warning" key={uri}>
+          {words.conflict(nameOf(uri))}
+          <span class="choices">
+            {choices.map((keep) => <button onClick={() => void choose(keep).catch(report)} key={keep}>{words.keep[keep]}</button>)}
+          </span>
+        </p>
+      ))}
       {trouble.value && (
         <p class="banner error">
           {trouble.value} <Tool icon="close" label={words.close(words.problems)} run={() => (trouble.value = null)} />

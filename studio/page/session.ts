@@ -62,6 +62,5 @@ export function begin(url: string, again: (lsp: Lsp) => Promise<void>, make = co
   };
   connection = make(url, greet);
   connection.on("afp/files", (params) => (files.value = params.files));
-  connection.on("afp/pen", (params) => (pen.value = params.yours));
   return connection;
 }

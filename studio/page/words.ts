@@ -26,10 +26,8 @@ export const words = {
   cancel: "Cancel",
   ok: "OK",
 
-  conflict: (name: string) => `${name} was changed here and by another program`,
-  conflictBody: "Both changed the same lines. Nothing is written until you choose.",
-  mine: "Keep mine",
-  theirs: "Take theirs",
+  conflict: (name: string) => `${name} was changed here and by another program, in the same lines. Nothing of it is written until you choose.`,
+  keep: { mine: "Keep mine", theirs: "Take theirs", both: "Keep both, marked" },
 
   panes: "panes",
   palette: "Palette",
@@ -73,6 +71,8 @@ export const words = {
 
   renameTo: (name: string) => `New name of '${name}'`,
   rename: "Rename",
+  renameInText: "Rename what the cursor is at",
+  renamed: (before: string, after: string) => `rename '${before}' to '${after}'`,
   noRename: "There is nothing to rename here",
   definition: "To the definition",
   noDefinition: "No definition was found",

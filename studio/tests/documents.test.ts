@@ -1,7 +1,7 @@
 // Texts, against a server of the test: what it is told gives the same texts, edits are made for their version alone.
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
-import { apply, begin, change, current, difference, inOrder, onText, open, saved, Stale, text, typed, version } from "../page/documents";
+import { again, apply, begin, change, conflicts, current, difference, inOrder, onText, open, saved, Stale, text, typed, version } from "../page/documents";
 import { undo, undoLabel } from "../page/history";
 import type { Lsp } from "../page/lsp";
 import { offset, position } from "../page/positions";
@@ -13,12 +13,20 @@ import { signal } from "@preact/signals";
 class Room {
   texts = new Map<string, string>();
   versions = new Map<string, number>();
+  /** What was chosen of a conflict, and the text that comes of it. */
+  chosen: unknown;
+  chooses = "";
   takers = new Map<string, (params: any) => void>();
   lsp: Lsp = {
     open: signal(true),
     on: (method, take) => (this.takers.set(method, take), () => {}),
     request: async (method, params: any) => {
       if (method === "afp/read") return { uri: params.uri, text: this.texts.get(params.uri) ?? "", version: 1, etag: null } as any;
+      if (method === "afp/choose") {
+        this.chosen = params;
+        this.tell("afp/changed", { uri: params.uri, text: this.chooses, clean: true });
+        return null as any;
+      }
       throw new Error(method);
     },
     notify: (method, params: any) => {
@@ -27,7 +35,7 @@ class Room {
       if (method === "textDocument/didOpen") this.texts.set(uri, params.textDocument.text);
       for (const { range, text } of params.contentChanges ?? []) {
         const now = this.texts.get(uri)!;
-        this.texts.set(uri, now.slice(0, offset(now, range.start)) + text + now.slice(offset(now, range.end)));
+        this.texts.set(uri, range ? now.slice(0, offset(now, range.start)) + text + now.slice(offset(now, range.end)) : text);
       }
     },
   };
@@ -116,18 +124,17 @@ test("saved is what the server says, of the newest version", async () => {
   assert.equal(saved.value, "saved");
 });
 
-test("a change of another program arrives, is not told back, and undoing it asks", async () => {
+test("a change of another program arrives, and undoing it asks", async () => {
   const uri = fresh();
   room.texts.set(uri, "one\ntwo\n");
   await open(uri);
   current.value = uri;
   const heard: string[] = [];
   const quiet = onText((_, changes, maker) => heard.push(`${maker} ${JSON.stringify(changes.map(({ from, to, insert }) => [from, to, insert]))}`));
-  const before = room.versions.get(uri);
   room.tell("afp/changed", { uri, text: "one\n2\ntwo\n", clean: true });
   quiet();
   assert.deepEqual(heard, ['outside [[4,4,"2\\n"]]']);
-  assert.equal(room.versions.get(uri), before);
+  assert.equal(room.texts.get(uri), text(uri));
   assert.equal(saved.value, "saved");
   await undo();
   assert.equal(text(uri), "one\n2\ntwo\n");
@@ -136,19 +143,58 @@ test("a change of another program arrives, is not told back, and undoing it asks
   assert.equal(text(uri), "one\ntwo\n");
 });
 
-test("of two changes of the same lines one is chosen", async () => {
-  for (const [chosen, stays] of [["Keep mine", "mine"], ["Take theirs", "theirs"], [null, "theirs"]] as const) {
+test("of two changes of the same lines a person chooses; the room does it", async () => {
+  for (const [keep, stays] of [["mine", "mine"], ["theirs", "theirs"], ["both", "mine theirs"]] as const) {
     const uri = fresh();
     room.texts.set(uri, "one");
     await open(uri);
     typed([{ uri, from: 0, to: 3, insert: "mine" }]);
-    answers = chosen ? [chosen] : [];
     room.tell("afp/changed", { uri, text: "theirs", clean: false });
-    await new Promise((done) => setTimeout(done));
+    assert.equal(text(uri), "mine");
+    assert.equal(saved.value, "saving");
+    const [conflict] = conflicts.value.filter((each) => each.uri === uri);
+    room.chooses = stays;
+    await conflict!.choose(keep);
+    assert.deepEqual(room.chosen, { uri, keep });
     assert.equal(text(uri), stays);
-    // Who kept his own can have theirs by undoing it; theirs is not undone without a question.
-    await undo();
-    assert.equal(text(uri), "theirs");
+    assert.equal(room.texts.get(uri), stays);
+    assert.equal(conflicts.value.length, 0);
+    room.tell("afp/saved", { uri, version: version(uri) });
+  }
+});
+
+test("after a lost connection what was not told is sent, and what others did is taken over", async () => {
+  const cases = [
+    // what the page has, what the room has then, what both have at last, whether somebody has to choose
+    ["base", "base", "base", false],
+    ["mine", "base", "mine", false],
+    ["mine", "mine", "mine", false],
+    ["base", "theirs", "theirs", false],
+    ["mine", "theirs", "theirs", true],
+  ] as const;
+  for (const [mine, theirs, last, choice] of cases) {
+    const uri = fresh();
+    room.texts.set(uri, "base");
+    begin(async () => null);
+    await open(uri);
+    room.lsp.open.value = false;
+    const kept = room.lsp.notify;
+    room.lsp.notify = () => {};
+    if (mine !== "base") typed([{ uri, from: 0, to: 4, insert: mine }]);
+    room.texts.set(uri, theirs);
+    room.lsp.notify = kept;
+    room.lsp.open.value = true;
+    await again(room.lsp);
+    assert.equal(text(uri), last, `${mine} ${theirs}`);
+    assert.equal(room.texts.get(uri), last);
+    assert.equal(room.versions.get(uri), version(uri));
+    const conflict = conflicts.value.find((each) => each.uri === uri);
+    assert.equal(conflict !== undefined, choice);
+    if (conflict) {
+      await conflict.choose("mine");
+      assert.equal(text(uri), "mine");
+      assert.equal(room.texts.get(uri), "mine");
+    }
   }
 });
 

@@ -2,17 +2,12 @@
 import { useEffect } from "preact/hooks";
 import { Severity } from "../icons";
 import { current } from "../documents";
-import { fixes, mend, problems, said, severityOf, wanted, type Diagnostic } from "../problems";
+import { askFixes, fixes, mend, problems, said, severityOf, type Diagnostic } from "../problems";
 import { reveal } from "../places";
 import { words } from "../words";
 
 export function Problems() {
-  useEffect(() => {
-    wanted.value = true;
-    return () => {
-      wanted.value = false;
-    };
-  }, []);
+  useEffect(askFixes, []);
   if (problems.value.length === 0) return <p class="empty">{words.noProblems}</p>;
   return (
     <ul class="problems">

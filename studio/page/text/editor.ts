@@ -1,0 +1,159 @@
+// The editor of one text: CodeMirror without its own history, fed by `documents.ts` and feeding it.
+import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
+import { defaultKeymap, indentWithTab } from "@codemirror/commands";
+import { bracketMatching, indentOnInput, indentService, indentUnit } from "@codemirror/language";
+import { setDiagnostics, type Diagnostic as Shown } from "@codemirror/lint";
+import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
+import { Annotation, Compartment, EditorSelection, EditorState, StateEffect, StateField, type ChangeSet, type Extension } from "@codemirror/state";
+import { Decoration, EditorView, drawSelection, highlightActiveLine, highlightSpecialChars, hoverTooltip, keymap, lineNumbers, type DecorationSet } from "@codemirror/view";
+import { effect } from "@preact/signals";
+import { onText, text, typed, version } from "../documents";
+import type { Change } from "../history";
+import { cursorAt, shown } from "../places";
+import { offset, position } from "../positions";
+import { diagnostics, fixes, mend, said, severityOf, type Diagnostic } from "../problems";
+import { pen } from "../session";
+import { words } from "../words";
+import { marks } from "./marks";
+import { completion, hover } from "./sources";
+import { theme } from "./theme";
+
+/** Marks changes that come from `documents.ts`, which is not told of them. */
+const fromPage = Annotation.define<boolean>();
+const highlight = StateEffect.define<{ from: number; to: number } | null>();
+
+/** The place of what is selected in the drawing. */
+const highlighted = StateField.define<DecorationSet>({
+  create: () => Decoration.none,
+  update: (before, transaction) => {
+    const set = transaction.effects.find((each) => each.is(highlight));
+    if (!set) return before.map(transaction.changes);
+    const place = set.value as { from: number; to: number } | null;
+    return place && place.to > place.from ? Decoration.set([Decoration.mark({ class: "cm-shown" }).range(place.from, place.to)]) : Decoration.none;
+  },
+  provide: (field) => EditorView.decorations.from(field),
+});
+
+/** Changes of an editor, to be made one after the other. */
+export function sequence(uri: string, changes: ChangeSet): Change[] {
+  const made: Change[] = [];
+  changes.iterChanges((fromA, toA, fromB, _toB, inserted) => made.push({ uri, from: fromB, to: fromB + toA - fromA, insert: inserted.toString() }), true);
+  return made;
+}
+
+/** Lines inside of braces stand four columns further in. */
+const indentation = indentService.of((context, at) => {
+  const line = context.state.doc.lineAt(at);
+  let [number, before] = [line.number - 1, ""];
+  while (number > 0 && before.trim() === "") before = context.state.doc.line(number--).text;
+  const own = /^\s*/.exec(before)![0].length + (/[{(]\s*$/.test(before) ? 4 : 0);
+  return /^\s*[})]/.test(line.text.slice(at - line.from)) || /^\s*[})]/.test(line.text) ? Math.max(0, own - 4) : own;
+});
+
+const language = EditorState.languageData.of(() => [
+  { commentTokens: { line: "//" }, closeBrackets: { brackets: ["(", "{"] }, indentOnInput: /^\s*[})]$/ },
+]);
+
+const behaviour: Extension = [
+  EditorState.lineSeparator.of("\n"),
+  EditorState.tabSize.of(4),
+  indentUnit.of("    "),
+  indentation,
+  language,
+  lineNumbers(),
+  highlightSpecialChars(),
+  highlightActiveLine(),
+  highlightSelectionMatches(),
+  drawSelection(),
+  bracketMatching(),
+  closeBrackets(),
+  indentOnInput(),
+  search({ top: true }),
+  highlighted,
+  theme,
+  keymap.of([...closeBracketsKeymap, ...completionKeymap, ...searchKeymap, ...defaultKeymap, indentWithTab]),
+  EditorView.contentAttributes.of({ "aria-label": words.text, spellcheck: "false" }),
+];
+
+function problem(now: string, one: Diagnostic): Shown {
+  const { message, help } = said(one);
+  const renderMessage = (): HTMLElement => {
+    const made = document.createElement("span");
+    const code = document.createElement("code");
+    code.textContent = one.code ?? "";
+    made.append(message, " ", code);
+    if (help) made.append(document.createElement("br"), help);
+    return made;
+  };
+  const actions = (fixes.value.get(one) ?? []).map((fix) => ({ name: fix.title, apply: () => void mend(fix) }));
+  const severity = { error: "error", warning: "warning", note: "info" } as const;
+  return { from: offset(now, one.range.start), to: offset(now, one.range.end), severity: severity[severityOf(one)], message, renderMessage, actions };
+}
+
+/** An editor of a text inside of `host`; the answer has its view and what ends it. */
+export function edit(host: HTMLElement, uri: string, nonce: string): { view: EditorView; end: () => void } {
+  const writable = new Compartment();
+  const ability = () => [EditorState.readOnly.of(!pen.value)];
+  let collected: Change[] | null = null;
+  const take = (changes: Change[]): void => (collected ? void collected.push(...changes) : typed(changes));
+  const together = (run: () => void): void => {
+    collected = [];
+    run();
+    const all = collected;
+    collected = null;
+    typed(all);
+  };
+  const heard = EditorView.updateListener.of((update) => {
+    for (const each of update.transactions) if (each.docChanged && !each.annotation(fromPage)) take(sequence(uri, each.changes));
+    const moved = update.transactions.some((each) => each.isUserEvent("select") || each.isUserEvent("input") || each.isUserEvent("delete"));
+    if (moved) cursorAt(uri, position(update.state.doc.toString(), update.state.selection.main.head));
+  });
+  const extensions = [
+    EditorView.cspNonce.of(nonce),
+    writable.of(ability()),
+    behaviour,
+    autocompletion({ override: [completion(uri, together)], icons: true, closeOnBlur: true }),
+    hoverTooltip(hover(uri), { hoverTime: 350 }),
+    marks(uri),
+    heard,
+  ];
+  const view = new EditorView({ parent: host, state: EditorState.create({ doc: text(uri), extensions }) });
+  const ends = [
+    onText((changed, changes, maker) => {
+      if (changed !== uri || maker === "text") return;
+      view.dispatch(...changes.map(({ from, to, insert }) => ({ changes: { from, to, insert }, sequential: true, annotations: fromPage.of(true) })));
+    }),
+    effect(() => view.dispatch({ effects: writable.reconfigure(ability()) })),
+    effect(() => {
+      const said = diagnostics.value.get(uri);
+      if (!said || (said.version !== null && said.version !== version(uri))) return;
+      view.dispatch(setDiagnostics(view.state, said.list.map((each) => problem(text(uri), each))));
+    }),
+    effect(() => {
+      const place = shown.value;
+      if (place?.uri !== uri) return;
+      show(view, offset(text(uri), place.range.start), offset(text(uri), place.range.end));
+      if (place.focus) view.focus();
+    }),
+  ];
+  const end = (): void => {
+    ends.forEach((each) => each());
+    view.destroy();
+  };
+  return { view, end };
+}
+
+/** Puts the cursor to a place and marks it; nothing scrolls unless it is out of sight. */
+function show(view: EditorView, from: number, to: number): void {
+  const length = view.state.doc.length;
+  const place = { from: Math.min(from, length), to: Math.min(to, length) };
+  const { viewport } = view;
+  const scroll = place.from < viewport.from || place.from > viewport.to || !isSeen(view, place.from);
+  const effects = [highlight.of(place), ...(scroll ? [EditorView.scrollIntoView(place.from, { y: "center" })] : [])];
+  view.dispatch({ selection: EditorSelection.cursor(place.from), effects });
+}
+
+function isSeen(view: EditorView, at: number): boolean {
+  const [place, pane] = [view.coordsAtPos(at), view.scrollDOM.getBoundingClientRect()];
+  return place !== null && place.top >= pane.top && place.bottom <= pane.bottom;
+}
