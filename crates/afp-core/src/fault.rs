@@ -44,8 +44,8 @@ macro_rules! faults {
 faults! {
     /// Overflow, `% 0`, or a result that is not finite.
     ARITHMETIC = "arithmetic", "a formula overflowed or has no finite value";
-    /// A value outside its port's range.
-    RANGE = "range", "a value is outside its port's range";
+    /// A value outside the range of its port or entry.
+    RANGE = "range", "a value is out of its range";
     /// A text that does not read as the type it is converted to.
     CONVERSION = "conversion", "a text does not read as the value it should become";
     /// A text of more than 64 bytes.

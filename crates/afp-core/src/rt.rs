@@ -21,8 +21,8 @@ pub use formula::{
 };
 pub use names::{ComponentRow, EntryRow, NameTable, NamedPlan};
 pub use native::{
-    finite, print_choice, read_choice, set_input, stage_outside, store_text, within, within_int,
-    within_value,
+    finite, limited, print_choice, read_choice, set_input, stage_outside, store_text, within,
+    within_int, within_value,
 };
 pub use plan::{Committer, Cx, Fired, Polled, Slot, Started};
 pub(crate) use plan::{Place, StepState};

@@ -281,6 +281,8 @@ pub struct EntryName<'a> {
     pub ty: &'a str,
     /// The SI unit of its values, empty for plain numbers and everything else.
     pub unit: &'a str,
+    /// Least and greatest value in SI units, where it has a range.
+    pub range: Option<(f64, f64)>,
 }
 
 impl ComponentName<'_> {
@@ -292,7 +294,14 @@ impl ComponentName<'_> {
 impl EntryName<'_> {
     /// What an unknown id is called.
     pub const NONE: EntryName<'static> =
-        EntryName { path: "", kind: EntryKind::Var, ty: "", unit: "" };
+        EntryName { path: "", kind: EntryKind::Var, ty: "", unit: "", range: None };
+}
+
+impl<'a> EntryName<'a> {
+    /// Its range as text, where it has one: `from 0 m/s to 1 m/s`.
+    pub fn range_text(&self) -> Option<impl core::fmt::Display + use<'a>> {
+        self.range.map(|(least, greatest)| display::Range { least, greatest, unit: self.unit })
+    }
 }
 
 /// Who may set an entry.

@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use afp_core::devices::DeviceRow;
-use afp_core::trace::{ComponentId, TraceEntryId};
+use afp_core::trace::{ComponentId, EntryName, TraceEntryId};
 use afp_core::{Duration, Instant, StartError};
 use afp_session::{
     AnySession, Applied, Datum, NamedRecord, Observer, Open, Request, RunEvent, SetError, Stimulus,
-    View,
+    View, refusal,
 };
 
 use crate::program::Program;
@@ -183,6 +183,11 @@ impl Target for SessionTarget<'_> {
             SetError::Unreadable { units, .. } if !units.is_empty() => {
                 let units: Vec<_> = units.iter().take(8).map(String::as_str).collect();
                 format!("'{text}' does not fit: write a number and a unit, of {}", units.join(", "))
+            }
+            SetError::Refused(why) => {
+                let names = self.run.session.names();
+                let about = id.map_or(EntryName::NONE, |id| names.entry(TraceEntryId(id as u32)));
+                format!("'{text}': {}", refusal(why, about))
             }
             other => format!("'{text}': {other}"),
         })?;

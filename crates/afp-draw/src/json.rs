@@ -143,6 +143,8 @@ fn entries(view: &View) -> Value {
         put(&mut object, "kind", json!(entry_kind_name(entry.kind)));
         put(&mut object, "type", json!(entry_type(entry)));
         put(&mut object, "init", json!(entry.init.as_ref().map(|init| &init.text)));
+        let range = entry.range.as_ref().map(|ends| ends.each_ref().map(|end| &end.text));
+        put(&mut object, "range", json!(range));
         Value::Object(object)
     });
     Value::Array(objects.collect())

@@ -106,6 +106,15 @@ fn dot_names_every_element_and_every_edge_but_ignored_ones() {
 }
 
 #[test]
+fn ranges_of_entries_are_shown() {
+    let plan = "use std plan P { in far: duration = 1 s from 0 s to 2 * 5 s start go
+        actor go: Wait(duration = far) { Elapsed -> terminate } }";
+    assert_eq!(json_of(plan)["entries"][0]["range"], serde_json::json!(["0 s", "2 * 5 s"]));
+    let drawing = svg(&compiled(plan).outline, &Options::default());
+    assert!(drawing.contains(">duration = 1 s from 0 s to 2 * 5 s<"), "{drawing}");
+}
+
+#[test]
 fn a_plan_that_runs_forever_says_so_in_every_drawing() {
     let plan = "use std plan Patrol forever { start go actor go: Wait { Elapsed -> go } }";
     assert_eq!(json_of(plan)["forever"], true);

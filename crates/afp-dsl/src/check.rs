@@ -18,6 +18,7 @@ mod formula;
 mod imports;
 mod names;
 mod plan;
+mod range;
 mod recursion;
 mod resources;
 pub(crate) mod scenario;

@@ -106,6 +106,10 @@ pub struct Entry {
     pub ty: Type,
     /// Its initial value, of type [`Entry::ty`].
     pub init: Option<Formula>,
+    /// Least and greatest value, in SI units; both belong to it.
+    pub range: Option<(f64, f64)>,
+    /// The constants that the range is made of.
+    pub ranged_by: Vec<EntryId>,
     /// The name in the text.
     pub span: Span,
 }

@@ -198,6 +198,8 @@ pub struct Entry {
     pub ty: Option<Type>,
     /// Its initial value.
     pub init: Option<Value>,
+    /// Least and greatest value as written.
+    pub range: Option<[Value; 2]>,
     /// What there is to say about it.
     pub findings: Findings,
 }

@@ -5,7 +5,7 @@
 //! cannot disagree: 0 is the outermost plan; then come its elements and its supervisors, then, element
 //! by element, the blocks of its sub-plans, laid out alike. Entries are numbered the same way.
 
-use crate::graph::{Component, EdgeSpans, EntryKind, Graph, Plan, PlanId, Target};
+use crate::graph::{Component, EdgeSpans, Entry, EntryKind, Graph, Plan, PlanId, Target};
 use crate::types::Type;
 use afp_syntax::source::Span;
 
@@ -51,6 +51,8 @@ pub struct EntryNames {
     pub kind: EntryKind,
     /// Its type.
     pub ty: Type,
+    /// Least and greatest value, in SI units.
+    pub range: Option<(f64, f64)>,
     /// The plan that it belongs to, which goes by the number of its element; 0 is the outermost.
     pub plan: u32,
     /// The name in the text.
@@ -161,8 +163,9 @@ fn add(graph: &Graph, id: PlanId, number: u32, prefix: &str, all: &mut Unfolded)
     let first = all.components.len() as u32;
     for entry in &plan.entries {
         let path = format!("{prefix}{}", entry.name);
-        let (ty, span) = (entry.ty.clone(), entry.span);
-        all.entries.push(EntryNames { path, kind: entry.kind, ty, plan: number, span });
+        let &Entry { kind, range, span, .. } = entry;
+        let ty = entry.ty.clone();
+        all.entries.push(EntryNames { path, kind, ty, range, plan: number, span });
     }
     for index in 0..plan.elements.len() {
         all.components.push(element(graph, plan, index, prefix));

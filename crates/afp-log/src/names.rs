@@ -32,6 +32,7 @@ struct Entry {
     kind: EntryKind,
     ty: String,
     unit: String,
+    range: Option<(f64, f64)>,
     choices: Vec<String>,
 }
 
@@ -97,12 +98,13 @@ impl Component {
 
 impl Entry {
     fn copy(names: &(impl Names + ?Sized), id: TraceEntryId) -> Self {
-        let EntryName { path, kind, ty, unit } = names.entry(id);
+        let EntryName { path, kind, ty, unit, range } = names.entry(id);
         Entry {
             path: path.to_owned(),
             kind,
             ty: ty.to_owned(),
             unit: unit.to_owned(),
+            range,
             choices: until_empty(|value| names.choice(id, value)),
         }
     }
@@ -148,7 +150,9 @@ impl Names for OwnedNames {
 
     fn entry(&self, id: TraceEntryId) -> EntryName<'_> {
         match self.entries.get(id.0 as usize) {
-            Some(Entry { path, kind, ty, unit, .. }) => EntryName { path, kind: *kind, ty, unit },
+            Some(Entry { path, kind, ty, unit, range, .. }) => {
+                EntryName { path, kind: *kind, ty, unit, range: *range }
+            }
             None => EntryName::NONE,
         }
     }

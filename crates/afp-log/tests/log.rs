@@ -61,8 +61,12 @@ impl Names for Names1 {
 
     fn entry(&self, id: TraceEntryId) -> EntryName<'_> {
         match id.0 {
-            0 => EntryName { path: "far", kind: EntryKind::In, ty: "length", unit: "m" },
-            1 => EntryName { path: "side", kind: EntryKind::Var, ty: "Side", unit: "" },
+            0 => {
+                EntryName { path: "far", kind: EntryKind::In, ty: "length", unit: "m", range: None }
+            }
+            1 => {
+                EntryName { path: "side", kind: EntryKind::Var, ty: "Side", unit: "", range: None }
+            }
             _ => EntryName::NONE,
         }
     }

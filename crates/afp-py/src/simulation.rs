@@ -249,7 +249,7 @@ impl Runner {
             return Err(PyRuntimeError::new_err(text));
         }
         let set = match at {
-            None => session.write(number, value).map_err(|why| why.to_string()),
+            None => session.write(number, value),
             Some(at) => session.ask(instant(at)?, Request::Write(number, value)),
         };
         set.map_err(|why| error(format!("'{name}': {why}")))

@@ -2,7 +2,7 @@
 
 use afp_core::trace::{EntryKind, EntryName, Names, TraceEntryId};
 use afp_core::{Fault, StartError, Value};
-use afp_session::{AnyRobot, AnySession, SetError};
+use afp_session::{AnyRobot, AnySession, SetError, refusal};
 
 use crate::error::RunError;
 use crate::world::{LoadedWorld, change};
@@ -53,6 +53,7 @@ fn refused(names: &dyn Names, name: &str, text: &str, why: SetError) -> RunError
         ),
         SetError::Unreadable { why, units } => unreadable(names, name, text, why, &units),
         SetError::Refused(why) => {
+            let why = refusal(why, names.entry(id(names, name)));
             RunError::usage(format!("'{name}={text}': {why}"), settable(names))
         }
     }
@@ -79,16 +80,25 @@ fn unknown(name: &str, names: &dyn Names) -> RunError {
 fn settable(names: &dyn Names) -> String {
     let entries = (0..names.entries()).map(|id| names.entry(TraceEntryId(id)));
     let settable = entries.filter(|entry| entry.kind == EntryKind::In && !entry.path.contains('.'));
-    let list: Vec<_> = settable.map(|entry| format!("'{}' ({})", entry.path, entry.ty)).collect();
+    let list = settable.map(|entry| {
+        let range = entry.range_text().map(|range| format!(" {range}")).unwrap_or_default();
+        format!("'{}' ({}{range})", entry.path, entry.ty)
+    });
+    let list: Vec<_> = list.collect();
     match list.is_empty() {
         true => "this plan has no 'in' entries".to_owned(),
         false => format!("entries that can be set: {}", list.join(", ")),
     }
 }
 
-fn unreadable(names: &dyn Names, name: &str, text: &str, why: Fault, units: &[String]) -> RunError {
+/// The entry of that name.
+fn id(names: &dyn Names, name: &str) -> TraceEntryId {
     let mut ids = (0..names.entries()).map(TraceEntryId);
-    let id = ids.find(|id| names.entry(*id).path == name).unwrap_or(TraceEntryId(u32::MAX));
+    ids.find(|id| names.entry(*id).path == name).unwrap_or(TraceEntryId(u32::MAX))
+}
+
+fn unreadable(names: &dyn Names, name: &str, text: &str, why: Fault, units: &[String]) -> RunError {
+    let id = id(names, name);
     let EntryName { ty, unit, .. } = names.entry(id);
     let choices = (0..u16::MAX).map(|value| names.choice(id, value));
     let choices: Vec<_> = choices.take_while(|choice| !choice.is_empty()).collect();

@@ -4,7 +4,7 @@ use std::any::Any;
 use std::fmt;
 
 use afp_core::devices::{DeviceRow, SignalId};
-use afp_core::trace::{ComponentId, Ending, Names, TraceHash};
+use afp_core::trace::{ComponentId, Ending, EntryName, Names, TraceHash};
 use afp_core::{Duration, Fault, Instant, StartError, Value, ValueRef, WriteError};
 
 use crate::figures::Figures;
@@ -125,6 +125,14 @@ pub trait AnySession: Send {
 
     /// What was asked for and has not come yet, by time.
     fn pending(&self) -> Vec<(Instant, RequestId, Stimulus)>;
+}
+
+/// Why an entry does not take a value, with its range where that is why.
+pub fn refusal(why: WriteError, entry: EntryName<'_>) -> String {
+    match entry.range_text().filter(|_| why == WriteError::Range) {
+        Some(range) => format!("{why}, {range}"),
+        None => why.to_string(),
+    }
 }
 
 /// Why an entry cannot be set.

@@ -39,7 +39,7 @@ mod stimulus;
 mod track;
 mod world;
 
-pub use any::{AnySession, SetError};
+pub use any::{AnySession, SetError, refusal};
 pub use counts::{Counts, Usage};
 pub use event::{
     Datum, Done, EndingKind, EventKind, Miss, OUTSIDE, Requested, RunEvent, author, quantity,

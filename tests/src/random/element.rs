@@ -45,6 +45,15 @@ impl<'a> Bindings<'a> {
         }
     }
 
+    /// For what has a range: only entries that change can leave it.
+    fn maybe_changing(&mut self, port: &str, ty: Type, dice: &mut Dice) {
+        if dice.percent(60) {
+            let entry = dice.pick(&self.entries.changing(ty));
+            let formula = if dice.percent(50) { entry } else { format!("2 * {entry}") };
+            self.bind(port, &formula);
+        }
+    }
+
     fn maybe_ranged(&mut self, port: &str, dice: &mut Dice) {
         if dice.percent(40) {
             let formula = ranged(self.entries, dice);
@@ -230,7 +239,10 @@ fn pick(bindings: &mut Bindings<'_>, entries: &Entries, dice: &mut Dice) {
 pub fn sub_plan(of: &Shape, entries: &Entries, dice: &mut Dice) -> Made {
     let mut bindings = Bindings::new(entries);
     for port in of.entries.of_kind(Kind::In) {
-        bindings.maybe(&port.name, port.ty, dice);
+        match port.ranged {
+            false => bindings.maybe(&port.name, port.ty, dice),
+            true => bindings.maybe_changing(&port.name, port.ty, dice),
+        }
     }
     for port in of.entries.of_kind(Kind::Out) {
         let types = match port.ty {

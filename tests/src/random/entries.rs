@@ -29,6 +29,8 @@ pub struct Entry {
     pub name: String,
     pub kind: Kind,
     pub ty: Type,
+    /// Whether it has a range.
+    pub ranged: bool,
 }
 
 /// The entries of one plan; each has an initial value but maps and some results.
@@ -50,6 +52,16 @@ impl Type {
             Type::Text => "string",
             Type::Side => "Side",
             Type::Map => "Map",
+        }
+    }
+
+    /// A range that every literal of the type is in, and that sums and products leave.
+    pub fn range(self) -> Option<&'static str> {
+        match self {
+            Type::Int => Some(" from -5 to 150"),
+            Type::Float => Some(" from -2.5 to 3e2"),
+            Type::Length => Some(" from -1 m to 3 m"),
+            _ => None,
         }
     }
 
@@ -100,8 +112,9 @@ impl Entries {
         } else if !open {
             let _ = write!(self.text, " = {}", ty.literal(dice));
         }
-        self.text.push('\n');
-        self.list.push(Entry { name, kind, ty });
+        let range = ty.range().filter(|_| kind != Kind::Const && dice.percent(20));
+        let _ = writeln!(self.text, "{}", range.unwrap_or_default());
+        self.list.push(Entry { name, kind, ty, ranged: range.is_some() });
     }
 
     /// The entries that formulas can read: results without a first value are not among them.

@@ -91,6 +91,11 @@ fn length(a: &str, b: &str, entries: &Entries, dice: &mut Dice) -> String {
 }
 
 fn text(a: &str, entries: &Entries, depth: u64, dice: &mut Dice) -> String {
+    if dice.percent(15) {
+        // Twice a long one is too long.
+        let changing = dice.pick(&entries.changing(Type::Text));
+        return format!("{changing} + {changing}");
+    }
     let ty = dice.pick(&[Type::Bool, Type::Int, Type::Float, Type::Length, Type::Text, Type::Side]);
     let other = match dice.percent(60) {
         true => leaf(ty, entries, dice),

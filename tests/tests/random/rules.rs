@@ -55,6 +55,9 @@ const RULES: &[Rule] = &[
     ("an object is committed", |trace| any(trace, |line| line.contains("-> Map#"))),
     ("a write from outside", |trace| any(trace, |line| line.contains(" outside commits "))),
     ("a write is refused", |trace| any(trace, |line| line.contains(" refused: "))),
+    ("a write is out of its entry's range", |trace| {
+        any(trace, |line| line.contains(" out of the entry's range]"))
+    }),
     ("a stop request", |trace| any(trace, |line| line.ends_with(" stop requested"))),
     ("the clock goes back", |trace| any(trace, |line| line.contains("clock went back"))),
     ("the run ends 'OK'", |trace| any(trace, |line| line.ends_with("Plan0 ended OK"))),

@@ -297,6 +297,16 @@ const RULES: &[Rule] = &[
     ("6.3", "'Every' reports each whole period, late ones once", &["every_period"]),
     ("6.5", "'Is' and 'Switch' choose by values that are equal or not", &["choosing"]),
     (
+        "6.6",
+        "a range holds for what is stored: outputs, initial values, inputs and results of sub-plans, outside writes",
+        &[
+            "range_of_outputs",
+            "range_of_an_initial_value",
+            "range_of_a_sub_plan",
+            "range_of_outside_writes",
+        ],
+    ),
+    (
         "1.13",
         "'any' and 'number' are one type for each instance",
         &["generic_ports", "generic_live_number"],

@@ -7,6 +7,7 @@ use super::context::Context;
 use super::state::{entry_doc, is_open};
 use crate::layout::{at, doc};
 use crate::names::{Names, ident, shout, snake};
+use crate::rust_type::float;
 use afp_dsl::graph::{Entry, EntryKind};
 use afp_dsl::types::Type;
 
@@ -80,27 +81,39 @@ fn setter(context: &Context<'_>, entry: &Entry, field: &Ident, name: &Ident) -> 
     let value = context.value_type(&entry.ty);
     let help = doc("", &format!("Sets `{}` before the start.", entry.name));
     let at = at(entry.span);
-    match entry.ty {
-        Type::Quantity(_) => quote! {
+    let checked = match (&entry.ty, entry.range) {
+        (_, Some((least, greatest))) => {
+            let (least, greatest) = (float(least), float(greatest));
+            let checked = quote!(limited(value, #least, #greatest).map_err(WriteError::of)?);
+            Some((" [`WriteError::NotFinite`] or [`WriteError::Range`].", checked))
+        }
+        (Type::Quantity(_), None) => {
+            let checked = quote!(finite(value).map_err(|_| WriteError::NotFinite)?);
+            Some((" [`WriteError::NotFinite`].", checked))
+        }
+        _ => None,
+    };
+    match (&entry.ty, checked) {
+        (_, Some((errors, checked))) => quote! {
             #help
             #[doc = ""]
             #[doc = " # Errors"]
-            #[doc = " [`WriteError::NotFinite`]."]
+            #[doc = #errors]
             #at
             pub fn #name(&mut self, value: #value) -> Result<(), WriteError> {
-                let value = finite(value).map_err(|_| WriteError::NotFinite)?;
+                let value = #checked;
                 self.config.#field.set(value);
                 Ok(())
             }
         },
-        Type::Object(_) => quote! {
+        (Type::Object(_), None) => quote! {
             #help
             #at
             pub fn #name(&mut self, value: #value) {
                 self.config.#field.set(Object::new(value));
             }
         },
-        _ => quote! {
+        (_, None) => quote! {
             #help
             #at
             pub fn #name(&mut self, value: #value) {

@@ -7,8 +7,8 @@ use super::context::{ComponentNames, Context, Paths};
 use crate::formula::{Formulas, convert, is_literal};
 use crate::layout::{at, doc};
 use crate::names::{camel, ident, snake};
-use crate::rust_type::TypePaths;
-use afp_dsl::graph::{Formula, Output};
+use crate::rust_type::{TypePaths, float};
+use afp_dsl::graph::{Entry, Formula, Output};
 use afp_dsl::toolbox::{InPort, Template, TemplateKind};
 use afp_dsl::types::{Conversion, Type};
 use afp_syntax::source::Span;
@@ -208,6 +208,7 @@ impl Bound<'_> {
                 (true, Type::Object(_)) => quote!(#name),
                 _ => self.context.with_type_paths(|home| staged_value(home, output, ty, &name)),
             };
+            let value = limited(&self.context.plan.entries[output.entry.index()], value);
             let entry = &self.context.entries[output.entry.index()];
             Some((name, quote!(staged.#entry = Some(#value);)))
         });
@@ -223,6 +224,17 @@ fn staged_value(home: &TypePaths<'_>, output: &Output, ty: &Type, value: &Ident)
         (None, Type::Object(_)) => quote!(Object::new(#value)),
         (None, _) => quote!(#value),
         (Some(conversion), ty) => converted(home, conversion, ty, quote!(#value)),
+    }
+}
+
+/// A value as the range of its entry lets it pass.
+pub fn limited(entry: &Entry, value: TokenStream) -> TokenStream {
+    match entry.range {
+        Some((least, greatest)) => {
+            let (least, greatest) = (float(least), float(greatest));
+            quote!(limited(#value, #least, #greatest)?)
+        }
+        None => value,
     }
 }
 

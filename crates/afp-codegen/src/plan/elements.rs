@@ -3,7 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::bindings::{Bound, converted, reads_entries};
+use super::bindings::{Bound, converted, limited, reads_entries};
 use super::context::{ComponentNames, Context, is_bare};
 use crate::formula::{Formulas, is_literal};
 use crate::layout::{at, comment, doc};
@@ -157,12 +157,13 @@ fn given(
     fields: &[proc_macro2::Ident],
 ) -> Vec<TokenStream> {
     let ins = child.entries.iter().zip(fields).filter(|(entry, _)| entry.kind == EntryKind::In);
-    let sets = ins.zip(&element.inputs).map(|((_, field), formula)| {
+    let sets = ins.zip(&element.inputs).map(|((entry, field), formula)| {
         let value = context.with_type_paths(|home| {
             let value = Formulas::new(home, &context.entries).value(formula);
             let checked = matches!(formula.ty, Type::Quantity(_)) && !is_literal(formula);
             if checked { quote!(finite(#value)?) } else { value }
         });
+        let value = if is_literal(formula) { value } else { limited(entry, value) };
         quote!(to.#field.set(#value);)
     });
     sets.collect()
@@ -191,6 +192,7 @@ fn result(
         }
         (Some(conversion), ty) => converted(home, conversion, ty, quote!(*value)),
     });
+    let value = limited(&context.plan.entries[output.entry.index()], value);
     Some(quote! {
         if let Some(value) = from.#field.value() {
             staged.#to = Some(#value);

@@ -72,6 +72,7 @@ pub const RT: &[&str] = &[
     "int_sub",
     "int_to_float",
     "join",
+    "limited",
     "max",
     "min",
     "parse_bool",

@@ -6,6 +6,7 @@ use quote::quote;
 use super::context::Context;
 use super::shared::units_name;
 use crate::layout::doc;
+use crate::rust_type::float;
 use afp_dsl::graph::{EntryKind, Graph, PlanId};
 use afp_dsl::types::{Dimension, Type};
 use afp_dsl::unfold::{ComponentNames, EntryNames, Kind, unfold};
@@ -78,7 +79,7 @@ fn component(names: &ComponentNames) -> TokenStream {
 }
 
 fn entry(names: &EntryNames) -> TokenStream {
-    let EntryNames { path, kind, ty, .. } = names;
+    let EntryNames { path, kind, ty, range, .. } = names;
     let kind = match kind {
         EntryKind::In => quote!(In),
         EntryKind::Out => quote!(Out),
@@ -94,5 +95,9 @@ fn entry(names: &EntryNames) -> TokenStream {
         _ => &[],
     };
     let ty = ty.to_string();
-    quote!(EntryRow::new(#path, EntryKind::#kind, #ty, #unit, &[#(#choices),*]))
+    let within = range.map(|(least, greatest)| {
+        let (least, greatest) = (float(least), float(greatest));
+        quote!(.within(#least, #greatest))
+    });
+    quote!(EntryRow::new(#path, EntryKind::#kind, #ty, #unit, &[#(#choices),*]) #within)
 }

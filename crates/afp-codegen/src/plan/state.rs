@@ -3,9 +3,11 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
+use super::bindings::limited;
 use super::context::Context;
 use crate::formula::{Formulas, is_literal};
 use crate::layout::{at, doc};
+use crate::rust_type::float;
 use afp_dsl::graph::{Component, Entry, EntryKind};
 use afp_dsl::types::Type;
 
@@ -224,14 +226,17 @@ fn initialise(context: &Context<'_>) -> TokenStream {
                 .with_type_paths(|home| Formulas::new(home, &context.entries).value(formula));
             let set = match (&entry.ty, is_literal(formula)) {
                 (_, true) => quote!(config.#name.set(#value);),
-                (Type::Quantity(_), false) => quote! {
+                (Type::Quantity(_), false) if entry.range.is_none() => quote! {
                     let value = finite(#value)?;
                     config.#name.set(value);
                 },
-                (_, false) => quote! {
-                    let value = #value;
-                    config.#name.set(value);
-                },
+                (_, false) => {
+                    let value = limited(entry, value);
+                    quote! {
+                        let value = #value;
+                        config.#name.set(value);
+                    }
+                }
             };
             Some(match entry.kind {
                 EntryKind::In => quote!(if !config.#name.is_set() { #set }),
@@ -263,7 +268,12 @@ fn outside(context: &Context<'_>) -> TokenStream {
             (_, Type::Object(_)) => quote!(#index => Err(WriteError::Type),),
             (_, ty) => {
                 let ty = context.value_type(ty);
-                quote!(#index => WriteError::check::<#ty>(value),)
+                match entry.range.map(|(least, greatest)| (float(least), float(greatest))) {
+                    None => quote!(#index => WriteError::check::<#ty>(value),),
+                    Some((least, greatest)) => {
+                        quote!(#index => WriteError::check_within::<#ty>(value, #least, #greatest),)
+                    }
+                }
             }
         }
     });

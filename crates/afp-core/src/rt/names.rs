@@ -64,7 +64,14 @@ impl EntryRow {
         unit: &'static str,
         choices: &'static [&'static str],
     ) -> Self {
-        EntryRow { name: EntryName { path, kind, ty, unit }, choices }
+        EntryRow { name: EntryName { path, kind, ty, unit, range: None }, choices }
+    }
+
+    /// The row of an entry with a range, in SI units.
+    #[must_use]
+    pub const fn within(mut self, least: f64, greatest: f64) -> Self {
+        self.name.range = Some((least, greatest));
+        self
     }
 }
 

@@ -183,6 +183,21 @@ pub fn finite<T: Stored>(value: T) -> Result<T, Fault> {
     within_value(value.as_value()).map(|()| value)
 }
 
+/// The value, unless it is a number that is not finite or out of its entry's range.
+///
+/// # Errors
+/// [`Fault::ARITHMETIC`] or [`Fault::RANGE`].
+#[inline]
+pub fn limited<T: Stored>(value: T, least: f64, greatest: f64) -> Result<T, Fault> {
+    match value.as_value() {
+        ValueRef::Float(number) => within(number, least, greatest)?,
+        // The ends come from whole numbers; what does not fit 64 bits saturates.
+        ValueRef::Int(number) => within_int(number, least as i64, greatest as i64)?,
+        _ => {}
+    }
+    Ok(value)
+}
+
 /// Checks that a number is finite and in its port's range.
 ///
 /// # Errors
@@ -266,5 +281,23 @@ impl WriteError {
     /// Why not.
     pub fn check<T: Writable>(value: &Value) -> Result<(), WriteError> {
         T::from_value(value).map(|_| ())
+    }
+
+    /// Whether `value` fits an entry of type `T` with a range.
+    ///
+    /// # Errors
+    /// Why not.
+    pub fn check_within<T: Writable>(
+        value: &Value,
+        least: f64,
+        greatest: f64,
+    ) -> Result<(), WriteError> {
+        let value = T::from_value(value)?;
+        limited(value, least, greatest).map(|_| ()).map_err(WriteError::of)
+    }
+
+    /// Why a value that has a fault cannot be written.
+    pub fn of(fault: Fault) -> WriteError {
+        if fault == Fault::ARITHMETIC { WriteError::NotFinite } else { WriteError::Range }
     }
 }

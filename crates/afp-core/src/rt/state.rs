@@ -163,6 +163,8 @@ pub enum WriteError {
     Type,
     /// The number is not finite.
     NotFinite,
+    /// The value is out of the entry's range.
+    Range,
     /// Too many writes since the last step.
     QueueFull,
     /// A `var` entry has no value to be replaced before the plan has started.
@@ -178,6 +180,7 @@ impl core::fmt::Display for WriteError {
             WriteError::ReadOnly => "only 'in' and 'var' entries can be written from outside",
             WriteError::Type => "the value does not have the entry's type",
             WriteError::NotFinite => "the value is not finite",
+            WriteError::Range => "the value is out of the entry's range",
             WriteError::QueueFull => "too many writes since the last step",
             WriteError::NotStarted => {
                 "a 'var' entry gets its initial value at the start: write it later"

@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use afp_number::Quantity;
+
 use super::{
     Author, Cause, ComponentId, ERROR, Ending, Kind, Names, Record, TraceEntryId, Verdict,
 };
@@ -21,6 +23,21 @@ pub struct Line<'a, N: ?Sized> {
     pub record: &'a Record<'a>,
     /// The names of the plan.
     pub names: &'a N,
+}
+
+/// The range of an entry.
+pub(super) struct Range<'a> {
+    pub least: f64,
+    pub greatest: f64,
+    pub unit: &'a str,
+}
+
+impl fmt::Display for Range<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [least, greatest] =
+            [self.least, self.greatest].map(|value| Quantity { value, unit: self.unit });
+        write!(f, "from {least} to {greatest}")
+    }
 }
 
 impl<N: Names + ?Sized> Line<'_, N> {

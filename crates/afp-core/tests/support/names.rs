@@ -114,7 +114,7 @@ impl Names for SpecNames {
 
     fn entry(&self, id: TraceEntryId) -> EntryName<'_> {
         let (path, kind) = &self.entries[id.0 as usize];
-        EntryName { path, kind: *kind, ty: "int", unit: "" }
+        EntryName { path, kind: *kind, ty: "int", unit: "", range: None }
     }
 
     fn choice(&self, _: TraceEntryId, _: u16) -> &str {

@@ -148,13 +148,16 @@ fn pill(view: &View, id: usize, entry: &Entry) -> (String, Class) {
     }
 }
 
-/// Type and initial value.
+/// Type, initial value and range.
 fn declaration(entry: &Entry) -> String {
-    let ty = entry_type(entry);
-    match &entry.init {
-        None => ty,
-        Some(init) => format!("{ty} = {}", shorten(&init.text)),
+    let mut text = entry_type(entry);
+    if let Some(init) = &entry.init {
+        text += &format!(" = {}", shorten(&init.text));
     }
+    if let Some([least, greatest]) = &entry.range {
+        text += &format!(" from {} to {}", shorten(&least.text), shorten(&greatest.text));
+    }
+    text
 }
 
 fn label((x, y): (f64, f64), text: &str, size: f64, class: &'static str) -> Label {

@@ -6,11 +6,11 @@ mod outputs;
 
 use crate::check::formula::{Scope, of_constant};
 use crate::check::names::unknown;
+use crate::check::range;
 use crate::check::signature::{Input, Signature};
 use crate::graph::{Formula, Output};
 use crate::toolbox::Constant;
 use crate::types::Type;
-use crate::types::text;
 use afp_syntax::ast::{self, Bind, Name};
 use afp_syntax::diagnostics::words;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
@@ -200,7 +200,9 @@ fn inputs(
         let formula = match formula {
             Some(formula) => formula.and_then(|typed| {
                 let (formula, value) = scope.finish(typed, Some(ty?), diags)?;
-                check_range(input, ty?, &formula, value, diags);
+                if let Some(error) = out_of_range(input, ty?, &formula, value) {
+                    diags.push(error);
+                }
                 Some(formula)
             }),
             None if !input.optional => {
@@ -248,28 +250,14 @@ fn example(ty: Option<&Type>) -> String {
     }
 }
 
-/// Reports a known value outside of its port's range.
-pub(crate) fn check_range(
+/// A known value outside of its port's range.
+fn out_of_range(
     input: &Input,
     ty: &Type,
     formula: &Formula,
     value: Option<Constant>,
-    diags: &mut Diagnostics,
-) {
-    let (Some((least, greatest)), Some(value)) = (input.range, value) else { return };
-    let number = match value {
-        Constant::Int(value) => value as f64,
-        Constant::Float(value) => value,
-        _ => return,
-    };
-    if (least..=greatest).contains(&number) {
-        return;
-    }
-    let (least, greatest) = (text::value(least, ty), text::value(greatest, ty));
-    let message = format!("'{}' is out of the range of '{}'", text::value(number, ty), input.name);
-    diags.push(
-        Diagnostic::new(Code::E0224, formula.span, message)
-            .note(input.span, "the range is declared here")
-            .help(format!("use a value from '{least}' to '{greatest}'")),
-    );
+) -> Option<Diagnostic> {
+    let message = |value| format!("'{value}' is out of the range of '{}'", input.name);
+    let error = range::outside(&value?, input.range?, ty, formula.span, message)?;
+    Some(error.note(input.span, "the range is declared here"))
 }

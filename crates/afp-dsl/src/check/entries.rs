@@ -1,10 +1,12 @@
-//! Entries of a plan: their types and initial values, in the order in which values come to be
+//! Entries of a plan: their types, initial values and ranges, in the order in which values come to be
 //! known: `const`, then `in`, then the others.
 
 use crate::check::formula::Scope;
 use crate::check::names::Places;
+use crate::check::range;
 use crate::check::types::Types;
-use crate::graph::{EntryKind, Formula};
+use crate::flow::view::each_entry;
+use crate::graph::{EntryId, EntryKind, Formula};
 use crate::index::Recorder;
 use crate::toolbox::Constant;
 use crate::types::Type;
@@ -28,6 +30,10 @@ pub(crate) struct EntryDraft {
     pub has_init: bool,
     /// The initial value where it is the same in every run.
     pub value: Option<Constant>,
+    /// Least and greatest value, in SI units.
+    pub range: Option<(f64, f64)>,
+    /// The constants that the range is made of.
+    pub ranged_by: Vec<EntryId>,
 }
 
 /// The entries of a plan as written; those without a name are left out. Also tells where which one
@@ -53,6 +59,8 @@ pub(crate) fn read(
             init: None,
             has_init: entry.init().is_some(),
             value: None,
+            range: None,
+            ranged_by: Vec::new(),
         })
         .collect();
     let places = Places::of(written.iter().map(|(name, _)| Some(name.text.as_str())));
@@ -61,6 +69,7 @@ pub(crate) fn read(
         for place in 0..drafts.len() {
             if kinds.contains(&drafts[place].kind) {
                 initialise(place, &written[place].1, &mut drafts, &site, diags);
+                limit(place, &written[place].1, &mut drafts, &site, diags);
             }
         }
     }
@@ -84,8 +93,9 @@ impl Site<'_> {
         if let Some(ty) = entry.ty() {
             self.types.resolve(&ty, self.record, &mut Diagnostics::default());
         }
-        if let Some(init) = entry.init() {
-            self.scope(entries, &|_| true, "").names_only(&init);
+        let range = entry.range().map(|(least, greatest, _)| [least, greatest]);
+        for formula in entry.init().into_iter().chain(range.into_iter().flatten()) {
+            self.scope(entries, &|_| true, "").names_only(&formula);
         }
     }
 
@@ -146,6 +156,50 @@ fn initialise(
     }
     draft.value = value;
     draft.init = Some(formula);
+}
+
+/// Reads the range of an entry, and checks its initial value against it.
+fn limit(
+    place: usize,
+    entry: &ast::Entry,
+    drafts: &mut [EntryDraft],
+    site: &Site<'_>,
+    diags: &mut Diagnostics,
+) {
+    let Some(written) = entry.range() else { return };
+    let own = &drafts[place];
+    let readable = |other: usize| drafts[other].kind == EntryKind::Const && other != place;
+    let scope = site.scope(drafts, &readable, "a range may use 'const' entries");
+    let Some(ty) = own.ty.as_ref().filter(|_| own.kind != EntryKind::Const) else {
+        scope.names_only(&written.0);
+        scope.names_only(&written.1);
+        if own.kind == EntryKind::Const {
+            diags.push(
+                Diagnostic::new(Code::E0513, written.2, "a constant has no range")
+                    .help("remove 'from ... to ...'"),
+            );
+        }
+        return;
+    };
+    let mut ranged_by = Vec::new();
+    let mut constant = |formula: &ast::Formula, ty: Option<&Type>, diags: &mut Diagnostics| {
+        let (formula, value) = scope.check(formula, ty, diags)?;
+        each_entry(&formula, &mut |id, _| ranged_by.push(id));
+        value
+    };
+    let range = range::read(&written, ty, &mut constant, diags);
+    let value = own.value.as_ref().zip(own.init.as_ref()).zip(range);
+    let error = value.and_then(|((value, init), range)| {
+        let name = &own.name.text;
+        let message = |value| format!("'{value}' is out of the range of '{name}'");
+        let error = range::outside(value, range, ty, init.span, message)?;
+        Some(error.note(written.2, "the range is declared here"))
+    });
+    if let Some(error) = error {
+        diags.push(error);
+    }
+    let draft = &mut drafts[place];
+    (draft.range, draft.ranged_by) = (range, ranged_by);
 }
 
 /// Checks an entry without a value.

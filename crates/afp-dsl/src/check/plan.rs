@@ -148,6 +148,8 @@ fn finish(
             kind: draft.kind,
             ty: draft.ty.clone()?,
             init: draft.init.clone(),
+            range: draft.range,
+            ranged_by: draft.ranged_by.clone(),
             span: draft.name.span,
         })
     });

@@ -21,6 +21,7 @@ use std::sync::Arc;
 
 use crate::check::formula::Scope;
 use crate::check::names::{ambiguous, unknown};
+use crate::check::range;
 use crate::check::{Context, Members, PlanHead, Program, assemble};
 use crate::gather::PlanFile;
 use crate::graph::{self, EntryKind, Formula};
@@ -341,7 +342,13 @@ impl Checker<'_> {
             );
             return None;
         }
-        let (_, value) = self.constant(value, &entry.ty, diags)?;
+        let (formula, value) = self.constant(value, &entry.ty, diags)?;
+        let message = |value| format!("'{value}' is out of the range of '{}'", entry.name);
+        let outside = |range| range::outside(&value, range, &entry.ty, formula.span, message);
+        if let Some(error) = entry.range.and_then(outside) {
+            diags.push(error.note(entry.span, "the range is declared here"));
+            return None;
+        }
         Some((id.0, value))
     }
 

@@ -149,7 +149,7 @@ impl Signature {
                     ty: entry.ty.clone(),
                     optional: entry.has_init,
                     default: entry.value.clone(),
-                    range: None,
+                    range: entry.range,
                     span: entry.name.span,
                 })
                 .collect(),

@@ -106,6 +106,8 @@ impl Inside {
             init: None,
             has_init: true,
             value: None,
+            range: None,
+            ranged_by: Vec::new(),
         });
         let names = plan.entries.iter().map(|entry| Some(entry.name.as_str()));
         let mut types = Types::default();

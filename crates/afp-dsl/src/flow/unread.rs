@@ -16,6 +16,8 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     for supervisor in view.supervisors() {
         supervisor.timed_by.iter().for_each(|id| read[id.index()] = true);
     }
+    let ranged = view.plan.entries.iter().flat_map(|entry| &entry.ranged_by);
+    ranged.for_each(|id| read[id.index()] = true);
     for (entry, read) in view.plan.entries.iter().zip(read) {
         if read || entry.kind == EntryKind::Out {
             continue;

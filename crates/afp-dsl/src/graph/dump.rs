@@ -6,7 +6,7 @@ use crate::graph::{
     Component, Element, Entry, EntryKind, Formula, FormulaKind, Graph, Operator, Output, Plan,
     Supervisor, Target, TemplateId,
 };
-use crate::types::text::duration;
+use crate::types::text::{self, duration};
 use crate::types::{Conversion, Type};
 
 impl Graph {
@@ -78,6 +78,10 @@ impl Dump<'_> {
         let mut line = format!("{kind} {}: {}", entry.name, entry.ty);
         if let Some(init) = &entry.init {
             line += &format!(" = {}", self.formula(init));
+        }
+        if let Some((least, greatest)) = entry.range {
+            let [least, greatest] = [least, greatest].map(|end| text::value(end, &entry.ty));
+            line += &format!(" from {least} to {greatest}");
         }
         self.line(1, &line);
     }

@@ -206,6 +206,7 @@ fn entry(
         written_type,
         ty: draft.and_then(|draft| draft.ty.clone()),
         init: node.init().map(|init| places.value(&init)),
+        range: node.range().map(|(least, most, _)| [places.value(&least), places.value(&most)]),
         findings: Findings::default(),
     }
 }

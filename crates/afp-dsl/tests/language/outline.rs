@@ -100,8 +100,12 @@ fn plan(text: &mut String, outline: &Outline, plan: &Plan, said: &dyn Fn(&Findin
         let ty = entry.ty.as_ref().map_or("?".to_owned(), ToString::to_string);
         let written = entry.written_type.as_ref().map_or("", |ty| &ty.text);
         let init = entry.init.iter().map(|init| format!(" = {}", init.text)).collect::<String>();
-        let said = said(&entry.findings);
-        line(2, format!("{:?} {}: {ty} ({written}){init}{said}", entry.kind, entry.item));
+        let range = entry
+            .range
+            .iter()
+            .map(|[least, most]| format!(" from {} to {}", least.text, most.text));
+        let (range, said) = (range.collect::<String>(), said(&entry.findings));
+        line(2, format!("{:?} {}: {ty} ({written}){init}{range}{said}", entry.kind, entry.item));
     }
     for start in &plan.starts {
         let target = start.target.as_ref().map_or("?".to_owned(), |to| target(plan, to));

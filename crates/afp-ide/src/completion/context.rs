@@ -192,6 +192,7 @@ fn keyword(word: &Token, parent: Option<&Node>) -> Option<Place> {
         ("for", _) => Place::Value(Wanted::Time),
         ("expect" | "never" | "of" | "by" | "set", _) => Place::Path(word.text().to_owned()),
         (_, Kind::Action) => Place::Path(word.text().to_owned()),
+        ("from" | "to", Kind::Range) => Place::Value(wanted(word)),
         ("from" | "to" | "heading", _) => Place::Value(Wanted::Unknown),
         // A name or a text of one's own.
         _ => Place::Nothing,

@@ -66,7 +66,7 @@ pub(super) fn set_value(
     let name = name_token(&node).ok_or_else(|| Refused::new("the entry has no name"))?;
     let ty = children(&node, Kind::Type).next().and_then(|ty| solid_range(&ty));
     let end = ty.map_or(range(&name).end, |ty| ty.end);
-    let old = node.children().find(|child| !matches!(child.kind(), Kind::Type | Kind::Error));
+    let old = tree::init(&node);
     set_part(buffer, old, end, " =", " ", value)
 }
 

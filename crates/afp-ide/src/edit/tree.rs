@@ -194,6 +194,12 @@ pub(super) fn binds(component: &Node) -> Vec<Node> {
         .collect()
 }
 
+/// The initial value of an entry.
+pub(super) fn init(entry: &Node) -> Option<Node> {
+    let other = |kind| matches!(kind, Kind::Type | Kind::Range | Kind::Error);
+    entry.children().find(|child| !other(child.kind()))
+}
+
 /// The bytes of a token.
 pub(super) fn range(token: &Token) -> Range<usize> {
     token.text_range().into()

@@ -28,6 +28,10 @@ pub(super) fn help(word: &str, within: Kind) -> Option<&'static str> {
         "out" => "An entry that is a result; a port where the plan is used as a sub-plan.",
         "var" => "An entry of the plan's own.",
         "const" => "An entry that never changes.",
+        "forever" => "The plan is meant to run on until something happens to it.",
+        "from" | "to" if within == Kind::Range => {
+            "The least and the greatest value that it takes; both belong to the range."
+        }
         "live" => "Read again at every poll.",
         "every" => "How often it is polled.",
         "deadline" => "How long after each release its poll must be over.",

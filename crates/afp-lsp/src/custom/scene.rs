@@ -96,6 +96,7 @@ fn entry(entry: &Entry) -> Value {
         },
         "type": entry.ty.as_ref().map(ToString::to_string),
         "value": entry.init.as_ref().map(|init| &init.text),
+        "range": entry.range.as_ref().map(|ends| ends.each_ref().map(|end| &end.text)),
         "help": entry.doc,
     })
 }

@@ -7,13 +7,13 @@ use std::path::{Path, PathBuf};
 use afp::load::{Injection, PlanNames};
 use afp_core::devices::find_signal;
 use afp_core::trace::{ComponentId, Ending, Kind, Names, Record, TraceEntryId};
-use afp_core::{Fault, Instant, Value, WriteError};
+use afp_core::{Fault, Instant, Value};
 use afp_dsl::graph::Graph;
 use afp_log::{About, OwnedNames, SessionLog};
 use afp_run::inputs::missing;
 use afp_run::world::LoadedWorld;
 use afp_session::{
-    AnySession, Build, Go, Observer, Pose2, Recipe, Request, SampleRef, TextFile, Track,
+    AnySession, Build, Go, Observer, Pose2, Recipe, Request, SampleRef, TextFile, Track, refusal,
 };
 use pyo3::exceptions::{PyIsADirectoryError, PyKeyError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -209,8 +209,10 @@ impl Run {
     ///
     /// # Errors
     /// The value does not fit, or too many writes wait.
-    pub fn write(&mut self, entry: u16, value: Value) -> Result<(), WriteError> {
-        self.session.write(entry, value)
+    pub fn write(&mut self, entry: u16, value: Value) -> Result<(), String> {
+        let written = self.session.write(entry, value);
+        let about = self.session.names().entry(TraceEntryId(entry.into()));
+        written.map_err(|why| refusal(why, about))
     }
 
     /// What lets a component report an outcome.

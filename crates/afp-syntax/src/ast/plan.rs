@@ -2,7 +2,7 @@
 
 use super::{
     Formula, Name, Ref, Timing, Type, child, child_span, children, doc, keyword, keyword_as,
-    last_token, named, note, span_of, token, tokens, views,
+    last_token, named, note, range, span_of, token, tokens, views,
 };
 use crate::kind::{Afp, Kind};
 use crate::source::Span;
@@ -135,6 +135,11 @@ impl Entry {
     /// Its initial value, where written.
     pub fn init(&self) -> Option<Formula> {
         Formula::child_of(&self.node, self.file)
+    }
+
+    /// Least and greatest value, and the place of both.
+    pub fn range(&self) -> Option<(Formula, Formula, Span)> {
+        range(&self.node, self.file)
     }
 }
 

@@ -86,9 +86,7 @@ impl Parser<'_, '_> {
         if self.eat(Kind::Colon) {
             self.ty();
         }
-        if self.eat(Kind::Equal) {
-            self.formula();
-        }
+        self.value_and_range();
         self.close_item();
     }
 

@@ -69,8 +69,9 @@ impl<E: ?Sized + 'static> ElementSlot<E> {
 
 impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
     /// An element that does not run.
-    pub fn new(element: &graph::Element, running: Running<E>) -> Self {
-        let (inputs, outputs) = (Inputs::new(&element.inputs), Binding::all(&element.outputs));
+    pub fn new(element: &graph::Element, entries: &[graph::Entry], running: Running<E>) -> Self {
+        let inputs = Inputs::new(&element.inputs);
+        let outputs = Binding::all(&element.outputs, entries);
         ElementSlot { inputs, outputs, running, injected: None, idle: Idle::default() }
     }
 
@@ -224,7 +225,7 @@ fn pass_inputs<E: Environment + ?Sized + 'static>(
     for (port, formula) in inputs.formulas().iter().enumerate() {
         let value = formula.finite(&config.values)?;
         let object = formula.entry().and_then(|entry| config.values.cell(entry));
-        plan.pass(port, value, object);
+        plan.pass(port, value, object)?;
     }
     Ok(())
 }

@@ -59,7 +59,7 @@ impl Names for PlanNames {
                 kind: kind(names.kind),
                 template: &names.template,
             },
-            None => ComponentName { path: "", kind: Kind::Actor, template: "" },
+            None => ComponentName::NONE,
         }
     }
 
@@ -93,9 +93,10 @@ impl Names for PlanNames {
     fn entry(&self, id: TraceEntryId) -> EntryName<'_> {
         match self.get_entry(id) {
             Some((names, (ty, unit))) => {
-                EntryName { path: &names.path, kind: entry_kind(names.kind), ty, unit }
+                let (kind, range) = (entry_kind(names.kind), names.range);
+                EntryName { path: &names.path, kind, ty, unit, range }
             }
-            None => EntryName { path: "", kind: EntryKind::Var, ty: "", unit: "" },
+            None => EntryName::NONE,
         }
     }
 

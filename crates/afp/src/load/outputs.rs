@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use afp_core::rt::{Args, Outputs};
+use afp_core::rt::{Args, Outputs, limited};
 use afp_core::{Fault, Text, Value};
 use afp_dsl::graph;
 
@@ -28,6 +28,8 @@ pub struct Pull<'a> {
 pub struct Binding {
     port: u16,
     entry: u16,
+    /// Least and greatest value of the entry.
+    range: Option<(f64, f64)>,
     converter: Option<Converter>,
 }
 
@@ -35,21 +37,33 @@ pub struct Binding {
 pub struct Stage<'a> {
     bindings: &'a [Binding],
     staged: &'a mut Staged,
-    /// The first fault of a conversion.
+    /// The first fault of a conversion or range.
     fault: Option<Fault>,
     /// What objects that come out of ports of type `any` can be copies of.
     pub passed: Option<&'a Pull<'a>>,
 }
 
 impl Binding {
-    /// The bindings of a component.
-    pub fn all(outputs: &[graph::Output]) -> Arc<[Binding]> {
+    /// The bindings of a component to entries of its plan.
+    pub fn all(outputs: &[graph::Output], entries: &[graph::Entry]) -> Arc<[Binding]> {
         let bindings = outputs.iter().map(|output| Binding {
             port: output.port,
             entry: output.entry.0,
+            range: entries.get(output.entry.index()).and_then(|entry| entry.range),
             converter: output.conversion.as_ref().map(Converter::new),
         });
         bindings.collect()
+    }
+}
+
+/// A value for an entry with that range, if it has one.
+///
+/// # Errors
+/// [`Fault::RANGE`].
+pub fn limit(range: Option<(f64, f64)>, value: Value) -> Result<Value, Fault> {
+    match range {
+        Some((least, greatest)) => limited(value, least, greatest),
+        None => Ok(value),
     }
 }
 
@@ -146,14 +160,16 @@ impl<'a> Stage<'a> {
         Stage { bindings, staged, fault: None, passed: None }
     }
 
-    /// Stages one output, converted for its entry.
+    /// Stages one output, converted for its entry and within its range.
     pub fn put(&mut self, port: u16, value: Value) {
         let Some(binding) = self.binding(port) else { return };
         let converted = match &binding.converter {
             None => Ok(value),
             Some(converter) => converter.convert(value),
         };
-        match converted.and_then(check_finite) {
+        let fitting =
+            converted.and_then(check_finite).and_then(|value| limit(binding.range, value));
+        match fitting {
             Ok(value) => self.staged.put(binding.entry, value),
             Err(fault) => self.fault = self.fault.or(Some(fault)),
         }

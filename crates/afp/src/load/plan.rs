@@ -21,7 +21,7 @@ use super::error::{InputError, LoadError};
 use super::formula::{Formula, spellings};
 use super::inject::Injected;
 use super::names::PlanNames;
-use super::outputs::{Binding, Inputs, Stage};
+use super::outputs::{Binding, Inputs, Stage, limit};
 use super::registry::Registry;
 use super::slots::SupervisorSlot;
 use super::tables::LoadedTables;
@@ -46,6 +46,8 @@ pub struct LoadedPlan<E: ?Sized + 'static> {
 struct EntryInfo {
     name: String,
     kind: EntryKind,
+    /// Least and greatest value.
+    range: Option<(f64, f64)>,
     /// The units that a value from outside may carry.
     units: Vec<(String, Scale)>,
 }
@@ -56,7 +58,7 @@ impl EntryInfo {
             (Type::Quantity(dimension), EntryKind::In | EntryKind::Var) => spellings(*dimension),
             _ => Vec::new(),
         };
-        EntryInfo { name: entry.name.clone(), kind: entry.kind, units }
+        EntryInfo { name: entry.name.clone(), kind: entry.kind, range: entry.range, units }
     }
 }
 
@@ -121,11 +123,20 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     }
 
     /// Gives the `port`-th `in` entry its value for the next activation.
-    pub(super) fn pass(&mut self, port: usize, value: Value, object: Option<&dyn ObjectCell>) {
+    ///
+    /// # Errors
+    /// [`Fault::RANGE`].
+    pub(super) fn pass(
+        &mut self,
+        port: usize,
+        value: Value,
+        object: Option<&dyn ObjectCell>,
+    ) -> Result<(), Fault> {
         let mut inputs = numbered(&*self.entries).filter(|(_, entry)| entry.kind == EntryKind::In);
-        if let Some((entry, _)) = inputs.nth(port) {
-            self.config.values.set(entry, value, object);
+        if let Some((entry, info)) = inputs.nth(port) {
+            self.config.values.set(entry, limit(info.range, value)?, object);
         }
+        Ok(())
     }
 
     /// The `out` entries that are set, each with its position among the `out` entries.
@@ -224,12 +235,12 @@ impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {
             }
         }
         for (entry, formula) in &*self.initial {
-            let given = self.entries[usize::from(*entry)].kind == EntryKind::In
-                && self.config.values.is_set(*entry);
+            let info = &self.entries[usize::from(*entry)];
+            let given = info.kind == EntryKind::In && self.config.values.is_set(*entry);
             if given {
                 continue;
             }
-            let value = formula.finite(&self.config.values)?;
+            let value = limit(info.range, formula.finite(&self.config.values)?)?;
             match (formula.entry(), value) {
                 (Some(from), Value::Object(_)) => self.config.values.copy(from, *entry),
                 (_, value) => self.config.values.set(*entry, value, None),
@@ -260,7 +271,8 @@ impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {
                 Ok(())
             }
             _ => Err(WriteError::Type),
-        }
+        }?;
+        limit(info.range, fit(Some(ty), value)).map(|_| ()).map_err(|_| WriteError::Range)
     }
 
     fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {

@@ -3,9 +3,10 @@
 use super::Checker;
 use super::robot::{Found, Robot, with_devices};
 use crate::check::names::unknown;
+use crate::check::range;
 use crate::scenario::{Failure, Part};
-use crate::toolbox::{Constant, Control, Device, Fault};
-use crate::types::{Type, text};
+use crate::toolbox::{Control, Device, Fault};
+use crate::types::Type;
 use afp_syntax::ast::{Bind, Path};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
 
@@ -78,19 +79,14 @@ impl Checker<'_> {
                 return None;
             };
             let ty = Type::Quantity(known.dimension);
-            let (_, Constant::Float(value)) = self.constant(formula, &ty, diags)? else {
-                return None;
-            };
-            if !(known.from..=known.to).contains(&value) {
-                let message = format!("the {} is out of its range", known.name);
-                let (from, to) = (text::value(known.from, &ty), text::value(known.to, &ty));
-                diags.push(
-                    Diagnostic::new(Code::E0224, formula.span(), message)
-                        .help(format!("use a value from '{from}' to '{to}'")),
-                );
+            let (_, value) = self.constant(formula, &ty, diags)?;
+            let message = |_| format!("the {} is out of its range", known.name);
+            let range = (known.from, known.to);
+            if let Some(error) = range::outside(&value, range, &ty, formula.span(), message) {
+                diags.push(error);
                 return None;
             }
-            amount = Some(value);
+            amount = range::number(&value);
         }
         Some(amount)
     }

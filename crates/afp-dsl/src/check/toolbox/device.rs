@@ -169,8 +169,7 @@ fn amount(node: &ast::Amount, site: &Site<'_>, diags: &mut Diagnostics) -> Optio
         return None;
     };
     let values = Values { site, ty: &ty, of: Declared::Amount };
-    let range =
-        ends.and_then(|(least, greatest, span)| values.range(&least, &greatest, span, diags));
+    let range = ends.and_then(|written| values.range(&written, diags));
     let Some(written) = node.default() else {
         let message = format!("'{}' has no default", name.text);
         let help =

@@ -3,14 +3,13 @@
 use crate::check::formula::Scope;
 use crate::check::names::Places;
 use crate::check::names::{Names, unknown};
+use crate::check::range;
 use crate::check::types::Types;
 use crate::index::Recorder;
 use crate::toolbox::{Constant, Device, InPort, OutPort, Outcome, TemplateKind};
 use crate::types::Type;
-use crate::types::text;
 use afp_syntax::ast::{self, Formula};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
-use afp_syntax::source::Span;
 
 /// Reads an input port; `None` when it has no name or no type.
 pub(super) fn input(
@@ -38,9 +37,7 @@ pub(super) fn input(
         return None;
     };
     let values = Values { site, ty: &ty, of: Declared::Port };
-    let range = node
-        .range()
-        .and_then(|(least, greatest, span)| values.range(&least, &greatest, span, diags));
+    let range = node.range().and_then(|written| values.range(&written, diags));
     let default = node.default().and_then(|formula| values.default(&formula, range, diags));
     Some(InPort {
         doc: node.doc(),
@@ -182,57 +179,22 @@ impl Values<'_> {
             return None;
         }
         let value = self.constant(formula, diags)?;
-        if let (Some((least, greatest)), Some(number)) = (range, number(&value))
-            && !(least..=greatest).contains(&number)
-        {
-            let (least, greatest) = (text::value(least, self.ty), text::value(greatest, self.ty));
-            let message = match self.of {
-                Declared::Port => "the default is out of the port's range",
-                Declared::Amount => "the default is out of the range",
-            };
-            diags.push(
-                Diagnostic::new(Code::E0224, span, message)
-                    .help(format!("use a value from '{least}' to '{greatest}'")),
-            );
+        let message = match self.of {
+            Declared::Port => "the default is out of the port's range",
+            Declared::Amount => "the default is out of the range",
+        };
+        let outside = |range| range::outside(&value, range, self.ty, span, |_| message.to_owned());
+        if let Some(error) = range.and_then(outside) {
+            diags.push(error);
         }
         Some(value)
     }
 
     /// Least and greatest value.
-    pub fn range(
-        &self,
-        least: &Formula,
-        greatest: &Formula,
-        span: Span,
-        diags: &mut Diagnostics,
-    ) -> Option<(f64, f64)> {
-        if !matches!(self.ty, Type::Int | Type::Quantity(_)) {
-            diags.push(
-                Diagnostic::new(Code::E0513, span, "only ints, floats and quantities have a range")
-                    .help("remove 'from ... to ...'"),
-            );
-            for end in [least, greatest] {
-                self.site.formula(end, None, &mut Diagnostics::default());
-            }
-            return None;
-        }
-        let (from, to) = (self.constant(least, diags), self.constant(greatest, diags));
-        let (from, to) = (number(&from?)?, number(&to?)?);
-        if from > to {
-            diags.push(
-                Diagnostic::new(Code::E0513, span, "the range is empty")
-                    .help("write the least value first"),
-            );
-            return None;
-        }
-        Some((from, to))
-    }
-}
-
-fn number(value: &Constant) -> Option<f64> {
-    match value {
-        Constant::Int(value) => Some(*value as f64),
-        Constant::Float(value) => Some(*value),
-        _ => None,
+    pub fn range(&self, written: &range::Written, diags: &mut Diagnostics) -> Option<(f64, f64)> {
+        let mut constant = |formula: &Formula, ty: Option<&Type>, diags: &mut Diagnostics| {
+            self.site.formula(formula, ty, diags)
+        };
+        range::read(written, self.ty, &mut constant, diags)
     }
 }

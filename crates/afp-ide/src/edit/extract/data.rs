@@ -13,6 +13,8 @@ use afp_syntax::kind::Kind;
 struct Used {
     name: String,
     ty: String,
+    /// Its range as written, behind a blank; empty without one.
+    range: String,
     written: bool,
     /// The name of the input that brings its value, where one is needed.
     input: Option<String>,
@@ -34,6 +36,13 @@ impl Data {
             written.extend(written_by(selection, element));
             for guard in children(element, Kind::Guard) {
                 written.extend(written_by(selection, &guard));
+            }
+        }
+        for entry in children(&selection.plan, Kind::Entry) {
+            if name_of(&entry).is_some_and(|name| written.contains(&name)) {
+                let ranges = children(&entry, Kind::Range);
+                let names = ranges.flat_map(|range| reads(&range)).collect::<Vec<_>>();
+                read.extend(names.iter().filter_map(|name| selection.entry(name)));
             }
         }
         let before = read_before_written(selection, first);
@@ -58,7 +67,9 @@ impl Data {
             let ty = type_of(&entry).ok_or_else(|| {
                 Refused::new(format!("'{name}' has no written type, which the new plan needs"))
             })?;
-            data.used.push(Used { name, ty, written: is_written, input });
+            let range = children(&entry, Kind::Range).next();
+            let range = range.map(|range| format!(" {}", solid(&range))).unwrap_or_default();
+            data.used.push(Used { name, ty, range, written: is_written, input });
         }
         Ok(data)
     }
@@ -71,7 +82,7 @@ impl Data {
         });
         let outputs = self.used.iter().filter(|used| used.written).map(|used| {
             let value = used.input.iter().map(|input| format!(" = {input}")).collect::<String>();
-            format!("out {}: {}{value}", used.name, used.ty)
+            format!("out {}: {}{value}{}", used.name, used.ty, used.range)
         });
         inputs.chain(outputs).chain(self.consts.iter().cloned()).collect()
     }
@@ -125,14 +136,17 @@ fn consts(selection: &Selection, read: &BTreeSet<String>) -> Vec<String> {
         }
     }
     let is_needed = |entry: &&Node| name_of(entry).is_some_and(|name| needed.contains(&name));
-    let text = |entry: &Node| {
-        let tokens = entry.descendants_with_tokens().filter_map(|each| each.into_token());
-        let solid = tokens.filter(|token| !token.kind().is_trivia());
-        // A comma behind the entry is no part of it.
-        let words: Vec<_> = solid.map(|token| token.text().to_owned()).collect();
-        words.join(" ").trim_end_matches([',', ' ']).to_owned()
-    };
+    // A comma behind the entry is no part of it.
+    let text = |entry: &Node| solid(entry).trim_end_matches([',', ' ']).to_owned();
     all.iter().filter(is_needed).map(text).collect()
+}
+
+/// The text of a node without comments, a blank between any two words.
+fn solid(node: &Node) -> String {
+    let tokens = node.descendants_with_tokens().filter_map(|each| each.into_token());
+    let solid = tokens.filter(|token| !token.kind().is_trivia());
+    let words: Vec<_> = solid.map(|token| token.text().to_owned()).collect();
+    words.join(" ")
 }
 
 /// The entries that some element may read before the selection has written them.

@@ -6,7 +6,7 @@ use super::Call;
 use crate::edit::extract::type_of;
 use crate::edit::port::{port_of, reads, value};
 use crate::edit::tree::{
-    self, Scope, binds, children, keyword, name_of, range, solid_range, target,
+    self, Scope, binds, children, init, keyword, name_of, range, solid_range, target,
 };
 use crate::edit::{Refused, name};
 use afp_syntax::Node;
@@ -69,12 +69,12 @@ impl Data {
     }
 
     fn constant(&mut self, call: &Call, entry: &Node, name: String, taken: &mut Vec<String>) {
-        let Some(init) = init(entry) else { return };
+        let Some(value) = init(entry) else { return };
         let ty = type_of(entry).map(|ty| format!(": {ty}")).unwrap_or_default();
-        let rest = format!("{ty} = {}", self.translated(call, &init));
+        let rest = format!("{ty} = {}", self.translated(call, &value));
         let line = |entry: &Node| {
             let ty = type_of(entry).map(|ty| format!(": {ty}")).unwrap_or_default();
-            let init = self::init(entry).as_ref().map(plain).unwrap_or_default();
+            let init = init(entry).as_ref().map(plain).unwrap_or_default();
             format!("{ty} = {init}")
         };
         let same = children(&call.outer, Kind::Entry).any(|known| {
@@ -102,28 +102,41 @@ impl Data {
         }
         let ty =
             type_of(entry).ok_or_else(|| Refused::new(format!("'{name}' has no written type")))?;
+        let range = self.range(call, entry);
         let bound = binds(&call.element).into_iter().find(|bind| port_of(bind) == name);
         let new = match bound.and_then(|bind| target(&bind)) {
             Some(outer) => {
                 let known = tree::inner(&call.outer, outer.text());
-                if known.as_ref().and_then(type_of).as_ref() != Some(&ty) {
-                    return Err(Refused::new(format!(
-                        "'{name}' and '{}' differ in type",
-                        outer.text()
-                    )));
+                let same_range = known.as_ref().is_some_and(|known| {
+                    let own = children(known, Kind::Range).next().as_ref().map(plain);
+                    range == own.map(|own| format!(" {own}")).unwrap_or_default()
+                });
+                let what = match known.as_ref().and_then(type_of).as_ref() == Some(&ty) {
+                    false => Some("type"),
+                    true => (!same_range).then_some("range"),
+                };
+                if let Some(what) = what {
+                    let outer = outer.text();
+                    return Err(Refused::new(format!("'{name}' and '{outer}' differ in {what}")));
                 }
                 outer.text().to_owned()
             }
             None => {
                 let new = name::fresh(&name, taken);
                 taken.push(new.clone());
-                self.new_entries.push(format!("var {new}: {ty}"));
+                self.new_entries.push(format!("var {new}: {ty}{range}"));
                 new
             }
         };
         self.read.insert(name.clone(), new.clone());
         self.written.insert(name, new);
         Ok(())
+    }
+
+    /// The range of an entry, in the words of the outer plan, behind a blank; nothing where it has none.
+    fn range(&self, call: &Call, entry: &Node) -> String {
+        let range = children(entry, Kind::Range).next();
+        range.map(|range| format!(" {}", self.translated(call, &range))).unwrap_or_default()
     }
 
     fn input(&mut self, call: &Call, entry: &Node, name: String) -> Result<(), Refused> {
@@ -137,6 +150,10 @@ impl Data {
             (None, Some(default)) => self.translated(call, &default),
             (None, None) => return Err(Refused::new(format!("'{name}' is not bound"))),
         };
+        let passed = formula.as_ref().is_some_and(|formula| formula.kind() != Kind::Literal);
+        if passed && children(entry, Kind::Range).next().is_some() {
+            return Err(Refused::new(format!("the range of '{name}' is checked on its way in")));
+        }
         let shape = formula.or_else(|| init(entry));
         let Some(shape) = shape else { return Ok(()) };
         if tree::holds_comment(&shape) {
@@ -174,11 +191,6 @@ impl Data {
             ))),
         }
     }
-}
-
-/// The initial value of an entry.
-fn init(entry: &Node) -> Option<Node> {
-    entry.children().find(|child| !matches!(child.kind(), Kind::Type | Kind::Error))
 }
 
 /// The text of a node without what stands around it.

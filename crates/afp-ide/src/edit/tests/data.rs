@@ -118,6 +118,20 @@ fn entries_change_part_by_part() {
 }
 
 #[test]
+fn an_entry_keeps_its_range() {
+    let text = PLAN.replace("length = 30 cm", "length = 30 cm from 0 m to 1 m");
+    let value = |value: Option<&str>| Change::SetEntryValue {
+        entry: Item::inner("P", "limit"),
+        value: value.map(str::to_owned),
+    };
+    let without = after(&text, value(None));
+    assert!(without.contains("limit: length from 0 m to 1 m // how"), "{without}");
+    assert_eq!(after(&without, value(Some("30 cm"))), text);
+    let other = after(&text, value(Some("5 cm")));
+    assert!(other.contains("limit: length = 5 cm from 0 m to 1 m // how"), "{other}");
+}
+
+#[test]
 fn help_text_is_set() {
     let doc = |item: Item, text: &str| Change::SetDoc { item, text: text.into() };
     replaces(

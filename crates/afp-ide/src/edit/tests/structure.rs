@@ -271,6 +271,34 @@ fn what_would_mean_something_else_is_refused() {
 }
 
 #[test]
+fn ranges_go_along() {
+    let text = "\
+plan P {
+    const most = 1 m
+    var way: length = 0 m from 0 m to most
+    start go
+    actor go: A(x = way, y => way) { Done -> terminate }
+}
+";
+    let change = Change::Extract {
+        plan: "P".into(),
+        elements: vec!["go".into()],
+        new_plan: "Inner".into(),
+        element: "inner".into(),
+    };
+    let inner = after(text, change);
+    assert!(inner.contains("length = wayBefore from 0 m to most\n"), "{inner}");
+    assert!(inner.split_once("plan Inner").is_some_and(|(_, it)| it.contains("const most = 1 m")));
+    let ranged = CALL.replace("var own:   length", "var own:   length from base to 3 m");
+    let inlined = after(&ranged, inline());
+    assert!(inlined.contains("    var own: length from base2 to 3 m\n"), "{inlined}");
+    let narrow = CALL.replace("out gap:   length", "out gap: length from 0 m to 1 m");
+    refused(&narrow, inline(), "'gap' and 'gap' differ in range");
+    let checked = CALL.replace("in  limit: length", "in  limit: length from 0 m to 9 m");
+    refused(&checked, inline(), "the range of 'limit' is checked on its way in");
+}
+
+#[test]
 fn constants_that_are_times_go_along() {
     let text = "\
 plan P {

@@ -6,6 +6,7 @@ use afp_dsl::types::Type;
 
 use super::{LoadedPlan, numbered};
 use crate::load::config::ObjectCell;
+use crate::load::outputs::limit;
 
 /// The value of an entry that takes the place of its initial value.
 #[derive(Clone)]
@@ -19,6 +20,8 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     /// Takes over the values of another plan, which this one is to replace: of each `in`, `var` and
     /// `out` entry that has the same name and type in both and a value in the other. A value takes
     /// the place of an initial one, for the next start alone. Gives the names of those entries.
+    ///
+    /// A value that is out of the range of the entry here stays behind.
     ///
     /// Enums are the same type when their values have the same names in the same order.
     pub fn carry(&mut self, from: &LoadedPlan<E>) -> Vec<String> {
@@ -34,6 +37,9 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
                 continue;
             }
             let value = from.config.values.get(other).clone();
+            if limit(info.range, value.clone()).is_err() {
+                continue;
+            }
             let object = from.config.values.cell(other).map(ObjectCell::copied);
             self.carried.push(Carried { entry, value, object });
             names.push(info.name.clone());

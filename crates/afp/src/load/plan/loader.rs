@@ -46,10 +46,10 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
             initial: initial(plan),
             carried: Vec::new(),
             elements: elements
-                .map(|(element, row)| self.element(element, row.child))
+                .map(|(element, row)| self.element(element, &plan.entries, row.child))
                 .collect::<Result<_, _>>()?,
             supervisors: supervisors
-                .map(|(supervisor, row)| self.supervisor(supervisor, row.wanted))
+                .map(|(supervisor, row)| self.supervisor(supervisor, &plan.entries, row.wanted))
                 .collect::<Result<_, _>>()?,
             tables,
         })
@@ -66,7 +66,12 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
         Ok(())
     }
 
-    fn element(&self, element: &graph::Element, child: Child) -> Result<ElementSlot<E>, LoadError> {
+    fn element(
+        &self,
+        element: &graph::Element,
+        entries: &[graph::Entry],
+        child: Child,
+    ) -> Result<ElementSlot<E>, LoadError> {
         let component = match element.component {
             Component::Actor(id) => Running::Actor(self.find(id, Registry::new_actor)?),
             Component::Computation(id) => {
@@ -76,17 +81,18 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
                 Running::SubPlan { child, machine: Box::new(Machine::new(self.plan(id)?)) }
             }
         };
-        Ok(ElementSlot::new(element, component))
+        Ok(ElementSlot::new(element, entries, component))
     }
 
     fn supervisor(
         &self,
         supervisor: &graph::Supervisor,
+        entries: &[graph::Entry],
         wanted: Events,
     ) -> Result<WatchSlot<E>, LoadError> {
         Ok(WatchSlot {
             inputs: Inputs::new(&supervisor.inputs),
-            outputs: Binding::all(&supervisor.outputs),
+            outputs: Binding::all(&supervisor.outputs, entries),
             wanted,
             injected: None,
             slot: self.find(supervisor.template, Registry::new_supervisor)?,

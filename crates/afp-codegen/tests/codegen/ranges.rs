@@ -1,0 +1,739 @@
+// inner.rs
+
+const WAIT: u16 = 0;
+
+/// The element that is active.
+#[derive(Clone, Default)]
+enum Active {
+    #[default]
+    None,
+    // actor wait: Wait
+    Wait(afp_std::Wait),
+}
+
+/// Inputs of `wait`.
+fn wait(config: &Config) -> Result<std_templates::wait::Inputs, Fault> {
+    Ok(std_templates::wait::Inputs {
+        duration: Time::from_si(1.0) * (config.angle() / Angle::from_si(1.0)),
+    })
+}
+
+/// The plan `Inner`.
+#[derive(Clone, Default)]
+pub struct Inner {
+    pub(super) config: Config,
+    staged: Staged,
+    active: Active,
+    supervisors: Supervisors,
+}
+
+/// The configuration.
+#[derive(Clone, Debug, Default)]
+pub struct Config {
+    /// `in angle: angle`
+    pub angle: Entry<Angle>,
+    /// `out gap: float`
+    pub gap: Entry<f64>,
+}
+
+/// What the next commit writes.
+#[derive(Clone, Default)]
+struct Staged {
+    angle: Option<Angle>,
+}
+
+impl Config {
+    /// The value of `angle`.
+    #[inline]
+    pub fn angle(&self) -> Angle {
+        *self.angle.get()
+    }
+}
+
+impl Inner {
+    /// The entry `angle`, for `Scheduler::set`.
+    pub const ANGLE: TypedEntry<Self, Angle> = TypedEntry::new(0);
+
+    /// The plan, not yet started.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// `in angle: angle`
+    ///
+    /// `None` while nobody has written it.
+    pub fn angle(&self) -> Option<Angle> {
+        self.config.angle.value().copied()
+    }
+
+    /// Sets `angle` before the start.
+    ///
+    /// # Errors
+    /// [`WriteError::NotFinite`] or [`WriteError::Range`].
+    pub fn set_angle(&mut self, value: Angle) -> Result<(), WriteError> {
+        let value = limited(value, -1.5707963267948966, 1.5707963267948966)
+            .map_err(WriteError::of)?;
+        self.config.angle.set(value);
+        Ok(())
+    }
+
+    /// `out gap: float`
+    ///
+    /// `None` while nobody has written it.
+    pub fn gap(&self) -> Option<f64> {
+        self.config.gap.value().copied()
+    }
+}
+
+impl PlanState for Inner {
+    type Tables = Rules;
+    type Slots = [Slot; 0];
+
+    #[inline]
+    fn tables(&self) -> Rules {
+        Rules
+    }
+
+    #[inline(always)]
+    fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
+        match element {
+            WAIT => run.at::<{ WAIT }>(),
+            _ => run.unknown(),
+        }
+    }
+
+    fn try_clone(&self) -> Option<Self> {
+        Some(self.clone())
+    }
+
+    fn slots(&self) -> [Slot; 0] {
+        [Slot::default(); 0]
+    }
+
+    fn missing_input(&self) -> Option<u16> {
+        if !self.config.angle.is_set() {
+            return Some(0);
+        }
+        None
+    }
+
+    fn initialise(&mut self) -> Result<(), Fault> {
+        let config = &mut self.config;
+        config.gap.clear();
+        config.gap.set(0.5);
+        Ok(())
+    }
+
+    fn entry(&self, entry: u16) -> ValueRef<'_> {
+        match entry {
+            0 => self.config.angle.as_value(),
+            1 => self.config.gap.as_value(),
+            _ => ValueRef::Unset,
+        }
+    }
+
+    fn accepts(&self, entry: u16, value: &Value) -> Result<(), WriteError> {
+        match entry {
+            0 => {
+                WriteError::check_within::<
+                    Angle,
+                >(value, -1.5707963267948966, 1.5707963267948966)
+            }
+            1 => Err(WriteError::ReadOnly),
+            _ => Err(WriteError::Unknown),
+        }
+    }
+
+    fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
+        self.accepts(entry, value)?;
+        match entry {
+            0 => set_input(&mut self.config.angle, value),
+            _ => Err(WriteError::NotStarted),
+        }
+    }
+
+    fn stage(&mut self, entry: u16, value: &Value) {
+        match entry {
+            0 => stage_outside(&mut self.staged.angle, value),
+            _ => {}
+        }
+    }
+
+    #[inline]
+    fn commit<S: Sink>(&mut self, to: &mut Committer<'_, S>) {
+        if let Some(value) = self.staged.angle.take() {
+            to.write(0, &mut self.config.angle, value);
+        }
+    }
+
+    #[inline]
+    fn discard(&mut self) {
+        self.staged = Staged::default();
+    }
+}
+
+impl<E> Plan<E> for Inner
+where
+    E: Environment + ?Sized,
+    afp_std::Wait: Actor<std_templates::Wait, E>,
+{
+    fn start_supervisor<S: Sink, C: Clock>(
+        &mut self,
+        _: u16,
+        _: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), Fault> {
+        Err(Fault::INTERNAL)
+    }
+
+    #[inline]
+    fn poll_supervisor<S: Sink, C: Clock>(
+        &mut self,
+        _: u16,
+        _: &mut Cx<'_, E, S, C>,
+    ) -> Fired {
+        Fired::fault(Fault::INTERNAL)
+    }
+
+    fn start_element<S: Sink, C: Clock>(
+        &mut self,
+        element: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Started {
+        let started: Result<Active, Fault> = match element {
+            WAIT => cx.start_actor(wait(&self.config)).map(Active::Wait),
+            _ => Err(Fault::INTERNAL),
+        };
+        match started {
+            Ok(active) => {
+                self.active = active;
+                Started::Running
+            }
+            Err(fault) => Started::Failed(fault),
+        }
+    }
+
+    #[inline]
+    fn poll_element<S: Sink, C: Clock>(
+        &mut self,
+        _: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Polled {
+        match &mut self.active {
+            Active::None => Polled::Failed(Fault::INTERNAL),
+            Active::Wait(actor) => {
+                let live = Ok(std_templates::wait::Live {});
+                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()))
+            }
+        }
+    }
+
+    fn interrupt_element<S: Sink, C: Clock>(
+        &mut self,
+        _: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), Fault> {
+        match &mut self.active {
+            Active::None => Err(Fault::INTERNAL),
+            Active::Wait(actor) => cx.interrupt_actor(actor),
+        }
+    }
+
+    fn leave(&mut self, _: u16) {
+        self.active = Active::None;
+    }
+
+    fn end(&mut self) {
+        self.active = Active::None;
+        self.supervisors = Supervisors::default();
+    }
+}
+
+/// The names behind the ids of a trace.
+pub static NAMES: NameTable = NameTable {
+    components: &[
+        ComponentRow::new("Inner", Kind::Plan, "Inner", &[], "", &[]),
+        ComponentRow::new(
+            "wait",
+            Kind::Actor,
+            "Wait",
+            &[("Elapsed", "terminate")],
+            "",
+            &["duration"],
+        ),
+    ],
+    entries: &[
+        EntryRow::new("angle", EntryKind::In, "angle", "rad", &[])
+            .within(-1.5707963267948966, 1.5707963267948966),
+        EntryRow::new("gap", EntryKind::Out, "float", "", &[]).within(0.0, 1.0),
+    ],
+};
+
+impl NamedPlan for Inner {
+    type Names = NameTable;
+
+    fn names(&self) -> NameTable {
+        NAMES
+    }
+
+    fn units(&self, entry: u16) -> impl Iterator<Item = Unit<'_>> {
+        let units: &[Unit<'static>] = match entry {
+            0 => &super::units::ANGLE,
+            _ => &[],
+        };
+        units.iter().copied()
+    }
+}
+
+// p.rs
+
+const COUNT: u16 = 0;
+const INNER: u16 = 1;
+
+/// The element that is active.
+#[derive(Clone, Default)]
+enum Active {
+    #[default]
+    None,
+    // subplan inner: Inner
+    Inner(Machine<super::inner::Inner>),
+}
+
+/// Inputs of `count`.
+fn count(config: &Config) -> Result<std_templates::count::Inputs, Fault> {
+    Ok(std_templates::count::Inputs {
+        value: config.turns(),
+        limit: config.often(),
+    })
+}
+
+/// Outputs of `count`.
+fn count_outputs(
+    staged: &mut Staged,
+    outcome: std_templates::count::State,
+) -> Result<(), Fault> {
+    match outcome {
+        std_templates::count::State::Again { next } => {
+            staged.turns = Some(limited(next, 0.0, 10.0)?);
+        }
+        std_templates::count::State::Done { next } => {
+            staged.turns = Some(limited(next, 0.0, 10.0)?);
+        }
+    }
+    Ok(())
+}
+
+/// Where the ids of `inner` begin.
+const INNER_PLACE: Child = Child { components: 2, entries: 4 };
+
+/// Inputs of `inner`.
+fn inner(config: &Config, to: &mut super::inner::Config) -> Result<(), Fault> {
+    to.angle
+        .set(
+            limited(
+                finite(
+                    Angle::from_si(
+                        (config.pace() / Speed::from_si(1.0)) * Angle::from_si(1.0).si(),
+                    ),
+                )?,
+                -1.5707963267948966,
+                1.5707963267948966,
+            )?,
+        );
+    Ok(())
+}
+
+/// Results of `inner`.
+fn inner_outputs(staged: &mut Staged, from: &super::inner::Config) -> Result<(), Fault> {
+    if let Some(value) = from.gap.value() {
+        staged.share = Some(limited(finite(*value)?, 0.5, 1.0)?);
+    }
+    Ok(())
+}
+
+/// Ranges of entries: outputs, writers from outside, initial values, inputs of sub-plans.
+#[derive(Clone, Default)]
+pub struct P {
+    pub(super) config: Config,
+    staged: Staged,
+    active: Active,
+    supervisors: Supervisors,
+}
+
+/// The configuration.
+#[derive(Clone, Debug, Default)]
+pub struct Config {
+    /// How fast.
+    ///
+    /// `in pace: speed`
+    pub pace: Entry<Speed>,
+    /// `in often: int`
+    pub often: Entry<i64>,
+    /// `var turns: int`
+    pub turns: Entry<i64>,
+    /// `var share: float`
+    pub share: Entry<f64>,
+}
+
+/// What the next commit writes.
+#[derive(Clone, Default)]
+struct Staged {
+    pace: Option<Speed>,
+    often: Option<i64>,
+    turns: Option<i64>,
+    share: Option<f64>,
+}
+
+impl Config {
+    /// The value of `pace`.
+    #[inline]
+    pub fn pace(&self) -> Speed {
+        *self.pace.get()
+    }
+
+    /// The value of `often`.
+    #[inline]
+    pub fn often(&self) -> i64 {
+        *self.often.get()
+    }
+
+    /// The value of `turns`.
+    #[inline]
+    pub fn turns(&self) -> i64 {
+        *self.turns.get()
+    }
+}
+
+impl P {
+    /// The entry `pace`, for `Scheduler::set`.
+    pub const PACE: TypedEntry<Self, Speed> = TypedEntry::new(0);
+
+    /// The entry `often`, for `Scheduler::set`.
+    pub const OFTEN: TypedEntry<Self, i64> = TypedEntry::new(1);
+
+    /// The entry `turns`, for `Scheduler::set`.
+    pub const TURNS: TypedEntry<Self, i64> = TypedEntry::new(2);
+
+    /// The entry `share`, for `Scheduler::set`.
+    pub const SHARE: TypedEntry<Self, f64> = TypedEntry::new(3);
+
+    /// The plan, not yet started.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// How fast.
+    ///
+    /// `in pace: speed`
+    ///
+    /// `None` while nobody has written it.
+    pub fn pace(&self) -> Option<Speed> {
+        self.config.pace.value().copied()
+    }
+
+    /// Sets `pace` before the start.
+    ///
+    /// # Errors
+    /// [`WriteError::NotFinite`] or [`WriteError::Range`].
+    pub fn set_pace(&mut self, value: Speed) -> Result<(), WriteError> {
+        let value = limited(value, 0.0, 2.0).map_err(WriteError::of)?;
+        self.config.pace.set(value);
+        Ok(())
+    }
+
+    /// `in often: int`
+    ///
+    /// `None` while nobody has written it.
+    pub fn often(&self) -> Option<i64> {
+        self.config.often.value().copied()
+    }
+
+    /// Sets `often` before the start.
+    ///
+    /// # Errors
+    /// [`WriteError::NotFinite`] or [`WriteError::Range`].
+    pub fn set_often(&mut self, value: i64) -> Result<(), WriteError> {
+        let value = limited(value, 1.0, 3.0).map_err(WriteError::of)?;
+        self.config.often.set(value);
+        Ok(())
+    }
+
+    /// `var turns: int`
+    ///
+    /// `None` while nobody has written it.
+    pub fn turns(&self) -> Option<i64> {
+        self.config.turns.value().copied()
+    }
+
+    /// `var share: float`
+    ///
+    /// `None` while nobody has written it.
+    pub fn share(&self) -> Option<f64> {
+        self.config.share.value().copied()
+    }
+}
+
+impl PlanState for P {
+    type Tables = Rules;
+    type Slots = [Slot; 0];
+
+    #[inline]
+    fn tables(&self) -> Rules {
+        Rules
+    }
+
+    #[inline(always)]
+    fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
+        match element {
+            INNER => run.at::<{ INNER }>(),
+            _ => run.unknown(),
+        }
+    }
+
+    fn try_clone(&self) -> Option<Self> {
+        Some(self.clone())
+    }
+
+    fn slots(&self) -> [Slot; 0] {
+        [Slot::default(); 0]
+    }
+
+    fn missing_input(&self) -> Option<u16> {
+        if !self.config.often.is_set() {
+            return Some(1);
+        }
+        None
+    }
+
+    fn initialise(&mut self) -> Result<(), Fault> {
+        let config = &mut self.config;
+        config.turns.clear();
+        config.share.clear();
+        if !config.pace.is_set() {
+            config.pace.set(Speed::from_si(1.0));
+        }
+        let value = limited(int_mul(config.often(), 2)?, 0.0, 10.0)?;
+        config.turns.set(value);
+        let value = limited(1.0 / int_to_float(config.often()), 0.5, 1.0)?;
+        config.share.set(value);
+        Ok(())
+    }
+
+    fn entry(&self, entry: u16) -> ValueRef<'_> {
+        match entry {
+            0 => self.config.pace.as_value(),
+            1 => self.config.often.as_value(),
+            2 => self.config.turns.as_value(),
+            3 => self.config.share.as_value(),
+            _ => ValueRef::Unset,
+        }
+    }
+
+    fn accepts(&self, entry: u16, value: &Value) -> Result<(), WriteError> {
+        match entry {
+            0 => WriteError::check_within::<Speed>(value, 0.0, 2.0),
+            1 => WriteError::check_within::<i64>(value, 1.0, 3.0),
+            2 => WriteError::check_within::<i64>(value, 0.0, 10.0),
+            3 => WriteError::check_within::<f64>(value, 0.5, 1.0),
+            _ => Err(WriteError::Unknown),
+        }
+    }
+
+    fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
+        self.accepts(entry, value)?;
+        match entry {
+            0 => set_input(&mut self.config.pace, value),
+            1 => set_input(&mut self.config.often, value),
+            _ => Err(WriteError::NotStarted),
+        }
+    }
+
+    fn stage(&mut self, entry: u16, value: &Value) {
+        match entry {
+            0 => stage_outside(&mut self.staged.pace, value),
+            1 => stage_outside(&mut self.staged.often, value),
+            2 => stage_outside(&mut self.staged.turns, value),
+            3 => stage_outside(&mut self.staged.share, value),
+            _ => {}
+        }
+    }
+
+    #[inline]
+    fn commit<S: Sink>(&mut self, to: &mut Committer<'_, S>) {
+        if let Some(value) = self.staged.pace.take() {
+            to.write(0, &mut self.config.pace, value);
+        }
+        if let Some(value) = self.staged.often.take() {
+            to.write(1, &mut self.config.often, value);
+        }
+        if let Some(value) = self.staged.turns.take() {
+            to.write(2, &mut self.config.turns, value);
+        }
+        if let Some(value) = self.staged.share.take() {
+            to.write(3, &mut self.config.share, value);
+        }
+    }
+
+    #[inline]
+    fn discard(&mut self) {
+        self.staged = Staged::default();
+    }
+}
+
+impl<E> Plan<E> for P
+where
+    E: Environment + ?Sized,
+    super::inner::Inner: Plan<E>,
+{
+    fn start_supervisor<S: Sink, C: Clock>(
+        &mut self,
+        _: u16,
+        _: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), Fault> {
+        Err(Fault::INTERNAL)
+    }
+
+    #[inline]
+    fn poll_supervisor<S: Sink, C: Clock>(
+        &mut self,
+        _: u16,
+        _: &mut Cx<'_, E, S, C>,
+    ) -> Fired {
+        Fired::fault(Fault::INTERNAL)
+    }
+
+    fn start_element<S: Sink, C: Clock>(
+        &mut self,
+        element: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Started {
+        let started: Result<Active, Fault> = match element {
+            COUNT => {
+                let computed = cx
+                    .compute::<
+                        std_templates::Count,
+                        afp_std::Count,
+                    >(count(&self.config));
+                return Started::computed(
+                    computed,
+                    |outcome| count_outputs(&mut self.staged, outcome),
+                );
+            }
+            INNER => {
+                let mut plan = super::inner::Inner::new();
+                if let Err(fault) = inner(&self.config, &mut plan.config) {
+                    return Started::Failed(fault);
+                }
+                let mut machine = Machine::new(plan);
+                let flow = cx.start_sub_plan(INNER_PLACE, &mut machine);
+                let started = Started::sub_plan(
+                    flow,
+                    || inner_outputs(&mut self.staged, &machine.plan().config),
+                );
+                self.active = Active::Inner(machine);
+                return started;
+            }
+            _ => Err(Fault::INTERNAL),
+        };
+        match started {
+            Ok(active) => {
+                self.active = active;
+                Started::Running
+            }
+            Err(fault) => Started::Failed(fault),
+        }
+    }
+
+    #[inline]
+    fn poll_element<S: Sink, C: Clock>(
+        &mut self,
+        _: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Polled {
+        match &mut self.active {
+            Active::None => Polled::Failed(Fault::INTERNAL),
+            Active::Inner(machine) => {
+                let flow = cx.inside(INNER_PLACE, |cx| machine.step(cx));
+                Polled::sub_plan(
+                    flow,
+                    || inner_outputs(&mut self.staged, &machine.plan().config),
+                )
+            }
+        }
+    }
+
+    fn interrupt_element<S: Sink, C: Clock>(
+        &mut self,
+        _: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), Fault> {
+        match &mut self.active {
+            Active::None => Err(Fault::INTERNAL),
+            Active::Inner(machine) => cx.inside(INNER_PLACE, |cx| machine.interrupt(cx)),
+        }
+    }
+
+    fn leave(&mut self, _: u16) {
+        self.active = Active::None;
+    }
+
+    fn end(&mut self) {
+        self.active = Active::None;
+        self.supervisors = Supervisors::default();
+    }
+}
+
+/// The names behind the ids of a trace.
+pub static NAMES: NameTable = NameTable {
+    components: &[
+        ComponentRow::new("P", Kind::Plan, "P", &[], "", &[]),
+        ComponentRow::new(
+            "count",
+            Kind::Computation,
+            "Count",
+            &[("Again", "inner"), ("Done", "terminate")],
+            "",
+            &["value", "limit"],
+        ),
+        ComponentRow::new(
+            "inner",
+            Kind::SubPlan,
+            "Inner",
+            &[("OK", "count"), ("Interrupted", "")],
+            "",
+            &["angle"],
+        ),
+        ComponentRow::new(
+            "inner.wait",
+            Kind::Actor,
+            "Wait",
+            &[("Elapsed", "terminate")],
+            "",
+            &["duration"],
+        ),
+    ],
+    entries: &[
+        EntryRow::new("pace", EntryKind::In, "speed", "m/s", &[]).within(0.0, 2.0),
+        EntryRow::new("often", EntryKind::In, "int", "", &[]).within(1.0, 3.0),
+        EntryRow::new("turns", EntryKind::Var, "int", "", &[]).within(0.0, 10.0),
+        EntryRow::new("share", EntryKind::Var, "float", "", &[]).within(0.5, 1.0),
+        EntryRow::new("inner.angle", EntryKind::In, "angle", "rad", &[])
+            .within(-1.5707963267948966, 1.5707963267948966),
+        EntryRow::new("inner.gap", EntryKind::Out, "float", "", &[]).within(0.0, 1.0),
+    ],
+};
+
+impl NamedPlan for P {
+    type Names = NameTable;
+
+    fn names(&self) -> NameTable {
+        NAMES
+    }
+
+    fn units(&self, entry: u16) -> impl Iterator<Item = Unit<'_>> {
+        let units: &[Unit<'static>] = match entry {
+            0 => &super::units::SPEED,
+            _ => &[],
+        };
+        units.iter().copied()
+    }
+}

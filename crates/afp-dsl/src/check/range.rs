@@ -1,0 +1,71 @@
+//! Ranges of ports and entries: `from 0 cm/s to 1 m/s`, both ends belong to it.
+
+use crate::toolbox::Constant;
+use crate::types::Type;
+use crate::types::text;
+use afp_syntax::ast::Formula;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
+
+/// Least and greatest value as written, and the place of both.
+pub(crate) type Written = (Formula, Formula, Span);
+
+/// Gives the value of one end, of that type where it is told.
+pub(crate) type Constants<'c> =
+    dyn FnMut(&Formula, Option<&Type>, &mut Diagnostics) -> Option<Constant> + 'c;
+
+/// Least and greatest value of what has type `ty`, in SI units.
+pub(crate) fn read(
+    (least, greatest, span): &Written,
+    ty: &Type,
+    constant: &mut Constants<'_>,
+    diags: &mut Diagnostics,
+) -> Option<(f64, f64)> {
+    if !matches!(ty, Type::Int | Type::Quantity(_)) {
+        diags.push(
+            Diagnostic::new(Code::E0513, *span, "only ints, floats and quantities have a range")
+                .help("remove 'from ... to ...'"),
+        );
+        for end in [least, greatest] {
+            constant(end, None, &mut Diagnostics::default());
+        }
+        return None;
+    }
+    let (from, to) = (constant(least, Some(ty), diags), constant(greatest, Some(ty), diags));
+    let (from, to) = (number(&from?)?, number(&to?)?);
+    if from > to {
+        diags.push(
+            Diagnostic::new(Code::E0513, *span, "the range is empty")
+                .help("write the least value first"),
+        );
+        return None;
+    }
+    Some((from, to))
+}
+
+/// The number that a value is.
+pub(crate) fn number(value: &Constant) -> Option<f64> {
+    match value {
+        Constant::Int(value) => Some(*value as f64),
+        Constant::Float(value) => Some(*value),
+        _ => None,
+    }
+}
+
+/// What a value is told that is out of the range of what it is for; `None` where it fits. `message`
+/// gets the value as people write it.
+pub(crate) fn outside(
+    value: &Constant,
+    range: (f64, f64),
+    ty: &Type,
+    place: Span,
+    message: impl FnOnce(String) -> String,
+) -> Option<Diagnostic> {
+    let (least, greatest) = range;
+    let number = number(value).filter(|number| !(least..=greatest).contains(number))?;
+    let [value, least, greatest] = [number, least, greatest].map(|number| text::value(number, ty));
+    Some(
+        Diagnostic::new(Code::E0224, place, message(value))
+            .help(format!("use a value from '{least}' to '{greatest}'")),
+    )
+}
