@@ -1,16 +1,92 @@
-// The drawing as the page keeps it.
-import { computed, signal } from "@preact/signals";
+// The drawing as the page keeps it: asked for once, then kept by differences, held while something is dragged.
+import { batch, computed, effect, signal } from "@preact/signals";
+import { current } from "../documents";
+import { lsp } from "../session";
+import { changed, whole } from "./differences";
+import type { Answer, Changed, Drawing } from "./shapes";
 
-export const drawing = signal<{ plan: string | null; plans: string[] } | null>(null);
+/** What is drawn; null before the first answer. */
+export const drawing = signal<Drawing | null>(null);
+/** The plan that is shown: null for the first one of the file. */
 export const wanted = signal<string | null>(null);
+/** The name of the plan that is shown. */
 export const plan = computed(() => drawing.value?.plan ?? null);
+/** The plans that were shown before, to go back to. */
 export const trail = signal<string[]>([]);
-export function enter(name: string): void {
-  wanted.value = name;
+
+let held = 0;
+let kept: Changed[] = [];
+
+/** Keeps changes back until `release`: the drawing stands still under a drag. */
+export function hold(): void {
+  held += 1;
 }
-export function leave(): boolean {
-  return false;
+
+export function release(): void {
+  held -= 1;
+  const waiting = held === 0 ? kept.splice(0) : [];
+  batch(() => waiting.forEach(take));
 }
+
+function take(change: Changed): void {
+  const before = drawing.peek();
+  if (!before || change.textDocument.uri !== before.uri) return;
+  if (held > 0) kept.push(change);
+  else drawing.value = changed(before, change);
+}
+
+async function ask(uri: string, plan: string | null): Promise<void> {
+  const textDocument = { uri };
+  const answer = await lsp()
+    .request<Answer>("afp/drawing", { textDocument, ...(plan ? { plan } : {}), subscribe: true })
+    .catch((why: Error) => {
+      console.error(why);
+      return null;
+    });
+  if (!answer || current.peek() !== uri || wanted.peek() !== plan) return;
+  kept = [];
+  drawing.value = whole(uri, answer);
+}
+
+/** Begins to follow the document that is shown; the answer ends it. */
 export function follow(): () => void {
-  return () => {};
+  const changes = lsp().on("afp/drawingChanged", take);
+  let before = "";
+  const asks = effect(() => {
+    const uri = current.value;
+    const connected = lsp().open.value;
+    if (uri !== before) {
+      batch(() => {
+        [wanted.value, trail.value, drawing.value] = [null, [], null];
+      });
+    }
+    before = uri;
+    const plan = wanted.value;
+    if (uri && connected) void ask(uri, plan);
+  });
+  return () => {
+    changes();
+    asks();
+  };
+}
+
+/** Shows another plan of the file, and remembers the way back. */
+export function enter(name: string): void {
+  const here = plan.peek();
+  if (!here || here === name || !drawing.peek()?.plans.includes(name)) return;
+  batch(() => {
+    trail.value = [...trail.peek(), here];
+    wanted.value = name;
+  });
+}
+
+/** Goes back to the plan that was shown before; false where there is none. */
+export function leave(): boolean {
+  const back = trail.peek().at(-1);
+  if (back === undefined) return false;
+  batch(() => {
+    trail.value = trail.peek().slice(0, -1);
+    wanted.value = back;
+  });
+  return true;
 }

@@ -1,4 +1,165 @@
-// What is selected.
-import { words } from "../words";
+// What is selected, as a form: name, template, ports, exits, timing and help; the plan with its entries where nothing is.
+import { useEffect, useState } from "preact/hooks";
+import * as actions from "../drawing/actions";
+import { anatomy, worth, type Anatomy, type Port } from "../drawing/anatomy";
+import * as ask from "../drawing/ask";
+import { offers } from "../drawing/catalog";
+import { Icon } from "../drawing/choices";
+import * as entries from "../drawing/entries";
+import { about } from "../drawing/messages";
+import { drawing } from "../drawing/model";
+import { isName } from "../drawing/rename";
+import { refuse } from "../drawing/say";
+import { nameOf, type Drawing, type Entry, type Part } from "../drawing/shapes";
+import { words } from "../drawing/words";
+import { Severity, Sign } from "../icons";
+import { nodes } from "../markdown";
+import { said, severityOf } from "../problems";
+import { select, selected } from "../selection";
+import { pen } from "../session";
+import { Value } from "./value";
 
-export const Inspector = () => <p class="empty">{words.comingInspector}</p>;
+export function Inspector() {
+  const drawn = drawing.value;
+  const part = selected.value.at(-1);
+  if (!drawn || drawn.plan === null) return <p class="empty">{words.noPlan}</p>;
+  if (selected.value.length > 1) return <p class="empty">{words.several(selected.value.length)}</p>;
+  const entry = part && drawn.entries.find((entry) => entry.item === part.item);
+  const plan = !part || part.item === drawn.plan || part.item === `${drawn.plan}.start`;
+  return (
+    <fieldset class="inspector" disabled={!pen.value}>
+      {plan ? <PlanForm drawn={drawn} /> : entry ? <EntryForm entry={entry} /> : <Component key={part.item} drawn={drawn} part={part} />}
+    </fieldset>
+  );
+}
+
+/** A line that is taken over with `Enter` or when it is left, and put back with `Escape`. */
+function Line({ label, value, take, hint, hidden }: { label: string; value: string; take(text: string): unknown; hint?: string; hidden?: boolean }) {
+  const [text, setText] = useState(value);
+  useEffect(() => setText(value), [value]);
+  const end = (): void => {
+    if (text.trim() !== value) void take(text.trim());
+  };
+  const key = (event: KeyboardEvent): void => {
+    if (event.key === "Enter") end();
+    if (event.key === "Escape") setText(value);
+  };
+  return (
+    <label class="line">
+      <span class={hidden ? "hidden" : ""}>{label}</span>
+      <input type="text" value={text} placeholder={hint} spellcheck={false} autocomplete="off" onInput={(event) => setText(event.currentTarget.value)} onKeyDown={key} onBlur={end} />
+    </label>
+  );
+}
+
+const Name = ({ item }: { item: string }) => (
+  <Line label={words.name} value={nameOf(item)} take={(to) => (isName(to) ? ask.edit([{ rename: { item, to } }], {}, [{ item: [...item.split(".").slice(0, -1), to].join(".") }]) : refuse(words.nameHint))} />
+);
+
+const Help = ({ item, text }: { item: string; text: string }) => (
+  <Line label={words.help} value={text.replaceAll("\n", " ")} hint={words.helpHint} take={(text) => ask.edit([{ setDoc: { item, text } }], {}, [{ item }])} />
+);
+
+function Wrong({ drawn, part }: { drawn: Drawing; part: Part }) {
+  const found = about(drawn, part);
+  if (found.length === 0) return null;
+  return (
+    <ul class="wrong-list">
+      {found.map((problem, nth) => (
+        <li key={nth}><Severity of={severityOf(problem)} /><span>{said(problem).message}<small>{said(problem).help}</small></span></li>
+      ))}
+    </ul>
+  );
+}
+
+function Component({ drawn, part }: { drawn: Drawing; part: Part }) {
+  const [found, setFound] = useState<Anatomy | null>(null);
+  const known = offers.value;
+  useEffect(() => {
+    let wanted = true;
+    anatomy(drawn, part.item).then((parts) => wanted && setFound(parts), () => {});
+    return () => void (wanted = false);
+  }, [drawn, part.item, known]);
+  if (!found) return null;
+  const { item, offer, timing } = found;
+  const time = (keyword: "every" | "deadline") => (value: string) => ask.edit([{ setTiming: { supervisor: item, keyword, value: value || null } }], {}, [{ item }]);
+  return (
+    <>
+      <div class="inspector-head">
+        <Icon svg={offer?.icon} />
+        <div><strong>{nameOf(item)}</strong><small>{found.kind}</small></div>
+      </div>
+      <Wrong drawn={drawn} part={{ item }} />
+      <Name item={item} />
+      <div class="line"><span>{words.templateOf}</span><button type="button" class="field" onClick={() => void actions.template()}>{found.template}<Sign name="down" /></button></div>
+      {offer && <div class="inspector-help" ref={(node) => node?.replaceChildren(nodes(offer.help))} />}
+      {found.ports.length > 0 && <h3>{words.ports}</h3>}
+      {found.ports.map((port) => <PortRow key={port.name} port={port} open={part.part?.name === port.name && part.part.kind !== "exit"} />)}
+      {found.exits.length > 0 && <h3>{words.exitsTitle}</h3>}
+      {found.exits.map((exit) => (
+        <button type="button" class={`row ${exit.to ? "" : "undone"}`} key={exit.name} onClick={() => { select([exit.part], "other"); void actions.whatThen(exit.part); }}>
+          <span>{exit.name}</span><span class="row-value">{exit.to ? `→ ${exit.to}` : words.open}</span>
+        </button>
+      ))}
+      {timing && <h3>{words.timing}</h3>}
+      {timing && <Line label={words.every} value={timing.every} hint={words.unlessSaid} take={time("every")} />}
+      {timing && <Line label={words.deadline} value={timing.deadline} hint={words.unlessSaid} take={time("deadline")} />}
+      <Help item={item} text={drawn.elements.get(item)?.help ?? ""} />
+    </>
+  );
+}
+
+function PortRow({ port, open: first }: { port: Port; open: boolean }) {
+  const [open, setOpen] = useState(first);
+  useEffect(() => setOpen(first), [first]);
+  const { answer, name, out, part } = port;
+  const missing = !answer?.value && !answer?.default && !out;
+  return (
+    <div class={`port ${open ? "open" : ""}`}>
+      <button type="button" class={`row ${missing ? "undone" : ""} ${answer?.value ? "" : "default"}`} aria-expanded={open} onClick={() => setOpen(!open)}>
+        <span>{name}</span><span class="row-value">{out && answer?.value ? "⇒ " : ""}{worth(port)}</span>
+      </button>
+      {open && answer && <Value part={part} out={out} answer={answer} done={() => setOpen(false)} />}
+    </div>
+  );
+}
+
+function PlanForm({ drawn }: { drawn: Drawing }) {
+  const plan = drawn.plan!;
+  return (
+    <>
+      <div class="inspector-head"><div><strong>{plan}</strong><small>plan</small></div></div>
+      <Wrong drawn={drawn} part={{ item: plan }} />
+      <Name item={plan} />
+      <h3>{words.entries}<button type="button" class="tool" aria-label={words.addEntry} title={words.addEntry} onClick={() => void entries.add()}><Sign name="plus" /></button></h3>
+      {drawn.entries.length === 0 && <p class="value-hint">{words.noEntries}</p>}
+      {drawn.entries.map((entry) => (
+        <button type="button" class="row" key={entry.item} onClick={() => select([{ item: entry.item }], "other")}>
+          <span><em>{entry.kind}</em> {entry.name}</span><span class="row-value">{[entry.type, entry.value].filter(Boolean).join(" = ")}</span>
+        </button>
+      ))}
+    </>
+  );
+}
+
+function EntryForm({ entry }: { entry: Entry }) {
+  const { item } = entry;
+  const edit = (change: string, fields: object) => ask.edit([{ [change]: { entry: item, ...fields } }], {}, [{ item }]);
+  return (
+    <>
+      <div class="inspector-head"><div><strong>{entry.name}</strong><small>{words.entryKinds[entry.kind]}</small></div></div>
+      {drawing.value && <Wrong drawn={drawing.value} part={{ item }} />}
+      <Name item={item} />
+      <label class="line">
+        <span>{words.kindOf}</span>
+        <select value={entry.kind} onChange={(event) => void edit("setEntryKind", { keyword: event.currentTarget.value })}>
+          {Object.entries(words.entryKinds).map(([kind, label]) => <option key={kind} value={kind}>{label}</option>)}
+        </select>
+      </label>
+      <Line label={words.typeOf} value={entry.type ?? ""} take={(ty) => edit("setEntryType", { ty: ty || null })} />
+      <Line label={words.valueTitle} value={entry.value ?? ""} take={(value) => edit("setEntryValue", { value: value || null })} />
+      <Help item={item} text={entry.help} />
+      <button type="button" class="quiet" onClick={() => void actions.remove([{ item }])}>{words.removeEntry(entry.name ?? "")}</button>
+    </>
+  );
+}

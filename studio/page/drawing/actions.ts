@@ -1,0 +1,235 @@
+// What is done to a plan from its drawing: each ends in one request and one entry of the history.
+import { select, selected } from "../selection";
+import * as ask from "./ask";
+import * as catalog from "./catalog";
+import { choose, type Choice } from "./choose";
+import { drawing, enter, plan } from "./model";
+import * as offers from "./offers";
+import { renaming } from "./rename";
+import { refuse, say } from "./say";
+import { holderOf, nameOf, planOf, rectOf, type Drawing, type Edge, type Part, type Point, type Rect } from "./shapes";
+import { view } from "./stage";
+import { toPane } from "./view";
+import { words } from "./words";
+
+/** The part that gestures and keys are about: the last one selected. */
+export const focused = (): Part | null => selected.peek().at(-1) ?? null;
+
+/** The drawing and the name of its plan; null where there is none. */
+export function here(): { drawn: Drawing; plan: string } | null {
+  const drawn = drawing.peek();
+  const name = plan.peek();
+  return drawn && name !== null ? { drawn, plan: name } : null;
+}
+
+/** Where a part is drawn. */
+export const rectOfPart = (part: Part): Rect | null => (drawing.peek() ? rectOf(drawing.peek()!, part) : null);
+
+/** A place of the pane below a part, for questions about it. */
+export function below(part: Part): Point | null {
+  const rect = rectOfPart(part);
+  return rect ? toPane(view.peek(), [rect[0], rect[1] + rect[3] + 6]) : null;
+}
+
+/** Exits of an item, first those that lead nowhere. */
+export function exitsOf(drawn: Drawing, item: string): { part: Part; open: boolean }[] {
+  const holder = holderOf(drawn, item);
+  const pieces = holder?.pieces.filter((piece) => piece.item === item && piece.part.kind === "exit") ?? [];
+  const [ox, oy] = holder?.outer ?? [0, 0];
+  const drawnOpen = [...(holder?.svg.matchAll(/class="box open" x="([-\d.]+)" y="([-\d.]+)"/g) ?? [])].map((found) => [Number(found[1]) + ox, Number(found[2]) + oy] as const);
+  const open = ([x, y]: Rect): boolean => drawnOpen.some(([px, py]) => Math.abs(px - x) < 0.5 && Math.abs(py - y) < 0.5);
+  const exits = pieces.map((piece) => ({ part: { item: piece.item, part: piece.part }, open: open(piece.rect) }));
+  return [...exits.filter((exit) => exit.open), ...exits.filter((exit) => !exit.open)];
+}
+
+/** Where a new supervisor goes: to the element of a part, or to the plan. */
+const ownerOf = (drawn: Drawing, part: Part): string | null => {
+  const holder = holderOf(drawn, part.item);
+  return holder && holder.kind !== null ? nameOf(holder.item) : null;
+};
+
+/** Adds a template after the selection, connected from its first free exit; a supervisor onto it. */
+export async function addAfter(offer: ask.Offer): Promise<void> {
+  const at = here();
+  if (!at) return refuse(words.noPlan);
+  const part = focused();
+  if (offer.kind === "supervise") {
+    await ask.edit(offers.added(at.plan, part && ownerOf(at.drawn, part), offer, null));
+    return;
+  }
+  const exits = part ? exitsOf(at.drawn, part.item) : [];
+  const own = part?.part?.kind === "exit" ? exits.find((exit) => exit.part.part?.name === part.part?.name) : exits[0];
+  await ask.edit(offers.added(at.plan, null, offer, own?.open ? own.part : null));
+}
+
+/** Adds a template where it was dropped: on the ground, onto an element, onto an edge. */
+export async function addAt(offer: ask.Offer, to: { place: Point } | { owner: Part } | { edge: Edge }): Promise<void> {
+  const at = here();
+  if (!at) return refuse(words.noPlan);
+  const { name } = offers.header(offer);
+  const supervises = offer.kind === "supervise";
+  if ("owner" in to && supervises) {
+    await ask.edit(offers.added(at.plan, ownerOf(at.drawn, to.owner), offer, null));
+  } else if (supervises) {
+    refuse(words.noElement);
+  } else if ("edge" in to && to.edge.from !== to.edge.to) {
+    await ask.edit(offers.between(at.plan, offer, to.edge));
+  } else {
+    const places = "place" in to ? { [offers.pathOf(at.plan, null, name)]: to.place } : {};
+    await ask.edit(offers.added(at.plan, null, offer, null), places);
+  }
+}
+
+/** Leads an exit, or the start, to an element or a word of the language. */
+export const lead = (from: Part, to: string): Promise<string[] | null> => ask.edit([offers.leading(from, to)], {}, [from]);
+
+/** Asks what comes after an exit, or what the plan starts with; a new element is put at `place`, where one is given. */
+export async function whatThen(from: Part, at: Point | null = below(from), place: Point | null = null): Promise<void> {
+  const found = here();
+  if (!found) return;
+  const start = from.part?.kind === "start";
+  const name = from.part?.name ?? "";
+  try {
+    const targets = await fitting(from);
+    const fresh = offers.ofElements(catalog.offers.peek());
+    const known = [...targets].map(([text, refused]) => offers.target({ text, refused }));
+    const list = [...known, ...fresh.map((offer) => offers.choice(offer, words.newOne(offer.template)))];
+    const chosen = await choose(start ? words.startWith : words.whatThen(name), list, at);
+    if (!chosen) return;
+    const offer = fresh.find((offer) => offers.choice(offer).id === chosen.id);
+    if (!offer) return void (await lead(from, chosen.id));
+    const places = place ? { [offers.pathOf(found.plan, null, offers.header(offer).name)]: place } : {};
+    await ask.edit(offers.added(found.plan, null, offer, from), places);
+  } catch (why) {
+    refuse(why);
+  }
+}
+
+/** Connects an exit of the selection; asks which one where there are several. */
+export async function connect(): Promise<void> {
+  const at = here();
+  const part = focused();
+  if (!at || !part) return refuse(words.selectFirst);
+  if (part.part?.kind === "exit" || part.part?.kind === "start") return whatThen(part);
+  if (part.item === at.plan) return whatThen({ item: at.plan, part: { kind: "start", nth: 1 } });
+  const exits = exitsOf(at.drawn, part.item);
+  const list: Choice[] = exits.map((exit) => ({ id: exit.part.part?.name ?? "", label: exit.part.part?.name ?? "", hint: exit.open ? words.open : "" }));
+  if (list.length === 0) return refuse(words.noExit);
+  const chosen = list.length === 1 ? list[0]! : await choose(words.whichExit, list, below(part));
+  const exit = exits.find((exit) => exit.part.part?.name === chosen?.id);
+  if (exit) await whatThen(exit.part);
+}
+
+/** Removes items and disconnects exits. */
+export async function remove(parts: readonly Part[]): Promise<void> {
+  const at = here();
+  const whole = new Set(parts.filter((part) => (part.part?.kind ?? "whole") === "whole").map((part) => part.item));
+  const changes: ask.Change[] = [];
+  for (const { item, part } of parts) {
+    // What goes with its owner is not removed by itself.
+    const owner = item.split(".").slice(0, 2).join(".");
+    if (!item.includes(".") || (item !== owner && whole.has(owner))) continue;
+    if (part?.kind === "exit") changes.push({ disconnect: { from: item, outcome: part.name } });
+    else if (part?.kind === "input" || part?.kind === "output") changes.push({ unbind: { component: item, port: part.name } });
+    else changes.push({ remove: { item } });
+  }
+  if (!at || changes.length === 0) return refuse(words.notHere);
+  const done = await ask.edit(changes, {}, parts.filter((part) => part.part?.kind === "exit"));
+  if (done) select([], "drawing");
+}
+
+/** Lets the plan start with the selected element. */
+export async function start(): Promise<void> {
+  const part = focused();
+  const element = part && drawing.peek() && holderOf(drawing.peek()!, part.item);
+  if (!element || element.kind === null) return refuse(words.selectFirst);
+  await ask.edit([{ setStart: { plan: planOf(element.item), to: nameOf(element.item) } }], {}, [{ item: element.item }]);
+}
+
+/** Renames in place. */
+export function rename(part: Part): void {
+  const drawn = drawing.peek();
+  const rect = drawn && rectOf(drawn, { item: part.item });
+  if (!rect) return refuse(words.selectFirst);
+  const { zoom } = view.peek();
+  const [x, y] = toPane(view.peek(), [rect[0], rect[1]]);
+  const name = nameOf(part.item);
+  renaming.value = {
+    name,
+    rect: [x, y, rect[2] * zoom, rect[3] * zoom],
+    done: (to) => {
+      renaming.value = null;
+      if (to !== null && to !== name) void ask.edit([{ rename: { item: part.item, to } }], {}, [{ item: renamed(part.item, to) }]);
+    },
+  };
+}
+
+const renamed = (item: string, to: string): string => [...item.split(".").slice(0, -1), to].join(".");
+
+/** Gives elements back to the automatic layout: the selected ones, or all. */
+export async function automatic(): Promise<void> {
+  const drawn = drawing.peek();
+  if (!drawn) return;
+  const chosen = selected.peek().map((part) => holderOf(drawn, part.item)?.item ?? part.item);
+  const items = chosen.length ? chosen : [...drawn.elements.keys()];
+  await ask.place(Object.fromEntries(items.map((item) => [item, null])), words.automaticPlaces);
+}
+
+/** The selected items as text, with the toolboxes that they need above. */
+export async function copied(): Promise<string> {
+  const items = [...new Set(selected.peek().map((part) => part.item))].filter((item) => item.includes("."));
+  const texts = await Promise.all(items.map((item) => ask.written(item)));
+  const templates = new Set(texts.flatMap((text) => [...text.matchAll(/:\s*([\w.]+)/g)].map((found) => found[1])));
+  const toolboxes = new Set(catalog.offers.peek().filter((offer) => offer.toolbox && templates.has(offer.template)).map((offer) => offer.toolbox));
+  const uses = [...toolboxes].map((name) => `use ${name}\n`).join("");
+  say(words.copied(items.length));
+  return `${uses}${texts.join("\n")}\n`;
+}
+
+/** Pastes items; a supervisor goes onto the selected element. */
+export async function paste(text: string): Promise<void> {
+  const at = here();
+  if (!at || text.trim() === "") return;
+  const part = focused();
+  const supervisors = /^(\s*use\s.*\n)*\s*supervise\b/.test(text);
+  const rect = part && rectOf(at.drawn, { item: part.item });
+  const place: Point | null = rect && !supervisors ? [Math.round(rect[0] + 24), Math.round(rect[1] + 24)] : null;
+  await ask.paste(at.plan, supervisors && part ? ownerOf(at.drawn, part) : null, text, place);
+}
+
+export const duplicate = async (): Promise<void> => paste(await copied());
+
+/** The targets of an exit or of the start, by name, each with the reason why it does not fit. */
+export async function fitting(from: Part): Promise<ReadonlyMap<string, string | null>> {
+  if (from.part?.kind !== "start") {
+    const list = await ask.targets(from.item, from.part?.name ?? "");
+    return new Map(list.map(({ text, refused }) => [text, refused]));
+  }
+  const all = [...(drawing.peek()?.elements.values() ?? [])];
+  return new Map(all.filter((one) => one.kind !== null).map((one) => [nameOf(one.item), null]));
+}
+
+/** What a double click does: into the plan behind an element, or its name. */
+export function open(part: Part): void {
+  if (drawing.peek()?.elements.get(part.item)?.plan) into(part);
+  else rename(part);
+}
+
+/** Into the plan behind an element. */
+export function into(part: Part | null): void {
+  const element = part && drawing.peek()?.elements.get(part.item);
+  if (element?.plan) enter(element.plan);
+  else refuse(words.noSubPlan);
+}
+
+/** Makes the selected element from another template; what is bound and connected stays. */
+export async function template(): Promise<void> {
+  const part = focused();
+  const text = part && (await ask.written(part.item).catch(() => ""));
+  const kind = /^\s*(?:\/\/.*\n\s*)*(\w+)/.exec(text ?? "")?.[1];
+  const list = catalog.offers.peek().filter((offer) => offer.kind === kind);
+  if (!part || list.length === 0) return refuse(words.selectFirst);
+  const chosen = await choose(words.whichTemplate, list.map((offer) => offers.choice(offer)), below(part));
+  const offer = list.find((offer) => offers.choice(offer).id === chosen?.id);
+  if (offer) await ask.edit([...offers.using(offer), { setTemplate: { component: part.item, template: offers.header(offer).template } }], {}, [{ item: part.item }]);
+}

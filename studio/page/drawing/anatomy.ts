@@ -1,0 +1,86 @@
+// The parts of an element or supervisor: ports with what they are bound to, exits with where they lead, timing.
+import * as ask from "./ask";
+import { offerOf } from "./catalog";
+import type { Choice } from "./choose";
+import { holderOf, type Drawing, type Part } from "./shapes";
+import { words } from "./words";
+
+export interface Port {
+  part: Part;
+  name: string;
+  out: boolean;
+  answer: ask.PortAnswer | null;
+}
+
+export interface Exit {
+  part: Part;
+  name: string;
+  /** What it leads to, as it is written; empty for nothing. */
+  to: string;
+}
+
+export interface Anatomy {
+  item: string;
+  kind: string;
+  template: string;
+  offer: ask.Offer | null;
+  ports: Port[];
+  exits: Exit[];
+  /** Of a supervisor: `every` and `deadline` as they are written. */
+  timing: { every: string; deadline: string } | null;
+}
+
+/** A port of a template: `in live distance: length = 30 cm from 0 cm to 400 cm`. */
+export function declared(port: string): { name: string; out: boolean } | null {
+  const found = /^(in|out)\s+(?:live\s+)?(\w+)\s*:/.exec(port);
+  return found ? { name: found[2]!, out: found[1] === "out" } : null;
+}
+
+/** The first line of an element or supervisor: its kind, template and timing. */
+export function headed(text: string): { kind: string; template: string; every: string; deadline: string } {
+  const [, kind = "", template = "", rest = ""] = /^\s*(?:\/\/\/?.*\n\s*)*(actor|computation|subplan|supervise)\s+\w+\s*:\s*([\w.]+)([^{]*)/.exec(text) ?? [];
+  const after = (keyword: string): string => new RegExp(`\\b${keyword}\\s+(\\S+(?:\\s+(?:ns|us|ms|s|min|h)\\b)?)`).exec(rest)?.[1] ?? "";
+  return { kind, template, every: after("every"), deadline: after("deadline") };
+}
+
+/** Asks for the parts of an item; null where it is no element or supervisor. */
+export async function anatomy(drawing: Drawing, item: string): Promise<Anatomy | null> {
+  const text = await ask.written(item);
+  const { kind, template, every, deadline } = headed(text);
+  if (!kind || !template) return null;
+  const offer = offerOf(template);
+  const drawn = holderOf(drawing, item)?.pieces.filter((piece) => piece.item === item) ?? [];
+  const bound = drawn.filter(({ part }) => part.kind === "input" || part.kind === "output");
+  const known = (offer?.ports ?? []).map(declared).filter((port) => port !== null);
+  // What a text binds that its template does not know is shown, too.
+  const more = bound.filter(({ part }) => !known.some((port) => port.name === part.name)).map(({ part }) => ({ name: part.name ?? "", out: part.kind === "output" }));
+  const ports = await Promise.all([...known, ...more].map((port) => asked(item, port)));
+  const outcomes = [...new Set([...(offer?.exits ?? []), ...drawn.filter(({ part }) => part.kind === "exit").map(({ part }) => part.name ?? "")])];
+  const exits = await Promise.all(outcomes.map((name) => led(item, name)));
+  return { item, kind, template, offer, ports, exits, timing: kind === "supervise" ? { every, deadline } : null };
+}
+
+async function asked(item: string, { name, out }: { name: string; out: boolean }): Promise<Port> {
+  const part: Part = { item, part: { kind: out ? "output" : "input", name, nth: 1 } };
+  return { part, name, out, answer: await ask.port(item, name).catch(() => null) };
+}
+
+async function led(item: string, name: string): Promise<Exit> {
+  const part: Part = { item, part: { kind: "exit", name, nth: 1 } };
+  const text = await ask.written(item, part.part).catch(() => "");
+  return { part, name, to: text.split("->")[1]?.trim() ?? "" };
+}
+
+/** What is said of a port's value: its own, its default, or that it needs one. */
+export function worth({ answer, out }: Port): string {
+  if (answer?.value) return answer.value;
+  if (out) return "";
+  return answer?.default ? words.isDefault(answer.default) : words.needsValue;
+}
+
+/** The parts as a list to choose from. */
+export function choices(found: Anatomy): { choice: Choice; part: Part }[] {
+  const ports = found.ports.map((port) => ({ choice: { id: `port ${port.name}`, label: port.name, hint: worth(port) }, part: port.part }));
+  const exits = found.exits.map((exit) => ({ choice: { id: `exit ${exit.name}`, label: exit.name, hint: exit.to ? `→ ${exit.to}` : words.open }, part: exit.part }));
+  return [...ports, ...exits];
+}

@@ -1,0 +1,104 @@
+// The questions that drawing, palette and inspector put to the engine, each with the shape of its answer.
+import { change, current, text, type WorkspaceEdit } from "../documents";
+import { spanOf } from "../places";
+import { offset } from "../positions";
+import { lsp } from "../session";
+import { refuse } from "./say";
+import type { Part, PartOf, Point } from "./shapes";
+
+/** A change of meaning, as `afp/edit` takes it: one key, its name, with its fields. */
+export type Change = Record<string, Record<string, unknown>>;
+export type Places = Record<string, Point | null>;
+
+/** A template or plan that elements are made from. */
+export interface Offer {
+  template: string;
+  kind: "actor" | "computation" | "subplan" | "supervise";
+  toolbox: string | null;
+  icon: string | null;
+  help: string;
+  ports: string[];
+  exits: string[];
+  snippet: string;
+  missingUse: string | null;
+}
+
+export interface Candidate {
+  text: string;
+  refused: string | null;
+}
+
+export interface PortAnswer {
+  candidates: Candidate[];
+  type: string;
+  value: string | null;
+  default: string | null;
+  range: [string, string] | null;
+  step: number | null;
+  unit: string;
+  units: string[];
+}
+
+const document = (): { textDocument: { uri: string } } => ({ textDocument: { uri: current.peek() } });
+
+const ask = <T>(method: string, params: object): Promise<T> => lsp().request<T>(method, { ...document(), ...params });
+
+export const palette = async (query: string): Promise<Offer[]> => (await ask<Offer[] | null>("afp/palette", { query })) ?? [];
+
+export const targets = async (item: string, outcome: string): Promise<Candidate[]> =>
+  (await ask<{ candidates: Candidate[] } | null>("afp/candidates", { item, outcome }))?.candidates ?? [];
+
+export const port = (item: string, port: string): Promise<PortAnswer | null> => ask<PortAnswer | null>("afp/candidates", { item, port });
+
+/** The text of an item or part, as it stands in the document; empty where it has none. */
+export async function written(item: string, part?: PartOf): Promise<string> {
+  const range = await spanOf(current.peek(), { item, ...(part ? { part } : {}) });
+  const whole = text(current.peek());
+  return range ? whole.slice(offset(whole, range.start), offset(whole, range.end)) : "";
+}
+
+interface Made {
+  label: string;
+  edit: WorkspaceEdit;
+  select: string[];
+  names: Record<string, string>;
+}
+
+/**
+ * Makes changes as one entry of the history, and selects what they added or `chosen`. What is refused is said; then the
+ * answer is null.
+ */
+export async function edit(changes: Change[], places: Places = {}, chosen?: Part[]): Promise<string[] | null> {
+  return attempt(() => ask<Made>("afp/edit", { changes, places }), chosen);
+}
+
+/** Puts a text of items into a plan, or supervisors onto an element. */
+export const paste = (plan: string, owner: string | null, text: string, at: Point | null): Promise<string[] | null> =>
+  attempt(() => ask<Made>("afp/paste", { plan, text, ...(owner ? { owner } : {}), ...(at ? { at } : {}) }));
+
+async function attempt(make: () => Promise<Made>, chosen?: Part[]): Promise<string[] | null> {
+  let added: string[] = [];
+  try {
+    await change(async () => {
+      const { label, edit, select } = await make();
+      added = select;
+      const parts = chosen ?? select.map((item) => ({ item }));
+      return { label, edit, ...(parts.length ? { select: parts } : {}) };
+    });
+    return added;
+  } catch (why) {
+    refuse(why);
+    return null;
+  }
+}
+
+/** Writes places of elements; null gives one back to the automatic layout. False where it was refused. */
+export async function place(places: Places, label: string): Promise<boolean> {
+  try {
+    await change(async () => ({ label, edit: await ask<WorkspaceEdit>("afp/place", { places }) }));
+    return true;
+  } catch (why) {
+    refuse(why);
+    return false;
+  }
+}

@@ -1,0 +1,198 @@
+// The pane with the drawing: puts stage, pointers, keys and popups together and shows what the signals hold.
+import { effect, untracked } from "@preact/signals";
+import { render } from "preact";
+import { useEffect, useRef } from "preact/hooks";
+import { origin, selected } from "../selection";
+import * as actions from "./actions";
+import { target } from "./bring";
+import * as catalog from "./catalog";
+import { Chooser, Rename, useInSight } from "./choices";
+import { question } from "./choose";
+import { carries, commands, fit, reveal } from "./keys";
+import { mark } from "./marks";
+import * as messages from "./messages";
+import { drawing, plan, wanted } from "./model";
+import { box, byKeys, connecting, hovered, newLine, pointers } from "./pointer";
+import { renaming } from "./rename";
+import { notice, said, spoken } from "./say";
+import { planOf, type Part, type Point } from "./shapes";
+import { cull, show, size, stage, view } from "./stage";
+import { editing } from "./value";
+import { first, STEP, zoomed, type View } from "./view";
+import { words } from "./words";
+import { ValuePopup } from "../panes/value";
+
+/** Shows the drawing of the current document in a pane; the answer takes it away. */
+export function mountCanvas(host: HTMLElement): () => void {
+  const pane = document.createElement("div");
+  pane.className = "board";
+  pane.tabIndex = 0;
+  pane.setAttribute("role", "application");
+  pane.setAttribute("aria-label", words.application);
+  const scene = stage();
+  const over = document.createElement("div");
+  over.className = "board-over";
+  pane.append(scene.root, over);
+  host.append(pane);
+  render(<Over />, over);
+  const watch = new ResizeObserver(() => (size.value = { width: pane.clientWidth, height: pane.clientHeight }));
+  watch.observe(pane);
+  const key = (event: KeyboardEvent): void => {
+    if ((event.target as Element).closest("input, textarea, select")) return;
+    byKeys.value = true;
+    if (carries(scene, event)) event.preventDefault();
+  };
+  const paste = (event: ClipboardEvent): void => {
+    if ((event.target as Element).closest("input, textarea, select")) return;
+    event.preventDefault();
+    void actions.paste(event.clipboardData?.getData("text/plain") ?? "");
+  };
+  pane.addEventListener("keydown", key);
+  pane.addEventListener("paste", paste);
+  const ends = [catalog.begin(), messages.begin(), commands(), pointers(pane, scene), ...shows(scene, pane), ...sights(), focuses(pane)];
+  return () => {
+    ends.forEach((end) => end());
+    watch.disconnect();
+    render(null, over);
+    pane.remove();
+  };
+}
+
+/** Draws what changes: the drawing, the marks over it, what a screen reader stands on. */
+function shows(scene: ReturnType<typeof stage>, pane: HTMLElement): (() => void)[] {
+  let before = drawing.peek();
+  return [
+    effect(() => {
+      const after = drawing.value;
+      show(scene, before === after ? null : before, after);
+      before = after;
+    }),
+    effect(() => {
+      void view.value;
+      void size.value;
+      if (drawing.value) cull(scene, drawing.value);
+    }),
+    effect(() => {
+      const drawn = drawing.value;
+      const known = connecting.value;
+      const fits = known && drawn ? new Set([...drawn.elements.keys()].filter((item) => known.targets.get(item.slice(item.lastIndexOf(".") + 1)) === null)) : null;
+      const keys = byKeys.value;
+      mark(scene, drawn, { selected: selected.value, keys, fits: known?.targets.size ? fits : null, over: known?.over ?? null, target: target.value, box: box.value, line: newLine(), zoom: view.value.zoom });
+    }),
+    effect(() => {
+      const last = selected.value.at(-1);
+      const id = last && drawing.value ? scene.idOf(last, drawing.value) : null;
+      if (id) pane.setAttribute("aria-activedescendant", id);
+      else pane.removeAttribute("aria-activedescendant");
+    }),
+  ];
+}
+
+/** Where each plan was last looked at. */
+const views = new Map<string, View>();
+
+/** Keeps the view of each plan, and brings into sight what was selected elsewhere. */
+function sights(): (() => void)[] {
+  let shown = "";
+  let pending: Part | null = null;
+  const key = (): string => `${drawing.value?.uri ?? ""} ${drawing.value?.plan ?? ""}`;
+  return [
+    effect(() => {
+      const drawn = drawing.value;
+      const { width } = size.value;
+      if (!drawn || width === 0 || key() === shown) return;
+      shown = key();
+      const known = views.get(shown);
+      view.value = known ?? untracked(() => first(drawn.bounds, size.value));
+    }),
+    effect(() => {
+      const now = view.value;
+      if (shown && untracked(key) === shown) views.set(shown, now);
+    }),
+    effect(() => {
+      const last = selected.value.at(-1);
+      pending = last && origin.peek() !== "drawing" ? last : null;
+    }),
+    effect(() => {
+      const drawn = drawing.value;
+      void selected.value;
+      if (!drawn || !pending) return;
+      const name = planOf(pending.item);
+      if (name !== drawn.plan && drawn.plans.includes(name)) return void (wanted.value = name);
+      if (untracked(() => actions.rectOfPart(pending!)) === null) return;
+      untracked(() => reveal(pending!));
+      pending = null;
+    }),
+  ];
+}
+
+/** When a popup closes, the drawing has the focus again. */
+function focuses(pane: HTMLElement): () => void {
+  let open = false;
+  return effect(() => {
+    const now = question.value !== null || renaming.value !== null || editing.value !== null;
+    if (open && !now && (document.activeElement === document.body || pane.contains(document.activeElement))) pane.focus({ preventScroll: true });
+    open = now;
+  });
+}
+
+function Over() {
+  return (
+    <>
+      {drawing.value !== null && plan.value === null && <p class="board-empty">{words.noPlan}</p>}
+      <Chooser key="chooser" />
+      <Rename />
+      <ValuePopup />
+      <Tip />
+      {notice.value && <p class="over board-notice">{notice.value}</p>}
+      <div class="over board-tools" role="group">
+        <Tool label={words.zoomIn} sign="+" run={() => grow(STEP)} />
+        <Tool label={words.zoomOut} sign="−" run={() => grow(1 / STEP)} />
+        <Tool label={words.zoomFit} sign="⤢" run={fit} />
+        <span class="board-zoom">{Math.round(view.value.zoom * 100)} %</span>
+      </div>
+      <p class="hidden" role="status">{said.value}</p>
+    </>
+  );
+}
+
+const grow = (factor: number): void => void (view.value = zoomed(view.peek(), factor, [size.peek().width / 2, size.peek().height / 2]));
+
+const Tool = ({ label, sign, run }: { label: string; sign: string; run(): void }) => (
+  <button type="button" class="tool" aria-label={label} title={label} onClick={run}>{sign}</button>
+);
+
+/** What is wrong with what is under the pointer or has the focus, or why what is connected does not fit. */
+function Tip() {
+  const popup = useRef<HTMLDivElement>(null);
+  const drawn = drawing.value;
+  const found = drawn ? tip() : null;
+  useInSight(found && [found.at[0] + 14, found.at[1] + 16], popup, found?.texts.length);
+  useEffect(() => undefined);
+  if (!found || found.texts.length === 0) return null;
+  return (
+    <div class="over tip-box" ref={popup} role="tooltip">
+      {found.texts.map((text, nth) => <p key={nth} class={text.help ? "help" : ""}>{text.text}</p>)}
+    </div>
+  );
+}
+
+function tip(): { at: Point; texts: { text: string; help?: boolean }[] } | null {
+  const drawn = drawing.value!;
+  const known = connecting.value;
+  if (known) {
+    const reason = known.over === null ? null : known.targets.get(known.over.slice(known.over.lastIndexOf(".") + 1));
+    return known.at[0] === 0 ? null : { at: known.at, texts: [{ text: reason ?? words.connectHint }] };
+  }
+  const last = selected.value.at(-1);
+  const focus = byKeys.value && last ? { part: last, at: actions.below(last) } : null;
+  const over = hovered.value;
+  const at = over?.at ?? focus?.at ?? null;
+  const part = over?.hit.part ?? focus?.part;
+  if (!at || !part || question.value || editing.value || renaming.value) return null;
+  const texts = messages.messagesOf(drawn, part).flatMap(({ message, help }) => [{ text: message }, ...(help ? [{ text: help, help: true }] : [])]);
+  return { at, texts };
+}
+
+/** What a part is called, for who shows it elsewhere. */
+export const called = (part: Part): string => (drawing.value ? spoken(drawing.value, part) : part.item);

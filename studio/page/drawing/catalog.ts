@@ -1,0 +1,37 @@
+// What a plan can be made of, as the engine offers it: kept for the document that is shown.
+import { effect, signal } from "@preact/signals";
+import { current, onText } from "../documents";
+import { lsp } from "../session";
+import * as ask from "./ask";
+
+export const offers = signal<readonly ask.Offer[]>([]);
+
+/** Milliseconds of quiet after which offers are asked for again: a text may name another toolbox. */
+const QUIET = 400;
+
+/** Begins to keep it; the answer ends that. */
+export function begin(): () => void {
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const load = async (): Promise<void> => {
+    const uri = current.peek();
+    if (!uri || !lsp().open.peek()) return;
+    const found = await ask.palette("").catch(() => null);
+    if (found && current.peek() === uri) offers.value = found;
+  };
+  const later = (): void => {
+    clearTimeout(timer);
+    timer = setTimeout(load, QUIET);
+  };
+  const texts = onText(later);
+  const documents = effect(() => {
+    if (current.value && lsp().open.value) void load();
+  });
+  return () => {
+    texts();
+    documents();
+    clearTimeout(timer);
+  };
+}
+
+/** The offer of a template's name, with or without the short name of its toolbox. */
+export const offerOf = (template: string | null): ask.Offer | null => offers.value.find((offer) => offer.template === template || offer.template === template?.split(".").at(-1)) ?? null;

@@ -1,0 +1,112 @@
+// Shows the list to choose from, the name that is written anew, and what is said at the pointer.
+import { useEffect, useRef, useState } from "preact/hooks";
+import { filtered, question, type Choice, type Question } from "./choose";
+import { icon } from "./fragment";
+import { isName, renaming } from "./rename";
+import { size } from "./stage";
+import { words } from "./words";
+import type { Point } from "./shapes";
+
+/** An icon of a toolbox, or nothing. */
+export function Icon({ svg }: { svg: string | null | undefined }) {
+  const host = useRef<HTMLSpanElement>(null);
+  useEffect(() => {
+    const made = svg ? icon(svg) : null;
+    host.current?.replaceChildren(...(made ? [made] : []));
+  }, [svg]);
+  return <span class="template-icon" ref={host} aria-hidden="true" />;
+}
+
+/** Moves a popup so that all of it is in sight. */
+export function useInSight(at: Point | null, host: { current: HTMLElement | null }, again: unknown): void {
+  useEffect(() => {
+    const popup = host.current;
+    if (!popup) return;
+    const { width, height } = size.peek();
+    const [x, y] = at ?? [(width - popup.offsetWidth) / 2, height / 5];
+    popup.style.left = `${Math.max(8, Math.min(x, width - popup.offsetWidth - 8))}px`;
+    popup.style.top = `${Math.max(8, Math.min(y, height - popup.offsetHeight - 8))}px`;
+  }, [at, again]);
+}
+
+export function Chooser() {
+  const asked = question.value;
+  return asked ? <List key={asked.title} asked={asked} /> : null;
+}
+
+function List({ asked }: { asked: Question }) {
+  const [typed, setTyped] = useState("");
+  const [found, setFound] = useState<readonly Choice[]>(typeof asked.list === "function" ? [] : asked.list);
+  const [at, setAt] = useState(0);
+  const popup = useRef<HTMLDivElement>(null);
+  const field = useRef<HTMLInputElement>(null);
+  useEffect(() => {
+    const { list } = asked;
+    if (typeof list !== "function") return setFound(filtered(list, typed));
+    let wanted = true;
+    void list(typed).then((all) => wanted && setFound(all), () => {});
+    return () => void (wanted = false);
+  }, [asked, typed]);
+  useEffect(() => setAt(Math.max(0, found.findIndex((choice) => !choice.refused))), [found]);
+  useEffect(() => field.current?.focus(), [asked]);
+  useEffect(() => popup.current?.querySelector(`#choice-${at}`)?.scrollIntoView({ block: "nearest" }), [at]);
+  useInSight(asked.at, popup, found.length);
+  const take = (choice: Choice | undefined): void => {
+    if (choice && !choice.refused) asked.answer(choice);
+  };
+  const key = (event: KeyboardEvent): void => {
+    const by = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 }[event.key];
+    if (by !== undefined) setAt(Math.max(0, Math.min(found.length - 1, at + by)));
+    else if (event.key === "Enter") take(found[at]);
+    else if (event.key === "Escape" || event.key === "Tab") asked.answer(null);
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  return (
+    <div class="over chooser" ref={popup} role="dialog" aria-label={asked.title} onFocusOut={(event) => popup.current?.contains(event.relatedTarget as Node) || asked.answer(null)}>
+      <div class="chooser-title">{asked.title}</div>
+      <input
+        ref={field} type="text" role="combobox" aria-expanded="true" aria-controls="choices" aria-label={asked.title} autocomplete="off" spellcheck={false}
+        aria-activedescendant={found[at] ? `choice-${at}` : undefined} placeholder={words.find} value={typed} onInput={(event) => setTyped(event.currentTarget.value)} onKeyDown={key}
+      />
+      <ul id="choices" role="listbox" aria-label={asked.title} onPointerDown={(event) => event.preventDefault()}>
+        {found.map((choice, nth) => (
+          <li key={choice.id} id={`choice-${nth}`} role="option" aria-selected={nth === at} aria-disabled={!!choice.refused} onClick={() => take(choice)} onPointerMove={() => nth !== at && setAt(nth)}>
+            {choice.icon !== undefined && <Icon svg={choice.icon} />}
+            <span class="choice-label">{choice.label}</span>
+            <span class="choice-hint">{choice.refused ?? choice.hint}</span>
+          </li>
+        ))}
+      </ul>
+      {found.length === 0 && <p class="chooser-none">{words.nothingFits}</p>}
+    </div>
+  );
+}
+
+export function Rename() {
+  const asked = renaming.value;
+  const field = useRef<HTMLInputElement>(null);
+  useEffect(() => {
+    const input = field.current;
+    if (!input || !asked) return;
+    const [x, y, width] = asked.rect;
+    input.style.left = `${x}px`;
+    input.style.top = `${y}px`;
+    input.style.width = `${Math.max(width, 140)}px`;
+    input.focus();
+    input.select();
+  }, [asked]);
+  if (!asked) return null;
+  const end = (take: boolean): void => {
+    const name = field.current?.value.trim() ?? "";
+    if (renaming.peek() === asked) asked.done(take && isName(name) ? name : null);
+  };
+  const key = (event: KeyboardEvent): void => {
+    if (event.key !== "Enter" && event.key !== "Escape") return;
+    event.preventDefault();
+    event.stopPropagation();
+    end(event.key === "Enter");
+  };
+  return <input class="over rename" ref={field} aria-label={words.renameLabel(asked.name)} title={words.nameHint} pattern="[A-Za-z_]\w*" spellcheck={false} autocomplete="off" value={asked.name} onKeyDown={key} onBlur={() => end(true)} />;
+}

@@ -1,0 +1,41 @@
+// A drawing and what changes of it: pure, so that it is tested without a page.
+import type { Answer, Changed, Drawing } from "./shapes";
+
+/** The drawing that an answer carries. */
+export function whole(uri: string, answer: Answer): Drawing {
+  return {
+    uri,
+    plan: answer.plan,
+    plans: answer.plans,
+    bounds: answer.bounds ?? [0, 0, 0, 0],
+    elements: new Map(answer.elements.map((one) => [one.item, one])),
+    edges: new Map(answer.edges.map((one) => [one.id, one])),
+    entries: answer.entries ?? [],
+    symbols: answer.symbols,
+  };
+}
+
+/**
+ * The drawing after a change: what is not named in it stays the very same value, so that who shows
+ * it can tell by comparing.
+ */
+export function changed(before: Drawing, change: Changed): Drawing {
+  const elements = new Map(before.elements);
+  const edges = new Map(before.edges);
+  for (const id of change.gone) {
+    elements.delete(id);
+    edges.delete(id);
+  }
+  for (const one of change.elements) elements.set(one.item, one);
+  for (const one of change.edges) edges.set(one.id, one);
+  return {
+    uri: before.uri,
+    plan: change.plan,
+    plans: change.plans,
+    bounds: change.bounds ?? [0, 0, 0, 0],
+    elements,
+    edges,
+    entries: change.entries ?? [],
+    symbols: change.symbols,
+  };
+}

@@ -1,0 +1,54 @@
+// Pieces of SVG that the engine sends, with words and icons of toolboxes in them: parsed, and let in only where every
+// element and attribute is on these lists. Nothing that runs, loads or leads elsewhere is on them.
+
+const ELEMENTS = new Set(["g", "path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text", "tspan", "title", "use", "symbol"]);
+
+const ATTRIBUTES = new Set([
+  ..."id class d points x y x1 y1 x2 y2 cx cy r rx ry width height viewBox transform".split(" "),
+  ..."fill stroke color opacity fill-opacity stroke-opacity fill-rule clip-rule".split(" "),
+  ..."stroke-width stroke-dasharray stroke-dashoffset stroke-miterlimit stroke-linecap stroke-linejoin".split(" "),
+  ..."font-size text-anchor data-item data-exit".split(" "),
+]);
+
+const SVG = "http://www.w3.org/2000/svg";
+/** Symbols of our own drawing alone. */
+const REFERENCE = /^#afp-[\w-]+$/;
+
+function allowed(element: Element): boolean {
+  if (element.namespaceURI !== SVG || !ELEMENTS.has(element.localName)) return false;
+  for (const { name, value } of element.attributes) {
+    if (name === "xmlns" && value === SVG) continue;
+    const known = name === "href" ? element.localName === "use" && REFERENCE.test(value) : ATTRIBUTES.has(name);
+    if (!known || /url\s*\(/i.test(value)) return false;
+  }
+  return [...element.children].every(allowed);
+}
+
+/**
+ * The nodes of a fragment, for this document; none where anything in it is not on the lists.
+ */
+export function nodes(svg: string): SVGElement[] {
+  const parsed = new DOMParser().parseFromString(`<svg xmlns="${SVG}">${svg}</svg>`, "image/svg+xml");
+  const root = parsed.documentElement;
+  if (root.localName !== "svg" || ![...root.children].every(allowed)) return [];
+  return [...root.children].map((child) => document.importNode(child, true) as unknown as SVGElement);
+}
+
+/** An icon of a toolbox, a whole `svg` element; null where it is none, or has anything that is not on the lists. */
+export function icon(svg: string): SVGSVGElement | null {
+  const root = new DOMParser().parseFromString(svg, "image/svg+xml").documentElement;
+  if (root.localName !== "svg" || root.namespaceURI !== SVG) return null;
+  const frame = new Set(["xmlns", "version", "role"]);
+  const fine = [...root.attributes].every(({ name, value }) => frame.has(name) || (ATTRIBUTES.has(name) && !/url\s*\(/i.test(value)));
+  if (!fine || ![...root.children].every(allowed)) return null;
+  const made = document.importNode(root, true) as unknown as SVGSVGElement;
+  made.setAttribute("aria-hidden", "true");
+  return made;
+}
+
+/** A new element of SVG with attributes. */
+export function svg<K extends keyof SVGElementTagNameMap>(name: K, attributes: Record<string, string | number> = {}): SVGElementTagNameMap[K] {
+  const made = document.createElementNS(SVG, name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
+  return made;
+}

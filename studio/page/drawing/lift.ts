@@ -1,0 +1,60 @@
+// Elements under a drag: their groups get a transform, the ends of their edges follow, nothing is asked before the drop.
+import { bent, road } from "./bend";
+import { holderOf, nameOf, planOf, type Drawing, type Point } from "./shapes";
+import type { Stage } from "./stage";
+
+/** The grid that dragged elements keep to, in units of the plan. */
+export const GRID = 12;
+
+const NONE: Point = [0, 0];
+
+/**
+ * How far elements go, so that the first one stands on the grid; `free` of it, on whole units.
+ */
+export function snapped(drawing: Drawing, elements: readonly string[], [dx, dy]: Point, free: boolean): Point {
+  const first = drawing.elements.get(elements[0] ?? "");
+  const step = free ? 1 : GRID;
+  if (!first) return [dx, dy];
+  const to = (from: number, by: number): number => Math.round((from + by) / step) * step - from;
+  return [to(first.rect[0], dx), to(first.rect[1], dy)];
+}
+
+/** Shows elements at other places. */
+export function carry(stage: Stage, drawing: Drawing, elements: readonly string[], by: Point): void {
+  const carried = new Set(elements);
+  for (const item of elements) stage.nodes.get(item)?.setAttribute("transform", `translate(${by[0]} ${by[1]})`);
+  for (const edge of drawing.edges.values()) {
+    const from = holderOf(drawing, edge.from)?.item;
+    const to = holderOf(drawing, edge.to)?.item;
+    const [start, end] = [from !== undefined && carried.has(from), to !== undefined && carried.has(to)];
+    if (!start && !end) continue;
+    const group = stage.edges.get(edge.id);
+    if (group) draw(group, bent(edge.points, start ? by : NONE, end ? by : NONE));
+  }
+}
+
+function draw(group: SVGGElement, points: Point[]): void {
+  const { line, tip } = road(points);
+  group.dataset.bent = "yes";
+  for (const path of group.querySelectorAll("path")) path.setAttribute("d", path.classList.contains("tip") ? tip : line);
+}
+
+/** The places that elements have after they were carried, as `afp/place` takes them. */
+export function places(drawing: Drawing, elements: readonly string[], by: Point): Record<string, Point> {
+  const found: Record<string, Point> = {};
+  for (const item of elements) {
+    const element = drawing.elements.get(item);
+    if (element) found[item] = [Math.round(element.rect[0] + by[0]), Math.round(element.rect[1] + by[1])];
+  }
+  return found;
+}
+
+/** The elements that selected parts are drawn with; the start is one, too. */
+export function movable(drawing: Drawing, items: readonly string[]): string[] {
+  const found = items.map((item) => holderOf(drawing, item)?.item);
+  return [...new Set(found.filter((item): item is string => item !== undefined))];
+}
+
+/** What is said of elements that are moved. */
+export const named = (elements: readonly string[]): string =>
+  elements.map((item) => (nameOf(item) === "start" ? planOf(item) : nameOf(item))).join(", ");

@@ -1,0 +1,77 @@
+// What is drawn over the drawing: rings of selection and focus, handles of exits, what fits, the box and the line being drawn.
+import { svg } from "./fragment";
+import { rectOf, type Drawing, type Part, type Point, type Rect } from "./shapes";
+import type { Stage } from "./stage";
+
+/** What is to be marked. */
+export interface Marked {
+  selected: readonly Part[];
+  /** From the keys alone: a second and a third ring. */
+  keys: boolean;
+  /** Elements that fit what is being connected, and the one under the pointer. */
+  fits: ReadonlySet<string> | null;
+  over: string | null;
+  /** What a template would be dropped onto. */
+  target: { rect: Rect } | { edge: string } | null;
+  box: Rect | null;
+  line: readonly Point[] | null;
+  zoom: number;
+}
+
+export function mark(stage: Stage, drawing: Drawing | null, marked: Marked): void {
+  const made: SVGElement[] = [];
+  const below: SVGElement[] = [];
+  const last = marked.selected.at(-1);
+  if (drawing) {
+    for (const part of marked.selected) {
+      const rect = rectOf(drawing, part);
+      const whole = part.part === undefined || part.part.kind === "whole";
+      // Exits lie over the ring of their element.
+      if (rect) (whole ? below : made).push(...ring(rect, marked, part === last));
+      if (whole) made.push(...handles(drawing, part.item, marked.zoom));
+    }
+    for (const item of marked.fits ?? []) {
+      const element = drawing.elements.get(item);
+      if (element) made.push(outline(element.rect, 4, marked.over === item ? "fits over" : "fits"));
+    }
+  }
+  if (marked.target && "rect" in marked.target) made.push(outline(marked.target.rect, 4, "fits over"));
+  if (marked.box) made.push(outline(marked.box, 0, "box-selection"));
+  if (marked.line) made.push(svg("path", { class: "new-edge", d: `M${marked.line.map((point) => point.join(" ")).join("L")}` }));
+  stage.rings.replaceChildren(...below);
+  stage.marks.replaceChildren(...made);
+  fade(stage, drawing, marked);
+}
+
+const outline = ([x, y, width, height]: Rect, more: number, name: string): SVGElement =>
+  svg("rect", { class: name, x: x - more, y: y - more, width: width + 2 * more, height: height + 2 * more, rx: more === 0 ? 2 : 9 + more / 2 });
+
+function ring(rect: Rect, { keys, zoom }: Marked, last: boolean): SVGElement[] {
+  const more = 3 / Math.min(zoom, 1);
+  const rings = [outline(rect, more, "ring")];
+  if (keys && last) rings.push(outline(rect, more + 2 / zoom, "ring second"), outline(rect, more + 3.5 / zoom, "ring third"));
+  return rings;
+}
+
+/** Exits of what is selected have a handle to be dragged. */
+function handles(drawing: Drawing, item: string, zoom: number): SVGElement[] {
+  const pieces = [...drawing.elements.values()].flatMap((element) => element.pieces);
+  const exits = pieces.filter((piece) => piece.item === item && piece.part.kind === "exit");
+  return exits.map(({ rect: [x, y, width, height] }) => {
+    const aside = item.split(".").length > 2 || !drawing.elements.has(item);
+    const at = aside ? { cx: x + width, cy: y + height / 2 } : { cx: x + width / 2, cy: y + height };
+    return svg("circle", { class: "handle", ...at, r: 4 / Math.min(zoom, 1) });
+  });
+}
+
+/** With an edge selected the others fade; while something is connected, what does not fit. */
+function fade(stage: Stage, drawing: Drawing | null, { selected, fits, target }: Marked): void {
+  const exits = selected.filter((part) => part.part?.kind === "exit" || part.part?.kind === "start");
+  const edges = [...(drawing?.edges.values() ?? [])];
+  const chosen = new Set(edges.filter((edge) => exits.some((part) => part.item === edge.from && part.part?.name === edge.part.name)).map((edge) => edge.id));
+  const one = exits.length > 0 && exits.length === selected.length && chosen.size > 0;
+  stage.root.classList.toggle("one-way", one);
+  stage.root.classList.toggle("connecting", fits !== null);
+  for (const [id, group] of stage.edges) group.classList.toggle("chosen", (one && chosen.has(id)) || (target !== null && "edge" in target && target.edge === id));
+  for (const [item, group] of stage.nodes) group.classList.toggle("unfit", fits !== null && !fits.has(item));
+}

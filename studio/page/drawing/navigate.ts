@@ -1,0 +1,67 @@
+// Where the arrow keys lead in a drawing: down along the exits, up back, left and right to neighbours. Pure.
+import { centre, holderOf, type Drawing, type Element, type Part } from "./shapes";
+
+export type Direction = "down" | "up" | "left" | "right";
+
+/** What the keys start from where nothing is selected: the start. */
+export function home(drawing: Drawing): Part | null {
+  const plan = drawing.plan;
+  if (plan === null) return null;
+  const start = [...drawing.edges.values()].find((edge) => edge.kind === "start");
+  return { item: start ? start.to : plan };
+}
+
+/** The element that a direction leads to; null where none is. */
+export function step(drawing: Drawing, from: Part, direction: Direction): Part | null {
+  const here = holderOf(drawing, from.item);
+  if (!here) return home(drawing);
+  const found = direction === "down" ? along(drawing, here, from) : direction === "up" ? back(drawing, here) : beside(drawing, here, direction);
+  return found ? whole(drawing, found) : null;
+}
+
+const whole = (drawing: Drawing, element: Element): Part => ({ item: element.kind === null ? (drawing.plan ?? element.item) : element.item });
+
+/** The target of the exit that is selected, or of the first exit that leads to another element. */
+function along(drawing: Drawing, here: Element, from: Part): Element | null {
+  const leaving = (item: string): boolean => holderOf(drawing, item) === here;
+  const edges = [...drawing.edges.values()].filter((edge) => leaving(edge.from));
+  const own = from.part?.kind === "exit" ? edges.filter((edge) => edge.from === from.item && edge.part.name === from.part?.name) : edges;
+  const order = [...own].sort((one, two) => (one.points[0]?.[0] ?? 0) - (two.points[0]?.[0] ?? 0));
+  const edge = order.find((edge) => edge.to !== here.item) ?? order[0];
+  const target = edge && drawing.elements.get(edge.to);
+  return target ?? nearest(drawing, here, (away) => away[1] > 0 && away[1] >= Math.abs(away[0]));
+}
+
+/** Where an edge comes from: the nearest one above, if there is one. */
+function back(drawing: Drawing, here: Element): Element | null {
+  const sources = [...drawing.edges.values()].filter((edge) => edge.to === here.item).map((edge) => holderOf(drawing, edge.from));
+  const others = sources.filter((source): source is Element => source !== undefined && source !== here);
+  const height = (source: Element): number => {
+    const above = centre(here.rect)[1] - centre(source.rect)[1];
+    return above > 0 ? above : 1e6 - above;
+  };
+  others.sort((one, two) => height(one) - height(two));
+  return others[0] ?? nearest(drawing, here, (away) => away[1] < 0 && -away[1] >= Math.abs(away[0]));
+}
+
+const beside = (drawing: Drawing, here: Element, direction: "left" | "right"): Element | null =>
+  nearest(drawing, here, ([dx, dy]) => (direction === "left" ? dx < 0 : dx > 0) && Math.abs(dy) <= 2 * Math.abs(dx) + 60);
+
+function nearest(drawing: Drawing, here: Element, fits: (away: [number, number]) => boolean): Element | null {
+  const [x, y] = centre(here.rect);
+  let best: Element | null = null;
+  let least = Infinity;
+  for (const element of drawing.elements.values()) {
+    const [cx, cy] = centre(element.rect);
+    const away: [number, number] = [cx - x, cy - y];
+    const far = Math.hypot(...away);
+    if (element !== here && far < least && fits(away)) [best, least] = [element, far];
+  }
+  return best;
+}
+
+/** All elements in reading order: rows from the top, each from the left. */
+export function reading(drawing: Drawing): Element[] {
+  const row = (element: Element): number => Math.round(element.rect[1] / 40);
+  return [...drawing.elements.values()].sort((one, two) => row(one) - row(two) || one.rect[0] - two.rect[0]);
+}

@@ -1,0 +1,63 @@
+// Templates as texts and changes: what is added when one is chosen.
+import type { Change, Offer } from "./ask";
+import type { Choice } from "./choose";
+import { nameOf, planOf, type Edge, type Part } from "./shapes";
+import { words } from "./words";
+
+/** An element or supervisor of a template, without ports and exits, and the name that it wishes for. */
+export function header(offer: Offer): { text: string; name: string; template: string } {
+  const found = /^(\w+) \$\{1:(\w+)\}: ([\w.]+)/.exec(offer.snippet);
+  const name = found?.[2] ?? offer.template.charAt(0).toLowerCase() + offer.template.slice(1);
+  const template = found?.[3] ?? offer.template;
+  return { name, template, text: `${found?.[1] ?? offer.kind} ${name}: ${template} {}` };
+}
+
+/** The toolbox that must be named first. */
+export const using = (offer: Offer): Change[] => (offer.missingUse ? [{ addUse: { toolbox: offer.missingUse } }] : []);
+
+/** The path of what is added to a plan, or to an element of it. */
+export const pathOf = (plan: string, owner: string | null, name: string): string => (owner ? `${plan}.${owner}.${name}` : `${plan}.${name}`);
+
+/** The change that leads an exit, or the start, to an element of the plan or to a word of the language. */
+export const leading = (from: Part, to: string): Change =>
+  from.part?.kind === "start"
+    ? { setStart: { plan: planOf(from.item), to } }
+    : { connect: { from: from.item, outcome: from.part?.name ?? "", to } };
+
+/** Adds what an offer makes, and leads an exit to it. */
+export function added(plan: string, owner: string | null, offer: Offer, from: Part | null): Change[] {
+  const { text, name } = header(offer);
+  const add = { add: { plan, text, ...(owner ? { owner } : {}) } };
+  return [...using(offer), add, ...(from ? [leading(from, name)] : [])];
+}
+
+/** Adds an element between the ends of an edge. */
+export function between(plan: string, offer: Offer, edge: Edge): Change[] {
+  const from: Part = { item: edge.from, part: edge.part };
+  const { name } = header(offer);
+  const on = offer.exits[0];
+  const leads = on === undefined ? [] : [{ connect: { from: pathOf(plan, null, name), outcome: on, to: nameOf(edge.to) } }];
+  return [...added(plan, null, offer, from), ...leads];
+}
+
+/** An offer in a list. */
+export const choice = (offer: Offer, label = offer.template): Choice => ({
+  id: `new ${offer.toolbox ?? ""}.${offer.template}`,
+  label,
+  hint: offer.help.split("\n")[0] ?? "",
+  icon: offer.icon,
+});
+
+/** Those of elements: what can come next, and what can be started with. */
+export const ofElements = (offers: readonly Offer[]): Offer[] => offers.filter((offer) => offer.kind !== "supervise");
+
+/** A target among candidates in a list. */
+export function target({ text, refused }: { text: string; refused: string | null }): Choice {
+  const known: Record<string, [string, string]> = {
+    terminate: [words.end, words.endHint],
+    fail: [words.fail, words.failHint],
+    ignore: [words.goOn, words.goOnHint],
+  };
+  const [label, hint] = known[text] ?? [text, ""];
+  return { id: text, label, hint, refused };
+}

@@ -1,0 +1,234 @@
+// Pointers on the drawing: feeds the state machine of `gesture.ts` and does what it says.
+import { signal } from "@preact/signals";
+import { pen } from "../session";
+import { select, selected } from "../selection";
+import * as actions from "./actions";
+import * as ask from "./ask";
+import { IDLE, next, type Effect, type Event, type State } from "./gesture";
+import { hit, NEAR_EDGE, NEAR_FINGER, type Hit } from "./hit";
+import { carry, movable, places, snapped } from "./lift";
+import { drawing, hold, release } from "./model";
+import { refuse, say } from "./say";
+import { centre, nameOf, rectOf, same, touches, type Part, type Point, type Rect } from "./shapes";
+import { show, view, type Stage } from "./stage";
+import { editing } from "./value";
+import { panned, toPlan, wheelFactor, zoomed } from "./view";
+import { words } from "./words";
+
+/** An exit that is being led somewhere. */
+export const connecting = signal<{ from: Part; targets: ReadonlyMap<string, string | null>; over: string | null; at: Point } | null>(null);
+/** A box that is being drawn, in units of the plan. */
+export const box = signal<Rect | null>(null);
+/** What the pointer is over, and where. */
+export const hovered = signal<{ hit: Hit; at: Point } | null>(null);
+/** Whether the selection was made by keys: only then the focus has rings of its own. */
+export const byKeys = signal(false);
+
+let state: State = IDLE;
+let lifted: readonly string[] = [];
+
+/** Whether a drag is under way. */
+export const busy = (): boolean => state.is !== "idle";
+
+export function pointers(host: HTMLElement, stage: Stage): () => void {
+  const at = (event: MouseEvent): Point => {
+    const { left, top } = host.getBoundingClientRect();
+    return [event.clientX - left, event.clientY - top];
+  };
+  const under = (place: Point, touch: boolean): Hit | null => {
+    const drawn = drawing.peek();
+    return drawn && hit(drawn, toPlan(view.peek(), place), view.peek().zoom, touch ? NEAR_FINGER : NEAR_EDGE);
+  };
+  const feed = (event: Event): void => {
+    const [after, effects] = next(state, event);
+    state = after;
+    host.dataset.state = after.is;
+    effects.forEach((effect) => run(stage, effect));
+  };
+  const down = (event: PointerEvent): void => {
+    if (event.button > 1 || (event.target as Element).closest(".over")) return;
+    host.setPointerCapture(event.pointerId);
+    host.focus({ preventScroll: true });
+    byKeys.value = false;
+    const place = at(event);
+    const touch = event.pointerType === "touch";
+    const drawn = drawing.peek();
+    const selection = drawn ? movable(drawn, selected.peek().map((part) => part.item)) : [];
+    feed({ type: "down", id: event.pointerId, at: place, hit: under(place, touch), shift: event.shiftKey, middle: event.button === 1, touch, selection });
+    event.preventDefault();
+  };
+  const move = (event: PointerEvent): void => {
+    if (state.is !== "idle") return feed({ type: "move", id: event.pointerId, at: at(event), free: event.altKey });
+    const place = at(event);
+    const found = (event.target as Element).closest(".over") ? null : under(place, false);
+    host.dataset.over = found?.on ?? "";
+    hovered.value = found && { hit: found, at: place };
+  };
+  const up = (event: PointerEvent): void => feed({ type: "up", id: event.pointerId, at: at(event), free: event.altKey });
+  const cancel = (): void => feed({ type: "cancel" });
+  const escape = (event: KeyboardEvent): void => {
+    if (event.key !== "Escape" || state.is === "idle") return;
+    event.preventDefault();
+    event.stopPropagation();
+    cancel();
+    say(words.putBack);
+  };
+  const wheel = (event: WheelEvent): void => {
+    if ((event.target as Element).closest(".over")) return;
+    event.preventDefault();
+    const lines = event.deltaMode === 1 ? 16 : 1;
+    const [dx, dy] = event.shiftKey && event.deltaX === 0 ? [event.deltaY, 0] : [event.deltaX, event.deltaY];
+    view.value = event.ctrlKey || event.metaKey ? zoomed(view.peek(), wheelFactor(-event.deltaY * lines), at(event)) : panned(view.peek(), -dx * lines, -dy * lines);
+  };
+  const twice = (event: MouseEvent): void => {
+    const found = (event.target as Element).closest(".over") ? null : under(at(event), false);
+    if (!found || found.on === "exit" || found.on === "port" || "edge" in found) return;
+    actions.open(found.part);
+  };
+  const out = (): void => void (hovered.value = null);
+  const all: [string, (event: any) => void, AddEventListenerOptions?][] = [
+    ["pointerdown", down], ["pointermove", move], ["pointerup", up], ["pointercancel", cancel], ["lostpointercapture", () => state.is !== "pinching" && state.is !== "idle" && cancel()],
+    ["wheel", wheel, { passive: false }], ["dblclick", twice], ["pointerleave", out],
+  ];
+  for (const [name, take, options] of all) host.addEventListener(name, take, options);
+  window.addEventListener("keydown", escape, true);
+  return () => {
+    for (const [name, take] of all) host.removeEventListener(name, take);
+    window.removeEventListener("keydown", escape, true);
+  };
+}
+
+function run(stage: Stage, effect: Effect): void {
+  const drawn = drawing.peek();
+  switch (effect.do) {
+    case "pan":
+      view.value = panned(view.peek(), ...effect.by);
+      return;
+    case "zoom":
+      view.value = zoomed(view.peek(), effect.factor, effect.at);
+      return;
+    case "click":
+      return click(effect.hit, effect.at, effect.add);
+    case "lift":
+      lifted = effect.elements;
+      hovered.value = null;
+      return hold();
+    case "drag":
+      if (drawn && pen.peek()) carry(stage, drawn, lifted, snapped(drawn, lifted, scaled(effect.by), effect.free));
+      return;
+    case "drop":
+      return void drop(stage, effect.by, effect.free);
+    case "putBack":
+      return putBack(stage);
+    case "box":
+    case "boxed":
+      return boxed(effect.from, effect.to, effect.do === "boxed");
+    case "unbox":
+      box.value = null;
+      return;
+    case "draw":
+      return void begin(effect.from);
+    case "lead":
+      return led(effect.at);
+    case "connect":
+      return void connect(effect.at);
+    case "undraw":
+      connecting.value = null;
+  }
+}
+
+const scaled = ([x, y]: Point): Point => [x / view.peek().zoom, y / view.peek().zoom];
+
+function click(found: Hit | null, at: Point, add: boolean): void {
+  const before = selected.peek();
+  if (!found) return add ? undefined : select([], "drawing");
+  const { part } = found;
+  const known = before.some((other) => same(other, part));
+  select(add ? (known ? before.filter((other) => !same(other, part)) : [...before, part]) : [part], "drawing");
+  if (add || !pen.peek()) return;
+  if (found.on === "exit") void actions.whatThen(part, at);
+  if (found.on === "port") editing.value = { part, at };
+}
+
+/** Elements are put down: one request, whose answer replaces the preview. */
+async function drop(stage: Stage, by: Point, free: boolean): Promise<void> {
+  const drawn = drawing.peek();
+  const elements = lifted;
+  if (!drawn || !pen.peek()) return putBack(stage);
+  const moved = snapped(drawn, elements, scaled(by), free);
+  if (moved[0] === 0 && moved[1] === 0) return putBack(stage);
+  await placed(stage, elements, moved);
+}
+
+/** Writes new places of elements that are shown there already. */
+export async function placed(stage: Stage, elements: readonly string[], by: Point): Promise<void> {
+  const drawn = drawing.peek();
+  if (!drawn) return;
+  for (const item of elements) stage.nodes.get(item)?.setAttribute("data-dropped", "yes");
+  release();
+  const done = await ask.place(places(drawn, elements, by), words.movePlaces);
+  if (!done && drawing.peek() === drawn) show(stage, drawn, drawn);
+  setTimeout(() => elements.forEach((item) => stage.nodes.get(item)?.removeAttribute("data-dropped")), 500);
+}
+
+export function putBack(stage: Stage): void {
+  const drawn = drawing.peek();
+  release();
+  if (drawn && drawing.peek() === drawn) show(stage, drawn, drawn);
+}
+
+function boxed(from: Point, to: Point, done: boolean): void {
+  const [[ax, ay], [bx, by]] = [toPlan(view.peek(), from), toPlan(view.peek(), to)];
+  const rect: Rect = [Math.min(ax, bx), Math.min(ay, by), Math.abs(ax - bx), Math.abs(ay - by)];
+  box.value = done ? null : rect;
+  const drawn = drawing.peek();
+  if (!done || !drawn) return;
+  const inside = [...drawn.elements.values()].filter((element) => element.kind !== null && touches(element.rect, rect));
+  const items = inside.map((element) => ({ item: element.item }));
+  select([...selected.peek().filter((part) => !items.some((other) => same(other, part))), ...items], "drawing");
+}
+
+async function begin(from: Part): Promise<void> {
+  if (!pen.peek()) return;
+  connecting.value = { from, targets: new Map(), over: null, at: [0, 0] };
+  hovered.value = null;
+  select([from], "drawing");
+  const known = connecting.peek();
+  try {
+    const targets = await actions.fitting(from);
+    if (connecting.peek()?.from === known?.from && connecting.peek()) connecting.value = { ...connecting.peek()!, targets };
+  } catch (why) {
+    refuse(why);
+  }
+}
+
+function led(at: Point): void {
+  const drawn = drawing.peek();
+  if (!drawn || !connecting.peek()) return;
+  const found = hit(drawn, toPlan(view.peek(), at), view.peek().zoom, 0);
+  const over = found && "element" in found ? found.element : null;
+  connecting.value = { ...connecting.peek()!, over, at };
+}
+
+/** An exit is dropped: on an element that fits, on one that does not, or on the ground, which asks. */
+async function connect(at: Point): Promise<void> {
+  led(at);
+  const known = connecting.peek();
+  connecting.value = null;
+  if (!known) return;
+  const to = known.over && nameOf(known.over);
+  const reason = to === null ? null : known.targets.get(to);
+  if (reason) return refuse(reason);
+  if (to !== null && known.over && drawing.peek()?.elements.get(known.over)?.kind) return void (await actions.lead(known.from, to));
+  const [x, y] = toPlan(view.peek(), at);
+  await actions.whatThen(known.from, at, [Math.round((x - 60) / 12) * 12, Math.round(y / 12) * 12]);
+}
+
+/** The line from an exit to the pointer, in units of the plan. */
+export function newLine(): Point[] | null {
+  const drawn = drawing.value;
+  const known = connecting.value;
+  if (!drawn || !known || (known.at[0] === 0 && known.at[1] === 0)) return null;
+  const rect = rectOf(drawn, known.from);
+  return rect && [centre(rect), toPlan(view.value, known.at)];
+}

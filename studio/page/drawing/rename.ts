@@ -1,0 +1,15 @@
+// A name that is being written anew where it stands; `choices.tsx` shows the field.
+import { signal } from "@preact/signals";
+import type { Rect } from "./shapes";
+
+export interface Renaming {
+  name: string;
+  /** In pixels of the pane. */
+  rect: Rect;
+  done(name: string | null): void;
+}
+
+export const renaming = signal<Renaming | null>(null);
+
+/** A name of the language. */
+export const isName = (name: string): boolean => /^[A-Za-z_]\w*$/.test(name);

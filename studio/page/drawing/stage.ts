@@ -1,0 +1,135 @@
+// The drawing in the page: one SVG, a group for each element and edge, changed only where the drawing has changed.
+import { effect, signal } from "@preact/signals";
+import { nodes, svg } from "./fragment";
+import { spoken } from "./say";
+import { touches, type Drawing, type Edge, type Element, type Part } from "./shapes";
+import { FAR, NEAR, sight, type Size, type View } from "./view";
+
+/** Where the plan stands in the pane, and how large the pane is, in CSS pixels. */
+export const view = signal<View>({ x: 0, y: 0, zoom: 1 });
+export const size = signal<Size>({ width: 0, height: 0 });
+
+export interface Stage {
+  root: SVGSVGElement;
+  /** What is drawn below the elements, and over everything, in units of the plan. */
+  rings: SVGGElement;
+  marks: SVGGElement;
+  layers: { edges: SVGGElement; nodes: SVGGElement };
+  /** The groups of elements and edges, by item and id. */
+  nodes: Map<string, SVGGElement>;
+  edges: Map<string, SVGGElement>;
+  /** The id in the page of what a part is drawn with. */
+  idOf(part: Part, drawing: Drawing): string | null;
+}
+
+/** So many elements are all kept in the page; of more, only those in sight. */
+const FEW = 150;
+/** Milliseconds for an element to reach its new place. */
+const TRAVELS = 160;
+
+const still = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;
+
+export function stage(): Stage {
+  const root = svg("svg", { class: "afp-plan stage", "aria-hidden": "false", focusable: "false" });
+  const defs = svg("defs");
+  const world = svg("g");
+  const layer = (name: string): SVGGElement => svg("g", { "aria-hidden": "true", class: name });
+  const [edges, rings, nodes, marks] = [layer("ways"), layer("marks"), svg("g"), layer("marks")];
+  world.append(edges, rings, nodes, marks);
+  root.append(defs, world);
+  effect(() => {
+    const { x, y, zoom } = view.value;
+    world.setAttribute("transform", `matrix(${zoom} 0 0 ${zoom} ${x} ${y})`);
+    root.classList.toggle("middle", zoom < NEAR && zoom >= FAR);
+    root.classList.toggle("far", zoom < FAR);
+    root.style.setProperty("--zoom", String(zoom));
+  });
+  return {
+    root,
+    rings,
+    marks,
+    layers: { edges, nodes },
+    nodes: new Map(),
+    edges: new Map(),
+    idOf: (part, drawing) => (drawing.elements.has(part.item) ? domId(part.item) : null),
+  };
+}
+
+const domId = (item: string): string => `element-${item.replace(/[^\w.-]/g, "_")}`;
+
+/** Shows a drawing in place of another one. */
+export function show(stage: Stage, before: Drawing | null, after: Drawing | null): void {
+  symbols(stage, after);
+  const same = before !== null && after !== null && before.uri === after.uri && before.plan === after.plan;
+  const old = same ? before : null;
+  if (!same) for (const [, group] of [...stage.nodes, ...stage.edges]) group.remove();
+  if (!same) [stage.nodes, stage.edges].forEach((map) => map.clear());
+  replace(stage, "edges", old?.edges, after?.edges ?? new Map<string, Edge>(), () => {});
+  replace(stage, "nodes", old?.elements, after?.elements ?? new Map<string, Element>(), (group, element, known) => {
+    name(group, element, after!);
+    if (known) travel(group, known, element);
+  });
+  // An edge that appears or disappears changes what is said of its ends.
+  for (const [item, group] of stage.nodes) name(group, after!.elements.get(item)!, after!);
+}
+
+function symbols(stage: Stage, drawing: Drawing | null): void {
+  const defs = stage.root.firstElementChild!;
+  const known = new Set([...defs.children].map((symbol) => symbol.id));
+  for (const { id, svg } of drawing?.symbols ?? []) if (!known.has(id)) defs.append(...nodes(svg));
+}
+
+type Shown = { svg: string };
+
+function replace<T extends Shown>(
+  stage: Stage,
+  layer: "edges" | "nodes",
+  before: ReadonlyMap<string, T> | undefined,
+  after: ReadonlyMap<string, T>,
+  made: (group: SVGGElement, one: T, known: T | undefined) => void,
+): void {
+  const groups = stage[layer];
+  for (const [id, group] of groups) {
+    if (after.has(id)) continue;
+    group.remove();
+    groups.delete(id);
+  }
+  const parent = stage.layers[layer];
+  for (const [id, one] of after) {
+    const known = before?.get(id);
+    const group = groups.get(id) ?? svg("g", { class: layer === "edges" ? "way" : "node" });
+    if (!groups.has(id)) parent.append(group);
+    groups.set(id, group);
+    // A preview may stand where the answer says nothing new.
+    group.removeAttribute("transform");
+    if (known === one && !group.dataset.bent) continue;
+    delete group.dataset.bent;
+    group.replaceChildren(...nodes(one.svg));
+    made(group, one, known);
+  }
+}
+
+function name(group: SVGGElement, element: Element, drawing: Drawing): void {
+  group.id = domId(element.item);
+  group.setAttribute("role", "img");
+  group.setAttribute("aria-label", spoken(drawing, { item: element.kind === null ? (drawing.plan ?? element.item) : element.item }));
+}
+
+/** An element that the engine has put elsewhere goes there; one that was dragged is there already. */
+function travel(group: SVGGElement, from: Element, to: Element): void {
+  const [dx, dy] = [from.outer[0] - to.outer[0], from.outer[1] - to.outer[1]];
+  if ((dx === 0 && dy === 0) || still() || group.dataset.dropped) return;
+  group.animate([{ transform: `translate(${dx}px, ${dy}px)` }, { transform: "none" }], { duration: TRAVELS, easing: "ease-out" });
+}
+
+/** Takes out of the page what is not in sight of a large drawing. */
+export function cull(stage: Stage, drawing: Drawing): void {
+  const large = drawing.elements.size > FEW;
+  const seen = sight(view.peek(), size.peek());
+  for (const [item, group] of stage.nodes) {
+    const element = drawing.elements.get(item);
+    const hidden = large && element !== undefined && !touches(element.outer, seen);
+    if (hidden) group.setAttribute("display", "none");
+    else group.removeAttribute("display");
+  }
+}

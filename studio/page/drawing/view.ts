@@ -1,0 +1,76 @@
+// Pan and zoom: where the plan stands in its pane. Pure; the canvas writes the result to one transform.
+import type { Point, Rect } from "./shapes";
+
+/** A point p of the plan is at `p * zoom + (x, y)` of the pane, in CSS pixels. */
+export interface View {
+  x: number;
+  y: number;
+  zoom: number;
+}
+
+export interface Size {
+  width: number;
+  height: number;
+}
+
+export const LEAST = 0.1;
+export const MOST = 4;
+/** Free space around a drawing that is fitted into its pane. */
+export const MARGIN = 24;
+/** Below this, templates and ports are not shown; below the second, boxes and lines alone. */
+export const NEAR = 0.8;
+export const FAR = 0.35;
+
+const clamp = (value: number, least: number, most: number): number => Math.max(least, Math.min(most, value));
+
+export const toPlan = (view: View, [x, y]: Point): Point => [(x - view.x) / view.zoom, (y - view.y) / view.zoom];
+
+export const toPane = (view: View, [x, y]: Point): Point => [x * view.zoom + view.x, y * view.zoom + view.y];
+
+export const panned = (view: View, dx: number, dy: number): View => ({ ...view, x: view.x + dx, y: view.y + dy });
+
+/** Zoomed by a factor; what is under `at` stays there. */
+export function zoomed(view: View, factor: number, at: Point): View {
+  const zoom = clamp(view.zoom * factor, LEAST, MOST);
+  const [x, y] = toPlan(view, at);
+  return { zoom, x: at[0] - x * zoom, y: at[1] - y * zoom };
+}
+
+/** All of a rectangle in sight, in the middle, never larger than 1:1. */
+export function fitted(rect: Rect, size: Size, least = LEAST): View {
+  const [x, y, width, height] = rect;
+  const room = Math.min((size.width - 2 * MARGIN) / Math.max(width, 1), (size.height - 2 * MARGIN) / Math.max(height, 1));
+  const zoom = clamp(Math.min(room, 1), least, MOST);
+  const left = (size.width - width * zoom) / 2;
+  const top = (size.height - height * zoom) / 2;
+  return { zoom, x: Math.max(left, MARGIN) - x * zoom, y: Math.max(top, MARGIN) - y * zoom };
+}
+
+/** What a plan is shown with first: fitted, but legible, and then from its top. */
+export const first = (bounds: Rect, size: Size): View => fitted(bounds, size, Math.min(NEAR, 1));
+
+/** Moved as little as brings a rectangle into sight; the same view when it is. */
+export function shown(view: View, rect: Rect, size: Size): View {
+  const [left, top] = toPane(view, [rect[0], rect[1]]);
+  const [right, bottom] = toPane(view, [rect[0] + rect[2], rect[1] + rect[3]]);
+  const by = (from: number, to: number, room: number): number => {
+    if (from < MARGIN) return MARGIN - from;
+    if (to > room - MARGIN) return Math.max(room - MARGIN - to, MARGIN - from);
+    return 0;
+  };
+  const dx = by(left, right, size.width);
+  const dy = by(top, bottom, size.height);
+  return dx === 0 && dy === 0 ? view : panned(view, dx, dy);
+}
+
+/** The part of the plan that is in sight. */
+export function sight(view: View, size: Size): Rect {
+  const [x, y] = toPlan(view, [0, 0]);
+  return [x, y, size.width / view.zoom, size.height / view.zoom];
+}
+
+/** The steps of `+` and `-`. */
+export const STEP = 1.25;
+
+/** What a turn of the wheel zooms by; pinches of touchpads come as small turns with `Ctrl`. */
+export const wheelFactor = (deltaY: number): number => Math.exp(-clamp(deltaY, -60, 60) / 100);

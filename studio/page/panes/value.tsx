@@ -1,0 +1,124 @@
+// The value of a port: a quantity with steps, slider and unit, the entries that fit, or a formula as a line.
+import { useEffect, useRef, useState } from "preact/hooks";
+import * as ask from "../drawing/ask";
+import { useInSight } from "../drawing/choices";
+import { refuse } from "../drawing/say";
+import type { Part } from "../drawing/shapes";
+import { editing, quantity, slider, spelled, stepped } from "../drawing/value";
+import { words } from "../drawing/words";
+
+/** The popup over the drawing. */
+export function ValuePopup() {
+  const now = editing.value;
+  return now ? <Popup key={`${now.part.item} ${now.part.part?.name}`} part={now.part} at={now.at} /> : null;
+}
+
+function Popup({ part, at }: { part: Part; at: readonly [number, number] | null }) {
+  const host = useRef<HTMLDivElement>(null);
+  const [answer, setAnswer] = useState<ask.PortAnswer | null>(null);
+  const { name = "", kind } = part.part ?? {};
+  const close = (): void => void (editing.value = null);
+  useEffect(() => {
+    ask.port(part.item, name).then(setAnswer, (why) => {
+      refuse(why);
+      close();
+    });
+  }, [part]);
+  useInSight(at, host, answer);
+  useEffect(() => host.current?.querySelector("input")?.select(), [answer]);
+  const key = (event: KeyboardEvent): void => {
+    if (event.key !== "Escape") return;
+    event.preventDefault();
+    event.stopPropagation();
+    close();
+  };
+  const out = (event: FocusEvent): void => {
+    if (event.relatedTarget instanceof Node && !host.current?.contains(event.relatedTarget)) close();
+  };
+  return (
+    <div class="over value-popup" ref={host} role="dialog" aria-label={words.valueOf(name)} tabIndex={-1} onKeyDown={key} onFocusOut={out}>
+      <div class="chooser-title">{name}{answer && <span> {answer.type}</span>}</div>
+      {answer && <Value part={part} out={kind === "output"} answer={answer} done={close} />}
+    </div>
+  );
+}
+
+interface Given {
+  part: Part;
+  out: boolean;
+  answer: ask.PortAnswer;
+  done(): void;
+}
+
+/** The controls for a value; in the popup and in the inspector. */
+export function Value({ part, out, answer, done }: Given) {
+  const name = part.part?.name ?? "";
+  const first = answer.value ?? answer.default ?? "";
+  const [text, setText] = useState(first);
+  useEffect(() => setText(first), [answer]);
+  const bind = async (to: string): Promise<void> => {
+    const binding = out ? { out: to } : { in: to };
+    if (await ask.edit([{ bind: { component: part.item, port: name, to: binding } }], {}, [part])) done();
+  };
+  const unbind = async (): Promise<void> => {
+    if (await ask.edit([{ unbind: { component: part.item, port: name } }], {}, [{ item: part.item }])) done();
+  };
+  const submit = (event: Event): void => {
+    event.preventDefault();
+    if (text.trim()) void bind(text.trim());
+  };
+  const fitting = answer.candidates.filter((candidate) => !candidate.refused);
+  const known = quantity(text);
+  return (
+    <form class="value" onSubmit={submit}>
+      {!out && known && answer.step !== null && <Steps text={text} set={setText} answer={answer} />}
+      {!out && (
+        <div class="value-line">
+          <input type="text" aria-label={words.formula} value={text} spellcheck={false} autocomplete="off" onInput={(event) => setText(event.currentTarget.value)} />
+          {known && answer.units.length > 1 && <Units text={text} set={setText} units={answer.units} />}
+          <button type="submit" class="main" aria-label={words.set} title={words.set}>✓</button>
+        </div>
+      )}
+      {answer.range && <p class="value-hint">{words.range(answer.range[0], answer.range[1])}{answer.default && ` · ${words.isDefault(answer.default)}`}</p>}
+      {fitting.length > 0 && (
+        <div class="value-entries" role="group" aria-label={out ? words.writesInto : words.entriesThatFit}>
+          {fitting.map((candidate) => <button type="button" class="entry-chip" key={candidate.text} onClick={() => void bind(candidate.text)}>{candidate.text}</button>)}
+        </div>
+      )}
+      {answer.value !== null && <button type="button" class="quiet" onClick={() => void unbind()}>{answer.default === null ? words.unset : words.useDefault}</button>}
+    </form>
+  );
+}
+
+interface Field {
+  text: string;
+  set(text: string): void;
+  answer: ask.PortAnswer;
+}
+
+/** `−`, `+`, `±` and a slider where the range is small enough for one. */
+function Steps({ text, set, answer }: Field) {
+  const { number, unit } = quantity(text)!;
+  // In another unit than the usual one a step is one.
+  const step = unit === answer.unit ? answer.step! : 1;
+  const by = (times: number): void => set(spelled(stepped(number, step, times), unit));
+  const range = slider(answer.range, unit, step);
+  return (
+    <div class="value-steps">
+      <button type="button" aria-label={words.less} title={words.less} onClick={() => by(-1)}>−</button>
+      {range ? <input type="range" aria-label={words.valueTitle} min={range.least} max={range.most} step={step} value={number} onInput={(event) => set(spelled(Number(event.currentTarget.value), unit))} /> : <output>{text}</output>}
+      <button type="button" aria-label={words.more} title={words.more} onClick={() => by(1)}>+</button>
+      <button type="button" aria-label={words.sign} title={words.sign} onClick={() => set(spelled(-number, unit))}>±</button>
+    </div>
+  );
+}
+
+function Units({ text, set, units }: { text: string; set(text: string): void; units: string[] }) {
+  const { number, unit } = quantity(text)!;
+  return (
+    <select aria-label={words.unit} value={unit} onChange={(event) => set(spelled(number, event.currentTarget.value))}>
+      {!units.includes(unit) && <option value={unit}>{unit}</option>}
+      {units.map((unit) => <option key={unit} value={unit}>{unit}</option>)}
+    </select>
+  );
+}

@@ -1,0 +1,166 @@
+// Drawings as values: differences, what is under a point, where keys lead, bent edges, views, values, lists.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { declared, headed } from "../page/drawing/anatomy";
+import { bent, road } from "../page/drawing/bend";
+import { filtered } from "../page/drawing/choose";
+import { changed, whole } from "../page/drawing/differences";
+import { hit } from "../page/drawing/hit";
+import { movable, places, snapped } from "../page/drawing/lift";
+import { home, step } from "../page/drawing/navigate";
+import { added, between, header } from "../page/drawing/offers";
+import { spoken } from "../page/drawing/say";
+import type { Answer, Drawing, Edge, Element, Point, Rect } from "../page/drawing/shapes";
+import { quantity, slider, spelled, stepped } from "../page/drawing/value";
+import { fitted, shown, toPane, toPlan, zoomed } from "../page/drawing/view";
+
+const piece = (item: string, kind: string, rect: Rect, name = "") => ({ item, part: { kind, name, nth: 1 }, rect, severity: null });
+const element = (item: string, [x, y]: Point): Element => ({
+  item, rect: [x, y, 120, 60], outer: [x, y, 240, 70], svg: "", kind: "actor", template: "Forward", plan: null, help: "", note: "",
+  pieces: [piece(item, "whole", [x, y, 120, 60]), piece(item, "exit", [x + 20, y + 51, 80, 18], "Done"), piece(`${item}.touch`, "whole", [x + 120, y, 120, 44])],
+});
+const edge = (from: string, to: string, points: Point[]): Edge => ({ id: `${from}!Done`, from, to, points, kind: "state", part: { kind: "exit", name: "Done", nth: 1 }, svg: "", severity: null });
+
+/** One above, two side by side below it. */
+function example(): Drawing {
+  const answer: Answer = {
+    version: 1, plan: "P", plans: ["P", "Q"], bounds: [0, 0, 600, 400], entries: [], symbols: [],
+    elements: [element("P.a", [100, 0]), element("P.b", [100, 200]), element("P.c", [400, 200]), { ...element("P.start", [400, 0]), kind: null, pieces: [piece("P", "whole", [400, 0, 120, 60])] }],
+    edges: [edge("P.a", "P.b", [[160, 69], [160, 200]]), edge("P.b", "P.c", [[160, 269], [160, 300], [380, 300], [380, 180], [460, 180], [460, 200]])],
+  };
+  return whole("file:///p.afp", answer);
+}
+
+test("a difference replaces what it names and leaves everything else the very same", () => {
+  const before = example();
+  const moved = element("P.b", [112, 212]);
+  const after = changed(before, {
+    textDocument: { uri: before.uri }, version: 2, plan: "P", plans: ["P"], bounds: null, entries: null, symbols: [], elements: [moved], edges: [], gone: ["P.c", "P.b!Done"],
+  });
+  assert.deepEqual([...after.elements.keys()], ["P.a", "P.b", "P.start"]);
+  assert.deepEqual([...after.edges.keys()], ["P.a!Done"]);
+  assert.equal(after.elements.get("P.a"), before.elements.get("P.a"));
+  assert.equal(after.elements.get("P.b"), moved);
+  assert.equal(before.elements.size, 4);
+});
+
+test("what is under a point: exits before boxes, supervisors, edges, heads, ground", () => {
+  const drawn = example();
+  const at = (x: number, y: number): string | undefined => hit(drawn, [x, y], 1)?.on;
+  assert.equal(at(110, 10), "element");
+  assert.equal(at(160, 60), "exit");
+  assert.equal(hit(drawn, [300, 20], 1)?.part.item, "P.a.touch");
+  assert.equal(at(450, 20), "start");
+  assert.equal(at(163, 120), "edge");
+  assert.equal(at(160, 192), "head");
+  assert.equal(at(300, 130), undefined);
+  // Farther out, an edge is as easy to press as near by.
+  assert.equal(hit(drawn, [172, 120], 1), null);
+  assert.equal(hit(drawn, [172, 120], 0.4)?.on, "edge");
+});
+
+test("arrow keys lead along exits, back, and to neighbours", () => {
+  const drawn = example();
+  assert.deepEqual(step(drawn, { item: "P.a" }, "down"), { item: "P.b" });
+  assert.deepEqual(step(drawn, { item: "P.b" }, "up"), { item: "P.a" });
+  assert.deepEqual(step(drawn, { item: "P.b" }, "right"), { item: "P.c" });
+  assert.deepEqual(step(drawn, { item: "P.c" }, "left"), { item: "P.b" });
+  assert.deepEqual(step(drawn, { item: "P.a.touch" }, "down"), { item: "P.b" });
+  assert.deepEqual(home(drawn), { item: "P" });
+});
+
+test("names for screen readers", () => {
+  const drawn = example();
+  assert.equal(spoken(drawn, { item: "P.a" }), "actor a, Forward, 1 supervisor, 1 exit");
+  assert.equal(spoken(drawn, { item: "P.a", part: { kind: "exit", name: "Done" } }), "exit Done of a, leads to b");
+  assert.equal(spoken(drawn, { item: "P.a.touch" }), "supervisor touch");
+  assert.equal(spoken(drawn, { item: "P" }), "plan P, 3 elements");
+});
+
+test("a bent edge keeps its right corners and its other end", () => {
+  const upright = ([ax, ay]: Point, [bx, by]: Point): boolean => ax === bx || ay === by;
+  const cases: Point[][] = [
+    [[0, 0], [0, 100]],
+    [[0, 0], [0, 50], [80, 50], [80, 100]],
+    [[0, 0], [0, 50], [80, 50]],
+    [[0, 0], [40, 0], [40, 90], [10, 90], [10, 120]],
+  ];
+  for (const points of cases) {
+    for (const [start, end] of [[[7, 9], [0, 0]], [[0, 0], [-13, 5]], [[7, 9], [7, 9]]] as [Point, Point][]) {
+      const found = bent(points, start, end);
+      const [first, last] = [points[0]!, points.at(-1)!];
+      assert.deepEqual(found[0], [first[0] + start[0], first[1] + start[1]]);
+      assert.deepEqual(found.at(-1), [last[0] + end[0], last[1] + end[1]]);
+      for (let i = 1; i < found.length; i++) assert.ok(upright(found[i - 1]!, found[i]!), JSON.stringify(found));
+    }
+  }
+  assert.deepEqual(bent(cases[0]!, [0, 0], [0, 0]), cases[0]);
+});
+
+test("the road of an edge ends at its arrow's neck, its tip at the end", () => {
+  const { line, tip } = road([[0, 0], [0, 50], [80, 50]]);
+  assert.equal(line, "M0 0L0 43Q0 50 7 50L71 50");
+  assert.ok(tip.startsWith("M80 50L70 "));
+});
+
+test("dragged elements keep to the grid, the first one's corner on it", () => {
+  const drawn = example();
+  assert.deepEqual(snapped(drawn, ["P.a", "P.b"], [5, 5], false), [8, 0]);
+  assert.deepEqual(snapped(drawn, ["P.a"], [5.4, 5], true), [5, 5]);
+  assert.deepEqual(places(drawn, ["P.a", "P.b"], [8, 12]), { "P.a": [108, 12], "P.b": [108, 212] });
+  assert.deepEqual(movable(drawn, ["P.a.touch", "P.a", "P"]), ["P.a", "P.start"]);
+});
+
+test("zooming keeps what is under the pointer, fitting shows everything, showing moves no more than needed", () => {
+  const view = { x: 30, y: -20, zoom: 0.7 };
+  const at: Point = [200, 100];
+  assert.deepEqual(toPlan(zoomed(view, 1.5, at), at).map(Math.round), toPlan(view, at).map(Math.round));
+  const size = { width: 500, height: 300 };
+  const rect: Rect = [-50, 20, 900, 400];
+  const fit = fitted(rect, size);
+  const [left, top] = toPane(fit, [rect[0], rect[1]]);
+  const [right, bottom] = toPane(fit, [rect[0] + rect[2], rect[1] + rect[3]]);
+  assert.ok(left >= 0 && top >= 0 && right <= 500 && bottom <= 300);
+  assert.equal(shown({ x: 0, y: 0, zoom: 1 }, [100, 100, 50, 50], size).x, 0);
+  assert.equal(shown({ x: 0, y: 0, zoom: 1 }, [500, 100, 50, 50], size).x, -74);
+});
+
+test("quantities are read, stepped on their grid and spelled", () => {
+  assert.deepEqual(quantity("-2.5 cm/s"), { number: -2.5, unit: "cm/s" });
+  assert.deepEqual(quantity("4"), { number: 4, unit: "" });
+  assert.equal(quantity("2 * gap"), null);
+  assert.equal(quantity("gap"), null);
+  assert.equal(stepped(30, 10, 1), 40);
+  assert.equal(stepped(0.3, 0.1, -1), 0.2);
+  assert.equal(stepped(0, 10, -1), -10);
+  assert.equal(spelled(0.1 + 0.2, "m"), "0.3 m");
+  assert.deepEqual(slider(["0 m/s", "31 cm/s"], "cm/s", 0.2), { least: 0, most: 31 });
+  assert.equal(slider(["-1 km", "1 km"], "cm", 10), null);
+});
+
+test("templates become texts, and what is between two elements leads on", () => {
+  const offer = { template: "Wait", kind: "actor" as const, toolbox: "std", icon: null, help: "", ports: [], exits: ["Elapsed"], snippet: "actor ${1:wait}: s.Wait {\n    Elapsed -> $2\n\\}", missingUse: "std" };
+  assert.deepEqual(header(offer), { name: "wait", text: "actor wait: s.Wait {}", template: "s.Wait" });
+  const from = { item: "P.a", part: { kind: "exit", name: "Done" } };
+  assert.deepEqual(added("P", null, offer, from), [
+    { addUse: { toolbox: "std" } },
+    { add: { plan: "P", text: "actor wait: s.Wait {}" } },
+    { connect: { from: "P.a", outcome: "Done", to: "wait" } },
+  ]);
+  assert.deepEqual(between("P", offer, edge("P.a", "P.b", [])).at(-1), { connect: { from: "P.wait", outcome: "Elapsed", to: "b" } });
+});
+
+test("ports and heads are read as the engine writes them", () => {
+  assert.deepEqual(declared("in live distance: length = 30 cm from 0 cm to 400 cm"), { name: "distance", out: false });
+  assert.deepEqual(declared("out angle: angle on WallFound"), { name: "angle", out: true });
+  assert.deepEqual(headed("supervise touch: CheckTouchSensor every 1 ms deadline 500 us {\n}"), { kind: "supervise", template: "CheckTouchSensor", every: "1 ms", deadline: "500 us" });
+  assert.deepEqual(headed("/// Drives.\n    actor go: c.Forward(distance = 3 cm) { Done -> go }"), { kind: "actor", template: "c.Forward", every: "", deadline: "" });
+  assert.equal(headed("var every: length").template, "");
+});
+
+test("a list is filtered by all words, what begins with them first, what is refused last", () => {
+  const choice = (label: string, hint = "", refused: string | null = null) => ({ id: label, label, hint, refused });
+  const all = [choice("goOn"), choice("turn", "goes round", "no"), choice("wait a go"), choice("go")];
+  assert.deepEqual(filtered(all, "go").map(({ label }) => label), ["goOn", "go", "wait a go", "turn"]);
+  assert.deepEqual(filtered(all, "go wa").map(({ label }) => label), ["wait a go"]);
+});
