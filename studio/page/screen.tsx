@@ -22,12 +22,12 @@ export function Screen() {
       <Bar />
       <Banners />
       <main class="middle">
-        {palette.value && <Side />}
+        {palette.value && current.value && <Side />}
         <Centre />
-        <RightPane />
+        {current.value && <RightPane />}
       </main>
       <Bottom />
-      <NarrowBar />
+      {current.value && <NarrowBar />}
       <Dialogs />
       <Finder />
     </div>
@@ -66,7 +66,7 @@ const Side = () => (
       <h2>{words.palette}</h2>
       <Tool icon="close" label={words.close(words.palette)} run={() => (palette.value = false)} />
     </header>
-    <div class="body" tabIndex={-1}>{current.value && <Palette />}</div>
+    <div class="body" tabIndex={-1}><Palette /></div>
   </section>
 );
 
@@ -74,7 +74,7 @@ function Centre() {
   return (
     <section class="pane drawing" data-pane="drawing" data-when="drawing" aria-label={words.drawing}>
       {current.value ? <Canvas /> : <Welcome />}
-      {!palette.value && (
+      {!palette.value && current.value && (
         <button class="opener" onClick={() => (palette.value = true)} aria-label={words.open(words.palette)} title={words.open(words.palette)}>
           <Sign name="palette" />
         </button>
@@ -144,7 +144,7 @@ function Divider({ of }: { of: Right }) {
 }
 
 function Bottom() {
-  if (bottom.value !== "problems" && narrow.value !== "problems") return null;
+  if (!current.value || (bottom.value !== "problems" && narrow.value !== "problems")) return null;
   return (
     <section class="pane bottom" data-pane="bottom" data-when="problems" aria-label={words.problems}>
       <header>

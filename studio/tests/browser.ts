@@ -1,0 +1,93 @@
+// The real page in a real browser: `afpc studio` on a folder of the test, in Debian's Chromium.
+import { spawn } from "node:child_process";
+import { existsSync } from "node:fs";
+import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, test } from "node:test";
+import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
+
+const AFPC = process.env.AFPC ?? "";
+const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
+const REASON = !AFPC ? "AFPC does not say where afpc is" : !existsSync(CHROMIUM) ? `there is no ${CHROMIUM}` : null;
+
+/** The longest that anything in the page is waited for, in milliseconds. */
+const PATIENCE = 10_000;
+
+export interface Studio {
+  page: Page;
+  folder: string;
+  /** The bytes of a file, as text; empty where there is none. */
+  read(name: string): Promise<string>;
+  write(name: string, text: string): Promise<void>;
+  /** Waits until a file has a text. */
+  holds(name: string, text: string): Promise<void>;
+  /** Waits until the page says "saved". */
+  isSaved(): Promise<void>;
+}
+
+let browser: Browser | null = null;
+after(() => browser?.close());
+
+/** Starts the server of a folder; the answer has its address and what ends it. */
+async function serve(folder: string): Promise<{ address: string; end: () => Promise<void> }> {
+  const child = spawn(AFPC, ["studio", folder, "--port", "0", "--no-open"], { stdio: ["ignore", "pipe", "pipe"] });
+  const gone = new Promise<void>((done) => child.once("close", () => done()));
+  const end = async (): Promise<void> => {
+    child.kill("SIGTERM");
+    const timer = setTimeout(() => child.kill("SIGKILL"), 3000);
+    await gone;
+    clearTimeout(timer);
+  };
+  let said = "";
+  const address = await new Promise<string>((done, fail) => {
+    const timer = setTimeout(() => fail(new Error(`no address within ${PATIENCE} ms; it said: ${said}`)), PATIENCE);
+    const take = (text: Buffer): void => {
+      said += text.toString();
+      const found = /http:\/\/\S+\?code=\S+/.exec(said);
+      if (found) clearTimeout(timer);
+      if (found) done(found[0]);
+    };
+    child.stdout.on("data", take);
+    child.stderr.on("data", take);
+    child.once("close", () => fail(new Error(`it ended: ${said}`)));
+  }).catch(async (why) => {
+    await end();
+    throw why;
+  });
+  return { address, end };
+}
+
+/** A test in the browser, on a folder with some files. What the page writes to its console as an error fails it. */
+export function inBrowser(name: string, files: Record<string, string>, run: (studio: Studio) => Promise<void>, options: BrowserContextOptions = {}): void {
+  test(name, { timeout: 60_000, skip: REASON ?? false }, async () => {
+    browser ??= await chromium.launch({ executablePath: CHROMIUM, args: ["--no-sandbox"] });
+    const folder = await mkdtemp(join(tmpdir(), "afp-studio-"));
+    for (const [file, text] of Object.entries(files)) await writeFile(join(folder, file), text);
+    const server = await serve(folder);
+    const context = await browser.newContext({ viewport: { width: 1366, height: 768 }, ...options });
+    try {
+      context.setDefaultTimeout(PATIENCE);
+      const page = await context.newPage();
+      const wrong: string[] = [];
+      page.on("pageerror", (why) => wrong.push(String(why)));
+      page.on("console", (message) => message.type() === "error" && wrong.push(message.text()));
+      await page.goto(server.address);
+      const read = (file: string) => readFile(join(folder, file), "utf8").catch(() => "");
+      const write = (file: string, text: string) => writeFile(join(folder, file), text);
+      const holds = async (file: string, text: string): Promise<void> => {
+        const end = Date.now() + PATIENCE;
+        while ((await read(file)) !== text && Date.now() < end) await new Promise((done) => setTimeout(done, 30));
+        const now = await read(file);
+        if (now !== text) throw new Error(`${file} holds\n${now}\nand not\n${text}`);
+      };
+      const isSaved = () => page.locator(".saved.saved:not(.saving)").waitFor();
+      await run({ page, folder, read, write, holds, isSaved });
+      if (wrong.length) throw new Error(`the page says: ${wrong.join("\n")}`);
+    } finally {
+      await context.close();
+      await server.end();
+      await rm(folder, { recursive: true, force: true });
+    }
+  });
+}

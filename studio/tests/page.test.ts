@@ -1,0 +1,150 @@
+// The page as a person uses it: opens, types, is told what is wrong and what is saved, undoes, sees what others change.
+import assert from "node:assert/strict";
+import AxeBuilder from "@axe-core/playwright";
+import type { Page } from "playwright-core";
+import { inBrowser } from "./browser";
+
+const PLAN = `use carbot
+
+plan P {
+    start go
+    actor go: Forward { ForwardSuccessful -> terminate }
+}
+`;
+
+const openText = async (page: Page): Promise<void> => {
+  await page.locator(".rail button", { hasText: "Text" }).click();
+  await page.locator(".cm-content").waitFor();
+};
+
+const lines = (page: Page): Promise<string[]> => page.locator(".cm-line").allInnerTexts();
+
+inBrowser("opens, types, sees what is wrong, is told 'saved'; undo gives the first bytes", { "plan.afp": PLAN }, async ({ page, holds, isSaved }) => {
+  await openText(page);
+  assert.equal(await page.title(), "plan.afp · AFP Studio");
+  await page.locator(".count", { hasText: "ready" }).waitFor();
+  await page.locator(".cm-line", { hasText: "start go" }).click();
+  await page.keyboard.press("End");
+  await page.keyboard.type("ne");
+  await page.locator(".cm-lintRange-error").waitFor();
+  await page.locator(".count", { hasText: "1 error" }).waitFor();
+  await holds("plan.afp", PLAN.replace("start go", "start gone"));
+  await isSaved();
+  await page.locator(".count").click();
+  await page.locator(".problems li", { hasText: "gone" }).waitFor();
+  await page.getByRole("button", { name: "Undo: typing" }).click();
+  await holds("plan.afp", PLAN);
+  await page.locator(".count", { hasText: "ready" }).waitFor();
+  await page.locator(".cm-content").focus();
+  await page.keyboard.press("Control+Shift+z");
+  await holds("plan.afp", PLAN.replace("start go", "start gone"));
+  await page.keyboard.press("Control+z");
+  await holds("plan.afp", PLAN);
+});
+
+inBrowser("opening a file and looking at it changes no byte, whatever its line ends are", { "plan.afp": `\ufeff${PLAN.replaceAll("\n", "\r\n")}` }, async ({ page, holds, isSaved }) => {
+  await openText(page);
+  await isSaved();
+  await holds("plan.afp", `\ufeff${PLAN.replaceAll("\n", "\r\n")}`);
+  await page.locator(".cm-line", { hasText: "start go" }).click();
+  await page.keyboard.press("End");
+  await page.keyboard.type(" // first");
+  await holds("plan.afp", `\ufeff${PLAN.replace("start go", "start go // first").replaceAll("\n", "\r\n")}`);
+});
+
+inBrowser("a change of another program arrives; undoing it asks first", { "plan.afp": PLAN }, async ({ page, write, holds, isSaved }) => {
+  await openText(page);
+  const theirs = PLAN.replace("plan P {", "/// Theirs.\nplan P {");
+  await write("plan.afp", theirs);
+  await page.locator(".cm-line", { hasText: "Theirs." }).waitFor();
+  await isSaved();
+  await page.keyboard.press("Control+z");
+  await page.getByRole("dialog").getByRole("button", { name: "Cancel" }).click();
+  assert.ok((await lines(page)).some((line) => line.includes("Theirs.")));
+  await page.keyboard.press("Control+z");
+  await page.getByRole("dialog").getByRole("button", { name: "Undo it" }).click();
+  await holds("plan.afp", PLAN);
+});
+
+inBrowser("completion writes a whole element, a fix mends a mistake, a name is changed everywhere", { "plan.afp": PLAN.replace("Forward {", "Forwrad {") }, async ({ page, read, holds }) => {
+  await openText(page);
+  await page.locator(".count", { hasText: "error" }).click();
+  await page.locator(".problems .fix", { hasText: "Forward" }).first().click();
+  await holds("plan.afp", PLAN);
+  await page.locator(".cm-line", { hasText: "actor go" }).getByText("go", { exact: true }).click();
+  await page.keyboard.press("F2");
+  await page.getByRole("dialog").getByRole("textbox").fill("drive");
+  await page.keyboard.press("Enter");
+  await holds("plan.afp", PLAN.replaceAll("go", "drive"));
+  await page.locator(".cm-line", { hasText: "actor drive" }).click();
+  await page.keyboard.press("End");
+  await page.keyboard.press("Enter");
+  await page.keyboard.type("Tur");
+  await page.locator(".cm-tooltip-autocomplete li", { hasText: "Turn" }).first().click();
+  await page.locator(".cm-line", { hasText: "TurnSuccessful ->" }).waitFor();
+  assert.match(await page.locator(".cm-content").innerText(), /\n    actor turn: Turn \{\n        TurnSuccessful -> /);
+  await page.keyboard.press("Control+z");
+  await page.keyboard.press("Control+z");
+  await page.keyboard.press("Control+z");
+  await holds("plan.afp", PLAN.replaceAll("go", "drive"));
+  assert.equal(await read("plan.afp"), PLAN.replaceAll("go", "drive"));
+});
+
+inBrowser("an empty folder: nothing is written before something is chosen; plans by name, by examples", {}, async ({ page, read, holds }) => {
+  await page.getByRole("heading", { name: /has no plan yet/ }).waitFor();
+  assert.equal(await read("plan.afp"), "");
+  await page.getByRole("button", { name: /Your first plan/ }).click();
+  await holds("plan.afp", "use carbot\n\nplan Plan {\n}\n");
+  await page.locator(".bar .file", { hasText: "plan.afp" }).waitFor();
+  await page.getByRole("button", { name: "Files" }).click();
+  await page.getByRole("menuitem", { name: "New plan" }).click();
+  await page.getByRole("dialog").getByRole("textbox").fill("plan");
+  assert.ok(await page.getByRole("button", { name: "Create" }).isDisabled());
+  await page.getByRole("dialog").getByRole("textbox").fill("night_watch");
+  await page.keyboard.press("Enter");
+  await holds("night_watch.afp", "use carbot\n\nplan NightWatch {\n}\n");
+  await page.locator(".bar .file", { hasText: "night_watch.afp" }).waitFor();
+});
+
+for (const colorScheme of ["light", "dark"] as const) {
+  const files = { "plan.afp": PLAN.replace("start go", "start gone") };
+  inBrowser(`axe has nothing serious to say, ${colorScheme}`, files, async ({ page }) => {
+    const clean = async (where: string): Promise<void> => {
+      const { violations } = await new AxeBuilder({ page }).analyze();
+      const bad = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
+      assert.deepEqual(bad.map(({ id, nodes }) => `${where}: ${id}: ${nodes.map((node) => node.html).join(" ")}`), []);
+    };
+    await openText(page);
+    await page.locator(".count", { hasText: "error" }).click();
+    await page.locator(".problems li").first().waitFor();
+    await clean("text and problems");
+    await page.locator(".rail button", { hasText: "Inspector" }).click();
+    await clean("inspector");
+    await page.getByRole("button", { name: "Files" }).click();
+    await clean("files");
+    await page.keyboard.press("Escape");
+    await page.keyboard.press("Control+k");
+    await page.getByRole("combobox", { name: "Type the name of a command" }).waitFor();
+    await clean("commands");
+    await page.keyboard.press("Escape");
+    await page.keyboard.press("?");
+    await page.getByRole("heading", { name: "Keys" }).waitFor();
+    await clean("keys");
+  }, { colorScheme });
+}
+
+inBrowser("keys reach every pane; commands are found by name", { "plan.afp": PLAN }, async ({ page }) => {
+  await page.locator(".count", { hasText: "ready" }).waitFor();
+  await page.keyboard.press("Control+k");
+  await page.keyboard.type("text");
+  await page.keyboard.press("Enter");
+  await page.locator(".cm-content:focus").waitFor();
+  await page.keyboard.press("Control+m");
+  await page.locator(".pane.bottom").waitFor();
+  const reached = new Set<string>();
+  for (let step = 0; step < 5; step++) {
+    await page.keyboard.press("F6");
+    reached.add(await page.evaluate(() => document.activeElement?.closest("[data-pane], .bar")?.getAttribute("aria-label") ?? "bar"));
+  }
+  assert.ok(reached.has("Text") && reached.has("bar"), [...reached].join());
+});
