@@ -15,8 +15,8 @@ export function register(): void {
   command({ id: "pane-before", label: words.lastPane, key: "Shift+F6", run: () => step(-1) });
   command({ id: "palette", label: words.palette, run: () => toggle("palette") });
   command({ id: "text", label: words.text, key: "Ctrl+E", run: () => toggle("text") });
-  command({ id: "inspector", label: words.inspector, key: "Ctrl+I", run: () => toggle("inspector") });
-  command({ id: "problems", label: words.problems, key: "Ctrl+M", run: () => toggle("problems") });
+  command({ id: "inspector", label: words.inspector, run: () => toggle("inspector") });
+  command({ id: "problems", label: words.problems, key: "Ctrl+Shift+M", run: () => toggle("problems") });
   command({ id: "new", label: words.newPlan, run: makeNew });
 }
 
@@ -24,7 +24,7 @@ function toggle(name: "palette" | "text" | "inspector" | "problems"): void {
   const open = { palette: palette.value, problems: bottom.value === "problems", text: right.value === "text", inspector: right.value === "inspector" }[name];
   if (!open) {
     show(name);
-    requestAnimationFrame(() => enter(document.querySelector(`[data-when=${name}]`)));
+    enterSoon(name);
   } else if (name === "palette") palette.value = false;
   else if (name === "problems") bottom.value = null;
   else right.value = null;
@@ -39,7 +39,19 @@ function step(by: number): void {
   enter(panes[(start + by + panes.length) % panes.length] ?? null);
 }
 
+/** Puts the focus into a pane that is about to appear. */
+function enterSoon(name: string, frames = 20): void {
+  const pane = document.querySelector(`[data-when=${name}]`);
+  // The editor comes a frame after its pane.
+  const early = !pane || (name === "text" && !pane.querySelector(".cm-content"));
+  if (!early) enter(pane);
+  else if (frames > 0) requestAnimationFrame(() => enterSoon(name, frames - 1));
+}
+
+/** What of a pane takes the focus, the first one that is there. */
+const ENTRIES = [".cm-content", "[role=application]", ".body input", ".body button", ".body", "button"];
+
 function enter(pane: Element | null): void {
-  const inside = pane?.querySelector<HTMLElement>(".cm-content, [role=application], [role=listbox], .body button, .body input, .body, button");
+  const inside = ENTRIES.map((each) => pane?.querySelector<HTMLElement>(each)).find((each) => each);
   inside?.focus();
 }

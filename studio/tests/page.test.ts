@@ -110,7 +110,9 @@ for (const colorScheme of ["light", "dark"] as const) {
   const files = { "plan.afp": PLAN.replace("start go", "start gone") };
   inBrowser(`axe has nothing serious to say, ${colorScheme}`, files, async ({ page }) => {
     const clean = async (where: string): Promise<void> => {
-      const { violations } = await new AxeBuilder({ page }).analyze();
+      const axe = new AxeBuilder({ page });
+      // Between light and dark nothing differs but colours.
+      const { violations } = await (colorScheme === "dark" ? axe.withRules(["color-contrast"]) : axe).analyze();
       const bad = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
       assert.deepEqual(bad.map(({ id, nodes }) => `${where}: ${id}: ${nodes.map((node) => node.html).join(" ")}`), []);
     };
@@ -139,7 +141,7 @@ inBrowser("keys reach every pane; commands are found by name", { "plan.afp": PLA
   await page.keyboard.type("text");
   await page.keyboard.press("Enter");
   await page.locator(".cm-content:focus").waitFor();
-  await page.keyboard.press("Control+m");
+  await page.keyboard.press("Control+Shift+m");
   await page.locator(".pane.bottom").waitFor();
   const reached = new Set<string>();
   for (let step = 0; step < 5; step++) {
