@@ -141,7 +141,7 @@ inBrowser("keys reach every pane; commands are found by name", { "plan.afp": PLA
   await page.keyboard.type("text");
   await page.keyboard.press("Enter");
   await page.locator(".cm-content:focus").waitFor();
-  await page.keyboard.press("Control+Shift+m");
+  await page.keyboard.press("Control+Shift+M");
   await page.locator(".pane.bottom").waitFor();
   const reached = new Set<string>();
   for (let step = 0; step < 5; step++) {
