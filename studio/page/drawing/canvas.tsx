@@ -49,6 +49,8 @@ export function mountCanvas(host: HTMLElement): () => void {
   };
   pane.addEventListener("keydown", key);
   pane.addEventListener("paste", paste);
+  // A press says afterwards that it was one.
+  pane.addEventListener("focus", () => (byKeys.value = true));
   const ends = [catalog.begin(), messages.begin(), commands(), pointers(pane, scene), ...shows(scene, pane), ...sights(), focuses(pane)];
   return () => {
     ends.forEach((end) => end());
@@ -66,6 +68,9 @@ function shows(scene: ReturnType<typeof stage>, pane: HTMLElement): (() => void)
       const after = drawing.value;
       show(scene, before === after ? null : before, after);
       before = after;
+    }),
+    effect(() => {
+      pane.toggleAttribute("data-keys", byKeys.value);
     }),
     effect(() => {
       void view.value;
@@ -131,7 +136,11 @@ function focuses(pane: HTMLElement): () => void {
   let open = false;
   return effect(() => {
     const now = question.value !== null || renaming.value !== null || editing.value !== null;
-    if (open && !now && (document.activeElement === document.body || pane.contains(document.activeElement))) pane.focus({ preventScroll: true });
+    if (open && !now && (document.activeElement === document.body || pane.contains(document.activeElement))) {
+      const keys = byKeys.peek();
+      pane.focus({ preventScroll: true });
+      byKeys.value = keys;
+    }
     open = now;
   });
 }

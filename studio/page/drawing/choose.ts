@@ -33,8 +33,9 @@ export function choose(title: string, list: Question["list"], at: Point | null =
       at,
       list,
       answer: (chosen) => {
-        if (question.peek() === one) question.value = null;
+        // First of all: a list that goes loses the focus, which answers with nothing.
         resolve(chosen);
+        if (question.peek() === one) question.value = null;
       },
     };
     question.value = one;

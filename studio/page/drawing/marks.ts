@@ -71,7 +71,7 @@ function fade(stage: Stage, drawing: Drawing | null, { selected, fits, target }:
   const chosen = new Set(edges.filter((edge) => exits.some((part) => part.item === edge.from && part.part?.name === edge.part.name)).map((edge) => edge.id));
   const one = exits.length > 0 && exits.length === selected.length && chosen.size > 0;
   stage.root.classList.toggle("one-way", one);
-  stage.root.classList.toggle("connecting", fits !== null);
+  stage.root.classList.toggle("leading", fits !== null);
   for (const [id, group] of stage.edges) group.classList.toggle("chosen", (one && chosen.has(id)) || (target !== null && "edge" in target && target.edge === id));
   for (const [item, group] of stage.nodes) group.classList.toggle("unfit", fits !== null && !fits.has(item));
 }
