@@ -78,7 +78,8 @@ export function stepForth(log: Log): [Log, Entry] | null {
   return entry ? [{ past: [...log.past, entry], future: log.future.slice(0, -1) }, entry] : null;
 }
 
-const log = signal<Log>(EMPTY);
+/** What happened, and what was undone. Written here and by `keep.ts` after a reload. */
+export const log = signal<Log>(EMPTY);
 export const undoLabel = computed(() => log.value.past.at(-1)?.label ?? null);
 export const redoLabel = computed(() => log.value.future.at(-1)?.label ?? null);
 

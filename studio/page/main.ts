@@ -6,6 +6,7 @@ import { listen } from "./commands";
 import { ask } from "./dialogs";
 import * as documents from "./documents";
 import { follow } from "./drawing/model";
+import * as keep from "./keep";
 import * as layout from "./layout";
 import { showFirst } from "./panes/files";
 import * as places from "./places";
@@ -32,6 +33,6 @@ const begun = hello.subscribe((said) => {
   // Once `subscribe` has given what ends it.
   queueMicrotask(() => {
     begun();
-    void showFirst();
+    void showFirst().then(() => keep.begin(sessionStorage));
   });
 });

@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { attach, backward, clear, EMPTY, forward, push, record, recorded, redo, redoLabel, undo, undoLabel, type Change, type Entry, type Step } from "../page/history";
+import { hash, newest } from "../page/keep";
 import { random } from "./random";
 
 /** Texts that are changed as `documents.ts` does it. */
@@ -97,4 +98,13 @@ test("undoing a change of others asks first", async () => {
     assert.deepEqual(asked, ["another program"]);
     assert.equal(texts.all.get("b"), agrees ? "" : "theirs");
   }
+});
+
+test("of a long history the newest entries are kept", () => {
+  const entries = Array.from({ length: 9 }, (_, at) => typed(at, "", "x", at * 1000));
+  const size = JSON.stringify(entries[0]).length;
+  assert.deepEqual(newest(entries, 4 * JSON.stringify(entries[8]).length).length, 4);
+  assert.deepEqual(newest(entries, 4 * size + 99).at(-1), entries[8]);
+  assert.deepEqual(newest(entries, 0), []);
+  assert.notEqual(hash("ab"), hash("ba"));
 });

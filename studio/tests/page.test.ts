@@ -42,6 +42,26 @@ inBrowser("opens, types, sees what is wrong, is told 'saved'; undo gives the fir
   await holds("plan.afp", PLAN);
 });
 
+inBrowser("the history survives a reload, and not a change of others meanwhile", { "plan.afp": PLAN }, async ({ page, write, holds, isSaved }) => {
+  await openText(page);
+  await page.locator(".cm-line", { hasText: "start go" }).click();
+  await page.keyboard.press("End");
+  await page.keyboard.type("ne");
+  const typed = PLAN.replace("start go", "start gone");
+  await holds("plan.afp", typed);
+  await page.reload();
+  await page.getByRole("button", { name: "Undo: typing" }).click();
+  await holds("plan.afp", PLAN);
+  await page.getByRole("button", { name: "Redo: typing" }).click();
+  await holds("plan.afp", typed);
+  await isSaved();
+  await page.goto("about:blank");
+  await write("plan.afp", PLAN);
+  await page.goBack();
+  await page.locator(".count", { hasText: "ready" }).waitFor();
+  await page.getByRole("button", { name: "Nothing to undo" }).waitFor();
+});
+
 inBrowser("opening a file and looking at it changes no byte, whatever its line ends are", { "plan.afp": `\ufeff${PLAN.replaceAll("\n", "\r\n")}` }, async ({ page, holds, isSaved }) => {
   await openText(page);
   await isSaved();

@@ -1,0 +1,71 @@
+// The history survives a reload: kept in the browser tab's storage, taken up again where the texts are still the same.
+import { effect } from "@preact/signals";
+import { open, text } from "./documents";
+import { log, type Entry, type Log } from "./history";
+
+const KEY = "afp-studio-history";
+/** Characters that are kept at most; older entries go first. */
+const MOST = 500_000;
+/** Milliseconds after a change until it is kept. */
+const PAUSE = 300;
+
+interface Kept extends Log {
+  texts: Record<string, number>;
+}
+
+/** A number that tells texts apart. */
+export function hash(source: string): number {
+  let value = 0x811c9dc5;
+  for (let at = 0; at < source.length; at++) value = Math.imul(value ^ source.charCodeAt(at), 0x01000193);
+  return value >>> 0;
+}
+
+const urisOf = ({ past, future }: Log): string[] => [...new Set([...past, ...future].flatMap((entry) => entry.steps.map((step) => step.uri)))];
+
+/** The newest entries that there is room for. */
+export function newest(entries: readonly Entry[], room: number): Entry[] {
+  const found: Entry[] = [];
+  for (const entry of [...entries].reverse()) {
+    room -= JSON.stringify(entry).length;
+    if (room < 0) break;
+    found.unshift(entry);
+  }
+  return found;
+}
+
+/** Takes up what was kept before a reload, and keeps from now on. */
+export async function begin(storage: Storage): Promise<void> {
+  const kept = read(storage);
+  if (kept && log.peek().past.length === 0) {
+    const uris = urisOf(kept);
+    await Promise.all(uris.map(open)).catch(() => {});
+    const same = uris.every((uri) => hash(text(uri)) === kept.texts[uri]);
+    if (same && log.peek().past.length === 0) log.value = { past: kept.past, future: kept.future };
+  }
+  let timer: ReturnType<typeof setTimeout>;
+  const write = (): void => {
+    const past = newest(log.peek().past, MOST);
+    const all: Log = { past, future: newest(log.peek().future, MOST) };
+    const texts = Object.fromEntries(urisOf(all).map((uri) => [uri, hash(text(uri))]));
+    try {
+      storage.setItem(KEY, JSON.stringify({ ...all, texts }));
+    } catch {
+      storage.removeItem(KEY);
+    }
+  };
+  effect(() => {
+    void log.value;
+    clearTimeout(timer);
+    timer = setTimeout(write, PAUSE);
+  });
+  addEventListener("pagehide", write);
+}
+
+function read(storage: Storage): Kept | null {
+  try {
+    const kept = JSON.parse(storage.getItem(KEY) ?? "null");
+    return kept && Array.isArray(kept.past) && Array.isArray(kept.future) ? kept : null;
+  } catch {
+    return null;
+  }
+}
