@@ -5,6 +5,7 @@
 //!
 //!   step:    sweep the supervisors in their fixed order
 //!              an event is taken   -> interrupt, commit, follow
+//!              ... that may resume -> commit, compute; go on, or interrupt and follow
 //!            else poll the active element, if due
 //!              it reached a state  -> commit, follow
 //!              it failed           -> interrupt, follow its `Error` edge
@@ -18,6 +19,7 @@
 
 mod at;
 mod enter;
+mod held;
 mod leave;
 mod sweep;
 
@@ -67,6 +69,7 @@ struct Edge {
 }
 
 /// How following an edge may end short of an active element.
+#[derive(Clone, Copy)]
 enum Stop {
     /// The plan ends.
     Plan(Ending),

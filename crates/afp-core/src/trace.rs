@@ -68,8 +68,9 @@ pub enum Cause {
 }
 
 /// One thing that happened. The order within a step is fixed: outside commit; for each polled
-/// supervisor its poll and its miss; event; interrupts, innermost first; commits, inner first;
-/// starts of supervisors; diverted or started.
+/// supervisor its poll and its miss, and where its event may resume, event, commits and computations
+/// until resumed; event; interrupts, innermost first; commits, inner first; starts of supervisors;
+/// diverted or started.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Record<'a> {
     /// A step was asked for an earlier time than the one before; it ran at the time of that one.
@@ -165,6 +166,13 @@ pub enum Record<'a> {
         supervisor: ComponentId,
         /// The event.
         event: u16,
+    },
+    /// An element goes on after an event that led to `resume`.
+    Resumed {
+        /// The element, active or being entered.
+        element: ComponentId,
+        /// The supervisor whose event it was.
+        supervisor: ComponentId,
     },
     /// A component failed.
     Faulted {
@@ -326,7 +334,7 @@ pub trait Names {
     /// A state or event of a component, by position in its template; `DeadlineMissed` and `Error`
     /// go by their own numbers.
     fn outcome(&self, id: ComponentId, outcome: u16) -> &str;
-    /// Where an outcome leads: an element's name, `terminate`, `fail`, `ignore`; empty where unconnected.
+    /// Where an outcome leads: an element's name, `terminate`, `fail`, `ignore`, `resume`; empty where unconnected.
     fn target(&self, id: ComponentId, outcome: u16) -> &str;
     /// An input port of a component.
     fn input(&self, id: ComponentId, port: u16) -> &str;

@@ -87,8 +87,8 @@ impl State {
     fn follow(&mut self, event: &RunEvent, program: &Program) {
         let id = event.component_id;
         let by = match event.kind {
+            // The event that diverts a start was heard before, as were computations behind it.
             EventKind::Finished | EventKind::Event | EventKind::Faulted => id,
-            EventKind::Diverted => event.supervisor_id,
             EventKind::Started => return self.begin(id, event.at, program),
             _ => return,
         };

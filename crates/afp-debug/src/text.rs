@@ -89,6 +89,7 @@ impl fmt::Display for Line<'_> {
             }
             Kind::Started => write!(f, "{component} started"),
             Kind::Diverted => write!(f, "{component} diverted by {}", self.0.supervisor),
+            Kind::Resumed => write!(f, "{component} resumed by {}", self.0.supervisor),
             Kind::Faulted => write!(f, "{component} fault {fault}: {fault_text}"),
             Kind::Ended => self.ended(f),
             Kind::Lost => write!(f, "{} records lost", self.0.lost),

@@ -2,8 +2,8 @@
 //!
 //! An element's card is its box with name, template and icon, the data on its left, its states as
 //! exits on its lower border, and its supervisors leaning on its right side with their events as
-//! exits. The start tag carries the global supervisors in the same way. Edges to `terminate`, `fail`
-//! and `ignore` end in tags of their own on the card, so that only flow between elements is routed.
+//! exits. The start tag carries the global supervisors in the same way. Edges to `terminate`, `fail`,
+//! `ignore` and `resume` end in tags of their own on the card, so that only flow between elements is routed.
 
 mod parts;
 mod start;

@@ -7,7 +7,7 @@ use super::view::{Exit, To, View, name};
 use afp_dsl::outline::{Component, ComponentKind, ExitKind, Outline};
 
 /// The plan in the DOT language: a cluster for each plan, solid edges for states, dashed ones for
-/// events, named after what takes them. Ignored events are left out, and what leads nowhere.
+/// events, named after what takes them. Ignored events are left out, what resumes, and what leads nowhere.
 pub fn dot(outline: &Outline, options: &Options) -> String {
     let views = View::all(outline, options);
     let title = views.first().map_or("", View::name);
@@ -96,7 +96,7 @@ impl<'a> Cluster<'a, '_> {
     }
 
     fn edge(&self, text: &mut String, from: &str, exit: &Exit<'a>, label: &str) {
-        if matches!(exit.to, To::Ignore | To::Nowhere) {
+        if matches!(exit.to, To::Ignore | To::Resume | To::Nowhere) {
             return;
         }
         let style = match exit.kind {

@@ -75,7 +75,8 @@ fn element(index: u64, onwards: &str, [one, two, three]: [String; 3]) -> String 
         ),
         1 => format!(
             "supervise near: CheckValue(value = walldist, limit = 2 * walldist + 5 cm) {{ \
-             Below -> ignore, Above -> {three} }}\n"
+             Below -> {}, Above -> {three} }}\n",
+            if index.is_multiple_of(2) { "ignore" } else { "resume" }
         ),
         _ => String::new(),
     };

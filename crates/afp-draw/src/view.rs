@@ -71,6 +71,8 @@ pub(super) enum To<'a> {
     /// The plan fails; with the reason, in quotes, where one is written.
     Fail(&'a str),
     Ignore,
+    /// Back to what is active.
+    Resume,
     /// To what the plan does not have.
     Unknown(&'a str),
     /// Nowhere, although it must lead somewhere.
@@ -94,6 +96,7 @@ impl<'a> To<'a> {
             Some((Destination::Terminate, _)) => To::Terminate,
             Some((Destination::Fail, _)) => To::Fail(target.and_then(Target::reason).unwrap_or("")),
             Some((Destination::Ignore, _)) => To::Ignore,
+            Some((Destination::Resume, _)) => To::Resume,
             Some((Destination::Unknown, text)) if !text.is_empty() => To::Unknown(text),
             _ => To::Nowhere,
         }
@@ -242,6 +245,7 @@ impl<'a> View<'a> {
             To::Terminate => "terminate",
             To::Fail(_) => "fail",
             To::Ignore => "ignore",
+            To::Resume => "resume",
             To::Unknown(text) => text,
             To::Nowhere => "",
         }

@@ -21,6 +21,7 @@ mod plan;
 mod range;
 mod recursion;
 mod resources;
+mod resume;
 pub(crate) mod scenario;
 mod scope;
 pub(crate) mod signature;

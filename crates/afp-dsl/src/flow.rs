@@ -13,6 +13,7 @@ mod frozen;
 mod ignored;
 mod lasting;
 mod recovery;
+mod resumed;
 pub(crate) mod strong;
 mod unreachable;
 mod unread;
@@ -100,6 +101,7 @@ fn check_plan(view: &View<'_>, diags: &mut Diagnostics) -> Summary {
     ignored::check(view, diags);
     lasting::check(view, diags);
     frozen::check(view, diags);
+    resumed::check(view, diags);
     recovery::check(view, diags);
     let ends = endless::check(view, diags);
     let unset = assigned::check(view, diags);

@@ -5,6 +5,7 @@
 //! filled in, polling order is fixed. A plan with errors has no graph.
 
 mod dump;
+mod resume;
 
 use std::sync::Arc;
 
@@ -15,6 +16,7 @@ use afp_syntax::source::Span;
 
 pub use afp_number::Function;
 pub use afp_syntax::ast::Operator;
+pub(crate) use resume::{chain, resuming};
 
 macro_rules! index {
     ($($(#[$doc:meta])* $name:ident),* $(,)?) => {$(
@@ -232,6 +234,8 @@ pub enum Target {
     Fail(ReasonId),
     /// The event is not taken; events only.
     Ignore,
+    /// What is active goes on; events, and computations that only events lead to.
+    Resume,
 }
 
 /// An output port bound to an entry.

@@ -155,6 +155,8 @@ pub enum Word {
     Fail,
     /// The target `ignore`.
     Ignore,
+    /// The target `resume`.
+    Resume,
     /// A built-in type, such as `length`.
     Type,
     /// `true` or `false`

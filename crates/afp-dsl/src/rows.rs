@@ -76,6 +76,8 @@ pub struct ElementRow {
     pub states: Range,
     /// Its `Error` edge.
     pub on_error: Option<Target>,
+    /// Whether it is a computation from which computations alone can lead to `resume`.
+    pub resumes: bool,
     /// Its local supervisors in [`Rows::supervisors`].
     pub locals: Range,
     /// The supervisors polled while it is active, in order, in [`Rows::sweeps`].

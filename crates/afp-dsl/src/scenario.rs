@@ -270,6 +270,8 @@ pub enum Destination {
     Terminate,
     /// Out of the plan, which fails.
     Fail,
+    /// Back to what is active.
+    Resume,
 }
 
 /// A component, or one of its outcomes.

@@ -7,6 +7,7 @@
 
 mod check;
 mod cost;
+mod held;
 mod level;
 mod response;
 mod step;
@@ -71,7 +72,7 @@ pub struct Response {
     pub step: u64,
     /// The supervisors that are polled before.
     pub before: u64,
-    /// The supervisor's own poll.
+    /// The supervisor's own poll, with what is computed before `resume`.
     pub own: u64,
 }
 

@@ -5,7 +5,7 @@
 //! cannot disagree: 0 is the outermost plan; then come its elements and its supervisors, then, element
 //! by element, the blocks of its sub-plans, laid out alike. Entries are numbered the same way.
 
-use crate::graph::{Component, EdgeSpans, Entry, EntryKind, Graph, Plan, PlanId, Target};
+use crate::graph::{Component, EdgeSpans, Entry, EntryKind, Graph, Plan, PlanId, Target, resuming};
 use crate::types::Type;
 use afp_syntax::source::Span;
 
@@ -76,6 +76,8 @@ pub struct Place {
     pub plan: u32,
     /// The element of a local supervisor.
     pub owner: Option<u32>,
+    /// Whether it is a computation that may lead to `resume`, so that nothing is interrupted before it runs.
+    pub resumes: bool,
     /// Where its states or events lead, by position.
     pub outcomes: Vec<Option<Goal>>,
     /// Where its `Error` or `DeadlineMissed` leads.
@@ -99,6 +101,8 @@ pub enum Goal {
     Fail,
     /// The event is not taken.
     Ignore,
+    /// What is active goes on.
+    Resume,
 }
 
 /// The place of each component, by its number.
@@ -116,10 +120,13 @@ fn add_places(graph: &Graph, id: PlanId, number: u32, all: &mut Vec<Place>) {
         Target::Terminate => Goal::Terminate,
         Target::Fail(_) => Goal::Fail,
         Target::Ignore => Goal::Ignore,
+        Target::Resume => Goal::Resume,
     };
-    all.extend(plan.elements.iter().map(|element| Place {
+    let resuming = resuming(plan.elements.iter().map(Some));
+    all.extend(plan.elements.iter().zip(resuming).map(|(element, resumes)| Place {
         plan: number,
         owner: None,
+        resumes,
         outcomes: element.states.iter().map(|state| state.map(goal)).collect(),
         special: element.on_error.map(goal),
         span: element.span,
@@ -129,6 +136,7 @@ fn add_places(graph: &Graph, id: PlanId, number: u32, all: &mut Vec<Place>) {
     all.extend(plan.supervisors.iter().map(|supervisor| Place {
         plan: number,
         owner: supervisor.owner.map(|id| first + u32::from(id.0)),
+        resumes: false,
         outcomes: supervisor.events.iter().map(|event| Some(goal(*event))).collect(),
         special: supervisor.on_miss.map(goal),
         span: supervisor.span,
@@ -234,6 +242,7 @@ fn target(plan: &Plan, target: Option<Target>) -> String {
         Some(Target::Terminate) => "terminate".to_owned(),
         Some(Target::Fail(_)) => "fail".to_owned(),
         Some(Target::Ignore) => "ignore".to_owned(),
+        Some(Target::Resume) => "resume".to_owned(),
         None => String::new(),
     }
 }

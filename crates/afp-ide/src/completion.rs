@@ -74,7 +74,7 @@ pub fn completions(view: &View, offset: u32) -> Vec<Completion> {
         Place::Made(node, home) => plans::templates(&mut list, node, *home),
         Place::Times => plans::times(&mut list),
         Place::Ports(node) => values::ports(&mut list, view.component(node)),
-        Place::Target { event } => plans::targets(&mut list, offset, *event),
+        Place::Target { from } => plans::targets(&mut list, offset, *from),
         Place::Start => plans::elements(&mut list, offset),
         Place::Type => values::types(&mut list, offset),
         Place::Output { component, port } => {

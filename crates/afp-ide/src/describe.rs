@@ -108,6 +108,7 @@ pub(crate) fn word(meaning: Meaning) -> Option<&'static str> {
         Word::Terminate => "The plan ends.",
         Word::Fail => "The plan ends in 'Error', for the reason behind it.",
         Word::Ignore => "The event is not taken.",
+        Word::Resume => "What is active goes on, and sees what was written by its 'live' inputs.",
         Word::Type => "A type of the language.",
         Word::Truth => "A truth value.",
         Word::Resource => "What the template commands: one element at a time may.",

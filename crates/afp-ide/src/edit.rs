@@ -103,7 +103,8 @@ pub enum Change {
         from: Item,
         /// The state or event.
         outcome: String,
-        /// An element of the plan, `terminate`, `fail`, `fail "reason"`, or `ignore` for an event.
+        /// An element of the plan, `terminate`, `fail`, `fail "reason"`; for an event `ignore` or `resume`, for a
+        /// computation `resume`.
         to: String,
     },
     /// Removes the edge of a state or event.

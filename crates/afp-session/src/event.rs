@@ -29,9 +29,9 @@ pub struct RunEvent {
     pub outcome: String,
     /// Its position in the template.
     pub outcome_id: u16,
-    /// Where the outcome leads: an element, `terminate`, `ignore`.
+    /// Where the outcome leads: an element, `terminate`, `fail`, `ignore`, `resume`.
     pub target: String,
-    /// The supervisor that diverted a start.
+    /// The supervisor that diverted a start, or whose event resumed.
     pub supervisor: String,
     /// Its number.
     pub supervisor_id: ComponentId,
@@ -100,6 +100,8 @@ pub enum EventKind {
     Started,
     /// An event replaced the start of an element.
     Diverted,
+    /// An element goes on after an event that did not interrupt it.
+    Resumed,
     /// A component failed.
     Faulted,
     /// A plan ended.
@@ -190,6 +192,7 @@ impl EventKind {
             EventKind::Input => "input",
             EventKind::Started => "started",
             EventKind::Diverted => "diverted",
+            EventKind::Resumed => "resumed",
             EventKind::Faulted => "faulted",
             EventKind::Ended => "ended",
             EventKind::Lost => "lost",

@@ -50,6 +50,9 @@ impl OwnedRecord {
             Record::Diverted { element, supervisor, event } => {
                 (Record::Diverted { element, supervisor, event }, none, none)
             }
+            Record::Resumed { element, supervisor } => {
+                (Record::Resumed { element, supervisor }, none, none)
+            }
             Record::Faulted { component, fault } => {
                 (Record::Faulted { component, fault }, none, none)
             }

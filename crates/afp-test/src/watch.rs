@@ -130,6 +130,7 @@ impl<'a> Watch<'a> {
                 self.ended_by_event(at, element);
             }
             Record::Diverted { element, .. } => self.ended_by_event(at, element),
+            Record::Resumed { element, .. } => self.resumed(at, element),
             Record::Finished { element, state } => {
                 self.set_active(at, element, false);
                 self.leave(at, element, cause(element, state));
@@ -252,6 +253,14 @@ impl<'a> Watch<'a> {
         }
     }
 
+    /// An element goes on: the edge that the event took leaves nothing.
+    fn resumed(&mut self, at: Instant, element: ComponentId) {
+        if let Some(by) = self.event.take() {
+            let to = self.goal(by);
+            self.happen(at, &Happening::Edge { from: element.0, to, by });
+        }
+    }
+
     /// An element is left.
     fn leave(&mut self, at: Instant, element: ComponentId, by: Cause) {
         let to = self.goal(by);
@@ -367,6 +376,7 @@ fn leads(wanted: Destination, to: Option<Goal>) -> bool {
         Destination::Element(element) => to == Some(Goal::Element(element)),
         Destination::Terminate => to == Some(Goal::Terminate),
         Destination::Fail => to == Some(Goal::Fail),
+        Destination::Resume => to == Some(Goal::Resume),
     }
 }
 

@@ -1,5 +1,8 @@
 //! What scenarios come to: each kind of claim kept and broken, stimuli, faults, the same run twice.
 
+#[path = "engine/edges.rs"]
+mod edges;
+
 use std::path::Path;
 
 use afp_dsl::Compiled;
@@ -53,7 +56,12 @@ fn compiled(plan: &str, lines: &str) -> Compiled {
 }
 
 fn run(lines: &str) -> Verdict {
-    let compiled = compiled(PLAN, lines);
+    run_of(PLAN, lines)
+}
+
+/// The verdict about a plan `Ahead`.
+fn run_of(plan: &str, lines: &str) -> Verdict {
+    let compiled = compiled(plan, lines);
     let [scenario] = compiled.scenarios.as_slice() else { panic!("{}", compiled.render(false)) };
     let setting = Setting::find(scenario, Path::new("case.afp"), robot().kind()).unwrap();
     afp_test::run(scenario, &setting, &robot(), None).unwrap()
@@ -85,41 +93,6 @@ fn what_the_run_did_not_come_to_is_no_success() {
     breaks(&format!("{short} at 30 s: fail wheels.slip"), "not done: the run was over", 2.0);
     breaks(&format!("{short} never collision after 15 s"), "that time never came", 2.0);
     passes(&format!("{short} never running after 15 s\n never collision after 500 ms"));
-}
-
-const FAILS: &str = r#"
-use carbot
-
-plan Ahead {
-    start go
-    actor go: Forward(distance = 20 cm) {
-        supervise touch: CheckTouchSensor { TouchSensorPressed -> fail "blocked" }
-        ForwardSuccessful -> fail
-    }
-}
-"#;
-
-#[test]
-fn a_plan_may_be_expected_to_fail() {
-    let verdict = |lines: &str| {
-        let compiled = compiled(FAILS, &format!("{FREE}{lines}"));
-        let [scenario] = compiled.scenarios.as_slice() else { panic!("one scenario") };
-        let setting = Setting::find(scenario, Path::new("case.afp"), robot().kind()).unwrap();
-        afp_test::run(scenario, &setting, &robot(), None).unwrap()
-    };
-    let pressed = "at 500 ms: press touch until 5 s";
-    for lines in [
-        format!("expect go -> fail by touch expect end by go.touch {pressed}"),
-        format!("expect end by Error {pressed}"),
-        "expect go -> fail by ForwardSuccessful expect end by go.ForwardSuccessful until 5 s"
-            .into(),
-    ] {
-        let verdict = verdict(&lines);
-        assert!(verdict.passed(), "{lines}: {}", verdict.report());
-    }
-    let broken = verdict(&format!("expect go -> fail by ForwardSuccessful {pressed}"));
-    let report = broken.report();
-    assert!(!broken.passed() && report.contains("blocked"), "{report}");
 }
 
 #[test]

@@ -26,6 +26,8 @@ struct Builder<'a> {
     /// How many elements there will be.
     elements: u64,
     interruptible: bool,
+    /// Whether an event leads to computations that may resume.
+    resumes: bool,
     text: String,
 }
 
@@ -39,10 +41,10 @@ impl Shape {
     ) -> Self {
         let entries = Entries::new(number, dice);
         let elements = dice.between(4, 8);
-        let interruptible = false;
+        let (interruptible, resumes) = (false, false);
         let text = String::new();
         let mut builder =
-            Builder { number, entries, dice, channels, elements, interruptible, text };
+            Builder { number, entries, dice, channels, elements, interruptible, resumes, text };
         builder.write(others);
         Shape {
             name: format!("Plan{number}"),
@@ -67,6 +69,9 @@ impl Builder<'_> {
         let mut index = 1;
         while index < self.elements {
             index += self.element(index, others);
+        }
+        if self.resumes {
+            self.chain();
         }
         self.text.push_str("}\n");
     }
@@ -146,6 +151,23 @@ impl Builder<'_> {
         2
     }
 
+    /// Two computations that only events lead to: they resume or lead elsewhere.
+    fn chain(&mut self) {
+        let int = self.dice.pick(&self.entries.changing(Type::Int));
+        let float = self.dice.pick(&self.entries.changing(Type::Float));
+        let (limit, elsewhere) = (self.dice.between(1, 5), self.target(None));
+        let error = self.dice.pick(&["", " Error -> resume", " Error -> terminate"]);
+        let _ = write!(
+            self.text,
+            "    computation chain: Assign(value = {float} + 1, result => {float}) {{ Done -> link{error} }}
+    computation link: Count(value = {int}, limit = {limit}, next => {int}) {{
+        Again -> resume
+        Done -> {elsewhere}
+    }}
+"
+        );
+    }
+
     /// Where an edge leads; computations lead onward only, lest they spin.
     fn target(&mut self, computation: Option<u64>) -> String {
         // The outermost plan goes on for longer.
@@ -184,6 +206,11 @@ impl Builder<'_> {
     fn event_target(&mut self, connected: bool) -> String {
         if !connected && self.dice.percent(25) {
             return "ignore".to_owned();
+        }
+        if self.dice.percent(15) {
+            let chained = self.dice.percent(60);
+            self.resumes |= chained;
+            return if chained { "chain" } else { "resume" }.to_owned();
         }
         let target = self.target(None);
         self.interruptible |= target == "terminate";

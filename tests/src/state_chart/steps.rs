@@ -13,6 +13,7 @@ pub enum Seen {
     Event(ComponentId, u16),
     AlreadyThere(ComponentId, u16),
     Diverted(ComponentId),
+    Resumed(ComponentId),
     Interrupted(ComponentId),
     Finished(ComponentId, u16),
     Started(ComponentId),
@@ -30,6 +31,7 @@ impl Seen {
             Record::Event { supervisor, event } => Seen::Event(supervisor, event),
             Record::AlreadyThere { supervisor, event } => Seen::AlreadyThere(supervisor, event),
             Record::Diverted { element, .. } => Seen::Diverted(element),
+            Record::Resumed { element, .. } => Seen::Resumed(element),
             Record::Interrupted { element } => Seen::Interrupted(element),
             Record::Finished { element, state } => Seen::Finished(element, state),
             Record::Started { component } => Seen::Started(component),
@@ -59,6 +61,8 @@ pub struct Steps {
     pub cut: bool,
     /// Whether the plan was asked to stop.
     stopping: bool,
+    /// The step that the last event or fault found; computations that could have resumed may stand behind it.
+    found: usize,
 }
 
 impl Steps {
@@ -80,10 +84,9 @@ impl Steps {
         &mut self.steps[last]
     }
 
-    /// The step before the last one, whose end the last event found.
+    /// The step whose end the last event found.
     fn before(&mut self) -> &mut Step {
-        let before = self.steps.len().saturating_sub(2);
-        &mut self.steps[before]
+        &mut self.steps[self.found]
     }
 }
 
@@ -105,7 +108,7 @@ impl Step {
 /// The steps of a run.
 pub fn steps(places: &Places, seen: &[Seen]) -> Steps {
     let start = Step::default();
-    let mut steps = Steps { steps: vec![start], cut: false, stopping: false };
+    let mut steps = Steps { steps: vec![start], cut: false, stopping: false, found: 0 };
     for (at, record) in seen.iter().enumerate() {
         let previous = at.checked_sub(1).map(|previous| seen[previous]);
         step(places, &mut steps, previous, *record, &seen[at + 1..]);
@@ -123,6 +126,7 @@ fn step(places: &Places, steps: &mut Steps, previous: Option<Seen>, record: Seen
             let place = places.get(supervisor);
             steps.last().is_at(place);
             if !fails(rest) {
+                steps.found = steps.steps.len() - 1;
                 steps.feed(place.event(event));
             }
         }
@@ -132,6 +136,7 @@ fn step(places: &Places, steps: &mut Steps, previous: Option<Seen>, record: Seen
         }
         // Both stand behind the event that they are due to.
         Seen::Diverted(element) => steps.before().is_at_least(places.get(element)),
+        Seen::Resumed(element) => steps.last().is_at_least(places.get(element)),
         Seen::Interrupted(element) => {
             let step = if steps.stopping { steps.last() } else { steps.before() };
             step.is_at(places.get(element));
@@ -180,6 +185,9 @@ fn faulted(
     }
     let place = places.get(component);
     steps.last().is_at_least(place);
+    if place.kind != Kind::Computation {
+        steps.found = steps.steps.len() - 1;
+    }
     steps.feed(place.fault());
 }
 

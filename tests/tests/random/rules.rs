@@ -31,6 +31,13 @@ const RULES: &[Rule] = &[
     ("a plan fails for a reason of its own", |trace| {
         any(trace, |line| line.contains(" ended Error(failed: "))
     }),
+    ("an event resumes", |trace| any(trace, |line| line.contains(" -> resume"))),
+    ("computations resume", |trace| {
+        any(trace, |line| line.contains("link finished Again -> resume"))
+    }),
+    ("computations lead elsewhere", |trace| {
+        any(trace, |line| line.contains("link finished Done -> "))
+    }),
     ("a formula has no value", |trace| any(trace, |line| line.contains(" fault arithmetic"))),
     ("a value is out of range", |trace| any(trace, |line| line.contains(" fault range"))),
     ("a text does not convert", |trace| any(trace, |line| line.contains(" fault conversion"))),

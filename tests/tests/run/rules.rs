@@ -46,6 +46,21 @@ const RULES: &[Rule] = &[
             "fail_counts_for_livelock",
         ],
     ),
+    (
+        "6.3",
+        "an event that leads to 'resume' interrupts nothing, and what it writes is seen in the same step",
+        &["resume_goes_on", "resume_then_an_interrupt", "resume_by_a_missed_deadline"],
+    ),
+    (
+        "6.3",
+        "computations that may resume run beside what is active; where they lead elsewhere it is interrupted after their commits",
+        &["resume_by_computations", "resume_sub_plan", "resume_faults", "resume_livelock"],
+    ),
+    (
+        "6.3",
+        "in a look the element starts after what resumes, or not at all",
+        &["resume_in_the_look"],
+    ),
     ("6.4", "an actor without a state lasts until an event or a fault", &["lasting_actor"]),
     ("1.1", "a computation and 'terminate' have no look", &["look_not_for_computations"]),
     (

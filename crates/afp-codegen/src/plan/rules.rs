@@ -94,7 +94,7 @@ fn element(
     };
     let child = child.unwrap_or_else(|| quote!(Child { components: 0, entries: 0 }));
     let [states, locals, sweep] = [row.states, row.locals, row.sweep].map(range);
-    let on_error = target(context, row.on_error);
+    let (on_error, resumes) = (target(context, row.on_error), row.resumes);
     let (note, at) = (comment(&description(context, element)), at(element.span));
     let period = duration(row.period);
     quote! {
@@ -105,6 +105,7 @@ fn element(
             period: #period,
             states: #states,
             on_error: #on_error,
+            resumes: #resumes,
             locals: #locals,
             sweep: #sweep,
             child: #child,
@@ -214,6 +215,7 @@ fn target(context: &Context<'_>, target: Option<Target>) -> TokenStream {
             quote!(Target::Fail(#reason))
         }
         Some(Target::Ignore) => quote!(Target::Ignore),
+        Some(Target::Resume) => quote!(Target::Resume),
         None => quote!(Target::None),
     }
 }
@@ -224,6 +226,7 @@ fn target_text<'a>(context: &Context<'a>, target: Target) -> &'a str {
         Target::Terminate => "terminate",
         Target::Fail(_) => "fail",
         Target::Ignore => "ignore",
+        Target::Resume => "resume",
     }
 }
 

@@ -116,6 +116,11 @@ impl<P: PlanState> Level<P> {
                 cx.trace(&Record::Event { supervisor, event });
                 cx.trace(&Record::Diverted { element, supervisor, event });
             }
+            What::Leads(_, Err(Stop::Run(fault))) => return Err(Stop::Run(fault)),
+            What::Leads(event, _) => {
+                let element = component(cx, element);
+                cx.trace(&Record::Diverted { element, supervisor, event });
+            }
             What::Fault(fault) => {
                 self.plan.discard();
                 cx.failed(supervisor, fault);

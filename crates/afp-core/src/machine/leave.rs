@@ -72,7 +72,9 @@ impl<P: PlanState> Level<P> {
                 Target::Element(element) => element,
                 Target::Terminate => return self.end(edge.ending, cx),
                 Target::Fail(reason) => return self.fail(t.table().reason(reason), cx),
-                Target::Ignore | Target::None => return Flow::Fatal(Fault::INTERNAL),
+                Target::Ignore | Target::Resume | Target::None => {
+                    return Flow::Fatal(Fault::INTERNAL);
+                }
             };
             match self.enter(t, element, cx) {
                 Ok(None) => return Flow::Running(self.wake(t)),
@@ -107,12 +109,25 @@ impl<P: PlanState> Level<P> {
         S: Sink,
         P: Plan<E>,
     {
-        let id = component(cx, element);
         self.active = None;
+        let edge = self.reached(t, element, row, state, cx);
+        self.plan.leave(element);
+        Ok(edge)
+    }
+
+    /// Commits the outputs of an element that reached a state, and gives the state's edge.
+    pub(super) fn reached<E: ?Sized, S: Sink, C>(
+        &mut self,
+        t: &P::Tables,
+        element: u16,
+        row: &ElementRow,
+        state: u16,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Edge {
+        let id = component(cx, element);
         cx.trace(&Record::Finished { element: id, state });
         self.commit(Author::Component(id), cx);
-        self.plan.leave(element);
-        Ok(Edge { target: t.table().edge(row.states, state), ending: Ending::Ok })
+        Edge { target: t.table().edge(row.states, state), ending: Ending::Ok }
     }
 
     /// The edge of an element that failed; unconnected, the plan ends.
@@ -126,10 +141,7 @@ impl<P: PlanState> Level<P> {
         P: Plan<E>,
     {
         self.plan.leave(element);
-        match row.on_error {
-            Target::None => Err(Stop::Plan(Ending::Error(fault))),
-            target => Ok(Edge { target, ending: Ending::Ok }),
-        }
+        after_fault(row, fault)
     }
 
     /// Interrupts the active element, if there is one, and drops it.
@@ -175,5 +187,13 @@ impl<P: PlanState> Level<P> {
             cx.failed(id, fault);
         }
         result
+    }
+}
+
+/// The `Error` edge of an element; unconnected, the plan ends.
+pub(super) fn after_fault(row: &ElementRow, fault: Fault) -> Result<Edge, Stop> {
+    match row.on_error {
+        Target::None => Err(Stop::Plan(Ending::Error(fault))),
+        target => Ok(Edge { target, ending: Ending::Ok }),
     }
 }

@@ -1,5 +1,6 @@
 //! Polling supervisors: who is due, who is late, whose event is taken.
 
+use super::held::is_held;
 use super::{Edge, Level, Stop, supervisor_id};
 use crate::clock::Clock;
 use crate::component::Environment;
@@ -29,6 +30,8 @@ pub(super) struct Found {
 pub(super) enum What {
     /// An event to take, outputs staged, and where it leads.
     Event(u16, Target),
+    /// An event that could have resumed, all of it committed, and the way that it leads instead.
+    Leads(u16, Result<Edge, Stop>),
     /// It failed.
     Fault(Fault),
 }
@@ -182,6 +185,7 @@ impl<P: PlanState> Level<P> {
     where
         E: ?Sized,
         S: Sink,
+        C: Clock,
         P: Plan<E>,
     {
         let release = serve(poll.release, row.period, cx.now);
@@ -200,7 +204,11 @@ impl<P: PlanState> Level<P> {
         if let Some(event) = event {
             let target = t.table().edge(row.events, event);
             if takes(t, supervisor, event, target, moment, cx) {
-                return Err(poll.fired.fault.map_or(What::Event(event, target), What::Fault));
+                if let Some(fault) = poll.fired.fault {
+                    return Err(What::Fault(fault));
+                }
+                let taken = self.take(t, supervisor, (event, target), moment, cx);
+                return taken.map(|()| release.next);
             }
             self.plan.discard();
         } else if let Some(fault) = poll.fired.fault {
@@ -208,9 +216,31 @@ impl<P: PlanState> Level<P> {
         }
         let missed = late && !moment.look;
         if missed && takes(t, supervisor, DEADLINE_MISSED, row.on_miss, moment, cx) {
-            return Err(What::Event(DEADLINE_MISSED, row.on_miss));
+            let event = (DEADLINE_MISSED, row.on_miss);
+            return self.take(t, supervisor, event, moment, cx).map(|()| release.next);
         }
         Ok(release.next)
+    }
+
+    /// Takes an event: the sweep goes on only where that resumes.
+    fn take<E, S, C>(
+        &mut self,
+        t: &P::Tables,
+        supervisor: u16,
+        (event, target): (u16, Target),
+        moment: Moment,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), What>
+    where
+        E: ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        match is_held(t, target) {
+            true => self.hold(t, supervisor, (event, target), moment, cx),
+            false => Err(What::Event(event, target)),
+        }
     }
 
     /// A supervisor stopped the activity of a started element.
@@ -231,6 +261,8 @@ impl<P: PlanState> Level<P> {
         let id = supervisor_id(t, cx, found.supervisor);
         match found.what {
             What::Event(event, _) => cx.trace(&Record::Event { supervisor: id, event }),
+            What::Leads(_, Err(Stop::Run(fault))) => return Flow::Fatal(fault),
+            What::Leads(..) => {}
             What::Fault(fault) => {
                 self.plan.discard();
                 cx.failed(id, fault);
@@ -265,6 +297,10 @@ impl<P: PlanState> Level<P> {
                 self.commit(Author::Component(supervisor_id(t, cx, found.supervisor)), cx);
                 self.plan.leave(element);
                 Ok(Edge { target, ending: Ending::Interrupted })
+            }
+            What::Leads(_, way) => {
+                self.plan.leave(element);
+                way
             }
             What::Fault(fault) if found.supervisor < t.table().globals => {
                 self.plan.leave(element);
@@ -312,7 +348,7 @@ fn takes<E: ?Sized, S: Sink, C>(
 ) -> bool {
     match target {
         Target::Ignore | Target::None => false,
-        Target::Terminate | Target::Fail(_) => true,
+        Target::Terminate | Target::Fail(_) | Target::Resume => true,
         Target::Element(element) => {
             let global = supervisor < t.table().globals;
             let there = element == moment.element && (global || moment.look);

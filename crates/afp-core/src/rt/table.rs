@@ -15,6 +15,8 @@ pub enum Target {
     Fail(u16),
     /// The event is not taken.
     Ignore,
+    /// The active element goes on.
+    Resume,
     /// Nothing is connected.
     None,
 }
@@ -59,6 +61,8 @@ pub struct ElementRow {
     pub states: Range,
     /// Its `Error` edge.
     pub on_error: Target,
+    /// Whether it is a computation from which computations alone can lead to [`Target::Resume`].
+    pub resumes: bool,
     /// Its local supervisors in [`PlanTable::supervisors`].
     pub locals: Range,
     /// The supervisors polled while it is active, in order, in [`PlanTable::sweeps`].

@@ -142,6 +142,9 @@ impl<N: Names + ?Sized> fmt::Display for Line<'_, N> {
             Record::Diverted { element, supervisor, .. } => {
                 write!(f, "{} diverted by {}", self.path(element), self.path(supervisor))
             }
+            Record::Resumed { element, supervisor } => {
+                write!(f, "{} resumed by {}", self.path(element), self.path(supervisor))
+            }
             Record::Faulted { component, fault } => {
                 write!(f, "{} fault {}: {fault}", self.path(component), fault.code())?;
                 self.error_target(f, component)

@@ -14,5 +14,6 @@ mod order;
 mod outside;
 mod panics;
 mod releases;
+mod resume;
 mod sub_plans;
 mod trace_order;

@@ -300,6 +300,7 @@ impl Spec {
         match name {
             "terminate" => Target::Terminate,
             "fail" => Target::Fail(0),
+            "resume" => Target::Resume,
             "ignore" => Target::Ignore,
             name => {
                 let index = self.elements.iter().position(|element| element.name == name);
@@ -355,10 +356,26 @@ impl Spec {
             period: Duration::from_millis(element.period),
             states,
             on_error: self.optional(element.on_error),
+            resumes: self.resumes(index, &mut Vec::new()),
             locals: Range { first: first as u16, len: own.len() as u16 },
             sweep: sweep_row,
             child,
         });
+    }
+
+    /// Whether an element is a computation from which computations alone can lead to `resume`.
+    fn resumes(&self, index: usize, seen: &mut Vec<usize>) -> bool {
+        let element = &self.elements[index];
+        if element.kind != ElementKind::Computation || seen.contains(&index) {
+            return false;
+        }
+        seen.push(index);
+        let targets = element.states.iter().map(|(_, to)| *to).chain(element.on_error);
+        targets.into_iter().any(|to| match self.target(to) {
+            Target::Resume => true,
+            Target::Element(next) => self.resumes(usize::from(next), seen),
+            _ => false,
+        })
     }
 
     /// Each local supervisor's element, by position.

@@ -42,6 +42,7 @@ impl<'a> Tag<'a> {
             To::Fail("") => ("Fail", "fail"),
             To::Fail(reason) => (reason, "fail"),
             To::Ignore => ("Ignore", "ignore"),
+            To::Resume => ("Resume", "resume"),
             To::Unknown(text) => (text, "unknown"),
             To::Nowhere => ("?", "nowhere"),
         };

@@ -19,8 +19,9 @@ const HEAD: &str = "\
   when a supervisor of that element interrupts it, 'supervisor.Event' when a global one does,
   '.DeadlineMissed' and '.Error' likewise; inside of sub-plans 'subplan:element.State' and so on.
   ':stopped' is a stop from outside, ':failed' a fault that no plan can handle.
-  A transition without target takes an event and does nothing: the event is ignored, or the
-  supervisor's target is active already.";
+  A transition without target takes an event and does nothing: the event is ignored or resumes, or
+  the supervisor's target is active already. A computation that resumes leads to the history of what
+  was active.";
 
 /// A document in the making.
 #[derive(Default)]
@@ -64,9 +65,25 @@ impl Chart {
             let end = scope.end(End::Error);
             self.inner_transition(&format!("{path}.Error"), Some(&end), nested);
         }
-        for element in &view.plan.elements {
-            self.element(view, scope, element);
+        let elements = || view.plan.elements.iter();
+        let computes = |element: &&Element| matches!(element.component, Component::Computation(_));
+        let resumes = |element: &Element| {
+            let mut targets = element.states.iter().flatten().chain(&element.on_error);
+            targets.any(|target| *target == Target::Resume)
+        };
+        if !elements().filter(computes).any(resumes) {
+            elements().for_each(|element| self.element(view, scope, element));
+            return;
         }
+        elements().filter(computes).for_each(|element| self.element(view, scope, element));
+        self.open(&format!("<state id=\"{}\">", scope.acting()));
+        self.line(&format!("<history id=\"{}\" type=\"deep\">", scope.history()));
+        let acting = || elements().filter(|element| !computes(element));
+        let usual = acting().next().map(|element| scope.state(&element.name));
+        self.line(&format!("  <transition target=\"{}\"/>", usual.unwrap_or_default()));
+        self.line("</history>");
+        acting().for_each(|element| self.element(view, scope, element));
+        self.close("state");
     }
 
     fn element(&mut self, view: &View, scope: &Scope, element: &Element) {

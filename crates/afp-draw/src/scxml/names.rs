@@ -50,6 +50,16 @@ impl Scope {
         format!("{}-{name}", self.id)
     }
 
+    /// The id of the state around actors and sub-plans, where computations come back to them.
+    pub(super) fn acting(&self) -> String {
+        format!("{}-acting", self.id)
+    }
+
+    /// The id of what remembers which of them was active.
+    pub(super) fn history(&self) -> String {
+        format!("{}-acting-history", self.id)
+    }
+
     /// What the events of an element or of a global supervisor begin with.
     pub(super) fn path(&self, name: &str) -> String {
         format!("{}{name}", self.prefix)
@@ -72,6 +82,8 @@ pub(super) fn target<'a>(
         Target::Element(id) => Some(scope.state(element(id))),
         Target::Terminate => Some(scope.end(end)),
         Target::Fail(_) => Some(scope.end(End::Error)),
+        // What an event resumes has not been left; a computation goes back to it.
+        Target::Resume => matches!(end, End::Ok).then(|| scope.history()),
         Target::Ignore => None,
     }
 }

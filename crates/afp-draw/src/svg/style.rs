@@ -79,6 +79,8 @@ const RULES: &[Rule] = &[
     (".icon.note", "color:#5b6675", "color:#9aa7b8"),
     (".box.ignore", "fill:#ffffff;stroke:#8b95a3", "fill:#12161d;stroke:#8b95a3"),
     ("text.ignore", "fill:#5b6675", "fill:#9aa7b8"),
+    (".box.resume", "fill:#ffffff;stroke:#b4530f", "fill:#12161d;stroke:#e0894a"),
+    ("text.resume", "fill:#a04a0d", "fill:#f0a868"),
 ];
 
 /// What a drawing by use adds: blue is used, orange with dashes is not, so that people who see few

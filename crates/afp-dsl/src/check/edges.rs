@@ -6,9 +6,11 @@ use std::collections::hash_map::Entry;
 
 use crate::check::formula::too_long;
 use crate::check::names::{Places, unknown};
+use crate::check::resume;
 use crate::check::signature::{Signature, SignatureKind};
 use crate::graph::{EdgeSpans, ElementId, ReasonId, Target};
 use crate::index::{Recorder, Word};
+use crate::toolbox::TemplateKind;
 use afp_number::MAX_TEXT;
 use afp_syntax::ast::{Edge, Name};
 use afp_syntax::diagnostics::words;
@@ -43,6 +45,12 @@ pub(crate) struct Origin<'a> {
     pub broken: bool,
     /// Whether it is a supervisor.
     pub supervisor: bool,
+}
+
+impl Origin<'_> {
+    fn computes(&self) -> bool {
+        self.signature.kind == SignatureKind::Template(TemplateKind::Computation)
+    }
 }
 
 /// Why a plan fails whose `fail` says nothing.
@@ -124,6 +132,7 @@ impl<'a> Elements<'a> {
             "terminate" => Word::Terminate,
             "fail" => Word::Fail,
             "ignore" => Word::Ignore,
+            "resume" => Word::Resume,
             _ => return false,
         };
         self.record.word(to.span, word);
@@ -196,11 +205,11 @@ pub(crate) fn check(
                 .note(first.span, "first connected here")
                 .help("remove one of the edges"),
             );
-            leads_to(edge, origin.supervisor, elements);
+            leads_to(edge, origin, elements);
             continue;
         }
         let span = edge.span;
-        let target = target(edge, origin.supervisor, elements, diags);
+        let target = target(edge, origin, elements, diags);
         match place {
             Some(place) => {
                 connected.outcomes[place] = target;
@@ -248,8 +257,8 @@ pub(crate) fn names_only(
 }
 
 /// Finds out where an edge leads that does not count.
-fn leads_to(edge: &WrittenEdge, supervisor: bool, elements: &Elements<'_>) {
-    target(edge, supervisor, elements, &mut Diagnostics::default());
+fn leads_to(edge: &WrittenEdge, origin: &Origin<'_>, elements: &Elements<'_>) {
+    target(edge, origin, elements, &mut Diagnostics::default());
 }
 
 /// Says which state or event an edge is for.
@@ -289,7 +298,7 @@ fn unknown_outcome(origin: &Origin<'_>, name: &Name, extra: &str) -> Diagnostic 
 
 fn target(
     edge: &WrittenEdge,
-    supervisor: bool,
+    origin: &Origin<'_>,
     elements: &Elements<'_>,
     diags: &mut Diagnostics,
 ) -> Option<Target> {
@@ -301,7 +310,12 @@ fn target(
             hides_reason(edge, diags);
             return elements.reason(edge.reason.as_ref(), diags).map(Target::Fail);
         }
-        "ignore" if supervisor => return Some(Target::Ignore),
+        "ignore" if origin.supervisor => return Some(Target::Ignore),
+        "resume" if origin.supervisor || origin.computes() => return Some(Target::Resume),
+        "resume" => {
+            diags.push(resume::nothing_active(to.span));
+            return None;
+        }
         "ignore" => {
             diags.push(
                 Diagnostic::new(Code::E0221, to.span, "only events can be ignored")

@@ -69,7 +69,7 @@ impl Places {
 
 /// Reports an element whose name means something else behind `->`.
 pub(crate) fn element(name: &Name, diags: &mut Diagnostics) {
-    if matches!(name.text.as_str(), "terminate" | "fail" | "ignore") {
+    if matches!(name.text.as_str(), "terminate" | "fail" | "ignore" | "resume") {
         refuse(name, diags);
     }
 }

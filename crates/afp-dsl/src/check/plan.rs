@@ -6,7 +6,7 @@ use crate::check::edges::Elements;
 use crate::check::formula::Scope;
 use crate::check::names::{self, Names, Places};
 use crate::check::resources::Users;
-use crate::check::{Context, PlanHead, Program, edges, size};
+use crate::check::{Context, PlanHead, Program, edges, resume, size};
 use crate::graph::{self, Element, ElementId, Supervisor, SupervisorId};
 use crate::index::Recorder;
 use crate::outline::ComponentKind;
@@ -108,6 +108,7 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
         drawn.push(built.and_then(|element| own(element, first, supervisors.len())));
     }
     let start = start(&head.node, &names, diags);
+    resume::check(&drawn, start, diags);
     let written = [
         (Table::Entries, head.entries.len()),
         (Table::Elements, elements.len()),

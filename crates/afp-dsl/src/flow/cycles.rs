@@ -132,11 +132,13 @@ impl<'a, 'b> Quick<'a, 'b> {
     /// Whether any edge, quick or not, leads out of a component.
     fn has_exit(&self, members: &[Node]) -> bool {
         let mut edges = members.iter().flat_map(|node| self.view.from(*node));
-        edges.any(|edge| {
-            !matches!(edge.cause, Cause::Active(_))
-                && edge.possible
-                && self.component[edge.from] != self.component[edge.to]
-        })
+        let resumes = members.iter().any(|node| self.view.resumes(*node));
+        resumes
+            || edges.any(|edge| {
+                !matches!(edge.cause, Cause::Active(_))
+                    && edge.possible
+                    && self.component[edge.from] != self.component[edge.to]
+            })
     }
 
     /// The cycle that an edge closes: itself, then a shortest way from its end to its beginning.

@@ -96,6 +96,8 @@ fn backward(view: &View<'_>) -> Vec<bool> {
     let mut seen = vec![false; view.nodes()];
     let mut open = vec![view.end(OK), view.end(INTERRUPTED), view.end(FAILED)];
     open.extend(failing(view));
+    // What is resumed goes on to wherever it leads.
+    open.extend((0..view.nodes()).filter(|node| view.resumes(*node)));
     while let Some(node) = open.pop() {
         if !std::mem::replace(&mut seen[node], true) {
             open.extend(&into[first[node] as usize..first[node + 1] as usize]);

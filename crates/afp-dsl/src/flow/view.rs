@@ -2,7 +2,7 @@
 //!
 //! Beside the elements there are four nodes: "anywhere", which stands for every actor and sub-plan
 //! at once and is where the events of global supervisors begin, the two endings, and `fail`. Edges
-//! to `ignore` are left out.
+//! to `ignore` and `resume` are left out: what goes on is where it was.
 
 use crate::flow::{FAILED, INTERRUPTED, Model, OK, Summary};
 use crate::graph::{Component, Element, ElementId, Output, Plan, Supervisor, SupervisorId, Target};
@@ -113,7 +113,7 @@ impl<'a> View<'a> {
             Target::Element(id) => id.index(),
             Target::Terminate => self.end(ending),
             Target::Fail(_) => self.end(FAILED),
-            Target::Ignore => return,
+            Target::Ignore | Target::Resume => return,
         };
         self.edges.push(Edge { cause, from, to, possible });
     }
@@ -155,6 +155,14 @@ impl<'a> View<'a> {
     /// The indices of the edges that begin at a node.
     pub fn range(&self, node: Node) -> std::ops::Range<usize> {
         self.first[node] as usize..self.first[node + 1] as usize
+    }
+
+    /// Whether a node is a computation with an edge to `resume`.
+    pub fn resumes(&self, node: Node) -> bool {
+        self.element(node).is_some_and(|element| {
+            let mut targets = element.states.iter().flatten().chain(&element.on_error);
+            targets.any(|target| *target == Target::Resume)
+        })
     }
 
     /// The element of a node, unless it is one of the others.

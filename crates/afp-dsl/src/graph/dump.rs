@@ -163,6 +163,7 @@ impl Dump<'_> {
             Target::Terminate => "terminate",
             Target::Fail(id) => &format!("fail {:?}", self.plan.reasons[id.index()]),
             Target::Ignore => "ignore",
+            Target::Resume => "resume",
         };
         self.line(3, &format!("{outcome} -> {target}"));
     }

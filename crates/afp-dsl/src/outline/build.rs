@@ -229,6 +229,7 @@ impl Places<'_> {
             Some(Found::Word(Word::Terminate)) => Destination::Terminate,
             Some(Found::Word(Word::Fail)) => Destination::Fail,
             Some(Found::Word(Word::Ignore)) => Destination::Ignore,
+            Some(Found::Word(Word::Resume)) => Destination::Resume,
             Some(Found::Definition(span)) => find(&self.elements, span)
                 .map_or(Destination::Unknown, |place| Destination::Element(ElementId::new(place))),
             _ => Destination::Unknown,

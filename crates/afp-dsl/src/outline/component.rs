@@ -236,6 +236,8 @@ pub enum Destination {
     Fail,
     /// The event is not taken.
     Ignore,
+    /// What is active goes on.
+    Resume,
     /// Nothing of the plan has that name.
     Unknown,
 }

@@ -1,6 +1,6 @@
 //! From plans to tables.
 
-use crate::graph::{Component, Element, Graph, Plan, Supervisor, SupervisorId, Target};
+use crate::graph::{Component, Element, Graph, Plan, Supervisor, SupervisorId, Target, resuming};
 use crate::rows::ids::blocks;
 use crate::rows::size::has_sweep;
 use crate::rows::{Child, ElementKind, ElementRow, Range, Rows, SupervisorRow, polling_order};
@@ -24,9 +24,10 @@ fn rows(graph: &Graph, plan: &Plan, children: &[Child]) -> Option<Rows> {
         edges: Vec::new(),
         sweeps: Vec::new(),
     };
-    for (element, child) in plan.elements.iter().zip(children) {
+    let resuming = resuming(plan.elements.iter().map(Some));
+    for ((element, child), resumes) in plan.elements.iter().zip(children).zip(resuming) {
         let row = add_element(&mut rows, graph, plan, element, *child)?;
-        rows.elements.push(row);
+        rows.elements.push(ElementRow { resumes, ..row });
     }
     for (index, supervisor) in plan.supervisors.iter().enumerate() {
         let row = add_supervisor(&mut rows, graph, plan, supervisor, index)?;
@@ -59,6 +60,7 @@ fn add_element(
         period,
         states,
         on_error: element.on_error,
+        resumes: false,
         locals: Range { first, len },
         sweep: append(&mut rows.sweeps, polled)?,
         child,

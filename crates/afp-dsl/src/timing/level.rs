@@ -6,6 +6,7 @@ use crate::flow::view::{Cause, Node, View, takes_time};
 use crate::graph::{Component, Element, Supervisor};
 
 use super::cost::Cost;
+use super::held::poll;
 use super::step::entering;
 
 /// What a plan costs while it is active.
@@ -181,8 +182,7 @@ pub(super) fn locals(view: &View<'_>, element: &Element) -> Cost {
 }
 
 fn sum<'a>(view: &View<'_>, supervisors: impl Iterator<Item = &'a Supervisor>) -> Cost {
-    let budget = |supervisor: &Supervisor| Cost::budget(view.model.template(supervisor.template));
-    supervisors.fold(Cost::ZERO, |sum, supervisor| sum.and(&budget(supervisor)))
+    supervisors.fold(Cost::ZERO, |sum, supervisor| sum.and(&poll(view, supervisor)))
 }
 
 /// The share of the processor that supervisors ask for.
@@ -191,9 +191,9 @@ fn share<'a>(
     supervisors: impl Iterator<Item = &'a Supervisor>,
 ) -> (f64, Option<Arc<str>>) {
     supervisors.fold((0.0, None), |(demand, unknown), supervisor| {
-        let template = view.model.template(supervisor.template);
-        let own = template.budget.unwrap_or(0) as f64 / supervisor.every as f64;
-        (demand + own, unknown.or_else(|| Cost::budget(template).known().err().map(Arc::from)))
+        let own = poll(view, supervisor).known();
+        let share = own.as_ref().map_or(0.0, |own| *own as f64 / supervisor.every as f64);
+        (demand + share, unknown.or_else(|| own.err().map(Arc::from)))
     })
 }
 

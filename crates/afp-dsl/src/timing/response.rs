@@ -1,10 +1,11 @@
 //! The response of every supervisor, and the bound of the interruption that it causes.
 
 use crate::flow::view::View;
-use crate::graph::{Component, Supervisor, SupervisorId, Target as Flow};
+use crate::graph::{Component, Supervisor, SupervisorId};
 use crate::rows::polling_order;
 
 use super::cost::Cost;
+use super::held::{interrupts, poll};
 use super::level::{Levels, Outside};
 use super::{Interruption, Response, SupervisorTiming, Trust};
 
@@ -48,7 +49,7 @@ fn response(
     longest_step: &Cost,
     tick: u64,
 ) -> Result<Response, String> {
-    let own = Cost::budget(view.model.template(supervisor.template)).known()?;
+    let own = poll(view, supervisor).known()?;
     Ok(Response { tick, step: longest_step.known()?, before: before.known()?, own })
 }
 
@@ -63,7 +64,7 @@ fn before(view: &View<'_>) -> Vec<Cost> {
     for id in polling_order(plan, all) {
         let at = id.index();
         let supervisor = &plan.supervisors[at];
-        let budget = Cost::budget(view.model.template(supervisor.template));
+        let budget = poll(view, supervisor);
         match supervisor.owner {
             None => {
                 before[at] = globals.and(&most_locals);
@@ -90,7 +91,7 @@ fn interruption(
     response: &Result<Response, String>,
 ) -> Option<Interruption> {
     let mut targets = supervisor.events.iter().chain(&supervisor.on_miss);
-    if targets.all(|target| *target == Flow::Ignore) {
+    if !targets.any(|target| interrupts(view, *target)) {
         return None;
     }
     let (interrupt, stop) = interrupted(view, levels, place, supervisor);

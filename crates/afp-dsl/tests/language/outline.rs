@@ -198,7 +198,9 @@ fn bound(plan: &Plan, binding: &Binding) -> String {
 fn target(plan: &Plan, target: &Target) -> String {
     match target.to {
         Destination::Element(id) => plan.elements[id.index()].item.to_string(),
-        Destination::Terminate | Destination::Fail | Destination::Ignore => target.text.clone(),
+        Destination::Terminate | Destination::Fail | Destination::Ignore | Destination::Resume => {
+            target.text.clone()
+        }
         Destination::Unknown => format!("{} (unknown)", target.text),
     }
 }

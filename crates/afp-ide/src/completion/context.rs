@@ -16,6 +16,17 @@ pub(super) struct Context {
     pub place: Place,
 }
 
+/// What an edge belongs to, which decides where it can lead.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Origin {
+    /// A supervisor.
+    Event,
+    /// A computation.
+    Computation,
+    /// An actor or a sub-plan.
+    Other,
+}
+
 /// What can stand at a place.
 #[derive(Debug)]
 pub(super) enum Place {
@@ -37,8 +48,8 @@ pub(super) enum Place {
     Times,
     /// Ports of an element or supervisor.
     Ports(Node),
-    /// Where an edge leads.
-    Target { event: bool },
+    /// Where an edge leads: the one of an event, a computation, or what ends by it.
+    Target { from: Origin },
     /// The first element.
     Start,
     /// A type.
@@ -113,6 +124,18 @@ fn is_closed_text(view: &View, touched: &Token, offset: u32) -> bool {
     }
 }
 
+/// What an edge belongs to.
+fn origin(edge: &Node) -> Origin {
+    let computes = |element: &Node| {
+        token(element, Kind::Keyword).is_some_and(|keyword| keyword.text() == "computation")
+    };
+    match edge.parent() {
+        Some(owner) if owner.kind() == Kind::Guard => Origin::Event,
+        Some(owner) if computes(&owner) => Origin::Computation,
+        _ => Origin::Other,
+    }
+}
+
 /// What can stand behind a token; `at` is where it would begin.
 fn behind(view: &View, before: &Token, touched: &Token, same_line: bool, at: u32) -> Place {
     let parent = before.parent();
@@ -121,9 +144,7 @@ fn behind(view: &View, before: &Token, touched: &Token, same_line: bool, at: u32
         Kind::Dot => member(view, before),
         Kind::Arrow => match within(&[Kind::Edge, Kind::Claim]) {
             Some(node) if node.kind() == Kind::Claim => Place::Path("->".to_owned()),
-            Some(edge) => {
-                Place::Target { event: edge.parent().is_some_and(|it| it.kind() == Kind::Guard) }
-            }
+            Some(edge) => Place::Target { from: origin(&edge) },
             None => container(before, at),
         },
         Kind::FatArrow => match (within(&[Kind::Element, Kind::Guard]), within(&[Kind::BindOut])) {

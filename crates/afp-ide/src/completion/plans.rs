@@ -2,6 +2,7 @@
 
 use super::List;
 use super::bodies::{Piece, body_of_plan, body_of_template, instance_name, plain};
+use super::context::Origin;
 use crate::edit::{Change, TextEdit, edit};
 use crate::view::token;
 use afp_dsl::index::{DefinitionId, DefinitionKind};
@@ -223,12 +224,15 @@ pub(super) fn of_component(list: &mut List, component: Option<&Component>, is_el
 }
 
 /// Where an edge can lead.
-pub(super) fn targets(list: &mut List, offset: u32, event: bool) {
+pub(super) fn targets(list: &mut List, offset: u32, from: Origin) {
     elements(list, offset);
     list.keyword("terminate", plain("terminate"), 1);
     list.keyword("fail", plain("fail"), 1);
-    if event {
+    if from == Origin::Event {
         list.keyword("ignore", plain("ignore"), 1);
+    }
+    if from != Origin::Other {
+        list.keyword("resume", plain("resume"), 1);
     }
 }
 

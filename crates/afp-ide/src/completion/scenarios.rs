@@ -41,6 +41,7 @@ pub(super) fn paths(list: &mut List, word: &str, offset: u32) {
         "->" => {
             list.keyword("terminate", plain("terminate"), 1);
             list.keyword("fail", plain("fail"), 1);
+            list.keyword("resume", plain("resume"), 1);
             of_plan(list, offset, |kind| matches!(kind, DefinitionKind::Component(_)));
         }
         _ => of_plan(list, offset, |kind| matches!(kind, DefinitionKind::Component(_))),

@@ -64,6 +64,8 @@ fn check_target(plan: &Node, component: &Node, to: &str) -> Result<(), Refused> 
     match to {
         "terminate" | "fail" => Ok(()),
         "ignore" if component.kind() == Kind::Guard => Ok(()),
+        "resume" if component.kind() == Kind::Guard || tree::is_computation(component) => Ok(()),
+        "resume" => Err(Refused::new("what has ended cannot be resumed")),
         "ignore" => Err(Refused::new("a state cannot lead to 'ignore'")),
         _ if to.strip_prefix("fail ").is_some_and(is_text) => Ok(()),
         _ if children(plan, Kind::Element).any(|element| tree::is_named(&element, to)) => Ok(()),

@@ -4,7 +4,7 @@ use super::Refused;
 use super::tree::Scope;
 
 /// Words that cannot be a name anywhere.
-const REFUSED: &[&str] = &["self", "Self", "super", "crate", "true", "false", "resume", "repeat"];
+const REFUSED: &[&str] = &["self", "Self", "super", "crate", "true", "false", "repeat"];
 
 /// Checks that a word can be a name.
 pub(super) fn check(name: &str) -> Result<(), Refused> {
@@ -21,7 +21,7 @@ pub(super) fn check(name: &str) -> Result<(), Refused> {
 /// Checks that a word can be the name of an element.
 pub(super) fn check_element(name: &str) -> Result<(), Refused> {
     check(name)?;
-    if matches!(name, "terminate" | "fail" | "ignore") {
+    if matches!(name, "terminate" | "fail" | "ignore" | "resume") {
         return Err(Refused::new(format!("'{name}' cannot be the name of an element")));
     }
     Ok(())

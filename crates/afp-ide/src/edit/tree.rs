@@ -143,6 +143,11 @@ pub(super) fn is_subplan(element: &Node) -> bool {
     keyword(element).is_some_and(|token| token.text() == "subplan")
 }
 
+/// Whether an element is a computation.
+pub(super) fn is_computation(element: &Node) -> bool {
+    keyword(element).is_some_and(|token| token.text() == "computation")
+}
+
 /// The name behind the colon of an element or supervisor, when it has no home.
 pub(super) fn template(component: &Node) -> Option<String> {
     let reference = children(component, Kind::Ref).next()?;

@@ -159,6 +159,7 @@ const WORDS: &[&str] = &[
     "terminate",
     "fail",
     "fail \"it is stuck\"",
+    "resume",
     "in",
     "3 cm",
     "-(a + 1)",

@@ -104,6 +104,8 @@ pub mod plan_event {
         Injected = 16,
         /// Something came from outside: `request`.
         Requested = 17,
+        /// An element goes on after an event of `supervisor` that did not interrupt it.
+        Resumed = 18,
     }
     impl Kind {
         /// String value of the enum field names used in the ProtoBuf definition.
@@ -130,6 +132,7 @@ pub mod plan_event {
                 Self::Lost => "LOST",
                 Self::Injected => "INJECTED",
                 Self::Requested => "REQUESTED",
+                Self::Resumed => "RESUMED",
             }
         }
         /// Creates an enum from field names used in the ProtoBuf definition.
@@ -153,6 +156,7 @@ pub mod plan_event {
                 "LOST" => Some(Self::Lost),
                 "INJECTED" => Some(Self::Injected),
                 "REQUESTED" => Some(Self::Requested),
+                "RESUMED" => Some(Self::Resumed),
                 _ => None,
             }
         }

@@ -62,7 +62,7 @@ impl Event {
         text(&self.event.target)
     }
 
-    /// The supervisor that diverted a start.
+    /// The supervisor that diverted a start, or whose event resumed.
     #[getter]
     fn supervisor(&self) -> Option<&str> {
         text(&self.event.supervisor)

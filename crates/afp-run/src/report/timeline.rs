@@ -48,6 +48,10 @@ pub(super) fn line(event: &RunEvent, template: &str) -> Option<String> {
             let why = &event.supervisor;
             format!("{EVENT}↪ {component} does not start, {why} looked first{EVENT:#}")
         }
+        Kind::Resumed => {
+            let why = &event.supervisor;
+            format!("{QUIET}↩ {component} goes on after {why}{QUIET:#}")
+        }
         Kind::Faulted => format!("{BAD}✗ {component} failed: {}{BAD:#}", event.fault_text),
         Kind::Ended => ended(event),
         Kind::Lost => format!("{BAD}! {} records lost{BAD:#}", event.lost),

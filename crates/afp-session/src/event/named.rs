@@ -56,6 +56,11 @@ impl<N: Names + ?Sized> Namer<'_, N> {
                 supervisor_id: supervisor,
                 ..self.outcome(EventKind::Diverted, supervisor, event)
             },
+            Record::Resumed { element, supervisor } => RunEvent {
+                supervisor: self.path(supervisor),
+                supervisor_id: supervisor,
+                ..self.about(EventKind::Resumed, element)
+            },
             Record::Faulted { component, fault } => {
                 self.fault(EventKind::Faulted, component, fault)
             }

@@ -94,6 +94,8 @@ pub enum ClaimTarget {
     Terminate,
     /// The plan fails.
     Fail,
+    /// What is active goes on.
+    Resume,
 }
 
 impl ClaimTarget {
@@ -101,7 +103,7 @@ impl ClaimTarget {
     pub fn path(&self) -> Option<&Path> {
         match self {
             ClaimTarget::Element(path) => Some(path),
-            ClaimTarget::Terminate | ClaimTarget::Fail => None,
+            ClaimTarget::Terminate | ClaimTarget::Fail | ClaimTarget::Resume => None,
         }
     }
 }
@@ -241,11 +243,13 @@ impl Claim {
         }
         let Some(first) = paths.next() else { return ClaimKind::Hole };
         if token(&self.node, Kind::Arrow, self.file).is_some() {
-            let to = match (has("terminate"), has("fail")) {
-                (true, _) => Some(ClaimTarget::Terminate),
-                (_, true) => Some(ClaimTarget::Fail),
-                _ => paths.next().map(ClaimTarget::Element),
-            };
+            let words = [
+                ("terminate", ClaimTarget::Terminate),
+                ("fail", ClaimTarget::Fail),
+                ("resume", ClaimTarget::Resume),
+            ];
+            let word = words.into_iter().find(|(word, _)| has(word)).map(|(_, target)| target);
+            let to = word.or_else(|| paths.next().map(ClaimTarget::Element));
             let by = if by { paths.next() } else { None };
             return match to {
                 Some(to) => ClaimKind::Transition { from: first, to, by },

@@ -131,7 +131,7 @@ impl Parser<'_, '_> {
 
     /// Takes the next token, which is a name.
     pub(super) fn take_name(&mut self) {
-        if matches!(self.word(0), "resume" | "repeat") {
+        if self.word(0) == "repeat" {
             self.reserved();
         }
         self.bump();
@@ -184,7 +184,7 @@ impl Parser<'_, '_> {
     /// as a whole.
     pub(super) fn skip(&mut self, what: &str, help: &str, stop: impl Fn(&Self) -> bool) {
         match self.nth(0) {
-            Kind::Name if matches!(self.word(0), "resume" | "repeat") => self.reserved(),
+            Kind::Name if self.word(0) == "repeat" => self.reserved(),
             _ => {
                 let here = self.next_span();
                 self.expected_at(here, what, help);

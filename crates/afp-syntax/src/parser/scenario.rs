@@ -215,7 +215,7 @@ impl Parser<'_, '_> {
         }
         self.path();
         if self.eat(Kind::Arrow) {
-            if !self.eat_word("terminate") && !self.eat_word("fail") {
+            if !["terminate", "fail", "resume"].iter().any(|word| self.eat_word(word)) {
                 self.path();
             }
             self.by();

@@ -44,6 +44,14 @@ impl Pair<'_> {
         for (event, goal) in (0..).zip(&place.outcomes) {
             let Some(goal) = goal.filter(|goal| *goal != Goal::Ignore) else { continue };
             let name = self.parts.outcome(self.supervisor, event);
+            let computes = |to| self.parts.place(to).is_some_and(|place| place.resumes);
+            if matches!(goal, Goal::Element(to) if computes(to)) {
+                let path = self.parts.path(self.supervisor);
+                all.left_out.push(format!(
+                    "'{path}.{name}' leads to computations, whose values decide what comes next"
+                ));
+                continue;
+            }
             let Some((_, fire)) = self.parts.injection(self.supervisor, event) else {
                 let path = self.parts.path(self.supervisor);
                 all.left_out.push(format!("'{path}.{name}' brings an object"));
@@ -87,8 +95,9 @@ impl Pair<'_> {
         let Some(supervisor) = self.parts.supervisor(self.supervisor) else { return };
         let (parts, element) = (self.parts, self.parts.path(self.element));
         let name = format!("{}.{}", supervisor.name, parts.outcome(self.supervisor, event));
-        // It would lead a global supervisor to where the plan is already.
-        let there = goal == Goal::Element(self.element) && supervisor.owner.is_none();
+        // It resumes, or would lead a global supervisor to where the plan is already.
+        let there = goal == Goal::Resume
+            || goal == Goal::Element(self.element) && supervisor.owner.is_none();
         let (time, within) = (duration(at), duration(supervisor.deadline));
         let soon = format!("within {within} after {time}");
         let stand = self.standstill(at);
@@ -108,7 +117,7 @@ impl Pair<'_> {
             let to = match goal {
                 Goal::Element(to) => parts.name(to),
                 Goal::Fail => "fail",
-                Goal::Terminate | Goal::Ignore => "terminate",
+                Goal::Terminate | Goal::Ignore | Goal::Resume => "terminate",
             };
             let to = self.beside(goal, to);
             lines.push(format!("expect {element} -> {to} by {name} once {soon}"));
@@ -153,7 +162,7 @@ impl Pair<'_> {
         let how = match goal {
             Goal::Terminate => "Interrupted",
             Goal::Fail => "Error",
-            Goal::Element(_) | Goal::Ignore => return None,
+            Goal::Element(_) | Goal::Ignore | Goal::Resume => return None,
         };
         outermost.then(|| format!("expect end by {how} once {soon}"))
     }
@@ -199,7 +208,7 @@ impl Pair<'_> {
             Goal::Terminate | Goal::Fail => {
                 parts.place(self.element).is_some_and(|place| place.plan == 0)
             }
-            Goal::Ignore => false,
+            Goal::Ignore | Goal::Resume => false,
         };
         for number in self.chain(at) {
             let written = parts.written(number);

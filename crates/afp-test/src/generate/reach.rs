@@ -114,7 +114,7 @@ impl Reach {
                 Some(Goal::Element(to)) => !reached(to),
                 // It ends a sub-plan, which may lead on.
                 Some(Goal::Terminate) => parts.place(*number).is_some_and(|place| place.plan != 0),
-                Some(Goal::Fail | Goal::Ignore) | None => false,
+                Some(Goal::Fail | Goal::Ignore | Goal::Resume) | None => false,
             };
             onwards && !tried.contains(&(*number, *outcome))
         })

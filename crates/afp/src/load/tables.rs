@@ -69,6 +69,7 @@ fn element(row: &rows::ElementRow) -> ElementRow {
         period: Duration::from_nanos(row.period),
         states: range(row.states),
         on_error: target(row.on_error),
+        resumes: row.resumes,
         locals: range(row.locals),
         sweep: range(row.sweep),
         child: Child { components: row.child.components, entries: row.child.entries },
@@ -97,6 +98,7 @@ fn target(target: Option<Target>) -> rt::Target {
         Some(Target::Terminate) => rt::Target::Terminate,
         Some(Target::Fail(id)) => rt::Target::Fail(id.0),
         Some(Target::Ignore) => rt::Target::Ignore,
+        Some(Target::Resume) => rt::Target::Resume,
         None => rt::Target::None,
     }
 }

@@ -122,6 +122,7 @@ impl Checker<'_> {
             to: match (to, found) {
                 (ClaimTarget::Terminate, _) => Destination::Terminate,
                 (ClaimTarget::Fail, _) => Destination::Fail,
+                (ClaimTarget::Resume, _) => Destination::Resume,
                 (ClaimTarget::Element(_), found) => Destination::Element(self.paths.number(found?)),
             },
             by: by.map(|((found, outcome), _)| Cause {
@@ -149,7 +150,8 @@ impl Checker<'_> {
                 to.is_some_and(|to| to.part == Part::Element(id))
             }
             (ClaimTarget::Terminate, Some(Target::Terminate))
-            | (ClaimTarget::Fail, Some(Target::Fail(_))) => true,
+            | (ClaimTarget::Fail, Some(Target::Fail(_)))
+            | (ClaimTarget::Resume, Some(Target::Resume)) => true,
             _ => false,
         };
         let fits = |(found, outcome): &&(Found, Outcome)| match by {
@@ -165,6 +167,7 @@ impl Checker<'_> {
             ClaimTarget::Element(path) => path.text(),
             ClaimTarget::Terminate => "terminate".to_owned(),
             ClaimTarget::Fail => "fail".to_owned(),
+            ClaimTarget::Resume => "resume".to_owned(),
         };
         let others: Vec<_> = causes
             .iter()
@@ -203,6 +206,7 @@ impl Checker<'_> {
             }
             Target::Terminate => Some("terminate".to_owned()),
             Target::Fail(_) => Some("fail".to_owned()),
+            Target::Resume => Some("resume".to_owned()),
             Target::Ignore => None,
         };
         let goals =

@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use super::Selection;
-use crate::edit::Refused;
 use crate::edit::tree::{below, children, edges, name_of, name_token, target};
-use afp_syntax::Token;
+use crate::edit::{Refused, tree};
 use afp_syntax::kind::Kind;
+use afp_syntax::{Node, Token};
 
 /// How action flows between a selection and the rest of its plan.
 pub(super) struct Flow {
@@ -25,6 +25,13 @@ pub(super) struct Flow {
 impl Flow {
     /// Finds the ways; refuses what no sub-plan can do.
     pub fn of(selection: &Selection) -> Result<Flow, Refused> {
+        let resuming = resuming(&selection.plan);
+        let inside = selection.elements.iter().filter_map(name_of);
+        if let Some(name) = inside.into_iter().find(|name| resuming.contains(name)) {
+            return Err(Refused::new(format!(
+                "'{name}' resumes what is active, which it cannot do from a plan of its own"
+            )));
+        }
         let ways_in = ways_in(selection);
         let states = exits(selection, false);
         let events = exits(selection, true);
@@ -38,8 +45,35 @@ impl Flow {
         }
         let usual = || name_of(&selection.elements[0]).unwrap_or_default();
         let first = firsts.unwrap_or_else(usual);
-        let ways_out = states.into_iter().chain(events).collect();
+        let ways_out: Vec<_> = states.into_iter().chain(events).collect();
+        if let Some(name) = ways_out.iter().find(|token| resuming.contains(token.text())) {
+            return Err(Refused::new(format!(
+                "'{}' resumes what the selection has active, which nobody outside of it can do",
+                name.text()
+            )));
+        }
         Ok(Flow { first, ok, interrupted, ways_in, ways_out })
+    }
+}
+
+/// The names of computations from which computations alone can lead to `resume`.
+fn resuming(plan: &Node) -> BTreeSet<String> {
+    let computations = || children(plan, Kind::Element).filter(tree::is_computation);
+    let mut resuming = BTreeSet::new();
+    loop {
+        let known = resuming.len();
+        resuming.extend(
+            computations()
+                .filter(|element| {
+                    let mut targets = edges(element).filter_map(|edge| target(&edge));
+                    targets.any(|token| token.text() == "resume" || resuming.contains(token.text()))
+                })
+                .filter_map(|element| name_of(&element))
+                .collect::<Vec<_>>(),
+        );
+        if resuming.len() == known {
+            return resuming;
+        }
     }
 }
 
@@ -70,6 +104,8 @@ fn exits(selection: &Selection, events: bool) -> Vec<Token> {
     let targets =
         owners.flat_map(|owner| edges(&owner).filter_map(|edge| target(&edge)).collect::<Vec<_>>());
     targets
-        .filter(|token| !matches!(token.text(), "fail" | "ignore") && !selection.is_inside(token))
+        .filter(|token| {
+            !matches!(token.text(), "fail" | "ignore" | "resume") && !selection.is_inside(token)
+        })
         .collect()
 }

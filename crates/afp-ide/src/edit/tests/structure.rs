@@ -238,6 +238,24 @@ fn what_fails_in_a_selection_fails_in_its_plan() {
 }
 
 #[test]
+fn what_resumes_stays_in_its_plan() {
+    let asks = "    computation ask: C { Yes -> resume, No -> also }\n    \
+                computation also: C { Yes -> ask, No -> back }\n    // a free note";
+    let resuming = PLAN.replace("    // a free note", asks).replace(
+        "{ Touched -> back } // careful",
+        "{ Touched -> also, Lifted -> resume } // careful",
+    );
+    let inside = "'ask' resumes what is active, which it cannot do from a plan of its own";
+    refused(&resuming, extract(&["turn", "ask"]), inside);
+    let outside = "'also' resumes what the selection has active, which nobody outside of it can do";
+    refused(&resuming, extract(&["turn"]), outside);
+    let here = resuming.replace("Touched -> also", "Touched -> back");
+    let here = here.replace(ONE_WAY, "        Lost  -> follow\n");
+    let extracted = after(&here, extract(&["turn", "find"]));
+    assert!(extracted.contains("{ Touched -> terminate, Lifted -> resume }"), "{extracted}");
+}
+
+#[test]
 fn what_would_mean_something_else_is_refused() {
     let change = |old: &str, new: &str, reason: &str| {
         assert!(CALL.contains(old), "{old}");

@@ -1,0 +1,114 @@
+//! Events that interrupt nothing yet: they lead to `resume`, or to computations that may.
+//!
+//! What they write is committed as it comes. The computations run beside the active element; only
+//! where their edges lead elsewhere is it interrupted, or, in the look, not started.
+
+use super::leave::after_fault;
+use super::sweep::{Moment, What};
+use super::{Edge, Level, Stop, component, supervisor_id};
+use crate::clock::Clock;
+use crate::fault::Fault;
+use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, Started, Tables, Target};
+use crate::trace::{Author, Ending, Record, Sink};
+
+/// Whether an event with this target interrupts nothing yet.
+pub(super) fn is_held(t: &impl Tables, target: Target) -> bool {
+    match target {
+        Target::Resume => true,
+        Target::Element(element) => t.table().element(element).is_some_and(|row| row.resumes),
+        Target::Terminate | Target::Fail(_) | Target::Ignore | Target::None => false,
+    }
+}
+
+impl<P: PlanState> Level<P> {
+    /// Takes an event that is held, its outputs staged. The element goes on, or there is a way to leave
+    /// it by.
+    pub(super) fn hold<E, S, C>(
+        &mut self,
+        t: &P::Tables,
+        supervisor: u16,
+        (event, target): (u16, Target),
+        moment: Moment,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<(), What>
+    where
+        E: ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        let id = supervisor_id(t, cx, supervisor);
+        cx.trace(&Record::Event { supervisor: id, event });
+        self.commit(Author::Component(id), cx);
+        let way = self.compute_until_resumed(t, target, cx);
+        cx.step.clock = cx.clock.now(cx.now);
+        match way {
+            Ok(None) => {
+                let element = component(cx, moment.element);
+                cx.trace(&Record::Resumed { element, supervisor: id });
+                Ok(())
+            }
+            Ok(Some(edge)) => Err(What::Leads(event, Ok(edge))),
+            Err(stop) => Err(What::Leads(event, Err(stop))),
+        }
+    }
+
+    /// Runs computations until one of their edges resumes, which is `None`, or leads elsewhere.
+    fn compute_until_resumed<E, S, C>(
+        &mut self,
+        t: &P::Tables,
+        target: Target,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<Option<Edge>, Stop>
+    where
+        E: ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        let mut edge = Edge { target, ending: Ending::Interrupted };
+        loop {
+            let computation = match edge.target {
+                Target::Resume => None,
+                Target::Element(element) => match t.table().element(element) {
+                    Some(row) if row.kind == ElementKind::Computation => Some((element, row)),
+                    _ => return Ok(Some(edge)),
+                },
+                _ => return Ok(Some(edge)),
+            };
+            match cx.step.edges_left.checked_sub(1) {
+                Some(left) => cx.step.edges_left = left,
+                None => return Err(Stop::Run(Fault::LIVELOCK)),
+            }
+            let Some((element, row)) = computation else { return Ok(None) };
+            edge = self.compute(t, element, row, cx)?;
+        }
+    }
+
+    /// Runs one computation beside what is active.
+    fn compute<E, S, C>(
+        &mut self,
+        t: &P::Tables,
+        element: u16,
+        row: &ElementRow,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Result<Edge, Stop>
+    where
+        E: ?Sized,
+        S: Sink,
+        C: Clock,
+        P: Plan<E>,
+    {
+        let id = component(cx, element);
+        cx.place.component = id;
+        match cx.call(id, |cx| self.plan.start_element(element, cx)) {
+            Started::Done(state) => Ok(self.reached(t, element, row, state, cx)),
+            Started::Failed(fault) => {
+                self.plan.discard();
+                cx.failed(id, fault);
+                after_fault(row, fault)
+            }
+            Started::Running | Started::SubPlan(_) => Err(Stop::Run(Fault::INTERNAL)),
+        }
+    }
+}

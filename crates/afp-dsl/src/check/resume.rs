@@ -1,0 +1,45 @@
+//! Where nothing is active that could be resumed.
+
+use crate::graph::{Component, Element, ElementId, Target, resuming};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
+
+/// An edge to `resume` of what ends by it.
+pub(crate) fn nothing_active(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0247, span, "an element that has ended cannot be resumed")
+        .help("name an element of the plan, or lead an event to 'resume'")
+}
+
+/// Reports edges of actors and sub-plans, and a `start`, that lead to a computation which can
+/// resume: nothing is active then. Elements with errors are holes.
+pub(super) fn check(
+    elements: &[Option<Element>],
+    start: Option<(ElementId, Span)>,
+    diags: &mut Diagnostics,
+) {
+    let resuming = resuming(elements.iter().map(Option::as_ref));
+    let mut report = |target: Option<Target>, span: Option<Span>| {
+        let (Some(Target::Element(id)), Some(span)) = (target, span) else { return };
+        let Some(element) = elements.get(id.index()).and_then(Option::as_ref) else { return };
+        if resuming[id.index()] {
+            let message =
+                format!("'{}' can lead to 'resume', but nothing is active here", element.name);
+            diags.push(
+                Diagnostic::new(Code::E0247, span, message)
+                    .note(element.span, "only events may lead to this computation")
+                    .help("use a second computation that leads to elements alone"),
+            );
+        }
+    };
+    for element in elements.iter().flatten() {
+        if !matches!(element.component, Component::Computation(_)) {
+            for (state, span) in element.states.iter().zip(&element.edges.outcomes) {
+                report(*state, *span);
+            }
+            report(element.on_error, element.edges.extra);
+        }
+    }
+    if let Some((first, span)) = start {
+        report(Some(Target::Element(first)), Some(span));
+    }
+}

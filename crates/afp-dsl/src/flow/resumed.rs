@@ -1,0 +1,110 @@
+//! What events write that lead to `resume`, and who sees it.
+//!
+//! The element that goes on was started with its inputs, and so were its supervisors: only `live`
+//! ports see what is written meanwhile.
+
+use std::collections::BTreeSet;
+
+use crate::flow::view::{Cause, View, each_entry, takes_time};
+use crate::graph::{Component, Element, EntryId, Formula, Supervisor, SupervisorId, Target, chain};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
+
+/// Warns of events that resume with nothing written, and of inputs read once from entries that are
+/// written while the element goes on.
+pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
+    let of_all = written(view, (0..view.plan.globals).map(SupervisorId), diags);
+    for (_, element) in view.elements().filter(|(_, element)| takes_time(element)) {
+        let mut changed = written(view, element.supervisors.iter().copied(), diags);
+        changed.extend(&of_all);
+        if changed.is_empty() {
+            continue;
+        }
+        for (formula, port) in once(view, element) {
+            frozen(view, formula, port, &element.name, &changed, diags);
+        }
+        for id in &element.supervisors {
+            let supervisor = view.supervisor(*id);
+            for (formula, port) in of_template(view, supervisor) {
+                frozen(view, formula, port, &element.name, &changed, diags);
+            }
+        }
+    }
+}
+
+/// The entries that supervisors write without interrupting, each with an edge that does so.
+fn written(
+    view: &View<'_>,
+    supervisors: impl Iterator<Item = SupervisorId>,
+    diags: &mut Diagnostics,
+) -> BTreeSet<EntryId> {
+    let mut written = BTreeSet::new();
+    for id in supervisors {
+        let supervisor = view.supervisor(id);
+        let events = (0..).zip(&supervisor.events);
+        let events = events.map(|(event, target)| (Cause::Event(id, event), *target));
+        for (cause, target) in events.chain(supervisor.on_miss.map(|to| (Cause::Miss(id), to))) {
+            let (run, _) = chain(&view.plan.elements, target);
+            let resumes = target == Target::Resume || run.iter().any(|id| view.resumes(id.index()));
+            if !resumes {
+                continue;
+            }
+            let computed = run.iter().flat_map(|id| &view.plan.elements[id.index()].outputs);
+            let before = written.len();
+            let own: Vec<_> = view.writes(cause).map(|output| output.entry).collect();
+            let nothing = own.is_empty() && run.is_empty();
+            written.extend(own.into_iter().chain(computed.map(|output| output.entry)));
+            if nothing && written.len() == before {
+                let message = format!("'{}' resumes with nothing written", view.label(cause));
+                diags.push(
+                    Diagnostic::new(Code::E0316, view.span(cause), message)
+                        .help("write 'ignore', which says the same, or lead the event to a computation that writes"),
+                );
+            }
+        }
+    }
+    written
+}
+
+/// The inputs that an element reads once, at its start, and where their ports are declared.
+fn once<'a>(view: &View<'a>, element: &'a Element) -> Vec<(&'a Formula, Span)> {
+    match element.component {
+        Component::Actor(id) | Component::Computation(id) => {
+            let ports = &view.model.template(id).inputs;
+            let ports = ports.iter().zip(&element.inputs).filter(|(port, _)| !port.live);
+            ports.map(|(port, formula)| (formula, port.span)).collect()
+        }
+        Component::SubPlan(_) => {
+            element.inputs.iter().map(|formula| (formula, element.span)).collect()
+        }
+    }
+}
+
+fn of_template<'a>(view: &View<'a>, supervisor: &'a Supervisor) -> Vec<(&'a Formula, Span)> {
+    let ports = &view.model.template(supervisor.template).inputs;
+    let ports = ports.iter().zip(&supervisor.inputs).filter(|(port, _)| !port.live);
+    ports.map(|(port, formula)| (formula, port.span)).collect()
+}
+
+fn frozen(
+    view: &View<'_>,
+    formula: &Formula,
+    port: Span,
+    name: &str,
+    changed: &BTreeSet<EntryId>,
+    diags: &mut Diagnostics,
+) {
+    each_entry(formula, &mut |entry, span| {
+        if changed.contains(&entry) {
+            let entry = &view.plan.entries[entry.index()].name;
+            let message = format!(
+                "'{entry}' is read once, when '{name}' starts, but changes while it goes on"
+            );
+            diags.push(
+                Diagnostic::new(Code::E0301, span, message)
+                    .note(port, "the port is not 'live'")
+                    .help("use a template whose port is 'live', or lead the event to an element"),
+            );
+        }
+    });
+}

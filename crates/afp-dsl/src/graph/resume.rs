@@ -1,0 +1,61 @@
+//! Computations from which computations alone lead to `resume`: an event that leads to one of them
+//! interrupts nothing until it is known where it ends.
+
+use crate::graph::{Component, Element, ElementId, Target};
+
+/// Where the states of an element and its `Error` lead.
+fn targets(element: &Element) -> impl Iterator<Item = Target> {
+    element.states.iter().flatten().copied().chain(element.on_error)
+}
+
+fn is_computation(element: &Element) -> bool {
+    matches!(element.component, Component::Computation(_))
+}
+
+/// Which elements of a plan can resume; elements with errors are holes.
+pub(crate) fn resuming<'a>(elements: impl IntoIterator<Item = Option<&'a Element>>) -> Vec<bool> {
+    let elements: Vec<_> = elements.into_iter().collect();
+    let mut before: Vec<Vec<usize>> = vec![Vec::new(); elements.len()];
+    let mut open = Vec::new();
+    for (place, element) in elements.iter().enumerate() {
+        let Some(element) = element.filter(|element| is_computation(element)) else { continue };
+        for target in targets(element) {
+            match target {
+                Target::Resume => open.push(place),
+                Target::Element(id) => {
+                    before.get_mut(id.index()).into_iter().for_each(|list| list.push(place));
+                }
+                Target::Terminate | Target::Fail(_) | Target::Ignore => {}
+            }
+        }
+    }
+    let mut resuming = vec![false; elements.len()];
+    while let Some(place) = open.pop() {
+        if !std::mem::replace(&mut resuming[place], true) {
+            open.extend(&before[place]);
+        }
+    }
+    resuming
+}
+
+/// The computations that an edge may run before it resumes or leads elsewhere, none twice; and
+/// whether any of their edges leads elsewhere.
+pub(crate) fn chain(elements: &[Element], first: Target) -> (Vec<ElementId>, bool) {
+    let (mut run, mut elsewhere, mut open) = (Vec::new(), false, vec![first]);
+    while let Some(target) = open.pop() {
+        match target {
+            Target::Element(id) => match elements.get(id.index()) {
+                Some(element) if is_computation(element) => {
+                    if !run.contains(&id) {
+                        run.push(id);
+                        open.extend(targets(element));
+                    }
+                }
+                _ => elsewhere = true,
+            },
+            Target::Terminate | Target::Fail(_) => elsewhere = true,
+            Target::Ignore | Target::Resume => {}
+        }
+    }
+    (run, elsewhere)
+}
