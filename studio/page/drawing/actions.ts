@@ -31,6 +31,12 @@ export function below(part: Part): Point | null {
   return rect ? toPane(view.peek(), [rect[0], rect[1] + rect[3] + 6]) : null;
 }
 
+/** A place of the pane below everything that an element has. */
+export function beneath(part: Part): Point | null {
+  const outer = (part.part?.kind ?? "whole") === "whole" ? drawing.peek()?.elements.get(part.item)?.outer : undefined;
+  return outer ? toPane(view.peek(), [outer[0], outer[1] + outer[3]]) : below(part);
+}
+
 /** Exits of an item, first those that lead nowhere. */
 export function exitsOf(drawn: Drawing, item: string): { part: Part; open: boolean }[] {
   const holder = holderOf(drawn, item);

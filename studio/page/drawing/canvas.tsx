@@ -8,7 +8,8 @@ import { target } from "./bring";
 import * as catalog from "./catalog";
 import { Chooser, Rename, useInSight } from "./choices";
 import { question } from "./choose";
-import { carries, commands, fit, reveal } from "./keys";
+import { carries, commands, fit, isMoving, reveal, settle } from "./keys";
+import { legible } from "./legible";
 import { mark } from "./marks";
 import * as messages from "./messages";
 import { drawing, plan, wanted } from "./model";
@@ -49,6 +50,9 @@ export function mountCanvas(host: HTMLElement): () => void {
   };
   pane.addEventListener("keydown", key);
   pane.addEventListener("paste", paste);
+  const settles = (): void => settle(scene);
+  pane.addEventListener("blur", settles);
+  pane.addEventListener("pointerdown", settles, true);
   // A press says afterwards that it was one.
   pane.addEventListener("focus", () => (byKeys.value = true));
   const ends = [catalog.begin(), messages.begin(), commands(), pointers(pane, scene), ...shows(scene, pane), ...sights(), focuses(pane)];
@@ -73,9 +77,11 @@ function shows(scene: ReturnType<typeof stage>, pane: HTMLElement): (() => void)
       pane.toggleAttribute("data-keys", byKeys.value);
     }),
     effect(() => {
-      void view.value;
+      const { zoom } = view.value;
       void size.value;
-      if (drawing.value) cull(scene, drawing.value);
+      if (!drawing.value) return;
+      cull(scene, drawing.value);
+      legible(scene, drawing.value, zoom);
     }),
     effect(() => {
       const drawn = drawing.value;
@@ -194,11 +200,11 @@ function tip(): { at: Point; texts: { text: string; help?: boolean }[] } | null 
     return known.at[0] === 0 ? null : { at: known.at, texts: [{ text: reason ?? words.connectHint }] };
   }
   const last = selected.value.at(-1);
-  const focus = byKeys.value && last ? { part: last, at: actions.below(last) } : null;
+  const focus = byKeys.value && last ? { part: last, at: actions.beneath(last) } : null;
   const over = hovered.value;
   const at = over?.at ?? focus?.at ?? null;
   const part = over?.hit.part ?? focus?.part;
-  if (!at || !part || question.value || editing.value || renaming.value) return null;
+  if (!at || !part || isMoving() || question.value || editing.value || renaming.value) return null;
   const texts = messages.messagesOf(drawn, part).flatMap(({ message, help }) => [{ text: message }, ...(help ? [{ text: help, help: true }] : [])]);
   return { at, texts };
 }

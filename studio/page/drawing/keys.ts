@@ -1,4 +1,5 @@
 // The keys of the drawing, each a command that `Ctrl+K` finds by name as well.
+import { signal } from "@preact/signals";
 import { command, type Command } from "../commands";
 import { pen } from "../session";
 import { select, selected } from "../selection";
@@ -21,7 +22,9 @@ import { fitted, panned, shown, STEP, zoomed } from "./view";
 import { words } from "./words";
 import * as entries from "./entries";
 
-let carrying: Carrying | null = null;
+const moving = signal<Carrying | null>(null);
+/** Whether the selection is being moved by the keys. */
+export const isMoving = (): boolean => moving.value !== null;
 
 /** Selects by a key: it is said, and brought into sight. */
 function go(part: Part | null, add = false): void {
@@ -95,18 +98,18 @@ function lift(): void {
   const elements = drawn ? movable(drawn, selected.peek().map((part) => part.item)) : [];
   if (elements.length === 0) return refuse(words.selectFirst);
   hold();
-  carrying = { elements, by: [0, 0] };
+  moving.value = { elements, by: [0, 0] };
   say(words.moving(named(elements)));
 }
 
 /** What a key does while the selection is moved; false where it is not. */
 export function carries(stage: Stage, event: KeyboardEvent): boolean {
   const drawn = drawing.peek();
-  const before = carrying;
+  const before = moving.peek();
   const found = before && drawn && pressed(before, event);
   if (!before || !drawn || !found) return before !== null && event.key !== "Tab";
   const [after, outcome] = found;
-  carrying = after;
+  moving.value = after;
   if (outcome.do === "putBack") {
     putBack(stage);
     say(words.putBack);
@@ -118,6 +121,13 @@ export function carries(stage: Stage, event: KeyboardEvent): boolean {
   say(words.moved(named(before.elements), (first?.rect[0] ?? 0) + by[0], (first?.rect[1] ?? 0) + by[1]));
   if (outcome.do === "drop") void placed(stage, before.elements, by);
   return true;
+}
+
+/** Puts back what the keys are moving: something else was pressed. */
+export function settle(stage: Stage): void {
+  if (!moving.peek()) return;
+  moving.value = null;
+  putBack(stage);
 }
 
 async function add(): Promise<void> {

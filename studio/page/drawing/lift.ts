@@ -22,7 +22,8 @@ export function snapped(drawing: Drawing, elements: readonly string[], [dx, dy]:
 /** Shows elements at other places. */
 export function carry(stage: Stage, drawing: Drawing, elements: readonly string[], by: Point): void {
   const carried = new Set(elements);
-  for (const item of elements) stage.nodes.get(item)?.setAttribute("transform", `translate(${by[0]} ${by[1]})`);
+  const groups = [...elements.map((item) => stage.nodes.get(item)), stage.rings, stage.marks];
+  for (const group of groups) group?.setAttribute("transform", `translate(${by[0]} ${by[1]})`);
   for (const edge of drawing.edges.values()) {
     const from = holderOf(drawing, edge.from)?.item;
     const to = holderOf(drawing, edge.to)?.item;

@@ -9,7 +9,7 @@ import { hit, NEAR_EDGE, NEAR_FINGER, type Hit } from "./hit";
 import { carry, movable, places, snapped } from "./lift";
 import { drawing, hold, release } from "./model";
 import { refuse, say } from "./say";
-import { centre, nameOf, rectOf, same, touches, type Part, type Point, type Rect } from "./shapes";
+import { centre, nameOf, planOf, rectOf, same, touches, type Part, type Point, type Rect } from "./shapes";
 import { show, view, type Stage } from "./stage";
 import { editing } from "./value";
 import { panned, toPlan, wheelFactor, zoomed } from "./view";
@@ -110,9 +110,7 @@ function run(stage: Stage, effect: Effect): void {
     case "click":
       return click(effect.hit, effect.at, effect.add);
     case "lift":
-      lifted = effect.elements;
-      hovered.value = null;
-      return hold();
+      return lift(effect.elements);
     case "drag":
       if (drawn && pen.peek()) carry(stage, drawn, lifted, snapped(drawn, lifted, scaled(effect.by), effect.free));
       return;
@@ -135,6 +133,16 @@ function run(stage: Stage, effect: Effect): void {
     case "undraw":
       connecting.value = null;
   }
+}
+
+/** Elements are taken up; one that was not selected is from now on. */
+function lift(elements: readonly string[]): void {
+  const drawn = drawing.peek();
+  lifted = elements;
+  hovered.value = null;
+  hold();
+  const known = drawn ? movable(drawn, selected.peek().map((part) => part.item)) : [];
+  if (!elements.every((item) => known.includes(item))) select(elements.map((item) => ({ item: drawn?.elements.get(item)?.kind === null ? planOf(item) : item })), "drawing");
 }
 
 const scaled = ([x, y]: Point): Point => [x / view.peek().zoom, y / view.peek().zoom];

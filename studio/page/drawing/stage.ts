@@ -42,7 +42,6 @@ export function stage(): Stage {
     world.setAttribute("transform", `matrix(${zoom} 0 0 ${zoom} ${x} ${y})`);
     root.classList.toggle("middle", zoom < NEAR && zoom >= FAR);
     root.classList.toggle("far", zoom < FAR);
-    root.style.setProperty("--zoom", String(zoom));
   });
   return {
     root,
@@ -60,6 +59,7 @@ const domId = (item: string): string => `element-${item.replace(/[^\w.-]/g, "_")
 /** Shows a drawing in place of another one. */
 export function show(stage: Stage, before: Drawing | null, after: Drawing | null): void {
   symbols(stage, after);
+  [stage.rings, stage.marks].forEach((layer) => layer.removeAttribute("transform"));
   const same = before !== null && after !== null && before.uri === after.uri && before.plan === after.plan;
   const old = same ? before : null;
   if (!same) for (const [, group] of [...stage.nodes, ...stage.edges]) group.remove();
@@ -104,6 +104,7 @@ function replace<T extends Shown>(
     group.removeAttribute("transform");
     if (known === one && !group.dataset.bent) continue;
     delete group.dataset.bent;
+    delete group.dataset.zoom;
     group.replaceChildren(...nodes(one.svg));
     made(group, one, known);
   }

@@ -94,7 +94,7 @@ function Component({ drawn, part }: { drawn: Drawing; part: Part }) {
       <div class="line"><span>{words.templateOf}</span><button type="button" class="field" onClick={() => void actions.template()}>{found.template}<Sign name="down" /></button></div>
       {offer && <div class="inspector-help" ref={(node) => node?.replaceChildren(nodes(offer.help))} />}
       {found.ports.length > 0 && <h3>{words.ports}</h3>}
-      {found.ports.map((port) => <PortRow key={port.name} port={port} open={part.part?.name === port.name && part.part.kind !== "exit"} />)}
+      {found.ports.map((port) => <PortRow key={port.name} port={port} />)}
       {found.exits.length > 0 && <h3>{words.exitsTitle}</h3>}
       {found.exits.map((exit) => (
         <button type="button" class={`row ${exit.to ? "" : "undone"}`} key={exit.name} onClick={() => { select([exit.part], "other"); void actions.whatThen(exit.part); }}>
@@ -109,9 +109,8 @@ function Component({ drawn, part }: { drawn: Drawing; part: Part }) {
   );
 }
 
-function PortRow({ port, open: first }: { port: Port; open: boolean }) {
-  const [open, setOpen] = useState(first);
-  useEffect(() => setOpen(first), [first]);
+function PortRow({ port }: { port: Port }) {
+  const [open, setOpen] = useState(false);
   const { answer, name, out, part } = port;
   const missing = !answer?.value && !answer?.default && !out;
   return (

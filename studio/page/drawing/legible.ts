@@ -1,0 +1,61 @@
+// Texts of a drawing that is shown small: what cannot be 10 px high goes, what stays grows against the zoom and is fitted
+// into its box or pill.
+import type { Drawing } from "./shapes";
+import type { Stage } from "./stage";
+import { FAR, NEAR } from "./view";
+
+/** Pixels of the screen that a name and a pill's text have at least. */
+const NAME = 10.5;
+const PILL = 10;
+/** A pill holds no larger text, in units of the plan. */
+const TALLEST = 17;
+/** How much wider than its text a pill is, and what a name gains where its icon stood. */
+const SPARE = 14;
+const ICON = { element: 36, supervisor: 28 };
+
+const isName = (text: SVGTextElement): boolean => text.classList.contains("name");
+const isPill = (text: SVGTextElement): boolean => text.getAttribute("text-anchor") === "middle" && !text.classList.contains("port");
+
+/** Fits the texts of what is in sight to the zoom. */
+export function legible(stage: Stage, drawing: Drawing, zoom: number): void {
+  // Steps of a fiftieth: the eye sees no finer ones.
+  const step = zoom >= NEAR ? 1 : zoom < FAR ? 0 : Math.round(zoom * 50) / 50;
+  for (const [item, group] of stage.nodes) {
+    if (group.dataset.zoom === String(step) || group.hasAttribute("display")) continue;
+    if (step !== 1 || group.dataset.zoom !== undefined) fit(group, step, drawing.elements.get(item)?.rect[2] ?? 0);
+    group.dataset.zoom = String(step);
+  }
+}
+
+function fit(group: SVGGElement, step: number, width: number): void {
+  let own = true;
+  for (const text of group.querySelectorAll("text")) {
+    const name = isName(text);
+    if (!name && !isPill(text)) continue;
+    natural(text);
+    if (step === 1 || step === 0) continue;
+    const size = Number(text.getAttribute("font-size"));
+    const wanted = Math.max(size, (name ? NAME : PILL) / step);
+    const legible = name || wanted <= TALLEST;
+    text.toggleAttribute("data-tiny", !legible);
+    if (!legible) continue;
+    const long = text.getComputedTextLength();
+    const supervisor = name && (!own || size < 13);
+    const gained = supervisor ? ICON.supervisor : ICON.element;
+    if (name) text.style.transform = `translate(${-gained}px, 4px)`;
+    const room = !name ? long + SPARE : supervisor ? long + gained : Math.max(width - 20, long);
+    text.style.fontSize = `${wanted}px`;
+    if (long * (wanted / size) > room) {
+      text.setAttribute("textLength", String(room));
+      text.setAttribute("lengthAdjust", "spacingAndGlyphs");
+    }
+    if (name) own = false;
+  }
+}
+
+/** As the engine drew it. */
+function natural(text: SVGTextElement): void {
+  text.style.removeProperty("font-size");
+  text.style.removeProperty("transform");
+  for (const attribute of ["textLength", "lengthAdjust", "data-tiny"]) text.removeAttribute(attribute);
+}
