@@ -16,6 +16,7 @@ mod entries;
 mod enums;
 mod formula;
 mod imports;
+mod meant;
 mod names;
 mod plan;
 mod range;

@@ -215,6 +215,11 @@ impl Kind {
         matches!(self, Kind::Whitespace | Kind::Comment | Kind::Doc | Kind::BlockComment)
     }
 
+    /// Whether nothing of the grammar is made of tokens of this kind.
+    pub(super) fn is_passed_over(self) -> bool {
+        self.is_trivia() || self == Kind::Unknown
+    }
+
     /// Whether it compares two values.
     pub(super) fn is_comparison(self) -> bool {
         use Kind::{EqualEqual, Greater, GreaterEqual, Less, LessEqual, NotEqual};

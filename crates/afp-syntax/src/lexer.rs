@@ -3,6 +3,7 @@
 //! Every byte lands in exactly one token, whatever the text is. A unit is a token of its own, taken
 //! only behind a number on the same line, so that `20 cm/s` is a speed and `20 cm / s` divides.
 
+mod foreign;
 mod unit;
 
 use afp_number::number_length;
@@ -50,6 +51,10 @@ impl<'t> Lexer<'t, '_> {
             '"' => self.quoted(),
             '/' if rest.starts_with("/*") => self.block_comment(),
             '/' if rest.starts_with("//") => self.comment(),
+            // The mark at the start of a file says how it is encoded.
+            '\u{feff}' if self.at == 0 => {
+                self.push(Kind::Whitespace, first.len_utf8());
+            }
             _ if is_blank(first) => {
                 self.push(Kind::Whitespace, run(rest, is_blank));
             }
@@ -80,7 +85,9 @@ impl<'t> Lexer<'t, '_> {
         let rest = &self.text[self.at..];
         let length = line_length(rest);
         let doc = rest.starts_with("///") && !rest.starts_with("////");
+        let start = self.at;
         self.push(if doc { Kind::Doc } else { Kind::Comment }, length);
+        self.invisible(start);
     }
 
     fn block_comment(&mut self) {
@@ -146,8 +153,9 @@ impl<'t> Lexer<'t, '_> {
                 _ if escaped => escaped = false,
                 '\\' => escaped = true,
                 '"' => {
+                    let start = self.at;
                     self.push(Kind::Text, place + 1);
-                    return;
+                    return self.invisible(start);
                 }
                 _ => {}
             }
@@ -157,30 +165,6 @@ impl<'t> Lexer<'t, '_> {
             Diagnostic::new(Code::E0104, span, "the text is not closed on its line")
                 .help("end it with '\"'")
                 .fix(span.after(), "\""),
-        );
-    }
-
-    fn unknown(&mut self) {
-        let rest = &self.text[self.at..];
-        let known = |each: char| {
-            is_blank(each)
-                || is_word(each)
-                || each.is_ascii_digit()
-                || each == '"'
-                || sign(each.encode_utf8(&mut [0; 4])).is_some()
-        };
-        let length = rest.find(known).unwrap_or(rest.len()).max(1);
-        let text = &rest[..length];
-        let shown: String = text.chars().take(20).collect();
-        let span = self.push(Kind::Unknown, length);
-        self.diags.push(
-            Diagnostic::new(
-                Code::E0101,
-                span,
-                format!("'{}' has no meaning here", shown.escape_debug()),
-            )
-            .help("remove it")
-            .replace(""),
         );
     }
 }
@@ -226,7 +210,7 @@ fn sign(text: &str) -> Option<(Kind, usize)> {
 }
 
 fn is_blank(each: char) -> bool {
-    each.is_whitespace() || each == '\u{feff}'
+    each.is_whitespace()
 }
 
 fn is_word(each: char) -> bool {

@@ -8,6 +8,7 @@ mod braces;
 mod device;
 mod file;
 mod formula;
+mod habits;
 mod plan;
 mod recovery;
 mod scenario;
@@ -26,8 +27,9 @@ const MAX_DEPTH: usize = 64;
 /// Parses a whole file.
 pub(super) fn parse(mut tokens: Vec<Token<'_>>, file: u16, diags: &mut Diagnostics) -> GreenNode {
     let mended = braces::mend(&mut tokens, file, diags);
-    let mut parser = Parser::new(&tokens, &mended.strays, file, diags);
+    let mut parser = Parser::new(&tokens, file, diags);
     parser.told = mended.told;
+    parser.balanced = mended.balanced;
     parser.file();
     parser.withdraw_fixes();
     parser.builder.finish()
@@ -35,7 +37,7 @@ pub(super) fn parse(mut tokens: Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
 
 struct Parser<'t, 'd> {
     tokens: &'t [Token<'t>],
-    /// Places of the tokens that are no trivia.
+    /// Places of the tokens that are read.
     solid: Vec<u32>,
     /// The next of `solid`.
     at: usize,
@@ -46,6 +48,8 @@ struct Parser<'t, 'd> {
     depth: usize,
     /// Whether the item before this one stands outside of a plan and is reported.
     misplaced: bool,
+    /// Whether every brace has its other one, so that none is missed.
+    balanced: bool,
     /// Places on lines of which something is said that comes before the grammar, each with the place of that.
     told: Vec<(u32, u32)>,
     /// Where the lines end on which something is wrong that is not said.
@@ -57,19 +61,10 @@ struct Parser<'t, 'd> {
 }
 
 impl<'t, 'd> Parser<'t, 'd> {
-    fn new(
-        tokens: &'t [Token<'t>],
-        strays: &[u32],
-        file: u16,
-        diags: &'d mut Diagnostics,
-    ) -> Parser<'t, 'd> {
+    fn new(tokens: &'t [Token<'t>], file: u16, diags: &'d mut Diagnostics) -> Parser<'t, 'd> {
         let mut solid = Vec::with_capacity(tokens.len());
-        let places = (0..).zip(tokens).filter(|(_, token)| !token.kind.is_trivia());
-        let solid_places = places.map(|(place, _)| place);
-        match strays {
-            [] => solid.extend(solid_places),
-            strays => solid.extend(solid_places.filter(|place| !strays.contains(place))),
-        }
+        let places = (0..).zip(tokens).filter(|(_, token)| !token.kind.is_passed_over());
+        solid.extend(places.map(|(place, _)| place));
         let builder = GreenNodeBuilder::new();
         Parser {
             tokens,
@@ -79,6 +74,7 @@ impl<'t, 'd> Parser<'t, 'd> {
             file,
             depth: 0,
             misplaced: false,
+            balanced: false,
             told: Vec::new(),
             hidden: Vec::new(),
             quiet: 0,
@@ -115,6 +111,13 @@ impl<'t, 'd> Parser<'t, 'd> {
             Some(token) if token.kind == Kind::Name => token.text,
             _ => "",
         }
+    }
+
+    /// The word before the next token.
+    fn word_before(&self) -> &'t str {
+        let before = self.at.checked_sub(1).and_then(|before| self.solid.get(before));
+        let token = before.and_then(|before| self.tokens.get(*before as usize));
+        token.map_or("", |token| token.text)
     }
 
     /// Whether the next token is this word and a word of the grammar: before `:`, `=`, `=>` and
@@ -179,7 +182,11 @@ impl<'t, 'd> Parser<'t, 'd> {
     }
 
     fn found(&self) -> String {
-        match self.token(0) {
+        self.found_at(0)
+    }
+
+    fn found_at(&self, ahead: usize) -> String {
+        match self.token(ahead) {
             None => "the end of the file".to_owned(),
             Some(token) => format!("'{}'", token.text.chars().take(30).collect::<String>()),
         }

@@ -82,7 +82,51 @@ pub(crate) const FOREIGN: &[(&str, &str)] = &[
     ("\u{3bc}m", "um"),
 ];
 
+/// Units in words, of which there may be an 's' more: each with its symbol.
+const WORDS: &[(&str, &str)] = &[
+    ("meter", "m"),
+    ("metre", "m"),
+    ("kilometer", "km"),
+    ("kilometre", "km"),
+    ("centimeter", "cm"),
+    ("centimetre", "cm"),
+    ("millimeter", "mm"),
+    ("millimetre", "mm"),
+    ("radian", "rad"),
+    ("degree", "deg"),
+    ("second", "s"),
+    ("sec", "s"),
+    ("millisecond", "ms"),
+    ("msec", "ms"),
+    ("microsecond", "us"),
+    ("usec", "us"),
+    ("nanosecond", "ns"),
+    ("minute", "min"),
+    ("hour", "h"),
+    ("hr", "h"),
+    ("kilogram", "kg"),
+    ("gram", "g"),
+    ("newton", "N"),
+    ("volt", "V"),
+    ("millivolt", "mV"),
+    ("kelvin", "K"),
+    ("celsius", "degC"),
+    ("hertz", "Hz"),
+    ("mps", "m/s"),
+    ("kmh", "km/h"),
+    ("kph", "km/h"),
+];
+
 impl Unit {
+    /// The unit that was meant by a word that is none: `degrees`, `CM`.
+    pub(crate) fn meant(word: &str) -> Option<&'static str> {
+        let small = word.to_ascii_lowercase();
+        let one = small.strip_suffix('s').unwrap_or(&small);
+        let spelled = WORDS.iter().find(|(word, _)| *word == one || *word == small);
+        let symbol = spelled.map(|(_, symbol)| *symbol);
+        symbol.or_else(|| Unit::symbols().find(|symbol| symbol.eq_ignore_ascii_case(word)))
+    }
+
     /// The symbols of all single units.
     pub fn symbols() -> impl Iterator<Item = &'static str> {
         SINGLES.iter().map(|single| single.symbol)

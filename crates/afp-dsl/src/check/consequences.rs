@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use super::{PlanHead, Program};
+use super::{PlanHead, Program, meant};
 use crate::gather::PlanFile;
 use afp_syntax::ast::{Item, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Severity, words::nearest};
@@ -62,7 +62,15 @@ fn hold_back_unread(files: &[PlanFile], unread: &[Span], diags: &mut Diagnostics
         lines.iter().flat_map(|(file, line)| self::words(&text(*file)[line.clone()])).collect();
     // A plan that ends too early has the rest of it behind itself.
     let outside = |place: &&Span| !items.iter().any(|item| item.contains(**place));
-    let whole: FxHashSet<u16> = unread.iter().filter(outside).map(|place| place.file).collect();
+    let mut whole: FxHashSet<u16> = unread.iter().filter(outside).map(|place| place.file).collect();
+    // What a line would have named that uses nothing that can be read is not known.
+    let uses = files.iter().flat_map(|file| file.tree.items());
+    let uses = uses.filter_map(|item| match item {
+        Item::Use(item) => Some(item.span()),
+        _ => None,
+    });
+    let broken = uses.filter(|item| unread.iter().any(|place| item.contains(*place)));
+    whole.extend(broken.map(|item| item.file));
     diags.retain(|each| {
         // A unit is read, whatever stands around it.
         if each.code < Code::E0201 || each.code == Code::E0236 {
@@ -131,7 +139,7 @@ fn join(program: &Program<'_>, diags: &mut Diagnostics) {
         let slip = head.filter(|_| !others.is_empty()).and_then(|head| slip(program, head, &error));
         diags.push(match slip {
             Some((name, meant)) => at_declaration(&error, &others, &name, &meant),
-            None => also_at(error, &others),
+            None => also_at(meant::explain(program, plan_of(error.span), error), &others),
         });
     }
 }

@@ -5,6 +5,7 @@ use crate::types::text::{a_dimension, a_type};
 use crate::types::{Conversion, Dimension, Type};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
+use afp_syntax::units::Unit;
 
 /// How a value of type `from` becomes one of type `to`: `Ok(None)` without doing anything, `Err`
 /// not at all.
@@ -95,17 +96,37 @@ fn mismatch(formula: &Formula, want: &Type, text: &str) -> Diagnostic {
         (Type::Quantity(dimension), Type::Int | Type::Quantity(Dimension::NONE)) => {
             let unit = dimension.usual_unit();
             let whole = bracketed(formula, text);
-            Diagnostic::new(Code::E0204, span, expected)
-                .help(format!("write '{whole} / 1 {unit}' for the number of '{unit}'"))
-                .replace(format!("{whole} / 1 {unit}"))
+            let number = format!("'{whole} / 1 {unit}' for the number of '{unit}'");
+            let error = Diagnostic::new(Code::E0204, span, expected);
+            match without_unit(text) {
+                Some(bare) => error.help(format!("write '{bare}', or {number}")).replace(bare),
+                None => {
+                    error.help(format!("write {number}")).replace(format!("{whole} / 1 {unit}"))
+                }
+            }
         }
         (Type::Quantity(found), Type::Quantity(dimension)) => {
-            Diagnostic::new(Code::E0204, span, expected).help(format!(
-                "use {}, such as '1 {}', in place of {}",
-                a_dimension(*dimension),
-                dimension.usual_unit(),
-                a_dimension(*found)
-            ))
+            let error = Diagnostic::new(Code::E0204, span, expected);
+            // Elsewhere an angle has no dimension.
+            let sign = match found.over(*dimension) {
+                Some(Dimension { angle: 1, .. }) if same_but_angle(*found, *dimension) => Some('/'),
+                Some(Dimension { angle: -1, .. }) if same_but_angle(*found, *dimension) => {
+                    Some('*')
+                }
+                _ => None,
+            };
+            match sign {
+                Some(sign) => {
+                    let better = format!("{} {sign} 1 rad", bracketed(formula, text));
+                    error.help(format!("angles have a unit: write '{better}'")).replace(better)
+                }
+                None => error.help(format!(
+                    "use {}, such as '1 {}', in place of {}",
+                    a_dimension(*dimension),
+                    dimension.usual_unit(),
+                    a_dimension(*found)
+                )),
+            }
         }
         (_, Type::Object(home)) => Diagnostic::new(Code::E0206, span, expected)
             .help(format!("name an entry that holds a '{}'", home.name)),
@@ -144,4 +165,15 @@ fn bracketed(formula: &Formula, text: &str) -> String {
         _ => false,
     };
     if loose && !text.starts_with('(') { format!("({text})") } else { text.to_owned() }
+}
+
+/// Whether two dimensions differ in their angles alone.
+fn same_but_angle(left: Dimension, right: Dimension) -> bool {
+    Dimension { angle: 0, ..left } == Dimension { angle: 0, ..right }
+}
+
+/// The number of a quantity that is written as one.
+fn without_unit(text: &str) -> Option<&str> {
+    let (number, unit) = text.split_at_checked(afp_number::number_length(text))?;
+    Unit::parse(unit.trim_start()).filter(|_| !number.is_empty()).map(|_| number)
 }

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 use crate::check::formula::too_long;
+use crate::check::meant;
 use crate::check::names::{Places, unknown};
 use crate::check::resume;
 use crate::check::signature::{Signature, SignatureKind};
@@ -20,6 +21,10 @@ use afp_syntax::unquote;
 
 /// The two edges that need no declaration.
 pub(crate) const ERROR: &str = "Error";
+/// Where an edge leads that ends its plan.
+const TERMINATE: &str = "terminate";
+/// Where an edge leads that ends its plan because it failed.
+const FAIL: &str = "fail";
 /// The edge of a supervisor that was polled too late.
 pub(crate) const DEADLINE_MISSED: &str = "DeadlineMissed";
 
@@ -249,7 +254,7 @@ pub(crate) fn names_only(
         }
         match &edge.target {
             Some(to) if !elements.is_word(to) => {
-                find(to, elements, diags);
+                find(to, true, elements, diags);
             }
             _ => {}
         }
@@ -325,7 +330,7 @@ fn target(
         }
         _ => {}
     }
-    find(to, elements, diags).map(Target::Element)
+    find(to, true, elements, diags).map(Target::Element)
 }
 
 /// Notes that a fault's own reason is lost.
@@ -338,18 +343,27 @@ fn hides_reason(edge: &WrittenEdge, diags: &mut Diagnostics) {
     }
 }
 
-/// The element of that name; reports when there is none.
+/// The element of that name; reports when there is none. Edges may lead to words instead.
 pub(crate) fn find(
     to: &Name,
+    is_edge: bool,
     elements: &Elements<'_>,
     diags: &mut Diagnostics,
 ) -> Option<ElementId> {
     let Some(place) = elements.places.find(&to.text) else {
         elements.record.unknown(to.span);
-        let names = elements.names();
+        let words = [TERMINATE, FAIL].into_iter();
+        let words = words.filter(|word| is_edge && elements.places.find(word).is_none());
+        let names = elements.names().chain(words);
         let message = format!("the plan has no element '{}'", to.text);
-        let none = "add an element of that name, or write 'terminate'";
-        diags.push(unknown(Code::E0216, to.span, message, &to.text, names, none));
+        let none = "add an element of that name";
+        let meant = meant::target(&to.text).filter(|_| is_edge);
+        diags.push(match meant.filter(|_| words::nearest(&to.text, elements.names()).is_none()) {
+            Some(word) => Diagnostic::new(Code::E0216, to.span, message)
+                .help(format!("write '{word}'"))
+                .replace(word),
+            None => unknown(Code::E0216, to.span, message, &to.text, names, none),
+        });
         return None;
     };
     if let Some(name) = &elements.names[place] {

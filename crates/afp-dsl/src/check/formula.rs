@@ -289,6 +289,12 @@ impl Typer<'_> {
                 .help(format!("write '{better}'"))
                 .replace(better);
         }
+        let constant = ["true", "false"].into_iter().find(|it| it.eq_ignore_ascii_case(&name.text));
+        if let Some(constant) = constant {
+            return Diagnostic::new(Code::E0209, name.span, message)
+                .help(format!("write '{constant}'"))
+                .replace(constant);
+        }
         let readable = scope.entries.iter().enumerate().filter(|(at, _)| (scope.readable)(*at));
         let known = readable.map(|(_, entry)| entry.name.text.as_str());
         // Toolboxes have no entries; only there are generic types.

@@ -234,11 +234,11 @@ fn start(
                 .help("remove one of them"),
         );
         if let Some(target) = other.target() {
-            edges::find(&target, elements, &mut Diagnostics::default());
+            edges::find(&target, false, elements, &mut Diagnostics::default());
         }
     }
     let target = first.target()?;
-    Some((edges::find(&target, elements, diags)?, target.span))
+    Some((edges::find(&target, false, elements, diags)?, target.span))
 }
 
 /// Whether an item of the plan itself, not of an element in it, could not be read.

@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
+use crate::check::meant;
 use crate::check::names::{ambiguous, unknown};
 use crate::index::{Recorder, Word};
 use crate::types::{Dimension, Enum, GENERIC, Object, PLAIN, Type, is_built_in};
@@ -152,7 +153,13 @@ impl Types {
                 let mut seen = HashSet::new();
                 known.retain(|name| seen.insert(*name));
                 let message = format!("there is no type '{}'", name.text);
-                diags.push(unknown(Code::E0232, reference.span(), message, &name.text, known, ""));
+                let span = reference.span();
+                diags.push(match meant::ty(&name.text) {
+                    Some(ty) => Diagnostic::new(Code::E0232, span, message)
+                        .help(format!("write '{ty}'"))
+                        .replace(ty),
+                    None => unknown(Code::E0232, span, message, &name.text, known, ""),
+                });
                 None
             }
             several => {

@@ -1,6 +1,6 @@
 //! Units behind numbers, foreign spellings included.
 
-use super::{Lexer, is_word, run};
+use super::{Lexer, is_blank, is_word, run};
 use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 use crate::units::{FOREIGN, Unit};
@@ -9,7 +9,7 @@ impl Lexer<'_, '_> {
     /// Takes the unit behind the number that has just been taken, if there is one on its line.
     pub(super) fn unit(&mut self) {
         let rest = &self.text[self.at..];
-        let blank = run(rest, |each| each == ' ' || each == '\t');
+        let blank = run(rest, |each| is_blank(each) && each != '\n');
         let behind = &rest[blank..];
         if let Some((foreign, ours)) = FOREIGN.iter().find(|(sign, _)| behind.starts_with(sign)) {
             self.blank(blank);

@@ -18,8 +18,10 @@ const HEADS: &[&str] = &[
     "subplan",
     "supervise",
     "supervisor",
+    "on",
     "scenario",
     "enum",
+    "table",
     "device",
     "sensor",
     "robot",
@@ -85,26 +87,24 @@ struct Line {
 
 /// What is known of a file before it is parsed.
 pub(super) struct Mended {
-    /// The places of the braces that are too much; they are passed over.
-    pub strays: Vec<u32>,
     /// Places on lines of which something is said already, each with the place of that.
     pub told: Vec<(u32, u32)>,
+    /// Whether every brace has its other one now.
+    pub balanced: bool,
 }
 
-/// Reports braces that are missing or too much. A missing one is added, without any text.
+/// Reports braces that are missing or too much. A missing one is added, without any text; one too much is passed over.
 pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnostics) -> Mended {
     let is_told = |each: &&Diagnostic| each.span.file == file && each.severity == Severity::Error;
     let starts = diags.iter().filter(is_told).map(|each| each.span.start);
     let mut told: Vec<_> = starts.map(|start| (start, start)).collect();
-    let mut strays = Vec::new();
     for _ in 0..MOST {
-        let Some(wrong) = find(tokens, &strays) else { break };
+        let Some(wrong) = find(tokens) else { break };
         let (behind, error, brace) = match wrong {
             Wrong::Stray(at) => {
                 diags.push(stray(tokens[at], file));
                 told.push((tokens[at].start, tokens[at].start));
                 tokens[at].kind = Kind::Unknown;
-                strays.push(at);
                 continue;
             }
             Wrong::Missing(behind, opener) => {
@@ -128,10 +128,9 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
         let lines = finder.map(|token| token.start).into_iter().chain([start]);
         told.extend(lines.map(|line| (line, start)));
         tokens.insert(behind + 1, Token { kind: brace, text: "", start });
-        strays.iter_mut().filter(|at| **at > behind).for_each(|at| *at += 1);
     }
-    let strays = strays.into_iter().filter_map(|at| u32::try_from(at).ok()).collect();
-    Mended { strays, told }
+    let (opened, closed) = count(tokens);
+    Mended { told, balanced: opened == closed }
 }
 
 fn stray(token: Token<'_>, file: u16) -> Diagnostic {
@@ -153,10 +152,15 @@ fn span(token: Token<'_>, file: u16) -> Span {
     Span { file, start: token.start, end }
 }
 
-/// The first brace that is wrong, in a file whose braces do not match.
-fn find(tokens: &[Token<'_>], strays: &[usize]) -> Option<Wrong> {
+/// How many braces open something, and how many close something.
+fn count(tokens: &[Token<'_>]) -> (usize, usize) {
     let count = |kind: Kind| tokens.iter().filter(|token| token.kind == kind).count();
-    let (opened, closed) = (count(Kind::OpenBrace), count(Kind::CloseBrace));
+    (count(Kind::OpenBrace), count(Kind::CloseBrace))
+}
+
+/// The first brace that is wrong, in a file whose braces do not match.
+fn find(tokens: &[Token<'_>]) -> Option<Wrong> {
+    let (opened, closed) = count(tokens);
     if opened == closed {
         return None;
     }
@@ -165,7 +169,7 @@ fn find(tokens: &[Token<'_>], strays: &[usize]) -> Option<Wrong> {
     let (mut number, mut indent, mut last) = (0, 0, None);
     let mut is_first = true;
     for (at, token) in tokens.iter().enumerate() {
-        if token.kind.is_trivia() || strays.contains(&at) {
+        if token.kind.is_passed_over() {
             if let Some((_, line)) = token.text.rsplit_once('\n') {
                 number += token.text.matches('\n').count();
                 indent = line.len() - line.trim_start().len();

@@ -39,11 +39,10 @@ impl Parser<'_, '_> {
             "actor" | "computation" | "subplan" | "supervise" | "in" | "out" | "var" | "const"
             | "start" => self.misplaced(),
             _ => {
-                self.skip(
-                    "'use', 'plan', 'scenario', 'enum' or 'toolbox'",
-                    "remove it, or put it into a plan",
-                    |p| p.leaves_body() || p.at_tool(),
-                );
+                let help = self.top_help();
+                self.skip("'use', 'plan', 'scenario', 'enum' or 'toolbox'", &help, |p| {
+                    p.leaves_body() || p.at_tool()
+                });
             }
         }
     }

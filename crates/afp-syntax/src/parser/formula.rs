@@ -2,9 +2,11 @@
 //!
 //! Sums and products are flat nodes, so that a long chain of terms makes no deep tree.
 
+use super::habits::is_operator;
 use super::{MAX_DEPTH, Parser};
 use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
+use crate::units::Unit;
 
 /// Words that may stand behind a number on its line and are no misspelt unit.
 const WORDS_BEHIND_NUMBERS: &[&str] = &[
@@ -80,6 +82,13 @@ impl Parser<'_, '_> {
             return self.too_deep();
         }
         self.depth += 1;
+        if let Some(operand) = self.no_prefix() {
+            if operand {
+                self.unary();
+            }
+            self.depth -= 1;
+            return;
+        }
         match self.nth(0) {
             _ if !self.on_same_line() && self.begins_item() => self.no_formula(),
             Kind::Minus => {
@@ -156,7 +165,8 @@ impl Parser<'_, '_> {
     pub(super) fn number(&mut self) {
         self.open(Kind::Literal);
         self.bump();
-        if !self.eat(Kind::Unit) {
+        self.number_that_ends_with_a_point();
+        if !self.eat(Kind::Unit) && !self.number_with_letters() {
             self.unknown_unit();
         }
         self.close();
@@ -167,15 +177,17 @@ impl Parser<'_, '_> {
         let strange = !word.is_empty()
             && self.on_same_line()
             && !self.names_something(0)
-            && (self.is_adjacent() || !WORDS_BEHIND_NUMBERS.contains(&word));
+            && (self.is_adjacent() || !WORDS_BEHIND_NUMBERS.contains(&word) && !is_operator(word));
         if !strange {
             return;
         }
-        let here = self.here();
-        self.error(
-            Diagnostic::new(Code::E0236, here, format!("'{word}' is not a unit"))
-                .help("use one of the units m cm mm km, deg rad, s ms min h, kg, N, V, K, Hz or a product such as 'cm/s'"),
-        );
+        let error = Diagnostic::new(Code::E0236, self.here(), format!("'{word}' is not a unit"));
+        self.error(match Unit::meant(word) {
+            Some(unit) => error.help(format!("write '{unit}'")).replace(unit),
+            None => error.help(
+                "use one of the units m cm mm km, deg rad, s ms min h, kg, N, V, K, Hz or a product such as 'cm/s'",
+            ),
+        });
         self.open(Kind::Error);
         self.bump();
         self.close();

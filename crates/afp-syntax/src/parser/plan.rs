@@ -1,7 +1,8 @@
 //! Plans: entries, elements, supervisors, edges and bindings.
 
 use super::Parser;
-use crate::diagnostics::{Code, Diagnostic, words};
+use super::recovery::Body;
+use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 
 /// Tokens that are looked at in search of the arrow behind the names of states.
@@ -19,8 +20,12 @@ impl Parser<'_, '_> {
         self.keyword();
         self.name("give the plan a name");
         self.eat_word("forever");
-        let opened = self.here();
-        if self.open_body("put the plan's items in braces", Self::at_plan_item) {
+        let help = match self.nth(0) {
+            Kind::OpenParen => "remove the brackets: a plan declares what it takes with 'in'",
+            _ => "put the plan's items in braces",
+        };
+        let body = self.open_body(help, Self::at_plan_item);
+        if let Some(body) = body {
             while !self.at_end() && !self.at(Kind::CloseBrace) && !self.at_top_item() {
                 self.repeat(|parser| {
                     if parser.at_plan_item() {
@@ -30,30 +35,38 @@ impl Parser<'_, '_> {
                     }
                 });
             }
-            self.close_bracket(Kind::CloseBrace, opened);
+            self.close_body(body);
         }
         self.close_item();
     }
 
     fn at_plan_item(&self) -> bool {
-        WORDS.contains(&self.word(0)) && (!self.names_something(0) || self.nth(1) == Kind::Colon)
+        let named = self.names_something(0) && self.nth(1) != Kind::Colon;
+        WORDS.contains(&self.word(0)) && (!named || self.word(0) == "start")
     }
 
     /// Passes over what is no item of a plan.
     fn no_plan_item(&mut self) {
-        let meant = words::nearest(self.word(0), WORDS.iter().copied());
-        let help = match meant.filter(|_| self.nth(1) == Kind::Name) {
-            Some(meant) => format!("write '{meant}'"),
-            None => ITEM_HELP.to_owned(),
-        };
+        let help = self.item_help(WORDS).unwrap_or_else(|| ITEM_HELP.to_owned());
         let is_body = self.begins_body();
-        self.skip(ITEMS, &help, |p| p.at_plan_item() || p.at(Kind::CloseBrace) || p.at_top_item());
+        let fix = self.meant(WORDS).filter(|_| self.nth(2) == Kind::Colon);
+        self.report_skipped(ITEMS, &help, fix);
+        let first = self.at;
+        self.pass_to(|p| {
+            let next = p.at > first && !p.on_same_line() && p.at_strange_item();
+            next || p.at_plan_item() || p.at(Kind::CloseBrace) || p.at_top_item()
+        });
         // Edges whose element cannot be read have its brace behind them.
         if is_body && self.at(Kind::CloseBrace) && self.nth(1) != Kind::End {
             self.open(Kind::Error);
             self.bump();
             self.close();
         }
+    }
+
+    /// Whether a line begins here like an item that no plan has.
+    fn at_strange_item(&self) -> bool {
+        self.at(Kind::Name) && matches!(self.nth(1), Kind::Name | Kind::Colon | Kind::Equal)
     }
 
     /// Whether an edge begins here, which stands in a body alone: its brace is missing.
@@ -66,7 +79,9 @@ impl Parser<'_, '_> {
             "start" => {
                 self.open_item(Kind::Start);
                 self.keyword();
-                if self.on_same_line() {
+                self.no_sign_behind_start();
+                // The name of an edge or entry is that of the next item.
+                if self.on_same_line() || !self.names_something(0) {
                     self.name("name the first element");
                 } else {
                     self.expected("a name", "name the first element");
@@ -83,9 +98,7 @@ impl Parser<'_, '_> {
         self.open_item(Kind::Entry);
         self.keyword();
         self.name("give the entry a name");
-        if self.eat(Kind::Colon) {
-            self.ty();
-        }
+        self.ty_of_entry();
         self.value_and_range();
         self.close_item();
     }
@@ -94,18 +107,21 @@ impl Parser<'_, '_> {
         self.open_item(Kind::Element);
         self.keyword();
         self.head("an actor's template, a computation's or a plan");
-        let opened = self.here();
-        if self.open_body("put supervisors and edges in braces", Self::begins_body) {
-            while !self.at_end() && !self.at(Kind::CloseBrace) && !self.leaves_body() {
+        self.no_timing();
+        let body = self.open_body("put supervisors and edges in braces", Self::begins_body);
+        if let Some(body) = body {
+            while !self.ends_body(&body) {
                 self.repeat(|parser| {
                     if parser.at_word("supervise") {
                         parser.guard();
+                    } else if parser.is_nested() {
+                        parser.nested();
                     } else {
                         parser.edge_or_skip("a supervisor or an edge");
                     }
                 });
             }
-            self.close_bracket(Kind::CloseBrace, opened);
+            self.close_body(body);
         }
         self.close_item();
     }
@@ -114,18 +130,18 @@ impl Parser<'_, '_> {
         self.open_item(Kind::Guard);
         self.keyword();
         self.head("a supervisor's template");
-        while self.at_word("every") || self.at_word("deadline") {
+        while self.at_timing() {
             self.timing();
         }
-        let opened = self.here();
-        if self.open_body("put the edges of the events in braces", Self::begins_body) {
-            while !self.at_end() && !self.at(Kind::CloseBrace) && !self.leaves_body() {
-                if self.at_word("supervise") {
-                    break;
-                }
-                self.repeat(|parser| parser.edge_or_skip("an edge"));
+        let body = self.open_body("put the edges of the events in braces", Self::begins_body);
+        if let Some(body) = body {
+            while !self.ends_body(&body) && (!self.at_word("supervise") || self.is_nested()) {
+                self.repeat(|parser| match parser.is_nested() {
+                    true => parser.nested(),
+                    false => parser.edge_or_skip("an edge"),
+                });
             }
-            self.close_bracket(Kind::CloseBrace, opened);
+            self.close_body(body);
         }
         self.close_item();
     }
@@ -133,8 +149,10 @@ impl Parser<'_, '_> {
     /// `NAME ":" ref [args]`
     fn head(&mut self, what: &str) {
         self.name("give it a name");
-        if self.expect(Kind::Colon, "write ':' and the template") {
-            if self.at(Kind::Name) && self.on_same_line() {
+        if self.colon_of_head() {
+            // The name of an edge or of the next item is no template.
+            let template = !self.names_something(0) && !self.begins_item();
+            if self.at(Kind::Name) && (self.on_same_line() || template) {
                 self.reference();
             } else {
                 self.expected(what, "name the template behind the ':'");
@@ -145,9 +163,77 @@ impl Parser<'_, '_> {
         }
     }
 
+    /// The ':' before a template, or what was written for it.
+    fn colon_of_head(&mut self) -> bool {
+        let swapped =
+            self.at(Kind::Name) && matches!(self.nth(1), Kind::OpenBrace | Kind::OpenParen);
+        let (template, name) = (self.word_before(), self.word(0));
+        let looks = |word: &str, upper: bool| {
+            word.starts_with(|first: char| {
+                first.is_ascii_alphabetic() && first.is_uppercase() == upper
+            })
+        };
+        if self.at(Kind::Equal) && self.nth(1) == Kind::Name {
+            self.instead(1, "no '=' before a template".to_owned(), "write ':'".to_owned(), ":");
+            return true;
+        }
+        if swapped && looks(template, true) && looks(name, false) {
+            let help = format!("write the name first: '{name}: {template}'");
+            self.expected("':'", &help);
+            return false;
+        }
+        self.expect(Kind::Colon, "write ':' and the template")
+    }
+
+    /// The type of an entry.
+    fn ty_of_entry(&mut self) {
+        let begins = self.at_plan_item() || self.names_something(0) && self.nth(1) != Kind::Equal;
+        if self.eat(Kind::Colon) {
+            self.ty();
+        } else if self.at(Kind::Name) && self.on_same_line() && !begins {
+            let (before, word) = (self.word_before(), self.word(0));
+            let is_type = matches!(before, "int" | "bool" | "float" | "string");
+            let message = "no ':' before the type";
+            let here = self.here().before();
+            let error = Diagnostic::new(Code::E0102, here, message);
+            match is_type {
+                true => self.error(error.help(format!("write '{word}: {before}'"))),
+                false => self.error(error.help("write ':'").fix(here, ": ")),
+            }
+            self.ty();
+        }
+    }
+
+    fn at_timing(&self) -> bool {
+        matches!(self.word(0), "every" | "deadline") && self.nth(1) != Kind::Arrow
+    }
+
+    /// Reports times of what has none of its own.
+    fn no_timing(&mut self) {
+        while self.at_timing() {
+            let (here, word) = (self.next_span(), self.word(0));
+            let message = format!("only supervisors have '{word}'");
+            let help = "remove it, or write it behind the template of a supervisor";
+            self.error(Diagnostic::new(Code::E0102, here, message).help(help));
+            self.open(Kind::Error);
+            self.timing();
+            self.close();
+        }
+    }
+
+    /// Whether the body of an element or a supervisor is over.
+    fn ends_body(&self, body: &Body) -> bool {
+        let leaves = self.leaves_body() && !(body.is_opened() && self.is_nested());
+        self.at_end() || self.at(Kind::CloseBrace) || leaves
+    }
+
     pub(super) fn timing(&mut self) {
         self.open(Kind::Timing);
         self.keyword();
+        if matches!(self.nth(0), Kind::Colon | Kind::Equal) {
+            let message = format!("no {} before a time", self.found());
+            self.instead(1, message, "remove it".to_owned(), "");
+        }
         // A time that is missing has the other word behind it.
         let other = matches!(self.word(0), "every" | "deadline")
             && matches!(self.nth(1), Kind::Int | Kind::Float | Kind::Name);
@@ -171,21 +257,29 @@ impl Parser<'_, '_> {
     }
 
     fn edge_or_skip(&mut self, what: &str) {
+        if self.at_word_before_edge() {
+            let message = format!("no {} before an edge", self.found());
+            return self.instead(1, message, "remove it".to_owned(), "");
+        }
         if self.at_edge() {
             return self.edge();
         }
-        // The name of a state without an arrow: the edge is still being typed.
+        // Names of states without an arrow: the edge is still being typed.
         let followed_by_edge = self.nth(1) == Kind::Name && !self.leaves_body();
-        if self.at(Kind::Name) && (self.nth(1) == Kind::CloseBrace || followed_by_edge) {
+        if self.at(Kind::Name) && (self.at_bare_names() || followed_by_edge) {
             return self.edge();
+        }
+        if self.nth(1) == Kind::Dot && self.nth(2) == Kind::Name && self.arrow_at(3).is_some() {
+            let message = "an edge begins with the name of its state or event alone".to_owned();
+            return self.instead(2, message, format!("write '{}'", self.word(2)), "");
         }
         self.skip(what, "write an edge such as 'State -> target'", |p| {
             p.at(Kind::CloseBrace) || p.at_word("supervise") || p.leaves_body() || p.at_edge()
         });
     }
 
-    /// Whether names with commas between them stand before an arrow.
-    fn at_edge(&self) -> bool {
+    /// How many tokens ahead the last of the names stands between which there are commas.
+    fn last_name(&self) -> usize {
         let mut last = 0;
         while last < MAX_NAMES
             && self.nth(last) == Kind::Name
@@ -194,44 +288,38 @@ impl Parser<'_, '_> {
         {
             last += 2;
         }
-        let named = self.nth(last) == Kind::Name && self.names_something(last);
-        named && self.nth(last + 1) != Kind::Colon
+        last
+    }
+
+    /// Whether names with commas between them stand before an arrow.
+    fn at_edge(&self) -> bool {
+        let last = self.last_name();
+        self.nth(last) == Kind::Name && self.arrow_at(last + 1).is_some()
+    }
+
+    /// Whether names with commas between them end a body.
+    fn at_bare_names(&self) -> bool {
+        self.nth(self.last_name() + 1) == Kind::CloseBrace
     }
 
     /// `NAME {"," NAME} "->" target`
     fn edge(&mut self) {
         self.open_item(Kind::Edge);
-        let whole = self.at_edge();
+        let whole = self.at_edge() || self.at_bare_names();
         self.take_name();
         while whole && self.eat(Kind::Comma) {
             self.take_name();
         }
-        match self.nth(0) {
-            Kind::Arrow => self.bump(),
-            Kind::FatArrow | Kind::Equal => {
-                self.wrong_arrow("'->' leads from a state or event to what comes next", "->");
-            }
-            // The arrow alone is missing.
-            Kind::Name if self.on_same_line() && !self.names_something(0) => {
-                let here = self.here().before();
-                self.error(
-                    Diagnostic::new(Code::E0109, here, "no '->' before the target")
-                        .help("write '->'")
-                        .fix(here, "-> "),
-                );
-            }
-            _ => {
-                let here = self.behind();
-                self.error(
-                    Diagnostic::new(Code::E0109, here, "the edge leads nowhere")
-                        .help("write '->' and the name of an element, or 'terminate'"),
-                );
-                self.close_item();
-                return;
-            }
+        if !self.arrow() {
+            return self.close_item();
         }
-        if self.at(Kind::Name) && self.on_same_line() {
+        if self.at(Kind::Name) && (self.on_same_line() || self.target_of_another_line()) {
+            self.no_brackets();
             self.target();
+            self.no_more_targets();
+        } else if self.at(Kind::Text) && self.on_same_line() {
+            let name = self.found().replace(['"', '\''], "");
+            self.instead(1, "a target has no quotes".to_owned(), format!("write '{name}'"), &name);
         } else {
             let here = self.behind();
             self.error(
@@ -242,25 +330,74 @@ impl Parser<'_, '_> {
         self.close_item();
     }
 
+    /// Takes the arrow of an edge, or what was written for it. Returns whether there may be a target.
+    fn arrow(&mut self) -> bool {
+        match self.arrow_at(0) {
+            Some(1) if self.at(Kind::Arrow) => self.bump(),
+            Some(tokens) => {
+                let message = "'->' leads from a state or event to what comes next";
+                self.wrong_arrow(tokens, message, "->");
+            }
+            None if self.at_arrow_word() => {
+                let message = "'->' leads from a state or event to what comes next";
+                self.wrong_arrow(1, message, "->");
+            }
+            // The arrow alone is missing.
+            None if self.at(Kind::Name) && self.on_same_line() && !self.names_something(0) => {
+                let here = self.here().before();
+                self.error(
+                    Diagnostic::new(Code::E0109, here, "no '->' before the target")
+                        .help("write '->'")
+                        .fix(here, "-> "),
+                );
+            }
+            None => {
+                let here = self.behind();
+                self.error(
+                    Diagnostic::new(Code::E0109, here, "the edge leads nowhere")
+                        .help("write '->' and the name of an element, or 'terminate'"),
+                );
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Whether what begins the next line can only be the target; reports it.
+    fn target_of_another_line(&mut self) -> bool {
+        let ends = matches!(self.nth(1), Kind::CloseBrace) || self.begins_line(1);
+        let is_target = ends && !self.names_something(0) && !self.begins_item();
+        if is_target && !self.at_word("supervise") {
+            let (here, target) = (self.behind(), self.word(0));
+            let message = "no target on the line of its '->'";
+            let help = format!("write '{target}' behind the '->'");
+            self.error(Diagnostic::new(Code::E0109, here, message).help(help));
+            // What follows on that line is its own.
+            return true;
+        }
+        false
+    }
+
     /// `NAME`, or `"fail" [STRING]`
     fn target(&mut self) {
         self.open(Kind::Target);
         let fails = self.word(0) == "fail";
         self.take_name();
+        self.pass_brackets();
         if fails && self.at(Kind::Text) && self.on_same_line() {
             self.bump();
         }
         self.close();
     }
 
-    fn wrong_arrow(&mut self, message: &str, right: &str) {
-        let here = self.here();
+    fn wrong_arrow(&mut self, tokens: usize, message: &str, right: &str) {
+        let here = self.ahead(tokens);
         self.error(
             Diagnostic::new(Code::E0108, here, message)
                 .help(format!("write '{right}'"))
                 .replace(right),
         );
-        self.bump();
+        (0..tokens).for_each(|_| self.bump());
     }
 
     /// `"(" {bind [","]} ")"`
@@ -270,8 +407,9 @@ impl Parser<'_, '_> {
         self.bump();
         while !self.ends_args() {
             self.repeat(|parser| {
-                let named = parser.at(Kind::Name) && parser.names_something(0);
-                if named && parser.nth(1) != Kind::Colon {
+                if parser.at(Kind::Name)
+                    && (parser.names_something(0) || parser.nth(1) == Kind::EqualEqual)
+                {
                     parser.bind();
                 } else {
                     parser.unnamed_bind();
@@ -293,17 +431,25 @@ impl Parser<'_, '_> {
     }
 
     fn bind(&mut self) {
-        let kind = if self.nth(1) == Kind::Equal { Kind::BindIn } else { Kind::BindOut };
-        self.open_item(kind);
+        let is_value = self.nth(1) == Kind::Arrow && self.nth(2) != Kind::Name;
+        let is_output = matches!(self.nth(1), Kind::FatArrow | Kind::Arrow) && !is_value;
+        self.open_item(if is_output { Kind::BindOut } else { Kind::BindIn });
         self.take_name();
-        if kind == Kind::BindIn {
-            self.bump();
+        if !is_output {
+            if self.at(Kind::Equal) {
+                self.bump();
+            } else {
+                let assigns = self.at(Kind::Colon) && self.nth(1) == Kind::Equal;
+                self.wrong_arrow(1 + usize::from(assigns), "'=' carries data in to a port", "=");
+            }
             self.formula();
+            self.no_operators();
             self.close_item();
             return;
         }
         if !self.eat(Kind::FatArrow) {
-            self.wrong_arrow("'=>' carries data out to an entry; '->' is the flow of action", "=>");
+            let message = "'=>' carries data out to an entry; '->' is the flow of action";
+            self.wrong_arrow(1, message, "=>");
         }
         // A formula here is an error of its own, reported where outputs are checked.
         self.open(Kind::Target);
@@ -323,7 +469,7 @@ impl Parser<'_, '_> {
 
     /// A value without a port, or text that is no binding at all.
     fn unnamed_bind(&mut self) {
-        self.skip("a port", "name the port, such as 'distance = 30 cm'", |p| {
+        self.skip("a port", "write the port's name and '=' before the value", |p| {
             p.ends_args()
                 || p.at(Kind::Comma)
                 || (p.at(Kind::Name)

@@ -7,6 +7,19 @@ use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 use crate::source::Span;
 
+/// Braces with something in them.
+pub(super) struct Body {
+    /// Where the first one stands, if it does.
+    opened: Option<Span>,
+}
+
+impl Body {
+    /// Whether its first brace stands there.
+    pub(super) fn is_opened(&self) -> bool {
+        self.opened.is_some()
+    }
+}
+
 impl Parser<'_, '_> {
     /// Reports what is wrong, unless something before it on the same line is.
     pub(super) fn error(&mut self, diagnostic: Diagnostic) {
@@ -76,14 +89,8 @@ impl Parser<'_, '_> {
     }
 
     pub(super) fn expected_at(&mut self, here: Span, what: &str, help: &str) {
-        match self.nth(0) {
-            // The lexer has reported it, and it stands where something else should.
-            Kind::Unknown => {
-                self.hidden.push(self.next_line(here.start));
-                return self.be_quiet(here.start);
-            }
-            Kind::OpenBracket | Kind::CloseBracket | Kind::At => return self.reserved(),
-            _ => {}
+        if matches!(self.nth(0), Kind::OpenBracket | Kind::CloseBracket | Kind::At) {
+            return self.reserved();
         }
         let message = format!("expected {what}, found {}", self.found());
         self.error(Diagnostic::new(Code::E0102, here, message).help(help));
@@ -91,21 +98,51 @@ impl Parser<'_, '_> {
 
     /// Opens a body, or reports that its brace is missing. What else stands before the brace on this line belongs to the
     /// same mistake; without a brace there may be a body all the same.
-    pub(super) fn open_body(&mut self, help: &str, begins: impl Fn(&Self) -> bool) -> bool {
+    pub(super) fn open_body(&mut self, help: &str, begins: impl Fn(&Self) -> bool) -> Option<Body> {
+        let opened = Body { opened: Some(self.here()) };
         if self.eat(Kind::OpenBrace) {
-            return true;
+            return Some(opened);
         }
-        self.expected("'{'", help);
+        match self.nth(0) {
+            Kind::OpenBracket => self.error(
+                Diagnostic::new(Code::E0102, self.next_span(), "expected '{', found '['")
+                    .help("write '{' and '}'"),
+            ),
+            _ => self.expected("'{'", help),
+        }
+        // As indented languages have it.
+        if self.at(Kind::Colon) && self.on_same_line() && self.begins_line(1) {
+            self.pass(1);
+        }
         let Some(ahead) = self.ahead_on_line(Kind::OpenBrace) else {
-            return !self.on_same_line() && begins(self);
+            let begins = !self.on_same_line() && begins(self);
+            return begins.then_some(Body { opened: None });
         };
         if self.ahead_on_line(Kind::CloseBrace).is_some_and(|close| close < ahead) {
-            return false;
+            return None;
         }
         self.open(Kind::Error);
         (0..ahead).for_each(|_| self.bump());
         self.close();
-        self.eat(Kind::OpenBrace)
+        let opened = Body { opened: Some(self.here()) };
+        self.eat(Kind::OpenBrace).then_some(opened)
+    }
+
+    /// Closes a body; where nothing opened it, nothing need close it.
+    pub(super) fn close_body(&mut self, body: Body) {
+        match body.opened {
+            Some(opened) => self.close_bracket(Kind::CloseBrace, opened),
+            None if self.closes_more() => {
+                self.eat(Kind::CloseBrace);
+            }
+            None => {}
+        }
+    }
+
+    /// Whether a brace stands here that does not end the plan: more of its items follow.
+    fn closes_more(&self) -> bool {
+        let ends = matches!(self.word(1), "plan" | "scenario" | "enum" | "toolbox" | "use");
+        self.at(Kind::CloseBrace) && self.nth(1) != Kind::End && !ends
     }
 
     pub(super) fn expect(&mut self, kind: Kind, help: &str) -> bool {
@@ -183,13 +220,25 @@ impl Parser<'_, '_> {
     /// Reports the next token as unexpected and skips to where `stop` holds, brackets and braces
     /// as a whole.
     pub(super) fn skip(&mut self, what: &str, help: &str, stop: impl Fn(&Self) -> bool) {
-        match self.nth(0) {
-            Kind::Name if self.word(0) == "repeat" => self.reserved(),
-            _ => {
-                let here = self.next_span();
-                self.expected_at(here, what, help);
+        self.report_skipped(what, help, None);
+        self.pass_to(stop);
+    }
+
+    /// Reports the next token as unexpected; another word may have been meant.
+    pub(super) fn report_skipped(&mut self, what: &str, help: &str, meant: Option<&str>) {
+        let here = self.next_span();
+        match (self.nth(0), meant) {
+            (Kind::Name, _) if self.word(0) == "repeat" => self.reserved(),
+            (_, Some(meant)) => {
+                let message = format!("expected {what}, found {}", self.found());
+                self.error(Diagnostic::new(Code::E0102, here, message).help(help).replace(meant));
             }
+            _ => self.expected_at(here, what, help),
         }
+    }
+
+    /// Passes over everything up to where `stop` holds, brackets and braces as a whole.
+    pub(super) fn pass_to(&mut self, stop: impl Fn(&Self) -> bool) {
         self.open(Kind::Error);
         let mut depth = 0_usize;
         while !(self.at_end() || depth == 0 && stop(self)) {

@@ -124,6 +124,7 @@ impl Parser<'_, '_> {
     pub(super) fn value_and_range(&mut self) {
         if self.eat(Kind::Equal) {
             self.formula();
+            self.no_operators();
         }
         if self.at_word("from") {
             self.open(Kind::Range);

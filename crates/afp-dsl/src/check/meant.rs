@@ -1,0 +1,107 @@
+//! What a name that is not there may have been meant for: a word, an element, a part of a unit.
+
+use super::{PlanHead, Program};
+use afp_syntax::diagnostics::{Code, Diagnostic};
+use afp_syntax::units::Unit;
+
+/// Words that ends of plans have elsewhere, and ours.
+const WORDS: &[(&str, &[&str])] = &[
+    (
+        "terminate",
+        &["stop", "end", "done", "finish", "finished", "exit", "quit", "halt", "success", "return"],
+    ),
+    ("fail", &["error", "failure", "failed", "abort", "aborted", "panic"]),
+];
+
+/// Types that are called otherwise elsewhere, and ours.
+const TYPES: &[(&str, &[&str])] = &[
+    ("bool", &["boolean"]),
+    ("int", &["integer", "long", "short", "uint", "int32", "int64", "uint8", "i32", "i64", "u8"]),
+    ("float", &["double", "real", "number", "float32", "float64", "f32", "f64"]),
+    ("string", &["str", "text", "char"]),
+    ("length", &["distance", "meters", "meter"]),
+    ("duration", &["time", "seconds", "second"]),
+    ("angle", &["degrees", "radians", "heading"]),
+    ("speed", &["velocity"]),
+];
+
+/// The word behind `->` that was meant by a name.
+pub(super) fn target(name: &str) -> Option<&'static str> {
+    ours(WORDS, name)
+}
+
+/// The type that was meant by a name.
+pub(super) fn ty(name: &str) -> Option<&'static str> {
+    ours(TYPES, name)
+}
+
+fn ours(words: &[(&'static str, &[&str])], name: &str) -> Option<&'static str> {
+    let found =
+        words.iter().find(|(_, others)| others.iter().any(|it| it.eq_ignore_ascii_case(name)));
+    found.map(|(ours, _)| *ours)
+}
+
+/// Says of a name that is not there what else it is, if it is something.
+pub(super) fn explain(program: &Program<'_>, plan: Option<usize>, error: Diagnostic) -> Diagnostic {
+    let head = plan.and_then(|place| program.plans.get(place));
+    let Some(text) = head.and_then(|head| program.files.get(head.file)).map(|file| file.text)
+    else {
+        return error;
+    };
+    let Some(name) = text.get(error.span.start as usize..error.span.end as usize) else {
+        return error;
+    };
+    match error.code {
+        Code::E0209 => unit(text, &error).or_else(|| entry(head?, name, &error)),
+        Code::E0216 => element(program, plan, name, &error),
+        _ => None,
+    }
+    .unwrap_or(error)
+}
+
+/// `20 cm / s`
+fn unit(text: &str, error: &Diagnostic) -> Option<Diagnostic> {
+    let (before, rest) = text.split_at(error.span.start as usize);
+    let last = &rest[..(error.span.end - error.span.start) as usize];
+    let left = before.trim_end();
+    let sign = left.chars().last().filter(|sign| matches!(sign, '/' | '*'))?;
+    let left = left[..left.len() - 1].trim_end();
+    let letters = |each: char| each.is_ascii_alphanumeric() || matches!(each, '/' | '*' | '^');
+    let first = left.trim_end_matches(letters);
+    let whole = format!("{}{sign}{last}", &left[first.len()..]);
+    let follows_number = first.trim_end().ends_with(|each: char| each.is_ascii_digit());
+    Unit::parse(&whole).filter(|_| follows_number)?;
+    let mut place = error.span;
+    place.start = u32::try_from(first.len()).ok()?;
+    let help = format!("a unit has no blanks: write '{whole}'");
+    Some(Diagnostic::new(error.code, error.span, &*error.message).help(help).fix(place, whole))
+}
+
+/// An element is no entry.
+fn entry(head: &PlanHead, name: &str, error: &Diagnostic) -> Option<Diagnostic> {
+    let elements = head.node.elements();
+    let element = elements.iter().filter_map(|it| it.name()).find(|it| it.text == name)?;
+    let said = Diagnostic::new(error.code, error.span, &*error.message);
+    let help =
+        "formulas read entries: let an output of the element go to one with '=>', and name that";
+    Some(said.note(element.span, format!("'{name}' is an element")).help(help))
+}
+
+/// An element of another plan.
+fn element(
+    program: &Program<'_>,
+    plan: Option<usize>,
+    name: &str,
+    error: &Diagnostic,
+) -> Option<Diagnostic> {
+    let others = program.plans.iter().enumerate().filter(|(place, _)| Some(*place) != plan);
+    let mut found = others.filter_map(|(_, head)| {
+        let elements = head.node.elements();
+        let element = elements.iter().filter_map(|it| it.name()).find(|it| it.text == name)?;
+        Some((head.name.as_ref()?.text.clone(), element.span))
+    });
+    let (other, place) = found.next()?;
+    let said = Diagnostic::new(error.code, error.span, &*error.message);
+    let help = format!("lead to a 'subplan' made of '{other}', or add an element '{name}' here");
+    Some(said.note(place, format!("'{name}' is an element of '{other}'")).help(help))
+}

@@ -1,0 +1,147 @@
+//! Signs of other languages and of word processors, and characters that cannot be seen.
+//!
+//! Each is read as what was meant, so that nothing else is said about its line.
+
+use super::{Lexer, is_blank, is_word, line_length, sign};
+use crate::diagnostics::{Code, Diagnostic};
+use crate::kind::Kind;
+
+/// Signs that look like ours, longer ones first: each with what it is and what to write instead.
+const SIGNS: &[(&str, Kind, &str)] = &[
+    ("–>", Kind::Arrow, "->"),
+    ("—>", Kind::Arrow, "->"),
+    ("−>", Kind::Arrow, "->"),
+    ("→", Kind::Arrow, "->"),
+    ("⟶", Kind::Arrow, "->"),
+    ("➔", Kind::Arrow, "->"),
+    ("➜", Kind::Arrow, "->"),
+    ("⇒", Kind::FatArrow, "=>"),
+    ("⟹", Kind::FatArrow, "=>"),
+    ("≤", Kind::LessEqual, "<="),
+    ("≥", Kind::GreaterEqual, ">="),
+    ("≠", Kind::NotEqual, "!="),
+    ("−", Kind::Minus, "-"),
+    ("×", Kind::Star, "*"),
+    ("·", Kind::Star, "*"),
+    ("⋅", Kind::Star, "*"),
+    ("÷", Kind::Slash, "/"),
+];
+
+/// Quotes that texts begin with elsewhere, and those that end them.
+const QUOTES: (&str, &str) = ("'`“”„‟‘’‚«»", "'`“”‟‘’»«");
+
+/// What to write where other languages compare or choose.
+const CHOICE: &str = "let a computation such as 'Compare' or 'Is' of 'std' choose the way";
+
+impl Lexer<'_, '_> {
+    /// Takes characters that have no meaning, as what they may have been meant for.
+    pub(super) fn unknown(&mut self) {
+        let rest = &self.text[self.at..];
+        // Elsewhere in a text these stand for a minus, a dash and an arrow.
+        if let Some(dash) = rest.chars().next().filter(|dash| matches!(dash, '–' | '—'))
+            && !rest[dash.len_utf8()..].starts_with('>')
+        {
+            let error = self.error(Kind::Minus, dash.len_utf8(), "write '-', or '->' for an arrow");
+            return self.diags.push(error);
+        }
+        if let Some((foreign, kind, ours)) = SIGNS.iter().find(|(sign, ..)| rest.starts_with(sign))
+        {
+            return self.instead(*kind, foreign.len(), &format!("write '{ours}'"), ours);
+        }
+        if rest.starts_with('#') && begins_comment(rest) {
+            let length = line_length(rest);
+            let text = rest[..length].trim_start_matches('#');
+            return self.instead(
+                Kind::Comment,
+                length,
+                "start the comment with '//'",
+                &format!("//{text}"),
+            );
+        }
+        if let Some((length, inner)) = quoted(rest) {
+            let text = format!("\"{}\"", inner.replace('\\', "\\\\").replace('"', "\\\""));
+            return self.instead(Kind::Text, length, "put the text in '\"'", &text);
+        }
+        let length = rest.find(is_known).unwrap_or(rest.len());
+        let length = length.max(rest.chars().next().map_or(1, char::len_utf8));
+        match &rest[..length] {
+            "&&" | "&" | "!" | "?" => {
+                let error = self.error(Kind::Unknown, length, CHOICE);
+                self.diags.push(error);
+            }
+            "#" => {
+                self.instead(Kind::Unknown, length, "remove it, or start a comment with '//'", "")
+            }
+            _ => self.instead(Kind::Unknown, length, "remove it", ""),
+        }
+    }
+
+    /// Reports characters that something else should be written for.
+    fn instead(&mut self, kind: Kind, length: usize, help: &str, ours: &str) {
+        let error = self.error(kind, length, help).replace(ours);
+        self.diags.push(error);
+    }
+
+    fn error(&mut self, kind: Kind, length: usize, help: &str) -> Diagnostic {
+        let shown: String = self.text[self.at..self.at + length].chars().take(20).collect();
+        let message = match kind {
+            Kind::Comment => "comments do not begin with '#'".to_owned(),
+            Kind::Text => "a text stands in double quotes".to_owned(),
+            _ => format!("'{}' has no meaning here", shown.escape_debug()),
+        };
+        let span = self.push(kind, length);
+        Diagnostic::new(Code::E0101, span, message).help(help)
+    }
+
+    /// Reports what cannot be seen in the comment or text that has just been taken.
+    pub(super) fn invisible(&mut self, start: usize) {
+        let text = &self.text[start..self.at];
+        if text.is_ascii() {
+            return;
+        }
+        for (place, each) in text.char_indices().filter(|(_, each)| is_invisible(*each)) {
+            let at = start + place;
+            let message = format!("'{}' cannot be seen", each.escape_unicode());
+            self.diags.push(
+                Diagnostic::new(Code::E0101, self.span(at, at + each.len_utf8()), message)
+                    .help("remove it")
+                    .replace(""),
+            );
+        }
+    }
+}
+
+/// Whether a `#` begins a comment: nothing that plans are made of stands behind it.
+fn begins_comment(rest: &str) -> bool {
+    !rest[..line_length(rest)].contains(['{', '}', '(', ')', '>', '=', ':'])
+}
+
+/// The length of a text in foreign quotes, and what stands between them.
+fn quoted(rest: &str) -> Option<(usize, &str)> {
+    let (opening, closing) = QUOTES;
+    let first = rest.chars().next().filter(|first| opening.contains(*first))?;
+    let behind = &rest[first.len_utf8()..];
+    let behind = &behind[..line_length(behind)];
+    let (end, last) = behind.char_indices().find(|(_, each)| closing.contains(*each))?;
+    Some((first.len_utf8() + end + last.len_utf8(), &behind[..end]))
+}
+
+/// Whether a character has a meaning, or stands for one that has.
+fn is_known(each: char) -> bool {
+    is_blank(each)
+        || is_word(each)
+        || each.is_ascii_digit()
+        || each == '"'
+        || each == '#'
+        || QUOTES.0.contains(each)
+        || sign(each.encode_utf8(&mut [0; 4])).is_some()
+        || SIGNS.iter().any(|(foreign, ..)| foreign.starts_with(each))
+}
+
+/// Whether a character takes no room, or changes the order in which others are shown.
+fn is_invisible(each: char) -> bool {
+    matches!(
+        each,
+        '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}'
+    )
+}
