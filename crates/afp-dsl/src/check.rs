@@ -8,7 +8,7 @@ mod bindings;
 mod callee;
 mod choices;
 mod consequences;
-mod constant;
+pub(crate) mod constant;
 mod convert;
 pub(crate) mod edges;
 mod endings;

@@ -110,7 +110,7 @@ fn compile_with(
     let Checked { graph, scenarios, mut outline, index } =
         check::check(&gathered, toolboxes, plan, flow, &mut diags);
     if let Some(graph) = graph.as_ref().filter(|_| flow == Flow::Checked) {
-        timing::check_responses(graph, &mut diags);
+        timing::check_everywhere(graph, &mut diags);
     }
     diags.sort();
     outline.attach(&diags);

@@ -23,7 +23,7 @@ use afp_syntax::source::Span;
 
 use level::{Levels, Outside};
 
-pub(crate) use check::check_responses;
+pub(crate) use check::check_everywhere;
 pub use check::check_target;
 pub use target::{BUILT_IN, Target};
 
@@ -35,12 +35,27 @@ pub struct Timing {
     /// The longest that one step may take, budgets added up: supervisors, the active actor, and what
     /// is entered behind it. `Err` names the declaration that is missing.
     pub longest_step: Result<u64, String>,
+    /// What that step is made of, and the path of the element that is active then; `None` where it is not known.
+    pub step_parts: Option<StepParts>,
     /// The greatest share of the processor that is ever asked for (1 is all of it), and the path of
     /// the element that is active then. `Err` names the declaration that is missing.
     pub demand: Result<(f64, String), String>,
     /// Every supervisor that can run, sub-plans last. One in a sub-plan stands for all uses of it,
     /// at its worst.
     pub supervisors: Vec<SupervisorTiming>,
+}
+
+/// What the longest step is made of, in nanoseconds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StepParts {
+    /// The path of the element that is active when it begins; empty where the plan has none that lasts.
+    pub path: String,
+    /// Polls of the supervisors.
+    pub supervisors: u64,
+    /// The poll of the active element, or what its interruption takes.
+    pub active: u64,
+    /// What is entered behind it: its supervisors, started and asked, and its own start.
+    pub entered: u64,
 }
 
 /// What is known of one supervisor.
@@ -145,7 +160,8 @@ pub fn timing(graph: &Graph, target: Option<&Target>) -> Timing {
         None => Ok((main.demand, levels.busiest(&views, graph.main.index()))),
     };
     let plan = graph.main().name.clone();
-    Timing { plan, longest_step: longest.known(), demand, supervisors }
+    let step_parts = longest.known().ok().map(|_| levels.step_parts(&views, graph.main.index()));
+    Timing { plan, longest_step: longest.known(), step_parts, demand, supervisors }
 }
 
 fn model(graph: &Graph) -> Model<'_> {

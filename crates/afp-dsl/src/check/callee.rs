@@ -149,7 +149,10 @@ impl Context<'_> {
             .filter(|template| SignatureKind::Template(template.kind).keyword() == wanted.keyword);
         let mut known: Vec<&str> = fitting.map(|template| template.name.as_str()).collect();
         if wanted.keyword == "subplan" {
-            known = self.file.plans.keys().map(String::as_str).collect();
+            // A plan cannot be part of itself.
+            let own = |place: &usize| self.program.plans[*place].node.span().contains(span);
+            let others = self.file.plans.iter().filter(|(_, places)| !places.iter().any(own));
+            known = others.map(|(name, _)| name.as_str()).collect();
         }
         known.sort_unstable();
         known.dedup();
@@ -159,7 +162,10 @@ impl Context<'_> {
             message,
             &name.text,
             known,
-            "add 'use carbot' or another toolbox at the top of the file",
+            match wanted.keyword {
+                "subplan" => "write a plan of that name, or add 'use' and the file that has it",
+                _ => "add 'use' and the name of its toolbox at the top of the file",
+            },
         )
     }
 

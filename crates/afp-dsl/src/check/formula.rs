@@ -93,14 +93,23 @@ impl Scope<'_> {
         diags: &mut Diagnostics,
     ) -> Option<(Formula, Option<Constant>)> {
         let text = self.text_of(typed.span);
+        let mut remarks = Diagnostics::default();
         let typed = match want {
-            Some(want) => coerce(typed, want, text, diags)?,
-            None => typed,
+            Some(want) => coerce(typed, want, text, &mut remarks),
+            None => Some(typed),
+        };
+        let Some(typed) = typed else {
+            diags.extend(remarks);
+            return None;
         };
         let known = |entry: u16| {
             self.entries.get(usize::from(entry)).and_then(|entry| entry.value_for_formulas())
         };
-        match constant::evaluate(&typed, &known) {
+        let value = constant::evaluate(&typed, &known);
+        // What is known now cannot fail later.
+        remarks.retain(|remark| remark.code != Code::E0208 || matches!(value, Ok(None)));
+        diags.extend(remarks);
+        match value {
             Ok(value) => Some((typed, value)),
             Err(fault) => {
                 diags.push(fault_diagnostic(fault, typed.span));

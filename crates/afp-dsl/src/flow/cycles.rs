@@ -6,6 +6,7 @@
 //! step, so at their own level they close no cycle.
 
 mod count;
+mod holding;
 mod instant;
 
 use crate::flow::strong;
@@ -28,8 +29,10 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
         }
     }
     // A counter with a small limit lets a cycle be taken a few times only.
-    let lasting =
-        Quick::of(view, |edge| is_quick(view, edge) && !count::is_bounded(view, edge.cause));
+    let lasting = Quick::of(view, |edge| {
+        let cause = edge.cause;
+        is_quick(view, edge) && holding::can_hold(view, cause) && !count::is_bounded(view, cause)
+    });
     for (_, inner) in lasting.cycles() {
         if inner.iter().any(|edge| !is_sure(view, edge.cause)) {
             lasting.report_conditions(&inner, diags);
@@ -190,9 +193,16 @@ impl<'a, 'b> Quick<'a, 'b> {
     }
 
     fn report_conditions(&self, inner: &[&Edge], diags: &mut Diagnostics) {
-        let unsure = inner.iter().copied().filter(|edge| !is_sure(self.view, edge.cause));
-        let Some(closing) = self.closing(unsure) else { return };
-        let cycle = self.cycle(closing);
+        let mut unsure: Vec<&Edge> =
+            inner.iter().copied().filter(|edge| !is_sure(self.view, edge.cause)).collect();
+        let (closing, cycle) = loop {
+            let Some(closing) = self.closing(unsure.iter().copied()) else { return };
+            let cycle = self.cycle(closing);
+            if !holding::contradict(self.view, &cycle) {
+                break (closing, cycle);
+            }
+            unsure.retain(|edge| edge.cause != closing.cause);
+        };
         let conditions: Vec<_> = cycle.iter().filter(|edge| self.is_condition(edge)).collect();
         let labels: Vec<_> =
             conditions.iter().take(MAX_NAMES).map(|edge| self.view.label(edge.cause)).collect();

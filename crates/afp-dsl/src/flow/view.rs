@@ -4,8 +4,13 @@
 //! at once and is where the events of global supervisors begin, the two endings, and `fail`. Edges
 //! to `ignore` and `resume` are left out: what goes on is where it was.
 
+use crate::check::constant::evaluate;
 use crate::flow::{FAILED, INTERRUPTED, Model, OK, Summary};
-use crate::graph::{Component, Element, ElementId, Output, Plan, Supervisor, SupervisorId, Target};
+use crate::graph::{
+    Component, Element, ElementId, EntryKind, Formula, Output, Plan, Supervisor, SupervisorId,
+    Target,
+};
+use crate::toolbox::Constant;
 use afp_syntax::source::Span;
 
 /// A node of a [`View`].
@@ -189,6 +194,16 @@ impl<'a> View<'a> {
     pub fn elements(&self) -> impl Iterator<Item = (Node, &'a Element)> {
         let plan = self.plan;
         plan.elements.iter().enumerate().filter(|(node, _)| self.reached[*node])
+    }
+
+    /// The value of a formula of constants.
+    pub fn constant(&self, formula: &Formula) -> Option<Constant> {
+        let known = |entry: u16| {
+            let entry = self.plan.entries.get(usize::from(entry))?;
+            let init = entry.init.as_ref().filter(|_| entry.kind == EntryKind::Const)?;
+            evaluate(init, &|_| None).ok()?
+        };
+        evaluate(formula, &known).ok()?
     }
 
     /// What is known of the flow of a sub-plan.

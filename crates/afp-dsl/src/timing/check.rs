@@ -8,11 +8,22 @@ use crate::types::text::duration;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 use super::level::{Levels, Outside};
-use super::{Response, SupervisorTiming, Target, model, timing};
+use super::{Response, SupervisorTiming, Target, Timing, model, timing};
 
-/// Warns of supervisors whose response may be longer than their deadline, on any target.
-pub(crate) fn check_responses(graph: &Graph, diags: &mut Diagnostics) {
-    for row in timing(graph, None).supervisors {
+/// Reports what no target can do: more than all of its processor, and supervisors whose response may be longer than their
+/// deadline.
+pub(crate) fn check_everywhere(graph: &Graph, diags: &mut Diagnostics) {
+    let known = timing(graph, None);
+    if let Ok((share, path)) = known.demand.as_ref().map_err(drop)
+        && *share > 1.0
+    {
+        diags.push(too_much(graph, *share, path, "no processor gives more than 100 %"));
+    }
+    late_responses(known, diags);
+}
+
+fn late_responses(known: Timing, diags: &mut Diagnostics) {
+    for row in known.supervisors {
         if let Some(response) = late(&row) {
             let message = format!(
                 "'{}' may take {} from its release to the end of its poll, longer than its deadline of {}",
@@ -101,7 +112,7 @@ fn ticks(graph: &Graph, target: &Target, tick: u64, diags: &mut Diagnostics) {
 fn responses(graph: &Graph, target: &Target, diags: &mut Diagnostics) {
     let known: BTreeSet<_> = {
         let mut anywhere = Diagnostics::default();
-        check_responses(graph, &mut anywhere);
+        late_responses(timing(graph, None), &mut anywhere);
         anywhere.iter().map(|diagnostic| diagnostic.span).collect()
     };
     for row in timing(graph, Some(target)).supervisors {
@@ -119,22 +130,27 @@ fn responses(graph: &Graph, target: &Target, diags: &mut Diagnostics) {
 
 fn demand(graph: &Graph, target: &Target, diags: &mut Diagnostics) {
     let Ok((share, path)) = timing(graph, None).demand else { return };
-    if share <= target.capacity {
-        return;
+    // More than all of it is an error on every target.
+    if share > target.capacity && share <= 1.0 {
+        let gives = format!("'{}' gives {}", target.name, percent(target.capacity));
+        diags.push(too_much(graph, share, &path, &gives));
     }
-    let percent = |share: f64| format!("{:.1} %", share * 100.0);
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.1} %", share * 100.0)
+}
+
+/// Says that a plan asks for more of the processor than it gets.
+fn too_much(graph: &Graph, share: f64, path: &str, gives: &str) -> Diagnostic {
     let message = format!(
-        "while '{path}' is active, the plan asks for {} of the processor; '{}' gives {}",
-        percent(share),
-        target.name,
-        percent(target.capacity)
+        "while '{path}' is active, the plan asks for {} of the processor; {gives}",
+        percent(share)
     );
     let first = path.split('.').next().unwrap_or("");
     let main = graph.main();
     let element = main.elements.iter().find(|element| element.name == first);
     let span = element.map_or(main.span, |element| element.span);
-    diags.push(
-        Diagnostic::new(Code::E0404, span, message)
-            .help("poll its supervisors less often, or use templates with smaller budgets"),
-    );
+    Diagnostic::new(Code::E0404, span, message)
+        .help("poll its supervisors less often, or use templates with smaller budgets")
 }

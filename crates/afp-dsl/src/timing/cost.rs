@@ -57,6 +57,21 @@ impl Cost {
         Cost { time: self.time.saturating_mul(count), unknown: self.unknown.clone() }
     }
 
+    /// The bound as far as it is known.
+    pub fn time(&self) -> u64 {
+        self.time
+    }
+
+    /// Whether it is more than another one, as far as both are known.
+    pub fn exceeds(&self, other: &Cost) -> bool {
+        self.time > other.time
+    }
+
+    /// Whether both are as much.
+    pub fn is_same(&self, other: &Cost) -> bool {
+        self.time == other.time
+    }
+
     /// The bound, or the reason why there is none.
     pub fn known(&self) -> Result<u64, String> {
         match &self.unknown {

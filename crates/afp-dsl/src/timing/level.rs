@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::flow::view::{Cause, Node, View, takes_time};
 use crate::graph::{Component, Element, Supervisor};
 
+use super::StepParts;
 use super::cost::Cost;
 use super::held::poll;
 use super::step::entering;
@@ -18,6 +19,9 @@ pub(super) struct Level {
     pub entering: Cost,
     /// The longest step while it is active, the one that ends it included.
     pub longest_step: Cost,
+    /// The element that is active when that step begins, and what the step is made of besides what is entered: the
+    /// supervisors, and the element.
+    longest: Option<(Node, u64, u64)>,
     /// Interrupting whatever is active in it.
     pub interrupt: Cost,
     /// From interruption to standstill, whatever is active in it.
@@ -63,6 +67,33 @@ impl Levels {
     }
 }
 
+impl Levels {
+    /// What the longest step of a plan is made of.
+    pub fn step_parts(&self, views: &[View<'_>], plan: usize) -> StepParts {
+        let mut parts = StepParts { path: String::new(), supervisors: 0, active: 0, entered: 0 };
+        let (mut path, mut next) = (Vec::new(), Some(plan));
+        while let Some(place) = next.take() {
+            let level = &self.all[place];
+            parts.supervisors = parts.supervisors.saturating_add(level.globals.time());
+            let Some((node, supervisors, active)) = level.longest else { break };
+            parts.supervisors = parts.supervisors.saturating_add(supervisors);
+            let Some(element) = views[place].element(node) else { break };
+            path.push(element.name.as_str());
+            match element.component {
+                // What it takes is that of the plan inside.
+                Component::SubPlan(id) if active == self.all[id.index()].longest_step.time() => {
+                    next = Some(id.index());
+                }
+                _ => parts.active = active,
+            }
+        }
+        parts.path = path.join(".");
+        let known = parts.supervisors.saturating_add(parts.active);
+        parts.entered = self.all[plan].longest_step.time().saturating_sub(known);
+        parts
+    }
+}
+
 fn level(view: &View<'_>, inner: &[Level]) -> Level {
     let plan = view.plan;
     let globals = plan.supervisors[..usize::from(plan.globals)].iter();
@@ -70,6 +101,7 @@ fn level(view: &View<'_>, inner: &[Level]) -> Level {
         globals: sum(view, globals.clone()),
         entering: Cost::ZERO,
         longest_step: Cost::ZERO,
+        longest: None,
         interrupt: Cost::ZERO,
         stop: Cost::ZERO,
         demand: 0.0,
@@ -92,8 +124,17 @@ fn level(view: &View<'_>, inner: &[Level]) -> Level {
                 Some(_) => own.poll.and(&own.interrupt).and(&behind(view, node, &costs, is_error)),
                 None => Cost::ZERO,
             };
-            level.longest_step =
-                level.longest_step.or(&supervised.and(&step.or(&event).or(&fault)));
+            let longest = supervised.and(&step.or(&event).or(&fault));
+            if level.longest.is_none() || longest.exceeds(&level.longest_step) {
+                let of_active = |cost: &Cost| longest.is_same(&supervised.and(cost));
+                let active = match (of_active(&step), of_active(&event)) {
+                    (true, _) => own.poll.clone(),
+                    (_, true) => own.interrupt.clone(),
+                    _ => own.poll.and(&own.interrupt),
+                };
+                level.longest = Some((node, supervised.time(), active.time()));
+            }
+            level.longest_step = level.longest_step.or(&longest);
             level.interrupt = level.interrupt.or(&own.interrupt);
             level.stop = level.stop.or(&own.stop);
         }

@@ -112,8 +112,10 @@ fn interruption(
         (Err(reason), _) => return Some(assumed(reason.clone())),
         (_, Err(reason)) => return Some(assumed(reason)),
     };
-    if response > supervisor.deadline {
-        return Some(assumed("the response may be longer than the deadline".to_owned()));
+    // Budgets are declared, so a bound without any slack proves nothing.
+    if response >= supervisor.deadline {
+        let longer = if response == supervisor.deadline { "as long as" } else { "longer than" };
+        return Some(assumed(format!("the response may be {longer} the deadline")));
     }
     let terms = vec![period, ("response", response), ("interrupt", interrupt), ("stop", stop)];
     Some(Interruption { trust: Trust::Proved, terms, reason: String::new() })

@@ -4,33 +4,34 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::{Interruption, SupervisorTiming, Timing};
+use super::{Interruption, StepParts, SupervisorTiming, Timing};
 use crate::types::text::duration;
+
+/// What all of it rests on.
+const BASIS: &str = "\
+budgets are those that the toolboxes declare, not measured; a response has the target's tick in it, not the delay of a sensor
+";
 
 impl Timing {
     /// The table, one line for each supervisor, with what it is made of; ends with a line break.
     pub fn text(&self) -> String {
-        let head = ["supervisor", "every", "deadline", "response", "interruption", ""];
-        let head = head.map(str::to_owned);
-        let rows: Vec<[String; 6]> =
-            std::iter::once(head).chain(self.supervisors.iter().map(|row| self.row(row))).collect();
-        let widths: Vec<usize> = (0..6)
-            .map(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0))
-            .collect();
-        let mut text = String::new();
-        for row in &rows {
-            let cells = row.iter().zip(&widths).map(|(cell, width)| format!("{cell:<width$}"));
-            let line = cells.collect::<Vec<_>>().join("  ");
-            // Writing to a string cannot fail.
-            let _ = writeln!(text, "{}", line.trim_end());
+        let head = ["supervisor", "every", "deadline", "response", "slack", "interruption", ""];
+        let mut text = aligned(head, self.supervisors.iter().map(|row| self.row(row)));
+        let head = ["response", "tick", "running step", "polls before", "own poll"];
+        let parts = self.supervisors.iter().filter_map(|row| self.response(row));
+        let parts: Vec<_> = parts.collect();
+        if !parts.is_empty() {
+            text += "\n";
+            text += &aligned(head, parts.into_iter());
         }
-        text + "\n" + &self.sums()
+        text + "\n" + &self.sums() + BASIS
     }
 
     fn sums(&self) -> String {
-        let step = match &self.longest_step {
-            Ok(time) => duration(*time),
-            Err(reason) => format!("unknown: {reason}"),
+        let step = match (&self.longest_step, &self.step_parts) {
+            (Ok(time), Some(parts)) => format!("{}{}", duration(*time), described(parts)),
+            (Ok(time), None) => duration(*time),
+            (Err(reason), _) => format!("unknown: {reason}"),
         };
         let demand = match &self.demand {
             Ok((share, path)) => format!("{:.1} % while '{path}' is active", share * 100.0),
@@ -39,23 +40,38 @@ impl Timing {
         format!("longest step: {step}\ngreatest demand: {demand}\n")
     }
 
-    fn row(&self, row: &SupervisorTiming) -> [String; 6] {
-        let path = match row.plan == self.plan {
+    fn path(&self, row: &SupervisorTiming) -> String {
+        match row.plan == self.plan {
             true => row.path.clone(),
             false => format!("{}: {}", row.plan, row.path),
-        };
-        let response = match &row.response {
-            Ok(response) => duration(response.total()),
-            Err(_) => "unknown".to_owned(),
+        }
+    }
+
+    /// What a response is made of.
+    fn response(&self, row: &SupervisorTiming) -> Option<[String; 5]> {
+        let it = row.response.as_ref().ok()?;
+        let [tick, step, before, own] = [it.tick, it.step, it.before, it.own].map(duration);
+        Some([self.path(row), tick, step, before, own])
+    }
+
+    fn row(&self, row: &SupervisorTiming) -> [String; 7] {
+        let path = self.path(row);
+        let (response, slack) = match &row.response {
+            Ok(response) => {
+                let (total, deadline) = (response.total(), row.deadline);
+                let sign = if total > deadline { "-" } else { "" };
+                (duration(total), format!("{sign}{}", duration(deadline.abs_diff(total))))
+            }
+            Err(_) => ("unknown".to_owned(), "unknown".to_owned()),
         };
         let (bound, terms) = match &row.interruption {
             None => ("-".to_owned(), "interrupts nothing".to_owned()),
             Some(interruption) => describe(interruption),
         };
-        [path, duration(row.every), duration(row.deadline), response, bound, terms]
+        [path, duration(row.every), duration(row.deadline), response, slack, bound, terms]
     }
 
-    /// The same as one JSON object: `plan`, `longest_step_ns`, `demand` (each with `null` and a reason where
+    /// The same as one JSON object: `plan`, `longest_step_ns`, `longest_step_parts`, `demand` (each with `null` and a reason where
     /// unknown) and `supervisors`. Times are in nanoseconds.
     pub fn json(&self) -> Value {
         let supervisors: Vec<_> = self.supervisors.iter().map(supervisor).collect();
@@ -63,11 +79,48 @@ impl Timing {
             "plan": self.plan,
             "longest_step_ns": self.longest_step.as_ref().ok(),
             "longest_step_unknown": self.longest_step.as_ref().err(),
+            "longest_step_parts": self.step_parts.as_ref().map(|parts| json!({
+                "while": parts.path,
+                "supervisors_ns": parts.supervisors,
+                "active_ns": parts.active,
+                "entered_ns": parts.entered,
+            })),
             "demand": self.demand.as_ref().ok().map(|(share, _)| share),
             "demand_while": self.demand.as_ref().ok().map(|(_, path)| path),
             "demand_unknown": self.demand.as_ref().err(),
             "supervisors": supervisors,
         })
+    }
+}
+
+/// Lines of cells, each column as wide as its widest one.
+fn aligned<const N: usize>(head: [&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
+    let rows: Vec<_> = std::iter::once(head.map(str::to_owned)).chain(rows).collect();
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max();
+    let widths: [usize; N] = std::array::from_fn(|column| width(column).unwrap_or(0));
+    let mut text = String::new();
+    for row in &rows {
+        let cells = row.iter().zip(widths).map(|(cell, width)| format!("{cell:<width$}"));
+        let line = cells.collect::<Vec<_>>().join("  ");
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{}", line.trim_end());
+    }
+    text
+}
+
+/// `, while 'go' is active: supervisors 10 us + its poll 5 us + entered behind it 20 us`
+fn described(parts: &StepParts) -> String {
+    let parts_of = [
+        ("supervisors", parts.supervisors),
+        ("its poll or interruption", parts.active),
+        ("entered behind it", parts.entered),
+    ];
+    let of = parts_of.into_iter().filter(|(_, time)| *time > 0);
+    let sum: Vec<_> = of.map(|(name, time)| format!("{name} {}", duration(time))).collect();
+    match (parts.path.is_empty(), sum.is_empty()) {
+        (_, true) => String::new(),
+        (true, _) => format!(": {}", sum.join(" + ")),
+        (false, _) => format!(" while '{}' is active: {}", parts.path, sum.join(" + ")),
     }
 }
 
@@ -113,6 +166,9 @@ fn supervisor(row: &SupervisorTiming) -> Value {
     json!({
         "plan": row.plan,
         "supervisor": row.path,
+        "slack_ns": row.response.as_ref().ok().map(|response| {
+            i128::from(row.deadline) - i128::from(response.total())
+        }).and_then(|slack| i64::try_from(slack).ok()),
         "every_ns": row.every,
         "deadline_ns": row.deadline,
         "response": response,

@@ -30,7 +30,7 @@ fn every_case_has_the_timing_it_should() {
 }
 
 #[test]
-fn the_plan_of_the_paper_is_proved_on_every_target() {
+fn the_plan_of_the_paper_is_proved_where_it_has_slack() {
     let text = include_str!("../../../../plans/wall_following.afp");
     let compiled = support::compile(text, &support::toolboxes());
     let graph = compiled.graph.unwrap();
@@ -40,7 +40,11 @@ fn the_plan_of_the_paper_is_proved_on_every_target() {
         assert!(found.is_empty(), "{name}: {}", found.render(&compiled.sources, false));
         for row in timing(&graph, Some(&target)).supervisors {
             let bound = row.interruption.unwrap();
-            assert_eq!(bound.trust, Trust::Proved, "{name}: {}", row.path);
+            // A poll each millisecond leaves a Pi, which is late by a tenth of that, no slack.
+            let no_slack = row.response.unwrap().total() == row.deadline;
+            assert_eq!(no_slack, name.starts_with("pi") && row.path == "searchFirstWall.touch");
+            let trust = if no_slack { Trust::Assumed } else { Trust::Proved };
+            assert_eq!(bound.trust, trust, "{name}: {}", row.path);
         }
     }
 }

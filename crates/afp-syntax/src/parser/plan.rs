@@ -40,7 +40,7 @@ impl Parser<'_, '_> {
         self.close_item();
     }
 
-    fn at_plan_item(&self) -> bool {
+    pub(super) fn at_plan_item(&self) -> bool {
         let named = self.names_something(0) && self.nth(1) != Kind::Colon;
         WORDS.contains(&self.word(0)) && (!named || self.word(0) == "start")
     }
@@ -163,62 +163,8 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// The ':' before a template, or what was written for it.
-    fn colon_of_head(&mut self) -> bool {
-        let swapped =
-            self.at(Kind::Name) && matches!(self.nth(1), Kind::OpenBrace | Kind::OpenParen);
-        let (template, name) = (self.word_before(), self.word(0));
-        let looks = |word: &str, upper: bool| {
-            word.starts_with(|first: char| {
-                first.is_ascii_alphabetic() && first.is_uppercase() == upper
-            })
-        };
-        if self.at(Kind::Equal) && self.nth(1) == Kind::Name {
-            self.instead(1, "no '=' before a template".to_owned(), "write ':'".to_owned(), ":");
-            return true;
-        }
-        if swapped && looks(template, true) && looks(name, false) {
-            let help = format!("write the name first: '{name}: {template}'");
-            self.expected("':'", &help);
-            return false;
-        }
-        self.expect(Kind::Colon, "write ':' and the template")
-    }
-
-    /// The type of an entry.
-    fn ty_of_entry(&mut self) {
-        let begins = self.at_plan_item() || self.names_something(0) && self.nth(1) != Kind::Equal;
-        if self.eat(Kind::Colon) {
-            self.ty();
-        } else if self.at(Kind::Name) && self.on_same_line() && !begins {
-            let (before, word) = (self.word_before(), self.word(0));
-            let is_type = matches!(before, "int" | "bool" | "float" | "string");
-            let message = "no ':' before the type";
-            let here = self.here().before();
-            let error = Diagnostic::new(Code::E0102, here, message);
-            match is_type {
-                true => self.error(error.help(format!("write '{word}: {before}'"))),
-                false => self.error(error.help("write ':'").fix(here, ": ")),
-            }
-            self.ty();
-        }
-    }
-
-    fn at_timing(&self) -> bool {
+    pub(super) fn at_timing(&self) -> bool {
         matches!(self.word(0), "every" | "deadline") && self.nth(1) != Kind::Arrow
-    }
-
-    /// Reports times of what has none of its own.
-    fn no_timing(&mut self) {
-        while self.at_timing() {
-            let (here, word) = (self.next_span(), self.word(0));
-            let message = format!("only supervisors have '{word}'");
-            let help = "remove it, or write it behind the template of a supervisor";
-            self.error(Diagnostic::new(Code::E0102, here, message).help(help));
-            self.open(Kind::Error);
-            self.timing();
-            self.close();
-        }
     }
 
     /// Whether the body of an element or a supervisor is over.
@@ -361,21 +307,6 @@ impl Parser<'_, '_> {
             }
         }
         true
-    }
-
-    /// Whether what begins the next line can only be the target; reports it.
-    fn target_of_another_line(&mut self) -> bool {
-        let ends = matches!(self.nth(1), Kind::CloseBrace) || self.begins_line(1);
-        let is_target = ends && !self.names_something(0) && !self.begins_item();
-        if is_target && !self.at_word("supervise") {
-            let (here, target) = (self.behind(), self.word(0));
-            let message = "no target on the line of its '->'";
-            let help = format!("write '{target}' behind the '->'");
-            self.error(Diagnostic::new(Code::E0109, here, message).help(help));
-            // What follows on that line is its own.
-            return true;
-        }
-        false
     }
 
     /// `NAME`, or `"fail" [STRING]`

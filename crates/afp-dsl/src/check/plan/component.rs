@@ -95,7 +95,12 @@ impl Components<'_> {
         let name = node.name();
         let broken = diags.syntax_errors_within(node.span()).next().is_some();
         let site = Site { reference: reference.span(), broken };
-        let bound = bindings::check(self.scope, &signature, &written.binds, &site, diags);
+        let mut remarks = Diagnostics::default();
+        let bound = bindings::check(self.scope, &signature, &written.binds, &site, &mut remarks);
+        // Who connects 'Error' has dealt with inputs that fail.
+        let deals = written.edges.iter().any(|edge| edge.name.text == edges::ERROR);
+        remarks.retain(|remark| remark.code != Code::E0208 || !deals);
+        diags.extend(remarks);
         let signatures = &self.context.program.signatures;
         let (generic, at) = (bound.generic.as_ref(), reference.span());
         let Some(signature) = choices::chosen(signatures, &signature, generic, at, diags) else {
