@@ -131,7 +131,8 @@ impl Parser<'_, '_> {
 
     /// The type of an entry.
     pub(super) fn ty_of_entry(&mut self) {
-        let begins = self.at_plan_item() || self.names_something(0) && self.nth(1) != Kind::Equal;
+        let next = self.at_plan_item() || self.at_word("from");
+        let begins = next || self.names_something(0) && self.nth(1) != Kind::Equal;
         if self.eat(Kind::Colon) {
             self.ty();
         } else if self.at(Kind::Name) && self.on_same_line() && !begins {
