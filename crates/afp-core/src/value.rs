@@ -113,6 +113,14 @@ impl Value {
 }
 
 impl ValueRef<'_> {
+    /// Whether both are the same, floats by their bits.
+    pub fn is_same(self, other: ValueRef<'_>) -> bool {
+        match (self, other) {
+            (ValueRef::Float(one), ValueRef::Float(other)) => one.to_bits() == other.to_bits(),
+            (one, other) => one == other,
+        }
+    }
+
     /// The same value, owning its text, which is cut at [`TEXT_CAPACITY`] (no text is longer).
     pub fn to_owned(self) -> Value {
         match self {

@@ -141,6 +141,7 @@ fn entries(view: &View) -> Value {
         put(&mut object, "name", json!(entry_name(entry)));
         put(&mut object, "doc", json!(entry.doc));
         put(&mut object, "kind", json!(entry_kind_name(entry.kind)));
+        put(&mut object, "live", json!(entry.live.then_some(true)));
         put(&mut object, "type", json!(entry_type(entry)));
         put(&mut object, "init", json!(entry.init.as_ref().map(|init| &init.text)));
         let range = entry.range.as_ref().map(|ends| ends.each_ref().map(|end| &end.text));

@@ -106,11 +106,13 @@ fn dot_names_every_element_and_every_edge_but_ignored_ones() {
 }
 
 #[test]
-fn ranges_of_entries_are_shown() {
-    let plan = "use std plan P { in far: duration = 1 s from 0 s to 2 * 5 s start go
+fn live_entries_and_ranges_are_shown() {
+    let plan = "use std plan P { in live far: duration = 1 s from 0 s to 2 * 5 s start go
         actor go: Wait(duration = far) { Elapsed -> terminate } }";
     assert_eq!(json_of(plan)["entries"][0]["range"], serde_json::json!(["0 s", "2 * 5 s"]));
+    assert_eq!(json_of(plan)["entries"][0]["live"], true);
     let drawing = svg(&compiled(plan).outline, &Options::default());
+    assert!(drawing.contains(">in live<"), "{drawing}");
     assert!(drawing.contains(">duration = 1 s from 0 s to 2 * 5 s<"), "{drawing}");
 }
 

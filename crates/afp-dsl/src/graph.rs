@@ -104,6 +104,8 @@ pub struct Entry {
     pub doc: String,
     /// Who may set it.
     pub kind: EntryKind,
+    /// Whether an `in` entry is given its value anew before each step of the sub-plan.
+    pub live: bool,
     /// Its type; never `any` or `number`.
     pub ty: Type,
     /// Its initial value, of type [`Entry::ty`].

@@ -184,6 +184,8 @@ pub struct Entry {
     pub item: Item,
     /// Who may set it.
     pub kind: EntryKind,
+    /// Whether it is `in live`.
+    pub live: bool,
     /// Its name.
     pub name: Option<Name>,
     /// Its `///` lines.

@@ -331,6 +331,12 @@ fn tokens(node: &Node, kind: Kind, file: u16) -> Vec<Name> {
     found
 }
 
+/// The place of `live` in a node.
+fn live(node: &Node, file: u16) -> Option<Span> {
+    let mut words = tokens(node, Kind::Keyword, file).into_iter().skip(1);
+    words.find(|word| word.text == "live").map(|word| word.span)
+}
+
 /// Least and greatest value in a node, and the place of both.
 fn range(node: &Node, file: u16) -> Option<(Formula, Formula, Span)> {
     let range = child(node, Kind::Range)?;

@@ -98,6 +98,7 @@ impl Entries {
 
     fn add(&mut self, name: String, kind: Kind, ty: Type, dice: &mut Dice) {
         let word = match kind {
+            Kind::In if dice.percent(30) => "in live",
             Kind::In => "in",
             Kind::Out => "out",
             Kind::Var => "var",

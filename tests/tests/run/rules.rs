@@ -322,6 +322,16 @@ const RULES: &[Rule] = &[
         ],
     ),
     (
+        "6.6",
+        "an 'in live' of a sub-plan is committed before each step where it changed; its fault is the element's",
+        &[
+            "sub_plan_live_inputs",
+            "sub_plan_live_inputs_that_fail",
+            "sub_plan_live_inputs_go_down",
+            "sub_plan_live_object",
+        ],
+    ),
+    (
         "1.13",
         "'any' and 'number' are one type for each instance",
         &["generic_ports", "generic_live_number"],

@@ -1,6 +1,6 @@
 //! The plan on a platform: its components started, polled, interrupted and dropped.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::bindings::Function;
@@ -239,6 +239,36 @@ fn start_sub_plan_arm(
     }
 }
 
+/// Gives a sub-plan its live inputs before its step.
+fn pass_live(
+    context: &Context<'_>,
+    element: &Element,
+    names: &ComponentNames,
+    id: PlanId,
+) -> Option<TokenStream> {
+    let inputs = elements::live_inputs(element, context.graph.plan(id));
+    let writes = inputs.iter().enumerate().map(|(number, input)| {
+        let (number, index) =
+            (Literal::usize_unsuffixed(number), Literal::usize_unsuffixed(input.index));
+        let field = &input.field;
+        quote!(changed |= to.update(#index, &mut plan.config.#field, live.#number);)
+    });
+    let (function, place) = (&names.live, &names.place);
+    (!inputs.is_empty()).then(|| {
+        quote! {
+            let live = match #function(&self.config) {
+                Ok(live) => live,
+                Err(fault) => return Polled::Failed(fault),
+            };
+            cx.pass_live(#place, machine, |plan, to| {
+                let mut changed = false;
+                #(#writes)*
+                changed
+            });
+        }
+    })
+}
+
 /// Stages what a sub-plan gives back.
 fn stage_results(names: &ComponentNames, element: &Element) -> TokenStream {
     let function = &names.outputs;
@@ -267,11 +297,13 @@ fn poll_element(context: &Context<'_>) -> TokenStream {
                     }
                 })
             }
-            Component::SubPlan(_) => {
+            Component::SubPlan(id) => {
                 let (place, stage) = (&names.place, stage_results(names, element));
+                let live = pass_live(context, element, names, id);
                 Some(quote! {
                     #at
                     Active::#variant(machine) => {
+                        #live
                         let flow = cx.inside(#place, |cx| machine.step(cx));
                         Polled::sub_plan(flow, || #stage)
                     }

@@ -7,7 +7,7 @@ use super::bindings::{Bound, converted, limited, reads_entries};
 use super::context::{ComponentNames, Context, is_bare};
 use crate::formula::{Formulas, is_literal};
 use crate::layout::{at, comment, doc};
-use afp_dsl::graph::{Component, Element, Entry, EntryKind, Plan, PlanId, TemplateId};
+use afp_dsl::graph::{Component, Element, Entry, EntryKind, Formula, Plan, PlanId, TemplateId};
 use afp_dsl::rows::ElementRow;
 use afp_dsl::types::{Conversion, Dimension, Type};
 
@@ -139,13 +139,72 @@ fn sub_plan(
             }
         }
     });
+    let live = live_item(context, element, child, names);
     let about = doc("", &format!("Where the ids of `{}` begin.", names.text));
     quote! {
         #about
         #at
         const #place: Child = Child { components: #components, entries: #entries };
         #inputs
+        #live
         #outputs
+    }
+}
+
+/// A live input of a sub-plan that can change: its entry, by position and in Rust, and what it is given.
+pub struct LiveInput<'a> {
+    pub index: usize,
+    pub entry: &'a Entry,
+    pub field: proc_macro2::Ident,
+    formula: &'a Formula,
+}
+
+/// The live inputs of a sub-plan that can change.
+pub fn live_inputs<'a>(element: &'a Element, child: &'a Plan) -> Vec<LiveInput<'a>> {
+    let fields = super::context::entry_names(child);
+    let ins = child.entries.iter().zip(fields).enumerate();
+    let ins = ins.filter(|(_, (entry, _))| entry.kind == EntryKind::In);
+    let live = ins.zip(&element.inputs).map(|((index, (entry, field)), formula)| LiveInput {
+        index,
+        entry,
+        field,
+        formula,
+    });
+    live.filter(|it| it.entry.live && (is_bare(it.formula) || reads_entries(it.formula))).collect()
+}
+
+/// The function of a sub-plan's live inputs.
+fn live_item(
+    context: &Context<'_>,
+    element: &Element,
+    child: &Plan,
+    names: &ComponentNames,
+) -> Option<TokenStream> {
+    let live = live_inputs(element, child);
+    if live.is_empty() {
+        return None;
+    }
+    let types = live.iter().map(|it| context.entry_type(&it.entry.ty));
+    let values = live.iter().map(|it| passed(context, it.entry, it.formula));
+    let (name, help) = (&names.live, doc("", &format!("Live inputs of `{}`.", names.text)));
+    let at = at(element.span);
+    Some(quote! {
+        #help
+        #at
+        fn #name(config: &Config) -> Result<(#(#types,)*), Fault> {
+            Ok((#(#values,)*))
+        }
+    })
+}
+
+/// What an `in` entry of a sub-plan is given.
+fn passed(context: &Context<'_>, entry: &Entry, formula: &Formula) -> TokenStream {
+    let value =
+        context.with_type_paths(|home| Formulas::new(home, &context.entries).value(formula));
+    match (is_literal(formula), entry.range, &formula.ty) {
+        (true, ..) => value,
+        (false, None, Type::Quantity(_)) => quote!(finite(#value)?),
+        (false, ..) => limited(entry, value),
     }
 }
 
@@ -158,12 +217,7 @@ fn given(
 ) -> Vec<TokenStream> {
     let ins = child.entries.iter().zip(fields).filter(|(entry, _)| entry.kind == EntryKind::In);
     let sets = ins.zip(&element.inputs).map(|((entry, field), formula)| {
-        let value = context.with_type_paths(|home| {
-            let value = Formulas::new(home, &context.entries).value(formula);
-            let checked = matches!(formula.ty, Type::Quantity(_)) && !is_literal(formula);
-            if checked { quote!(finite(#value)?) } else { value }
-        });
-        let value = if is_literal(formula) { value } else { limited(entry, value) };
+        let value = passed(context, entry, formula);
         quote!(to.#field.set(#value);)
     });
     sets.collect()

@@ -330,11 +330,9 @@ fn inner(config: &Config, to: &mut super::inner::Config) -> Result<(), Fault> {
     to.angle
         .set(
             limited(
-                finite(
-                    Angle::from_si(
-                        (config.pace() / Speed::from_si(1.0)) * Angle::from_si(1.0).si(),
-                    ),
-                )?,
+                Angle::from_si(
+                    (config.pace() / Speed::from_si(1.0)) * Angle::from_si(1.0).si(),
+                ),
                 -1.5707963267948966,
                 1.5707963267948966,
             )?,

@@ -29,10 +29,10 @@ impl<P: PlanState> Level<P> {
                 Ok(()) => self.finished(t, element, row, state, cx),
                 Err(fault) => Err(Stop::Run(fault)),
             },
-            Polled::Failed(fault) => {
+            Polled::Failed(fault) | Polled::EndedInError(fault) => {
                 cx.failed(component(cx, element), fault);
-                if row.kind == ElementKind::SubPlan {
-                    // It ended by itself and interrupted what was active inside.
+                if matches!(polled, Polled::EndedInError(_)) {
+                    // It interrupted what was active inside.
                     self.active = None;
                 }
                 self.plan.discard();

@@ -7,7 +7,7 @@ use crate::component::Environment;
 use crate::fault::{Failure, Fault};
 use crate::machine::{Flow, Machine};
 use crate::rt::ports::Ports;
-use crate::rt::state::Plan;
+use crate::rt::state::{Plan, PlanState};
 use crate::rt::store::{Entry, Stored};
 use crate::rt::table::Child;
 use crate::time::Instant;
@@ -54,6 +54,8 @@ pub enum Polled {
     Forced(u16),
     /// It failed and has to be interrupted.
     Failed(Fault),
+    /// It is a sub-plan that ended in `Error`, or whose results do not fit: nothing runs in it any more.
+    EndedInError(Fault),
 }
 
 /// What a step carries through all levels of a plan.
@@ -193,6 +195,27 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
         })
     }
 
+    /// Gives a sub-plan its live inputs before its step, as a commit of its element. `write` writes those
+    /// that have changed and tells whether there are any.
+    pub fn pass_live<P: PlanState>(
+        &mut self,
+        child: Child,
+        machine: &mut Machine<P>,
+        write: impl FnOnce(&mut P, &mut Committer<'_, S>) -> bool,
+    ) {
+        let number = self.step.commits.wrapping_add(1);
+        let mut to = Committer {
+            sink: &mut *self.sink,
+            at: self.now,
+            author: Author::Component(self.place.component),
+            entries: self.place.entries.saturating_add(child.entries),
+            number,
+        };
+        if write(machine.plan_mut(), &mut to) {
+            self.step.commits = number;
+        }
+    }
+
     /// Starts a sub-plan whose `in` entries are set.
     pub fn start_sub_plan<P: Plan<E>>(&mut self, child: Child, machine: &mut Machine<P>) -> Flow
     where
@@ -263,6 +286,15 @@ impl<S: Sink> Committer<'_, S> {
         to.set(value);
     }
 
+    /// Writes one entry of the plan, unless it has that value; whether it did.
+    pub fn update<T: Stored>(&mut self, entry: u16, to: &mut Entry<T>, value: T) -> bool {
+        let changed = !to.get().is_still(&value);
+        if changed {
+            self.write(entry, to, value);
+        }
+        changed
+    }
+
     fn record(&mut self, entry: u16, old: ValueRef<'_>, new: ValueRef<'_>) {
         let entry = TraceEntryId(self.entries.saturating_add(u32::from(entry)));
         let record = Record::Committed { author: self.author, entry, old, new };
@@ -299,7 +331,7 @@ impl Polled {
         match ended(flow, stage) {
             None => Polled::SubPlan(flow),
             Some(Ok(state)) => Polled::Done(state),
-            Some(Err(fault)) => Polled::Failed(fault),
+            Some(Err(fault)) => Polled::EndedInError(fault),
         }
     }
 }

@@ -16,6 +16,12 @@ pub trait Stored: Default {
 
     /// Called once when a commit writes the value, with the number of that commit.
     fn committed(&mut self, _commit: u32) {}
+
+    /// Whether a value that is passed on live is the one that was passed on last: by bits, an object
+    /// by the commit that wrote it.
+    fn is_still(&self, passed: &Self) -> bool {
+        self.as_value().is_same(passed.as_value())
+    }
 }
 
 /// What stands for a port of type `any`.
@@ -60,6 +66,8 @@ pub struct Entry<T> {
 pub struct Object<T> {
     value: Option<T>,
     commit: u32,
+    /// The commit by which it was known before it was committed here.
+    source: u32,
 }
 
 impl<T: Stored> Entry<T> {
@@ -101,7 +109,7 @@ impl<T: Stored> Entry<T> {
 impl<T> Object<T> {
     /// An object fresh from the component that made it.
     pub fn new(value: T) -> Self {
-        Object { value: Some(value), commit: 0 }
+        Object { value: Some(value), commit: 0, source: 0 }
     }
 
     /// The object.
@@ -115,7 +123,7 @@ impl<T> Object<T> {
 
 impl<T> Default for Object<T> {
     fn default() -> Self {
-        Object { value: None, commit: 0 }
+        Object { value: None, commit: 0, source: 0 }
     }
 }
 
@@ -125,7 +133,12 @@ impl<T> Stored for Object<T> {
     }
 
     fn committed(&mut self, commit: u32) {
+        self.source = self.commit;
         self.commit = commit;
+    }
+
+    fn is_still(&self, passed: &Self) -> bool {
+        [self.commit, self.source].contains(&passed.commit)
     }
 }
 

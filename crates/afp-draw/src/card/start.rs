@@ -25,7 +25,7 @@ const GAP: f64 = 28.0;
 /// What stands below the name of a plan that is meant to run on.
 const FOREVER: &str = "forever";
 
-/// Width of the words `in`, `out`, `var`, `const` with the space after them.
+/// Width of the words `in live`, `out`, `var`, `const` with the space after them.
 const KIND: f64 = 40.0;
 
 /// The card of a plan's start tag. Its flow leads to the first element.
@@ -124,7 +124,7 @@ fn configuration<'a>(view: &View<'a>, sketch: &mut Sketch<'a>) -> Rect {
     for (place, (entry, text)) in entries.iter().zip(&texts).enumerate() {
         let y = 30.0 + (place as f64 + 0.5) * ROW;
         let base = y + 0.36 * PORT_SIZE;
-        sketch.labels.push(label((12.0, base), entry_kind_name(entry.kind), PORT_SIZE, "port"));
+        sketch.labels.push(label((12.0, base), keyword(entry), PORT_SIZE, "port"));
         let (text_in_pill, class) = &pills[place];
         let width = pill_width(text_in_pill);
         let pill = Rect { x: 12.0 + KIND, y: y - 9.0, width, height: 18.0 };
@@ -146,6 +146,11 @@ fn pill(view: &View, id: usize, entry: &Entry) -> (String, Class) {
             (format!("{}  {}", entry_name(entry), times(count)), class)
         }
     }
+}
+
+/// How its declaration begins.
+fn keyword(entry: &Entry) -> &'static str {
+    if entry.live { "in live" } else { entry_kind_name(entry.kind) }
 }
 
 /// Type, initial value and range.

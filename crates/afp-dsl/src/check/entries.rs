@@ -22,6 +22,8 @@ pub(crate) struct EntryDraft {
     pub doc: String,
     /// Who may set it.
     pub kind: EntryKind,
+    /// Whether it is given its value anew while the plan runs as a sub-plan.
+    pub live: bool,
     /// Its type, where that is known.
     pub ty: Option<Type>,
     /// Its initial value.
@@ -55,6 +57,7 @@ pub(crate) fn read(
             name: name.clone(),
             doc: entry.doc(),
             kind: kind(entry),
+            live: entry.live().is_some(),
             ty: entry.ty().and_then(|ty| types.resolve(&ty, record, diags)),
             init: None,
             has_init: entry.init().is_some(),

@@ -147,6 +147,7 @@ fn finish(
             name: draft.name.text.clone(),
             doc: draft.doc.clone(),
             kind: draft.kind,
+            live: draft.live,
             ty: draft.ty.clone()?,
             init: draft.init.clone(),
             range: draft.range,

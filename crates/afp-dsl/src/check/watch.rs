@@ -102,6 +102,7 @@ impl Inside {
             name: Name { text: entry.name.clone(), span: entry.span },
             doc: String::new(),
             kind: entry.kind,
+            live: entry.live,
             ty: Some(entry.ty.clone()),
             init: None,
             has_init: true,

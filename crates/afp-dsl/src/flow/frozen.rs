@@ -10,7 +10,8 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     if globals.is_empty() {
         return;
     }
-    let mut written = vec![false; view.plan.entries.len()];
+    let live = view.plan.entries.iter().map(|entry| entry.live);
+    let mut written: Vec<bool> = live.collect();
     let of_elements = view.elements().flat_map(|(_, element)| &element.outputs);
     let of_supervisors = view.supervisors().flat_map(|supervisor| &supervisor.outputs);
     of_elements.chain(of_supervisors).for_each(|output| written[output.entry.index()] = true);

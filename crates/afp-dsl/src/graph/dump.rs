@@ -70,6 +70,7 @@ impl Dump<'_> {
 
     fn entry(&mut self, entry: &Entry) {
         let kind = match entry.kind {
+            EntryKind::In if entry.live => "in live",
             EntryKind::In => "in",
             EntryKind::Out => "out",
             EntryKind::Var => "var",

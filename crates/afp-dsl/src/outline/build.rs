@@ -200,6 +200,7 @@ fn entry(
             _ => EntryKind::Var,
         },
         name,
+        live: node.live().is_some(),
         doc: node.doc(),
         note: node.note(),
         span: node.span(),

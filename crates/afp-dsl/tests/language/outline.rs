@@ -105,7 +105,9 @@ fn plan(text: &mut String, outline: &Outline, plan: &Plan, said: &dyn Fn(&Findin
             .iter()
             .map(|[least, most]| format!(" from {} to {}", least.text, most.text));
         let (range, said) = (range.collect::<String>(), said(&entry.findings));
-        line(2, format!("{:?} {}: {ty} ({written}){init}{range}{said}", entry.kind, entry.item));
+        let live = if entry.live { " live" } else { "" };
+        let kind = format!("{:?}{live}", entry.kind);
+        line(2, format!("{kind} {}: {ty} ({written}){init}{range}{said}", entry.item));
     }
     for start in &plan.starts {
         let target = start.target.as_ref().map_or("?".to_owned(), |to| target(plan, to));

@@ -30,8 +30,10 @@ pub(super) fn set_kind(
     if old.text() == keyword {
         return Ok(());
     }
-    // A padded 'in' keeps its column.
+    // Only an 'in' is live. A padded 'in' keeps its column.
+    let live = tree::tokens(&node, Kind::Keyword).nth(1);
     let (place, text) = (range(&old), buffer.text());
+    let place = place.start..live.map_or(place.end, |live| range(&live).end);
     let blanks = text[place.end..].len() - text[place.end..].trim_start_matches(' ').len();
     let column = place.len() + blanks;
     let end = place.end + blanks;

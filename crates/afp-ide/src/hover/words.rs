@@ -32,6 +32,7 @@ pub(super) fn help(word: &str, within: Kind) -> Option<&'static str> {
         "from" | "to" if within == Kind::Range => {
             "The least and the greatest value that it takes; both belong to the range."
         }
+        "live" if within == Kind::Entry => "A sub-plan reads it again before each of its steps.",
         "live" => "Read again at every poll.",
         "every" => "How often it is polled.",
         "deadline" => "How long after each release its poll must be over.",

@@ -2,7 +2,7 @@
 
 use super::{
     Formula, Name, Ref, Timing, Type, child, child_span, children, doc, keyword, keyword_as,
-    last_token, named, note, range, span_of, token, tokens, views,
+    last_token, live, named, note, range, span_of, token, tokens, views,
 };
 use crate::kind::{Afp, Kind};
 use crate::source::Span;
@@ -120,6 +120,11 @@ impl Entry {
     /// `in`, `out`, `var` or `const`.
     pub fn keyword(&self) -> String {
         keyword(&self.node)
+    }
+
+    /// The place of `live`, where written.
+    pub fn live(&self) -> Option<Span> {
+        live(&self.node, self.file)
     }
 
     /// The comment above it.

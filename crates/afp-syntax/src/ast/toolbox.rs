@@ -1,7 +1,7 @@
 //! Toolboxes in the typed view.
 
 use super::{
-    Formula, Name, Type, child, doc, keyword_as, named, range, span_of, token, tokens, views,
+    Formula, Name, Type, child, doc, keyword_as, live, named, range, span_of, token, tokens, views,
 };
 use crate::kind::Kind;
 use crate::source::Span;
@@ -94,8 +94,7 @@ impl Template {
 impl InPort {
     /// The place of `live`, where written.
     pub fn live(&self) -> Option<Span> {
-        let mut words = tokens(&self.node, Kind::Keyword, self.file).into_iter().skip(1);
-        words.find(|word| word.text == "live").map(|word| word.span)
+        live(&self.node, self.file)
     }
 
     /// Its type.

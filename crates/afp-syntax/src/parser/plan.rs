@@ -96,7 +96,11 @@ impl Parser<'_, '_> {
 
     fn entry(&mut self) {
         self.open_item(Kind::Entry);
+        let input = self.at_word("in");
         self.keyword();
+        if input {
+            self.eat_word("live");
+        }
         self.name("give the entry a name");
         self.ty_of_entry();
         self.value_and_range();
@@ -196,9 +200,13 @@ impl Parser<'_, '_> {
         let element = matches!(self.word(0), "actor" | "computation" | "subplan")
             && self.nth(1) == Kind::Name
             && self.nth(2) == Kind::Colon;
+        let named = |ahead: usize| {
+            let sign = self.nth(ahead + 1);
+            self.nth(ahead) == Kind::Name && matches!(sign, Kind::Colon | Kind::Equal)
+        };
+        let is_live = self.word(0) == "in" && self.word(1) == "live";
         let entry = matches!(self.word(0), "in" | "out" | "var" | "const")
-            && self.nth(1) == Kind::Name
-            && matches!(self.nth(2), Kind::Colon | Kind::Equal);
+            && (named(1) || is_live && named(2));
         element || entry || self.at_top_item()
     }
 

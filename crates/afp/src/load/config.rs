@@ -98,6 +98,8 @@ struct Slot {
     value: Value,
     is_set: bool,
     object: Option<Box<dyn ObjectCell>>,
+    /// The commit by which an object was known before it was committed here.
+    source: u32,
 }
 
 impl Config {
@@ -109,6 +111,7 @@ impl Config {
             value: zero(&entry.ty),
             is_set: false,
             object: object(entry),
+            source: 0,
         });
         Config {
             values: Values(slots.collect()),
@@ -136,6 +139,7 @@ impl Config {
             if let (Value::Object(number), Some(to_cell), Some(from)) =
                 (&mut value, &mut slot.object, object)
             {
+                slot.source = *number;
                 *number = to.number();
                 to_cell.swap(&mut **from);
                 from.clear();
@@ -208,6 +212,13 @@ impl Values {
         }
     }
 
+    /// Whether a value that is passed on live is the one that was passed on last.
+    pub fn is_still(&self, entry: u16, passed: &Value) -> bool {
+        let Some(slot) = self.0.get(usize::from(entry)) else { return true };
+        let source = slot.object.as_ref().map(|_| Value::Object(slot.source));
+        slot.value.borrow().is_same(passed.borrow()) || source.as_ref() == Some(passed)
+    }
+
     /// Makes an entry unset.
     pub fn clear(&mut self, entry: u16) {
         let Some(slot) = self.0.get_mut(usize::from(entry)) else { return };
@@ -230,9 +241,14 @@ impl Staged {
 
     /// Stages an object: `fill` puts it into the shadow cell.
     pub fn put_object(&mut self, entry: u16, fill: impl FnOnce(&mut dyn ObjectCell)) {
+        self.put_known(entry, 0, fill);
+    }
+
+    /// Stages an object that is known by the number of a commit.
+    pub fn put_known(&mut self, entry: u16, commit: u32, fill: impl FnOnce(&mut dyn ObjectCell)) {
         if let Some(Some(cell)) = self.objects.get_mut(usize::from(entry)) {
             fill(&mut **cell);
-            self.put(entry, Value::Object(0));
+            self.put(entry, Value::Object(commit));
         }
     }
 

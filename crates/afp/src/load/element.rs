@@ -130,6 +130,17 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
             }
             Running::Computation(_) => Polled::Failed(Fault::INTERNAL),
             Running::SubPlan { child, machine } => {
+                match stage_live(&self.inputs, config, machine.plan_mut()) {
+                    Ok(false) => {}
+                    Ok(true) => cx.pass_live(*child, machine, |plan, to| {
+                        plan.commit(to);
+                        true
+                    }),
+                    Err(fault) => {
+                        machine.plan_mut().discard();
+                        return Polled::Failed(fault);
+                    }
+                }
                 let flow: Flow = cx.inside(*child, |cx| machine.step(cx));
                 Polled::sub_plan(flow, || stage_results(machine.plan(), &self.outputs, config))
             }
@@ -228,6 +239,20 @@ fn pass_inputs<E: Environment + ?Sized + 'static>(
         plan.pass(port, value, object)?;
     }
     Ok(())
+}
+
+/// Evaluates the live inputs of a sub-plan and stages those that have changed; whether there are any.
+fn stage_live<E: Environment + ?Sized + 'static>(
+    inputs: &Inputs,
+    config: &Config,
+    plan: &mut LoadedPlan<E>,
+) -> Result<bool, Fault> {
+    let mut any = false;
+    for (port, formula) in inputs.formulas().iter().enumerate() {
+        let object = formula.entry().and_then(|entry| config.values.cell(entry));
+        any |= plan.pass_live(port, || formula.finite(&config.values), object)?;
+    }
+    Ok(any)
 }
 
 /// Stages the `out` entries of a sub-plan that were written or initialised.

@@ -46,6 +46,8 @@ pub struct LoadedPlan<E: ?Sized + 'static> {
 struct EntryInfo {
     name: String,
     kind: EntryKind,
+    /// Whether it is given its value anew before each step.
+    live: bool,
     /// Least and greatest value.
     range: Option<(f64, f64)>,
     /// The units that a value from outside may carry.
@@ -58,7 +60,8 @@ impl EntryInfo {
             (Type::Quantity(dimension), EntryKind::In | EntryKind::Var) => spellings(*dimension),
             _ => Vec::new(),
         };
-        EntryInfo { name: entry.name.clone(), kind: entry.kind, range: entry.range, units }
+        let graph::Entry { name, kind, live, range, .. } = entry;
+        EntryInfo { name: name.clone(), kind: *kind, live: *live, range: *range, units }
     }
 }
 
@@ -137,6 +140,34 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
             self.config.values.set(entry, limit(info.range, value)?, object);
         }
         Ok(())
+    }
+
+    /// Stages the `port`-th `in` entry's value for the next step, if the entry is live and the value another
+    /// one; whether it is.
+    ///
+    /// # Errors
+    /// [`Fault::RANGE`].
+    pub(super) fn pass_live(
+        &mut self,
+        port: usize,
+        value: impl FnOnce() -> Result<Value, Fault>,
+        object: Option<&dyn ObjectCell>,
+    ) -> Result<bool, Fault> {
+        let mut inputs = numbered(&*self.entries).filter(|(_, entry)| entry.kind == EntryKind::In);
+        let Some((entry, info)) = inputs.nth(port).filter(|(_, info)| info.live) else {
+            return Ok(false);
+        };
+        let value = limit(info.range, value()?)?;
+        if self.config.values.is_still(entry, &value) {
+            return Ok(false);
+        }
+        match (value, object) {
+            (Value::Object(commit), Some(from)) => {
+                self.config.staged.put_known(entry, commit, |to| to.copy(from));
+            }
+            (value, _) => self.config.staged.put(entry, value),
+        }
+        Ok(true)
     }
 
     /// The `out` entries that are set, each with its position among the `out` entries.

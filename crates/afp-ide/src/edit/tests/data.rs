@@ -111,6 +111,9 @@ fn entries_change_part_by_part() {
     );
     replaces(kind("limit", "out"), &[("in  limit", "out limit")]);
     replaces(kind("limit", "const"), &[("in  limit", "const limit")]);
+    let live = PLAN.replace("in  limit", "in live limit");
+    assert_eq!(after(&live, kind("limit", "var")), PLAN.replace("in  limit", "var limit"));
+    assert_eq!(after(&live, kind("limit", "in")), live);
     replaces(kind("gap", "in"), &[("var gap", "in gap")]);
     refused(PLAN, kind("gap", "let"), "an entry is 'in', 'out', 'var' or 'const', not 'let'");
     refused(PLAN, kind("go", "in"), "'go' is no entry");
