@@ -6,7 +6,9 @@
 use std::collections::BTreeSet;
 
 use crate::flow::view::{Cause, View, each_entry, takes_time};
-use crate::graph::{Component, Element, EntryId, Formula, Supervisor, SupervisorId, Target, chain};
+use crate::graph::{
+    Component, Element, EntryId, EntryKind, Formula, Supervisor, SupervisorId, Target, chain,
+};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 
@@ -74,8 +76,11 @@ fn once<'a>(view: &View<'a>, element: &'a Element) -> Vec<(&'a Formula, Span)> {
             let ports = ports.iter().zip(&element.inputs).filter(|(port, _)| !port.live);
             ports.map(|(port, formula)| (formula, port.span)).collect()
         }
-        Component::SubPlan(_) => {
-            element.inputs.iter().map(|formula| (formula, element.span)).collect()
+        Component::SubPlan(id) => {
+            let Some(Some(plan)) = view.model.plans.get(id.index()) else { return Vec::new() };
+            let ports = plan.entries.iter().filter(|entry| entry.kind == EntryKind::In);
+            let ports = ports.zip(&element.inputs).filter(|(port, _)| !port.live);
+            ports.map(|(port, formula)| (formula, port.span)).collect()
         }
     }
 }

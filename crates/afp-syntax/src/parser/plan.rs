@@ -100,6 +100,16 @@ impl Parser<'_, '_> {
         self.keyword();
         if input {
             self.eat_word("live");
+        } else if self.at_word("live") && self.nth(1) == Kind::Name {
+            let here = self.here();
+            self.error(
+                Diagnostic::new(Code::E0102, here, "only an 'in' is live")
+                    .help("remove 'live'")
+                    .replace(""),
+            );
+            self.open(Kind::Error);
+            self.bump();
+            self.close();
         }
         self.name("give the entry a name");
         self.ty_of_entry();
