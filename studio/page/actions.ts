@@ -17,16 +17,17 @@ export function register(): void {
   command({ id: "text", label: words.text, key: "Ctrl+E", run: () => toggle("text") });
   command({ id: "inspector", label: words.inspector, run: () => toggle("inspector") });
   command({ id: "problems", label: words.problems, key: "Ctrl+Shift+M", run: () => toggle("problems") });
+  command({ id: "run-pane", label: words.runPane, key: "Ctrl+Shift+U", run: () => toggle("run") });
   command({ id: "new", label: words.newPlan, run: makeNew });
 }
 
-function toggle(name: "palette" | "text" | "inspector" | "problems"): void {
-  const open = { palette: palette.value, problems: bottom.value === "problems", text: right.value === "text", inspector: right.value === "inspector" }[name];
+function toggle(name: "palette" | "text" | "inspector" | "problems" | "run"): void {
+  const open = { palette: palette.value, problems: bottom.value === "problems", run: bottom.value === "run", text: right.value === "text", inspector: right.value === "inspector" }[name];
   if (!open) {
     show(name);
     enterSoon(name);
   } else if (name === "palette") palette.value = false;
-  else if (name === "problems") bottom.value = null;
+  else if (name === "problems" || name === "run") bottom.value = null;
   else right.value = null;
   if (open) narrow.value = "drawing";
 }

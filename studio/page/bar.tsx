@@ -1,5 +1,6 @@
 // The bar at the top: file, plans, what is saved, undo and redo, problems.
 import { current, nameOf, saved } from "./documents";
+import { Controls } from "./debug/controls";
 import { drawing, enter, leave, plan, trail } from "./drawing/model";
 import { finding } from "./finder";
 import { redo, redoLabel, undo, undoLabel } from "./history";
@@ -22,6 +23,7 @@ export function Bar() {
       <Tool icon="undo" label={words.undo(undoLabel.value)} disabled={!undoLabel.value} run={undo} />
       <Tool icon="redo" label={words.redo(redoLabel.value)} disabled={!redoLabel.value} run={redo} />
       <ProblemCount />
+      {current.value && <Controls />}
       <Tool icon="search" label={`${words.commands} (Ctrl+K)`} run={() => (finding.value = true)} />
     </header>
   );

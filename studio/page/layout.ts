@@ -2,11 +2,12 @@
 import { effect, signal } from "@preact/signals";
 
 export type Right = "inspector" | "text";
-export type Narrow = "palette" | "drawing" | Right | "problems";
+export type Bottom = "problems" | "run";
+export type Narrow = "palette" | "drawing" | Right | Bottom;
 
 export const palette = signal(true);
 export const right = signal<Right | null>("inspector");
-export const bottom = signal<"problems" | null>(null);
+export const bottom = signal<Bottom | null>(null);
 /** Widths in pixels. */
 export const widths = signal({ inspector: 300, text: 460 });
 /** The pane that is shown where there is room for one alone. */
@@ -20,7 +21,7 @@ export function begin(storage: Storage): void {
     const kept = JSON.parse(storage.getItem(KEY) ?? "{}");
     if (typeof kept.palette === "boolean") palette.value = kept.palette;
     if (["inspector", "text", null].includes(kept.right)) right.value = kept.right;
-    if (["problems", null].includes(kept.bottom)) bottom.value = kept.bottom;
+    if (["problems", "run", null].includes(kept.bottom)) bottom.value = kept.bottom;
     for (const name of ["inspector", "text"] as const) {
       const width = kept.widths?.[name];
       if (Number.isFinite(width)) widths.value = { ...widths.value, [name]: clamp(width) };
@@ -40,6 +41,6 @@ export const clamp = (width: number): number => Math.round(Math.min(900, Math.ma
 export function show(pane: Narrow): void {
   narrow.value = pane;
   if (pane === "palette") palette.value = true;
-  else if (pane === "problems") bottom.value = "problems";
+  else if (pane === "problems" || pane === "run") bottom.value = pane;
   else if (pane !== "drawing") right.value = pane;
 }

@@ -3,6 +3,8 @@ import { effect } from "@preact/signals";
 import { h, render } from "preact";
 import { register } from "./actions";
 import { listen } from "./commands";
+import * as run from "./debug/controls";
+import { begin as beginRuns } from "./debug/run";
 import { ask } from "./dialogs";
 import * as documents from "./documents";
 import { follow } from "./drawing/model";
@@ -23,6 +25,8 @@ places.begin();
 follow();
 layout.begin(localStorage);
 register();
+run.commands();
+beginRuns();
 listen(window);
 render(h(Screen, {}), document.getElementById("page")!);
 effect(() => {

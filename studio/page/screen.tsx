@@ -3,14 +3,16 @@ import { useEffect, useRef } from "preact/hooks";
 import { Bar, Tool } from "./bar";
 import { Dialogs } from "./dialogs";
 import { conflicts, current, nameOf } from "./documents";
+import { EndCard } from "./debug/controls";
 import { mountCanvas } from "./drawing/canvas";
 import { Finder } from "./finder";
 import { Sign } from "./icons";
-import { bottom, clamp, narrow, palette, right, show, widths, type Narrow, type Right } from "./layout";
+import { bottom, clamp, narrow, palette, right, show, widths, type Bottom as Lower, type Narrow, type Right } from "./layout";
 import { report, trouble, Welcome } from "./panes/files";
 import { Inspector } from "./panes/inspector";
 import { Palette } from "./panes/palette";
 import { Problems } from "./panes/problems";
+import { RunPane } from "./panes/run";
 import { TextPane } from "./panes/text";
 import { hello, lsp, pen } from "./session";
 import { words } from "./words";
@@ -74,6 +76,7 @@ function Centre() {
   return (
     <section class="pane drawing" data-pane="drawing" data-when="drawing" aria-label={words.drawing}>
       {current.value ? <Canvas /> : <Welcome />}
+      <EndCard />
       {!palette.value && current.value && (
         <button class="opener" onClick={() => (palette.value = true)} aria-label={words.open(words.palette)} title={words.open(words.palette)}>
           <Sign name="palette" />
@@ -143,15 +146,30 @@ function Divider({ of }: { of: Right }) {
   );
 }
 
+const LOWER: { name: Lower; label: string }[] = [
+  { name: "problems", label: words.problems },
+  { name: "run", label: words.runPane },
+];
+
+/** The pane below: what is open of it, or what was chosen where there is room for one pane alone. */
 function Bottom() {
-  if (!current.value || (bottom.value !== "problems" && narrow.value !== "problems")) return null;
+  const alone = LOWER.find(({ name }) => name === narrow.value)?.name;
+  const open = alone ?? bottom.value;
+  if (!current.value || !open) return null;
+  const close = (): void => {
+    [bottom.value, narrow.value] = [null, "drawing"];
+  };
   return (
-    <section class="pane bottom" data-pane="bottom" data-when="problems" aria-label={words.problems}>
+    <section class="pane bottom" data-pane="bottom" data-when={open} aria-label={LOWER.find(({ name }) => name === open)!.label}>
       <header>
-        <h2>{words.problems}</h2>
-        <Tool icon="close" label={words.close(words.problems)} run={() => { bottom.value = null; narrow.value = "drawing"; }} />
+        <div class="tabs" role="tablist" aria-label={words.panes}>
+          {LOWER.map(({ name, label }) => (
+            <button role="tab" aria-selected={open === name} onClick={() => show(name)} key={name}>{label}</button>
+          ))}
+        </div>
+        <Tool icon="close" label={words.close(words.pane)} run={close} />
       </header>
-      <div class="body" tabIndex={-1}><Problems /></div>
+      <div class="body" tabIndex={-1}>{open === "problems" ? <Problems /> : <RunPane />}</div>
     </section>
   );
 }
@@ -160,7 +178,7 @@ const NARROW: { name: Narrow; label: string }[] = [
   { name: "palette", label: words.palette },
   { name: "drawing", label: words.drawing },
   ...TABS,
-  { name: "problems", label: words.problems },
+  ...LOWER,
 ];
 
 /** Where there is room for one pane alone: which one. */

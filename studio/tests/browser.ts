@@ -82,8 +82,9 @@ export function inBrowser(name: string, files: Record<string, string>, run: (stu
         if (now !== text) throw new Error(`${file} holds\n${now}\nand not\n${text}`);
       };
       const isSaved = () => page.locator(".saved.saved:not(.saving)").waitFor();
-      await run({ page, folder, read, write, holds, isSaved });
-      if (wrong.length) throw new Error(`the page says: ${wrong.join("\n")}`);
+      const failed = await run({ page, folder, read, write, holds, isSaved }).then(() => null, (why: Error) => why);
+      if (wrong.length) throw new Error(`the page says: ${wrong.join("\n")}`, { cause: failed });
+      if (failed) throw failed;
     } finally {
       await context.close();
       await server.end();

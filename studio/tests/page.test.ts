@@ -57,6 +57,8 @@ inBrowser("the history survives a reload, and not a change of others meanwhile",
   await isSaved();
   await page.goto("about:blank");
   await write("plan.afp", PLAN);
+  // The folder is looked at twice a second.
+  await page.waitForTimeout(1200);
   await page.goBack();
   await page.locator(".count", { hasText: "ready" }).waitFor();
   await page.getByRole("button", { name: "Nothing to undo" }).waitFor();
@@ -86,7 +88,7 @@ inBrowser("a change of another program arrives; undoing it asks first", { "plan.
   await holds("plan.afp", PLAN);
 });
 
-inBrowser("completion writes a whole element, a fix mends a mistake, a name is changed everywhere", { "plan.afp": PLAN.replace("Forward {", "Forwrad {") }, async ({ page, read, holds }) => {
+inBrowser("completion writes a whole element, a fix mends a mistake, a name is changed everywhere", { "plan.afp": PLAN.replace("Forward {", "Forwrad {") }, async ({ page, holds }) => {
   await openText(page);
   await page.locator(".count", { hasText: "error" }).click();
   await page.locator(".problems .fix", { hasText: "Forward" }).first().click();
@@ -103,11 +105,10 @@ inBrowser("completion writes a whole element, a fix mends a mistake, a name is c
   await page.locator(".cm-tooltip-autocomplete li", { hasText: "Turn" }).first().click();
   await page.locator(".cm-line", { hasText: "TurnSuccessful ->" }).waitFor();
   assert.match(await page.locator(".cm-content").innerText(), /\n    actor turn: Turn \{\n        TurnSuccessful -> /);
-  await page.keyboard.press("Control+z");
+  // The element, then the line and what was typed in it.
   await page.keyboard.press("Control+z");
   await page.keyboard.press("Control+z");
   await holds("plan.afp", PLAN.replaceAll("go", "drive"));
-  assert.equal(await read("plan.afp"), PLAN.replaceAll("go", "drive"));
 });
 
 inBrowser("an empty folder: nothing is written before something is chosen; plans by name, by examples", {}, async ({ page, read, holds }) => {

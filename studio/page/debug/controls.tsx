@@ -1,0 +1,65 @@
+// Run, pause, step and stop in the bar; the card that says how a run has ended.
+import { number } from "../problems";
+import { command } from "../commands";
+import { Tool } from "../bar";
+import { Sign } from "../icons";
+import { words } from "../words";
+import { active, again, back, dismiss, ended, goOn, into, next, older, out, pause, phase, setSpeed, speed, state, stop } from "./run";
+
+const SPEEDS = [0.25, 0.5, 1, 2, 5, 20, null] as const;
+
+/** The part of the bar that runs the plan. */
+export function Controls() {
+  const now = phase.value;
+  const held = now === "held";
+  const at = state.value?.at;
+  return (
+    <div class="controls" role="group" aria-label={words.runPane}>
+      {older.value && active.value && <Tool icon="again" label={`${words.older} ${words.runAgain}`} run={again} />}
+      {active.value && <span class={`clock ${now}`}>{at === undefined ? words.starting : words.seconds(at)}</span>}
+      {held && <Tool icon="back" label={words.stepBack} run={back} />}
+      {held && <Tool icon="next" label={`${words.step} (F10)`} run={next} />}
+      {held && <Tool icon="into" label={`${words.stepInto} (F11)`} run={into} />}
+      {held && <Tool icon="out" label={`${words.stepOut} (Shift+F11)`} run={out} />}
+      {now === "running" && <Tool icon="pause" label={`${words.pause} (F8)`} run={pause} />}
+      {active.value && <Tool icon="stop" label={`${words.stop} (Shift+F5)`} run={stop} />}
+      {now !== "running" && now !== "starting" && (
+        <button class={`run ${number("error") ? "" : "main"}`} onClick={() => void goOn()} title={`${held ? words.goOn : words.run} (F5)`}>
+          <Sign name="run" />
+          <span>{held ? words.goOn : words.run}</span>
+        </button>
+      )}
+      <select aria-label={words.speed} title={words.speed} value={String(speed.value)} onChange={(event) => setSpeed(event.currentTarget.value === "null" ? null : Number(event.currentTarget.value))}>
+        {SPEEDS.map((factor) => <option value={String(factor)} key={factor}>{words.speedOf(factor)}</option>)}
+      </select>
+    </div>
+  );
+}
+
+/** How the last run has ended, in sentences. */
+export function EndCard() {
+  const end = ended.value;
+  if (!end || active.value) return null;
+  return (
+    <section class={`end-card ${end.ending === "Error" ? "error" : ""}`} role="status" aria-label={words.ended(end.ending)}>
+      <h2>{words.ended(end.ending)}</h2>
+      {end.sentences.map((sentence) => <p key={sentence}>{sentence}</p>)}
+      <div class="choices">
+        <button onClick={dismiss}>{words.ok}</button>
+        <button class="main" onClick={() => void again()}>{words.runAgain}</button>
+      </div>
+    </section>
+  );
+}
+
+/** The commands of a run, with their keys. */
+export function commands(): void {
+  command({ id: "run", label: words.run, key: "F5", run: goOn, enabled: () => phase.value !== "running" && phase.value !== "starting" });
+  command({ id: "pause", label: words.pause, key: "F8", run: pause, enabled: () => phase.value === "running" });
+  command({ id: "step", label: words.step, key: "F10", run: next, enabled: () => phase.value !== "running" });
+  command({ id: "into", label: words.stepInto, key: "F11", run: into, enabled: () => phase.value !== "running" });
+  command({ id: "out", label: words.stepOut, key: "Shift+F11", run: out, enabled: () => phase.value === "held" });
+  command({ id: "back", label: words.stepBack, run: back, enabled: () => phase.value === "held" });
+  command({ id: "stop", label: words.stop, key: "Shift+F5", run: stop, enabled: () => active.value });
+  command({ id: "again", label: words.runAgain, key: "Ctrl+Shift+F5", run: again, enabled: () => phase.value !== "idle" });
+}

@@ -1,0 +1,44 @@
+// Which items of the drawing a run is at: paths of the run and items of the plan that is shown.
+
+/** A plan that is active: its path in the run (empty for the outermost), and its name. */
+export interface Frame {
+  path: string;
+  plan: string;
+}
+
+export interface At {
+  /** The innermost active elements of the plan that is shown, and those with a sub-plan that is active. */
+  active: { item: string; inside: boolean }[];
+  watching: string[];
+}
+
+/** The frame of the plan that is shown, the innermost where it is active several times. */
+export const frameOf = (frames: readonly Frame[], plan: string | null): Frame | undefined => [...frames].reverse().find((frame) => frame.plan === plan);
+
+/** What a run is at, in the plan that is shown. */
+export function at(frames: readonly Frame[], plan: string | null, stack: readonly string[], watching: readonly string[]): At {
+  const frame = frameOf(frames, plan);
+  if (!frame) return { active: [], watching: [] };
+  const begin = frame.path ? `${frame.path}.` : "";
+  const own = (path: string): string[] => (path.startsWith(begin) && path !== frame.path ? path.slice(begin.length).split(".") : []);
+  const deepest = Math.max(0, ...stack.map((path) => path.split(".").length));
+  const active = stack.flatMap((path) => {
+    const names = own(path);
+    return names.length === 1 ? [{ item: `${plan}.${names[0]}`, inside: path.split(".").length < deepest }] : [];
+  });
+  // A supervisor of the plan has one name, one of an element two; longer ones are of a plan inside.
+  const nested = new Set(frames.map((each) => each.path));
+  const watches = watching.filter((path) => {
+    const names = own(path);
+    const owner = names.length === 2 ? `${begin}${names[0]}` : "";
+    return names.length === 1 || (names.length === 2 && !nested.has(owner));
+  });
+  return { active, watching: watches.map((path) => `${plan}.${own(path).join(".")}`) };
+}
+
+/** The edge that was taken between two active elements, where only one can have been. */
+export function taken(edges: Iterable<{ id: string; from: string; to: string }>, before: string | null, after: string | null): string | null {
+  if (!after || before === after) return null;
+  const fits = [...edges].filter(({ from, to }) => to === after && before !== null && (from === before || from.startsWith(`${before}.`)));
+  return fits.length === 1 ? fits[0]!.id : null;
+}

@@ -1,0 +1,81 @@
+// What a run is at, shown on the drawing: the active element, plans around it, supervisors that watch, edges just taken.
+import { effect } from "@preact/signals";
+import { svg } from "../drawing/fragment";
+import { drawing } from "../drawing/model";
+import { rectOf, type Drawing, type Rect } from "../drawing/shapes";
+import { at, taken } from "./follow";
+import { active, frames, phase, state } from "./run";
+
+/** Milliseconds that an edge is shown as just taken. */
+const FADES = 600;
+
+export interface Layers {
+  root: Element;
+  /** Where marks go, over the drawing. */
+  over: SVGGElement;
+  edges: ReadonlyMap<string, SVGGElement>;
+}
+
+function frame([x, y, width, height]: Rect, name: string): SVGElement {
+  return svg("rect", { class: name, x: x - 1, y: y - 1, width: width + 2, height: height + 2, rx: 9 });
+}
+
+/** A triangle in a corner: what is active is told by more than its colour. */
+function sign([x, y]: Rect): SVGElement[] {
+  return [svg("circle", { class: "run-sign", cx: x, cy: y, r: 9 }), svg("path", { class: "run-arrow", d: `M${x - 3} ${y - 4.5}l7 4.5l-7 4.5z` })];
+}
+
+/** An eye in the corner of who watches. */
+function eye([x, y, width]: Rect): SVGElement[] {
+  const right = x + width;
+  return [
+    svg("circle", { class: "run-eye", cx: right, cy: y, r: 8 }),
+    svg("path", { class: "run-lid", d: `M${right - 5} ${y}q5 -6 10 0q-5 6 -10 0z` }),
+    svg("circle", { class: "run-pupil", cx: right, cy: y, r: 1.6 }),
+  ];
+}
+
+/** Keeps the marks of a run; the answer ends that. */
+export function marks(layers: Layers): () => void {
+  let last: string | null = null;
+  let shown = "";
+  let before: Drawing | null = null;
+  return effect(() => {
+    const drawn = drawing.value;
+    const now = state.value;
+    const runs = (active.value || phase.value === "over") && now !== null;
+    layers.root.classList.toggle("running", runs);
+    if (!drawn || !runs) {
+      [last, shown, before] = [null, "", null];
+      return layers.over.replaceChildren();
+    }
+    const found = at(frames.value, drawn.plan, now.stack, now.watching);
+    const key = JSON.stringify([found, phase.value]);
+    if (key === shown && drawn === before) return;
+    [shown, before] = [key, drawn];
+    layers.over.replaceChildren(...shapes(drawn, found, phase.value === "held"));
+    const innermost = found.active.find((each) => !each.inside)?.item ?? null;
+    flash(layers, taken(drawn.edges.values(), last, innermost));
+    last = innermost ?? last;
+  });
+}
+
+function shapes(drawn: Drawing, found: ReturnType<typeof at>, held: boolean): SVGElement[] {
+  const watching = found.watching.flatMap((item) => {
+    const rect = rectOf(drawn, { item });
+    return rect ? eye(rect) : [];
+  });
+  const elements = found.active.flatMap(({ item, inside }) => {
+    const rect = rectOf(drawn, { item });
+    const name = `run-active${inside ? " inside" : ""}${held ? " held" : ""}`;
+    return rect ? [frame(rect, name), ...(inside ? [] : sign(rect))] : [];
+  });
+  return [...watching, ...elements];
+}
+
+function flash({ edges }: Layers, id: string | null): void {
+  const group = id === null ? undefined : edges.get(id);
+  if (!group) return;
+  group.classList.add("taken");
+  setTimeout(() => group.classList.remove("taken"), FADES);
+}

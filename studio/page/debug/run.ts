@@ -1,0 +1,221 @@
+// A run of the plan: launched, paused, stepped, ended; what the page knows of it.
+import { computed, signal } from "@preact/signals";
+import { connect, type Dap } from "../dap";
+import { current, nameOf, onText, saved } from "../documents";
+import { plan as shownPlan, trail } from "../drawing/model";
+import { report, trouble } from "../panes/files";
+import { reveal } from "../places";
+import { number, problems } from "../problems";
+import { words } from "../words";
+import type { Frame } from "./follow";
+
+export type Phase = "idle" | "starting" | "running" | "held" | "over";
+
+/** What is the case, as the debugger says it some twenty times a second. */
+export interface State {
+  at: number;
+  stack: string[];
+  watching: string[];
+  entries: Record<string, string>;
+  held: boolean;
+}
+
+export interface Ended {
+  ending: string;
+  at: number;
+  sentences: string[];
+}
+
+/** A line of what happened, and where the text says so. */
+export interface Said {
+  text: string;
+  kind: string;
+  path: string | null;
+  line: number;
+}
+
+export const phase = signal<Phase>("idle");
+export const state = signal<State | null>(null);
+export const ended = signal<Ended | null>(null);
+export const said = signal<readonly Said[]>([]);
+/** The plan that runs, and the sub-plans that are active in it, outermost first. */
+export const frames = signal<readonly Frame[]>([]);
+/** Whether the text is another one than that which runs. */
+export const older = signal(false);
+/** How fast time passes; null is as fast as it can be computed. */
+export const speed = signal<number | null>(1);
+/** Why it stands still. */
+export const why = signal("");
+export const active = computed(() => phase.value === "running" || phase.value === "held" || phase.value === "starting");
+
+/** Lines that are kept. */
+const MOST = 1000;
+
+let dap: Dap | null = null;
+let program = "";
+
+const pathOf = (uri: string): string => decodeURIComponent(new URL(uri).pathname);
+const address = (): string => `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/dap`;
+
+/** Runs the plan that is shown, or the one that led to it; with errors it shows the first of them instead. */
+export async function start(hold = false): Promise<void> {
+  if (active.value) return;
+  const errors = number("error");
+  if (errors) {
+    trouble.value = words.notRun(errors);
+    return reveal(current.value, problems.value[0]!.range, "other");
+  }
+  if (saved.value !== "saved" && !(await isWritten())) {
+    trouble.value = words.notRunNotSaved;
+    return;
+  }
+  trouble.value = null;
+  const uri = current.value;
+  const plan = trail.value[0] ?? shownPlan.value ?? "";
+  program = `${pathOf(uri)}${plan ? `:${plan}` : ""}`;
+  [phase.value, state.value, ended.value, said.value, older.value, why.value] = ["starting", null, null, [], false, ""];
+  frames.value = [{ path: "", plan }];
+  const own = connect(address(), () => dap === own && lost());
+  dap = own;
+  own.on("initialized", () => void configure(own).catch(failed));
+  own.on("afp/state", (now: State) => dap === own && take(own, now));
+  own.on("afp/ended", (now: Ended) => dap === own && finish(now));
+  own.on("stopped", ({ description }) => {
+    [phase.value, why.value] = ["held", description ?? ""];
+  });
+  own.on("terminated", () => dap === own && phase.value !== "over" && finish(null));
+  own.on("output", ({ category, output, source, line }) => {
+    const one = { text: String(output).trimEnd(), kind: category ?? "console", path: source?.path ?? null, line: line ?? 0 };
+    said.value = [...said.peek(), one].slice(-MOST);
+  });
+  try {
+    await own.request("initialize", { adapterID: "afp", clientID: "afp-studio", linesStartAt1: true, columnsStartAt1: true });
+    await own.request("launch", { program, stopOnEntry: hold, ...(speed.value === null ? {} : { speed: speed.value }) });
+  } catch (reason) {
+    failed(reason);
+  }
+}
+
+async function configure(own: Dap): Promise<void> {
+  await own.request("afp/subscribe", { state: true });
+  await own.request("configurationDone");
+  if (phase.value === "starting") phase.value = "running";
+}
+
+/** Waits a little until the server has written everything. */
+function isWritten(): Promise<boolean> {
+  return new Promise((done) => {
+    let end = (): void => {};
+    const timer = setTimeout(() => {
+      end();
+      done(false);
+    }, 3000);
+    end = saved.subscribe((now) => {
+      if (now !== "saved") return;
+      clearTimeout(timer);
+      queueMicrotask(() => end());
+      done(true);
+    });
+  });
+}
+
+function take(own: Dap, now: State): void {
+  const before = state.peek();
+  state.value = now;
+  const steady = before !== null && before.stack.join() === now.stack.join();
+  if (!steady) void follow(own, now).catch(() => {});
+}
+
+/** Learns which plans the active elements are of, where there are sub-plans among them. */
+async function follow(own: Dap, now: State): Promise<void> {
+  const outermost = { path: "", plan: frames.peek()[0]?.plan ?? "" };
+  if (now.stack.length < 2) {
+    frames.value = [outermost];
+    return;
+  }
+  const { stackFrames } = await own.request<{ stackFrames: { name: string }[] }>("stackTrace", { threadId: 1 });
+  const named = new Map(stackFrames.map(({ name }) => name.split(": ") as [string, string]));
+  if (state.peek()?.stack.join() !== now.stack.join()) return;
+  const inner = [...now.stack].sort((a, b) => a.length - b.length).slice(0, -1);
+  frames.value = [outermost, ...inner.map((path) => ({ path, plan: named.get(path) ?? "" }))];
+}
+
+function finish(how: Ended | null): void {
+  phase.value = "over";
+  if (how) ended.value = how;
+}
+
+function lost(): void {
+  if (active.peek()) report(new Error(words.runLost));
+  phase.value = ended.peek() ? "over" : "idle";
+  dap = null;
+}
+
+function failed(reason: unknown): void {
+  report(reason);
+  dap?.close();
+  dap = null;
+  phase.value = "idle";
+}
+
+const order = (command: string, args: object = { threadId: 1 }): Promise<unknown> | undefined => dap?.request(command, args).catch(report);
+
+export const pause = (): unknown => order("pause");
+export const next = (): unknown => step("next");
+export const into = (): unknown => step("stepIn");
+export const out = (): unknown => step("stepOut");
+/** To before the last transition. */
+export const back = (): unknown => step("stepBack");
+
+/** Runs, or goes on. */
+export function goOn(): unknown {
+  if (phase.value !== "held") return start();
+  phase.value = "running";
+  return order("continue");
+}
+
+/** Goes on for one step; before a run, begins one that stands still. */
+function step(command: string): unknown {
+  if (!active.value) return start(true);
+  if (phase.value === "held") phase.value = "running";
+  return order(command);
+}
+
+export async function stop(): Promise<void> {
+  if (active.value) await order("terminate", {});
+  dap?.close();
+  dap = null;
+  if (phase.value !== "over") phase.value = "idle";
+}
+
+/** Begins anew, with the text as it is now. */
+export async function again(): Promise<void> {
+  await stop();
+  phase.value = "idle";
+  await start();
+}
+
+/** Takes the card of the end away. */
+export function dismiss(): void {
+  if (active.value) return;
+  [phase.value, ended.value, state.value] = ["idle", null, null];
+}
+
+export function setSpeed(factor: number | null): void {
+  speed.value = factor;
+  if (active.value) void order("afp/speed", factor === null ? {} : { factor });
+}
+
+/** Shows where the text says what happened. */
+export function revealSaid({ path, line }: Said): void {
+  const uri = current.value;
+  const place = { line: line - 1, character: 0 };
+  if (path && path === pathOf(uri)) void reveal(uri, { start: place, end: place }, "other");
+}
+
+/** Begins to notice that the text is another one than the one that runs. */
+export function begin(): () => void {
+  return onText((uri) => {
+    if (active.value && program.startsWith(pathOf(uri)) && nameOf(uri).endsWith(".afp")) older.value = true;
+  });
+}

@@ -1,0 +1,44 @@
+// The run in words: what each entry holds, and what happened, a line each; a click shows where the text says so.
+import { useEffect, useRef } from "preact/hooks";
+import { phase, revealSaid, said, state, why } from "../debug/run";
+import { words } from "../words";
+
+/** Lines that are shown; the newest are last. */
+const SHOWN = 300;
+
+export function RunPane() {
+  const list = useRef<HTMLOListElement>(null);
+  const lines = said.value.slice(-SHOWN);
+  // Who has scrolled up to read something is left there.
+  useEffect(() => {
+    const host = list.current;
+    if (host && host.scrollHeight - host.scrollTop - host.clientHeight < 80) host.scrollTop = host.scrollHeight;
+  }, [lines.at(-1)]);
+  if (phase.value === "idle" && !said.value.length) return <p class="empty">{words.noRun}</p>;
+  const entries = Object.entries(state.value?.entries ?? {});
+  return (
+    <div class="run-pane">
+      <section aria-label={words.entries}>
+        <h3>{words.entries}</h3>
+        <dl>
+          {entries.map(([name, value]) => (
+            <div key={name}>
+              <dt>{name}</dt>
+              <dd>{String(value)}</dd>
+            </div>
+          ))}
+        </dl>
+      </section>
+      <section aria-label={words.happened}>
+        <h3>{words.happened}{phase.value === "held" && why.value ? `: ${why.value}` : ""}</h3>
+        <ol ref={list} tabIndex={0} aria-label={words.happened}>
+          {lines.map((each, at) => (
+            <li key={at} class={each.kind}>
+              {each.path ? <button onClick={() => revealSaid(each)}>{each.text}</button> : <span>{each.text}</span>}
+            </li>
+          ))}
+        </ol>
+      </section>
+    </div>
+  );
+}

@@ -1,0 +1,71 @@
+// Where a run is in the drawing: plans inside of plans, supervisors, edges that were taken.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import type { Socket } from "../page/lsp";
+import { connect } from "../page/dap";
+import { at, taken } from "../page/debug/follow";
+
+const outer = { path: "", plan: "Outer" };
+
+test("in the outermost plan", () => {
+  assert.deepEqual(at([outer], "Outer", ["drive"], ["escape", "drive.touch"]), {
+    active: [{ item: "Outer.drive", inside: false }],
+    watching: ["Outer.escape", "Outer.drive.touch"],
+  });
+  assert.deepEqual(at([outer], "Other", ["drive"], ["escape"]), { active: [], watching: [] });
+});
+
+test("inside of a sub-plan, in whatever order the stack comes", () => {
+  const frames = [outer, { path: "work", plan: "Inner" }];
+  for (const stack of [["work", "work.second"], ["work.second", "work"]]) {
+    const watching = ["limit", "work.late", "work.second.touch"];
+    assert.deepEqual(at(frames, "Inner", stack, watching), { active: [{ item: "Inner.second", inside: false }], watching: ["Inner.late", "Inner.second.touch"] });
+    assert.deepEqual(at(frames, "Outer", stack, watching), { active: [{ item: "Outer.work", inside: true }], watching: ["Outer.limit"] });
+  }
+});
+
+test("a plan inside of itself shows the innermost", () => {
+  const frames = [{ path: "", plan: "P" }, { path: "a", plan: "P" }];
+  assert.deepEqual(at(frames, "P", ["a", "a.b"], []).active, [{ item: "P.b", inside: false }]);
+});
+
+test("an edge that was taken is the only one that can have been", () => {
+  const edges = [
+    { id: "1", from: "P.a", to: "P.b" },
+    { id: "2", from: "P.a.touch", to: "P.c" },
+    { id: "3", from: "P.b", to: "P.c" },
+    { id: "4", from: "P.b.touch", to: "P.c" },
+  ];
+  assert.equal(taken(edges, "P.a", "P.b"), "1");
+  assert.equal(taken(edges, "P.a", "P.c"), "2");
+  assert.equal(taken(edges, "P.b", "P.c"), null);
+  assert.equal(taken(edges, null, "P.b"), null);
+  assert.equal(taken(edges, "P.b", "P.b"), null);
+});
+
+test("the debugger's socket: requests wait for it, refusals are sentences, its end is told once", async () => {
+  const sent: any[] = [];
+  const socket: Socket = { send: (text) => void sent.push(JSON.parse(text)), close: () => socket.onclose?.({}), onopen: null, onclose: null, onmessage: null };
+  let lost = 0;
+  const dap = connect("ws://x/dap", () => (lost += 1), () => socket);
+  const say = (message: object) => socket.onmessage!({ data: JSON.stringify(message) });
+  const first = dap.request("launch", { program: "a.afp" });
+  assert.deepEqual(sent, []);
+  socket.onopen!({});
+  assert.deepEqual(sent[0], { seq: 1, type: "request", command: "launch", arguments: { program: "a.afp" } });
+  say({ type: "response", request_seq: 1, success: true, command: "launch" });
+  assert.equal(await first, null);
+  const refused = dap.request("pause");
+  say({ type: "response", request_seq: 2, success: false, message: "nothing runs yet" });
+  await assert.rejects(refused, /nothing runs yet/);
+  const heard: unknown[] = [];
+  dap.on("afp/state", (body) => heard.push(body));
+  say({ type: "event", event: "afp/state", body: { at: 1 } });
+  assert.deepEqual(heard, [{ at: 1 }]);
+  const late = dap.request("next");
+  socket.onclose!({});
+  await assert.rejects(late, /connection/);
+  await assert.rejects(dap.request("next"), /connection/);
+  dap.close();
+  assert.equal(lost, 1);
+});
