@@ -1,7 +1,8 @@
 // The bar at the top: file, plans, what is saved, undo and redo, problems.
+import { batch } from "@preact/signals";
 import { current, nameOf, saved } from "./documents";
 import { Controls } from "./debug/controls";
-import { drawing, enter, leave, plan, trail } from "./drawing/model";
+import { drawing, leave, plan, trail, wanted } from "./drawing/model";
 import { finding } from "./finder";
 import { redo, redoLabel, undo, undoLabel } from "./history";
 import { Severity, Sign, type Icon } from "./icons";
@@ -52,7 +53,7 @@ function Breadcrumb() {
           {(done) => (
             <div class="menu" role="menu" aria-label={words.plans}>
               {plans.map((name) => (
-                <button role="menuitemradio" aria-checked={name === plan.value} onClick={() => { done(); enter(name); }} key={name}>
+                <button role="menuitemradio" aria-checked={name === plan.value} onClick={() => { done(); goTo(name); }} key={name}>
                   <Sign name={name === plan.value ? "check" : "drawing"} />
                   {name}
                 </button>
@@ -63,6 +64,13 @@ function Breadcrumb() {
       )}
     </nav>
   );
+}
+
+/** Shows a plan by its name: nothing has led to it. */
+function goTo(name: string): void {
+  batch(() => {
+    [trail.value, wanted.value] = [[], name];
+  });
 }
 
 function backTo(place: number): void {

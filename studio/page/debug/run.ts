@@ -48,6 +48,8 @@ export const speed = signal<number | null>(1);
 export const why = signal("");
 export const active = computed(() => phase.value === "running" || phase.value === "held" || phase.value === "starting");
 
+/** Milliseconds that the debugger has to say how a run ended. */
+const FAREWELL = 2000;
 /** Lines that are kept. */
 const MOST = 1000;
 
@@ -181,17 +183,23 @@ function step(command: string): unknown {
   return order(command);
 }
 
+/** Ends the run; the debugger says how it ended before it goes. */
 export async function stop(): Promise<void> {
-  if (active.value) await order("terminate", {});
-  dap?.close();
-  dap = null;
+  const own = dap;
+  if (own && active.value) {
+    await order("terminate", {});
+    const end = Date.now() + FAREWELL;
+    while (active.peek() && Date.now() < end) await new Promise((done) => setTimeout(done, 20));
+  }
+  own?.close();
+  if (dap === own) dap = null;
   if (phase.value !== "over") phase.value = "idle";
 }
 
 /** Begins anew, with the text as it is now. */
 export async function again(): Promise<void> {
   await stop();
-  phase.value = "idle";
+  dismiss();
   await start();
 }
 

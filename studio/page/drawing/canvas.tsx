@@ -2,6 +2,7 @@
 import { effect, untracked } from "@preact/signals";
 import { render } from "preact";
 import { useEffect, useRef } from "preact/hooks";
+import { marks as runMarks } from "../debug/marks";
 import { origin, selected } from "../selection";
 import * as actions from "./actions";
 import { target } from "./bring";
@@ -11,6 +12,7 @@ import { question } from "./choose";
 import { carries, commands, fit, isMoving, reveal, settle } from "./keys";
 import { legible } from "./legible";
 import { mark } from "./marks";
+import { svg } from "./fragment";
 import * as messages from "./messages";
 import { drawing, plan, wanted } from "./model";
 import { box, byKeys, connecting, hovered, newLine, pointers } from "./pointer";
@@ -36,6 +38,8 @@ export function mountCanvas(host: HTMLElement): () => void {
   pane.append(scene.root, over);
   host.append(pane);
   render(<Over />, over);
+  const runs = svg("g", { class: "run-layer", "aria-hidden": "true" });
+  scene.marks.before(runs);
   const watch = new ResizeObserver(() => (size.value = { width: pane.clientWidth, height: pane.clientHeight }));
   watch.observe(pane);
   const key = (event: KeyboardEvent): void => {
@@ -55,7 +59,7 @@ export function mountCanvas(host: HTMLElement): () => void {
   pane.addEventListener("pointerdown", settles, true);
   // A press says afterwards that it was one.
   pane.addEventListener("focus", () => (byKeys.value = true));
-  const ends = [catalog.begin(), messages.begin(), commands(), pointers(pane, scene), ...shows(scene, pane), ...sights(), focuses(pane)];
+  const ends = [catalog.begin(), messages.begin(), commands(), pointers(pane, scene), ...shows(scene, pane), ...sights(), focuses(pane), runMarks({ root: scene.root, over: runs, edges: scene.edges })];
   return () => {
     ends.forEach((end) => end());
     watch.disconnect();

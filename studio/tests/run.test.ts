@@ -1,0 +1,79 @@
+// Runs in the page: the plan drives the simulated robot, the drawing shows where it is, its end is a card of sentences.
+import assert from "node:assert/strict";
+import { inBrowser } from "./browser";
+
+const PLAN = `use std
+
+plan Inner {
+    in  pause: duration
+    out done:  bool = false
+
+    start first
+
+    actor first: Wait(duration = pause) { Elapsed -> mark }
+    computation mark: Assign(value = true, result => done) { Done -> second }
+    actor second: Wait(duration = pause) { Elapsed -> terminate }
+}
+
+plan Outer {
+    var worked: bool = false
+
+    start rest
+
+    supervise limit: CheckTimeout(duration = 60 s) { TimedOut -> terminate }
+
+    actor rest: Wait(duration = 500 ms) { Elapsed -> work }
+    subplan work: Inner(pause = 3 s, done => worked) { OK -> terminate }
+}
+`;
+
+inBrowser("runs, shows the active element through sub-plans, pauses, steps and ends with a card", { "plan.afp": PLAN }, async ({ page }) => {
+  await page.locator(".count", { hasText: "warning" }).or(page.locator(".count", { hasText: "ready" })).waitFor();
+  await page.getByRole("button", { name: "Plans of this file" }).click();
+  await page.getByRole("menuitemradio", { name: "Outer" }).click();
+  await page.locator(".crumbs [aria-current]", { hasText: "Outer" }).waitFor();
+  await page.keyboard.press("F5");
+  await page.locator(".run-active.inside").waitFor();
+  assert.ok((await page.locator(".run-eye").count()) >= 1);
+  await page.keyboard.press("F8");
+  await page.getByRole("button", { name: "Go on" }).waitFor();
+  await page.locator(".run-active.held").waitFor();
+  await page.locator(".count").click();
+  await page.getByRole("tab", { name: "Run" }).click();
+  await page.locator(".run-pane dt", { hasText: "worked" }).waitFor();
+  await page.locator(".run-pane li", { hasText: "work.first started" }).waitFor();
+  await page.getByLabel("Speed").selectOption("20");
+  await page.getByRole("button", { name: "Go on" }).click();
+  const card = page.locator(".end-card");
+  await card.waitFor();
+  assert.match(await card.innerText(), /Outer ended as it says itself, after 6\.5/);
+  await card.getByRole("button", { name: "Run again" }).click();
+  await page.locator(".run-active").first().waitFor();
+  await page.keyboard.press("Shift+F5");
+  await card.waitFor();
+  assert.match(await card.innerText(), /interrupted/);
+  await card.getByRole("button", { name: "OK" }).click();
+  await card.waitFor({ state: "detached" });
+});
+
+inBrowser("with errors nothing is run and the first is shown; a run of an older text says so", { "plan.afp": PLAN.replace("start rest", "start best") }, async ({ page }) => {
+  await page.locator(".count", { hasText: "error" }).waitFor();
+  await page.keyboard.press("F5");
+  await page.getByText("Nothing was run: the plan has").waitFor();
+  assert.equal(await page.locator(".clock").count(), 0);
+});
+
+inBrowser("a change of the text during a run marks it as older", { "plan.afp": PLAN }, async ({ page }) => {
+  await page.locator(".rail button", { hasText: "Text" }).click();
+  await page.locator(".cm-line", { hasText: "plan Outer" }).click();
+  await page.getByRole("button", { name: "Plans of this file" }).click();
+  await page.getByRole("menuitemradio", { name: "Outer" }).click();
+  await page.keyboard.press("F5");
+  await page.locator(".clock").waitFor();
+  await page.locator(".cm-line", { hasText: "plan Outer" }).click();
+  await page.keyboard.press("End");
+  await page.keyboard.type(" // now");
+  await page.getByRole("button", { name: /This run is of an older text/ }).click();
+  await page.locator(".clock.running").waitFor();
+  await page.getByRole("button", { name: /This run is of an older text/ }).waitFor({ state: "detached" });
+});
