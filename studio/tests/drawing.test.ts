@@ -63,9 +63,12 @@ test("arrow keys lead along exits, back, and to neighbours", () => {
   const drawn = example();
   assert.deepEqual(step(drawn, { item: "P.a" }, "down"), { item: "P.b" });
   assert.deepEqual(step(drawn, { item: "P.b" }, "up"), { item: "P.a" });
-  assert.deepEqual(step(drawn, { item: "P.b" }, "right"), { item: "P.c" });
+  assert.deepEqual(step(drawn, { item: "P.b" }, "right"), { item: "P.b.touch" });
+  assert.deepEqual(step(drawn, { item: "P.b.touch" }, "right"), { item: "P.c" });
+  assert.deepEqual(step(drawn, { item: "P.b.touch" }, "left"), { item: "P.b" });
+  assert.deepEqual(step(drawn, { item: "P.b", part: { kind: "exit", name: "Done" } }, "up"), { item: "P.b" });
   assert.deepEqual(step(drawn, { item: "P.c" }, "left"), { item: "P.b" });
-  assert.deepEqual(step(drawn, { item: "P.a.touch" }, "down"), { item: "P.b" });
+  assert.deepEqual(step(drawn, { item: "P.a", part: { kind: "exit", name: "Done" } }, "down"), { item: "P.b" });
   assert.deepEqual(home(drawn), { item: "P" });
 });
 

@@ -57,6 +57,21 @@ export async function written(item: string, part?: PartOf): Promise<string> {
   return range ? whole.slice(offset(whole, range.start), offset(whole, range.end)) : "";
 }
 
+/** The help text that stands above an item; empty where there is none. */
+export async function help(item: string): Promise<string> {
+  const range = await spanOf(current.peek(), { item });
+  if (!range) return "";
+  const whole = text(current.peek());
+  const start = offset(whole, range.start);
+  const above = whole.slice(0, start).split("\n").slice(0, -1).reverse();
+  const end = above.findIndex((line) => !line.trim().startsWith("///"));
+  const lines = end < 0 ? above : above.slice(0, end);
+  // A span may begin with its help.
+  const own = whole.slice(start).split("\n");
+  const first = own.findIndex((line) => !line.trim().startsWith("///"));
+  return [...lines.reverse(), ...own.slice(0, Math.max(first, 0))].map((line) => line.trim().replace(/^\/\/\/ ?/, "")).join("\n");
+}
+
 interface Made {
   label: string;
   edit: WorkspaceEdit;

@@ -3,6 +3,7 @@ import { effect, untracked } from "@preact/signals";
 import { render } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import { marks as runMarks } from "../debug/marks";
+import { isForField, keyName } from "../commands";
 import { origin, selected } from "../selection";
 import * as actions from "./actions";
 import { target } from "./bring";
@@ -54,6 +55,8 @@ export function mountCanvas(host: HTMLElement): () => void {
   };
   pane.addEventListener("keydown", key);
   pane.addEventListener("paste", paste);
+  // Buttons and fields over the drawing have their keys for themselves.
+  over.addEventListener("keydown", (event) => isForField(keyName(event)) && event.stopPropagation());
   const settles = (): void => settle(scene);
   pane.addEventListener("blur", settles);
   pane.addEventListener("pointerdown", settles, true);

@@ -1,4 +1,5 @@
-// Where the arrow keys lead in a drawing: down along the exits, up back, left and right to neighbours. Pure.
+// Where the arrow keys lead in a drawing: down along the exits, up back, left and right to neighbours, into the supervisors
+// of an element on its right, from supervisors and parts back to the element. Pure.
 import { centre, holderOf, type Drawing, type Element, type Part } from "./shapes";
 
 export type Direction = "down" | "up" | "left" | "right";
@@ -15,17 +16,41 @@ export function home(drawing: Drawing): Part | null {
 export function step(drawing: Drawing, from: Part, direction: Direction): Part | null {
   const here = holderOf(drawing, from.item);
   if (!here) return home(drawing);
+  const inner = inside(here, from, direction);
+  if (inner) return inner;
   const found = direction === "down" ? along(drawing, here, from) : direction === "up" ? back(drawing, here) : beside(drawing, here, direction);
   return found ? whole(drawing, found) : null;
 }
 
 const whole = (drawing: Drawing, element: Element): Part => ({ item: element.kind === null ? (drawing.plan ?? element.item) : element.item });
 
+/** The supervisors of an element, in their order; of the start, those of the plan. */
+function supervisors(here: Element): string[] {
+  const watching = here.pieces.filter((piece) => piece.item !== here.item && piece.part.kind === "exit").map((piece) => piece.item);
+  const drawn = here.kind === null ? watching : here.pieces.filter((piece) => piece.item !== here.item && piece.part.kind === "whole").map((piece) => piece.item);
+  return [...new Set(drawn)];
+}
+
+/** Steps between an element, its parts and its supervisors; null where the key leads to another element. */
+function inside(here: Element, from: Part, direction: Direction): Part | null {
+  const own = supervisors(here);
+  const nth = own.indexOf(from.item);
+  const part = (from.part?.kind ?? "whole") !== "whole";
+  if (part && direction !== "down" && direction !== "right") return { item: from.item };
+  if (nth < 0) return direction === "right" && own[0] !== undefined && !part ? { item: own[0] } : null;
+  if (part) return null;
+  const element = here.kind === null ? (here.pieces.find((piece) => !piece.item.includes("."))?.item ?? here.item) : here.item;
+  if (direction === "left" || (direction === "up" && nth === 0)) return { item: element };
+  const beside = direction === "up" ? own[nth - 1] : direction === "down" ? own[nth + 1] : undefined;
+  return beside === undefined ? null : { item: beside };
+}
+
 /** The target of the exit that is selected, or of the first exit that leads to another element. */
 function along(drawing: Drawing, here: Element, from: Part): Element | null {
   const leaving = (item: string): boolean => holderOf(drawing, item) === here;
   const edges = [...drawing.edges.values()].filter((edge) => leaving(edge.from));
-  const own = from.part?.kind === "exit" ? edges.filter((edge) => edge.from === from.item && edge.part.name === from.part?.name) : edges;
+  const supervises = from.item !== here.item && from.item.includes(".");
+  const own = supervises ? edges.filter((edge) => edge.from === from.item) : from.part?.kind === "exit" ? edges.filter((edge) => edge.from === from.item && edge.part.name === from.part?.name) : edges;
   const order = [...own].sort((one, two) => (one.points[0]?.[0] ?? 0) - (two.points[0]?.[0] ?? 0));
   const edge = order.find((edge) => edge.to !== here.item) ?? order[0];
   const target = edge && drawing.elements.get(edge.to);

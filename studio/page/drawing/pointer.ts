@@ -78,7 +78,7 @@ export function pointers(host: HTMLElement, stage: Stage): () => void {
     event.preventDefault();
     const lines = event.deltaMode === 1 ? 16 : 1;
     const [dx, dy] = event.shiftKey && event.deltaX === 0 ? [event.deltaY, 0] : [event.deltaX, event.deltaY];
-    view.value = event.ctrlKey || event.metaKey ? zoomed(view.peek(), wheelFactor(-event.deltaY * lines), at(event)) : panned(view.peek(), -dx * lines, -dy * lines);
+    view.value = event.ctrlKey || event.metaKey ? zoomed(view.peek(), wheelFactor(event.deltaY * lines), at(event)) : panned(view.peek(), -dx * lines, -dy * lines);
   };
   const twice = (event: MouseEvent): void => {
     const found = (event.target as Element).closest(".over") ? null : under(at(event), false);

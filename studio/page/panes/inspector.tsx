@@ -28,7 +28,7 @@ export function Inspector() {
   const plan = !part || part.item === drawn.plan || part.item === `${drawn.plan}.start`;
   return (
     <fieldset class="inspector" disabled={!pen.value}>
-      {plan ? <PlanForm drawn={drawn} /> : entry ? <EntryForm entry={entry} /> : <Component key={part.item} drawn={drawn} part={part} />}
+      {plan ? <PlanForm drawn={drawn} /> : entry ? <EntryForm drawn={drawn} entry={entry} /> : <Component key={part.item} drawn={drawn} part={part} />}
     </fieldset>
   );
 }
@@ -56,9 +56,16 @@ const Name = ({ item }: { item: string }) => (
   <Line label={words.name} value={nameOf(item)} take={(to) => (isName(to) ? ask.edit([{ rename: { item, to } }], {}, [{ item: [...item.split(".").slice(0, -1), to].join(".") }]) : refuse(words.nameHint))} />
 );
 
-const Help = ({ item, text }: { item: string; text: string }) => (
-  <Line label={words.help} value={text.replaceAll("\n", " ")} hint={words.helpHint} take={(text) => ask.edit([{ setDoc: { item, text } }], {}, [{ item }])} />
-);
+/** The help above an item, as one line. */
+function Help({ item, drawn }: { item: string; drawn: Drawing }) {
+  const [text, setText] = useState("");
+  useEffect(() => {
+    let wanted = true;
+    ask.help(item).then((found) => wanted && setText(found.replaceAll("\n", " ")), () => {});
+    return () => void (wanted = false);
+  }, [item, drawn]);
+  return <Line label={words.help} value={text} hint={words.helpHint} take={(text) => ask.edit([{ setDoc: { item, text } }], {}, [{ item }])} />;
+}
 
 function Wrong({ drawn, part }: { drawn: Drawing; part: Part }) {
   const found = about(drawn, part);
@@ -104,7 +111,7 @@ function Component({ drawn, part }: { drawn: Drawing; part: Part }) {
       {timing && <h3>{words.timing}</h3>}
       {timing && <Line label={words.every} value={timing.every} hint={words.unlessSaid} take={time("every")} />}
       {timing && <Line label={words.deadline} value={timing.deadline} hint={words.unlessSaid} take={time("deadline")} />}
-      <Help item={item} text={drawn.elements.get(item)?.help ?? ""} />
+      <Help item={item} drawn={drawn} />
     </>
   );
 }
@@ -130,6 +137,7 @@ function PlanForm({ drawn }: { drawn: Drawing }) {
       <div class="inspector-head"><div><strong>{plan}</strong><small>plan</small></div></div>
       <Wrong drawn={drawn} part={{ item: plan }} />
       <Name item={plan} />
+      <Help item={plan} drawn={drawn} />
       <h3>{words.entries}<button type="button" class="tool" aria-label={words.addEntry} title={words.addEntry} onClick={() => void entries.add()}><Sign name="plus" /></button></h3>
       {drawn.entries.length === 0 && <p class="value-hint">{words.noEntries}</p>}
       {drawn.entries.map((entry) => (
@@ -141,13 +149,13 @@ function PlanForm({ drawn }: { drawn: Drawing }) {
   );
 }
 
-function EntryForm({ entry }: { entry: Entry }) {
+function EntryForm({ drawn, entry }: { drawn: Drawing; entry: Entry }) {
   const { item } = entry;
   const edit = (change: string, fields: object) => ask.edit([{ [change]: { entry: item, ...fields } }], {}, [{ item }]);
   return (
     <>
       <div class="inspector-head"><div><strong>{entry.name}</strong><small>{words.entryKinds[entry.kind]}</small></div></div>
-      {drawing.value && <Wrong drawn={drawing.value} part={{ item }} />}
+      <Wrong drawn={drawn} part={{ item }} />
       <Name item={item} />
       <label class="line">
         <span>{words.kindOf}</span>
@@ -157,7 +165,7 @@ function EntryForm({ entry }: { entry: Entry }) {
       </label>
       <Line label={words.typeOf} value={entry.type ?? ""} take={(ty) => edit("setEntryType", { ty: ty || null })} />
       <Line label={words.valueTitle} value={entry.value ?? ""} take={(value) => edit("setEntryValue", { value: value || null })} />
-      <Help item={item} text={entry.help} />
+      <Help item={item} drawn={drawn} />
       <button type="button" class="quiet" onClick={() => void actions.remove([{ item }])}>{words.removeEntry(entry.name ?? "")}</button>
     </>
   );

@@ -25,7 +25,11 @@ function Popup({ part, at }: { part: Part; at: readonly [number, number] | null 
     });
   }, [part]);
   useInSight(at, host, answer);
-  useEffect(() => host.current?.querySelector("input")?.select(), [answer]);
+  useEffect(() => {
+    const line = host.current?.querySelector<HTMLInputElement>("input[type=text]");
+    line?.select();
+    if (answer && !line) host.current?.querySelector<HTMLElement>("button")?.focus();
+  }, [answer]);
   const key = (event: KeyboardEvent): void => {
     if (event.key !== "Escape") return;
     event.preventDefault();

@@ -1,0 +1,190 @@
+// Gestures of the drawing, by mouse and by keys, each ending in the bytes of the files.
+import assert from "node:assert/strict";
+import type { Page } from "playwright-core";
+import { inBrowser, type Studio } from "./browser";
+
+const PLAN = `use carbot
+
+plan P {
+    start go
+
+    actor go: Forward {
+        ForwardSuccessful -> turn
+    }
+
+    actor turn: Turn(angle = 90 deg) {
+        TurnSuccessful -> terminate
+    }
+}
+`;
+
+type Spot = [x: number, y: number];
+
+/** The middle of something drawn. */
+async function middle(page: Page, selector: string): Promise<Spot> {
+  const box = await page.locator(selector).first().boundingBox();
+  assert.ok(box, selector);
+  return [box.x + box.width / 2, box.y + box.height / 2];
+}
+const name = (item: string): string => `.node [data-item="${item}"] text.name`;
+const exit = (item: string, label: string): string => `.node [data-item="${item}"] text:text-is("${label}")`;
+
+async function drag(page: Page, from: Spot, to: Spot, drop = true): Promise<void> {
+  await page.mouse.move(...from);
+  await page.mouse.down();
+  await page.mouse.move(from[0] + 6, from[1] + 3);
+  await page.mouse.move(...to, { steps: 5 });
+  if (drop) await page.mouse.up();
+}
+
+/** Waits for the drawing, and gives it the focus. */
+async function ready(page: Page, item: string): Promise<void> {
+  await page.locator(`.node [data-item="${item}"]`).waitFor();
+  await page.locator(".board").focus();
+}
+
+/** Chooses from the list that a key or a drop has opened. */
+async function choose(page: Page, typed: string, label: string): Promise<void> {
+  const list = page.locator(".chooser");
+  await list.getByRole("option").first().waitFor();
+  await list.getByRole("combobox").fill(typed);
+  await list.locator("[role=option][aria-selected=true] .choice-label", { hasText: label }).waitFor();
+  await page.keyboard.press("Enter");
+  await list.waitFor({ state: "detached" });
+}
+
+/** Waits until a file holds what a pattern says. */
+async function becomes({ read }: Studio, file: string, wanted: RegExp): Promise<void> {
+  const end = Date.now() + 5000;
+  while (!wanted.test(await read(file)) && Date.now() < end) await new Promise((done) => setTimeout(done, 30));
+  assert.match(await read(file), wanted);
+}
+
+inBrowser("a drag writes one place on the grid, Escape none, undo gives the first bytes", { "plan.afp": PLAN }, async (studio) => {
+  const { page, read, holds } = studio;
+  await ready(page, "P.turn");
+  let places = 0;
+  const from = await middle(page, name("P.turn"));
+  page.on("websocket", (socket) => socket.on("framesent", ({ payload }) => (places += String(payload).includes("afp/place") ? 1 : 0)));
+  await page.reload();
+  await ready(page, "P.turn");
+  await drag(page, from, [from[0] + 130, from[1] + 70], false);
+  await page.keyboard.press("Escape");
+  await page.mouse.move(from[0] + 200, from[1]);
+  await page.mouse.up();
+  assert.deepEqual(await middle(page, name("P.turn")), from);
+  assert.equal(places, 0);
+  await drag(page, from, [from[0] + 130, from[1] + 70]);
+  await becomes(studio, "plan.afp.layout", /^P\.turn \d+ \d+\n$/);
+  assert.equal(places, 1);
+  const [, x, y] = (await read("plan.afp.layout")).trim().split(" ").map(Number);
+  assert.deepEqual([x! % 12, y! % 12], [0, 0]);
+  await page.keyboard.press("Control+z");
+  await holds("plan.afp.layout", "");
+  assert.equal(await read("plan.afp"), PLAN);
+});
+
+inBrowser("an exit dragged onto an element connects, onto the ground it asks, an arrow's head leads elsewhere", { "plan.afp": PLAN }, async (studio) => {
+  const { page, holds } = studio;
+  await ready(page, "P.turn");
+  await drag(page, await middle(page, exit("P.turn", "TurnSuccessful")), await middle(page, name("P.go")));
+  const looped = PLAN.replace("TurnSuccessful -> terminate", "TurnSuccessful -> go");
+  await holds("plan.afp", looped);
+  const [x, y] = await middle(page, exit("P.go", "ForwardSuccessful"));
+  await drag(page, [x, y], [x + 300, y + 20]);
+  await choose(page, "end", "end the plan");
+  await holds("plan.afp", looped.replace("ForwardSuccessful -> turn", "ForwardSuccessful -> terminate"));
+  await page.keyboard.press("Control+z");
+  await holds("plan.afp", looped);
+  // The head of the edge to `turn`, back onto `go` itself.
+  await page.waitForFunction(() => document.querySelectorAll(".way").length === 3);
+  const tip = await page.locator('.way [data-item="P.go"][data-exit="ForwardSuccessful"] .tip').boundingBox();
+  await drag(page, [tip!.x + tip!.width / 2, tip!.y + tip!.height - 2], await middle(page, name("P.go")));
+  await holds("plan.afp", looped.replace("ForwardSuccessful -> turn", "ForwardSuccessful -> go"));
+});
+
+inBrowser("templates are dropped on the ground, onto an element and onto an edge", { "plan.afp": PLAN }, async (studio) => {
+  const { page, read } = studio;
+  await ready(page, "P.turn");
+  const template = async (name: string): Promise<Spot> => {
+    await page.locator(`[data-template=${name}]`).scrollIntoViewIfNeeded();
+    return middle(page, `[data-template=${name}]`);
+  };
+  await drag(page, await template("CheckTouchSensor"), await middle(page, name("P.go")));
+  await becomes(studio, "plan.afp", /actor go: Forward \{\n        supervise checkTouchSensor: CheckTouchSensor \{\}/);
+  await drag(page, await template("SearchWall"), [330, 640]);
+  await becomes(studio, "plan.afp", /actor searchWall: SearchWall \{\}/);
+  await becomes(studio, "plan.afp.layout", /P\.searchWall -?\d+ -?\d+/);
+  await page.locator('.node [data-item="P.searchWall"]').waitFor();
+  const line = await page.locator('.way [data-item="P.go"][data-exit="ForwardSuccessful"] .flow').boundingBox();
+  await drag(page, await template("Curve"), [line!.x + line!.width / 2, line!.y + 6]);
+  await becomes(studio, "plan.afp", /ForwardSuccessful -> curve/);
+  assert.match(await read("plan.afp"), /actor curve: Curve \{\n\s*CurveSuccessful -> turn\n/);
+});
+
+inBrowser("a value is set by steps, sign and formula; a name where it stands; a template by a click", { "plan.afp": PLAN }, async (studio) => {
+  const { page } = studio;
+  await ready(page, "P.turn");
+  await page.mouse.click(...(await middle(page, '.node [data-item="P.turn"] text.formula')));
+  const popup = page.locator(".value-popup");
+  await popup.getByRole("button", { name: "other sign" }).click();
+  await popup.getByRole("button", { name: "more" }).click();
+  await popup.getByRole("button", { name: "Set" }).click();
+  await becomes(studio, "plan.afp", /Turn\(angle = -\d+ deg\)/);
+  await popup.waitFor({ state: "detached" });
+  await page.mouse.dblclick(...(await middle(page, name("P.turn"))));
+  await page.locator("input.rename").fill("left");
+  await page.keyboard.press("Enter");
+  await becomes(studio, "plan.afp", /-> left[\s\S]*actor left: Turn/);
+  await page.locator('.node [data-item="P.go"]').waitFor();
+  await page.mouse.click(...(await middle(page, name("P.go"))));
+  await page.locator(".inspector-head", { hasText: "go" }).waitFor();
+  await page.locator("[data-template=CheckEscapeButton]").click();
+  await becomes(studio, "plan.afp", /actor go: Forward \{\n        supervise checkEscapeButton: CheckEscapeButton/);
+});
+
+inBrowser("zoom, fit and pan change no byte; what is beside the window comes into sight by keys", { "plan.afp": PLAN }, async ({ page, read }) => {
+  await ready(page, "P.go");
+  const zoom = page.locator(".board-zoom");
+  for (const [key, wanted] of [["+", "125 %"], ["-", "100 %"], ["1", "100 %"]] as const) {
+    await page.keyboard.press(key);
+    await zoom.filter({ hasText: wanted }).waitFor();
+  }
+  const before = await middle(page, name("P.go"));
+  await page.mouse.move(...before);
+  await page.keyboard.down("Control");
+  await page.mouse.wheel(0, -60);
+  await page.keyboard.up("Control");
+  await zoom.filter({ hasText: /1[4-9]\d %/ }).waitFor();
+  const after = await middle(page, name("P.go"));
+  assert.ok(Math.hypot(after[0] - before[0], after[1] - before[1]) < 12, "what is under the pointer stays");
+  for (let round = 0; round < 40; round++) await page.keyboard.press("Shift+ArrowRight");
+  await page.keyboard.press("Home");
+  const [x] = await middle(page, name("P.go"));
+  assert.ok(x > 220 && x < 1300, `in sight: ${x}`);
+  assert.equal(await read("plan.afp"), PLAN);
+  assert.equal(await read("plan.afp.layout"), "");
+});
+
+inBrowser("the selection is moved, copied, pasted and removed by keys", { "plan.afp": PLAN }, async (studio) => {
+  const { page, holds, read } = studio;
+  await ready(page, "P.go");
+  for (const key of ["Home", "ArrowDown", "m", "ArrowRight", "Shift+ArrowDown"]) await page.keyboard.press(key);
+  await page.keyboard.press("Escape");
+  assert.equal(await read("plan.afp.layout"), "");
+  for (const key of ["m", "ArrowRight", "Shift+ArrowDown", "Enter"]) await page.keyboard.press(key);
+  await becomes(studio, "plan.afp.layout", /^P\.turn -?\d+ \d+\n$/);
+  await page.keyboard.press("Control+Shift+l");
+  await holds("plan.afp.layout", "");
+  await page.keyboard.press("Control+d");
+  await becomes(studio, "plan.afp", /actor turn2: Turn\(angle = 90 deg\)/);
+  await page.locator('.node [data-item="P.turn2"]').waitFor();
+  await page.keyboard.press("Delete");
+  await holds("plan.afp", PLAN);
+  await page.locator(".board").focus();
+  await page.keyboard.press("Control+a");
+  await page.keyboard.press("Delete");
+  await becomes(studio, "plan.afp", /^use carbot\n\nplan P \{\s*\}\n$/);
+  await page.keyboard.press("Control+z");
+  await holds("plan.afp", PLAN);
+});
