@@ -24,14 +24,24 @@ function allowed(element: Element): boolean {
   return [...element.children].every(allowed);
 }
 
-/**
- * The nodes of a fragment, for this document; none where anything in it is not on the lists.
- */
+const parsed = (svg: string): Element => new DOMParser().parseFromString(`<svg xmlns="${SVG}">${svg}</svg>`, "image/svg+xml").documentElement;
+
+/** What a parsed group holds, for this document; nothing where anything in it is not on the lists. */
+const checked = (group: Element): SVGElement[] =>
+  [...group.children].every(allowed) ? [...group.children].map((child) => document.importNode(child, true) as unknown as SVGElement) : [];
+
+/** The nodes of a fragment, for this document; none where anything in it is not on the lists. */
 export function nodes(svg: string): SVGElement[] {
-  const parsed = new DOMParser().parseFromString(`<svg xmlns="${SVG}">${svg}</svg>`, "image/svg+xml");
-  const root = parsed.documentElement;
-  if (root.localName !== "svg" || ![...root.children].every(allowed)) return [];
-  return [...root.children].map((child) => document.importNode(child, true) as unknown as SVGElement);
+  const root = parsed(svg);
+  return root.localName === "svg" ? checked(root) : [];
+}
+
+/** The nodes of many fragments, parsed at once. */
+export function all(fragments: readonly string[]): SVGElement[][] {
+  const root = parsed(fragments.map((svg) => `<g>${svg}</g>`).join(""));
+  // One that closes what it did not open, or that cannot be read, is found by itself.
+  const whole = root.localName === "svg" && root.children.length === fragments.length && [...root.children].every((group) => group.localName === "g" && group.attributes.length === 0);
+  return whole ? [...root.children].map(checked) : fragments.map(nodes);
 }
 
 /** An icon of a toolbox, a whole `svg` element; null where it is none, or has anything that is not on the lists. */

@@ -1,6 +1,6 @@
 // The drawing in the page: one SVG, a group for each element and edge, changed only where the drawing has changed.
 import { effect, signal } from "@preact/signals";
-import { nodes, svg } from "./fragment";
+import { all, nodes, svg } from "./fragment";
 import { spoken } from "./say";
 import { touches, type Drawing, type Edge, type Element, type Part } from "./shapes";
 import { FAR, NEAR, sight, type Size, type View } from "./view";
@@ -69,14 +69,21 @@ export function show(stage: Stage, before: Drawing | null, after: Drawing | null
     name(group, element, after!);
     if (known) travel(group, known, element);
   });
-  // An edge that appears or disappears changes what is said of its ends.
-  for (const [item, group] of stage.nodes) name(group, after!.elements.get(item)!, after!);
+  // What is said of these depends on more than themselves.
+  const counted = [...(after?.elements.values() ?? [])].filter((element) => element.kind === null).map((element) => element.item);
+  for (const item of new Set([started(old), started(after), ...counted])) {
+    const [group, element] = [stage.nodes.get(item), after?.elements.get(item)];
+    if (group && element) name(group, element, after!);
+  }
 }
+
+const started = (drawing: Drawing | null): string => [...(drawing?.edges.values() ?? [])].find((edge) => edge.kind === "start")?.to ?? "";
 
 function symbols(stage: Stage, drawing: Drawing | null): void {
   const defs = stage.root.firstElementChild!;
   const known = new Set([...defs.children].map((symbol) => symbol.id));
-  for (const { id, svg } of drawing?.symbols ?? []) if (!known.has(id)) defs.append(...nodes(svg));
+  const missing = (drawing?.symbols ?? []).filter(({ id }) => !known.has(id));
+  for (const { svg } of missing) defs.append(...nodes(svg));
 }
 
 type Shown = { svg: string };
@@ -94,20 +101,22 @@ function replace<T extends Shown>(
     group.remove();
     groups.delete(id);
   }
-  const parent = stage.layers[layer];
+  const anew: { id: string; one: T; group: SVGGElement }[] = [];
   for (const [id, one] of after) {
-    const known = before?.get(id);
     const group = groups.get(id) ?? svg("g", { class: layer === "edges" ? "way" : "node" });
-    if (!groups.has(id)) parent.append(group);
     groups.set(id, group);
     // A preview may stand where the answer says nothing new.
     group.removeAttribute("transform");
-    if (known === one && !group.dataset.bent) continue;
+    if (before?.get(id) !== one || group.dataset.bent) anew.push({ id, one, group });
+  }
+  const drawn = all(anew.map(({ one }) => one.svg));
+  anew.forEach(({ id, one, group }, nth) => {
     delete group.dataset.bent;
     delete group.dataset.zoom;
-    group.replaceChildren(...nodes(one.svg));
-    made(group, one, known);
-  }
+    group.replaceChildren(...drawn[nth]!);
+    made(group, one, before?.get(id));
+  });
+  stage.layers[layer].append(...anew.filter(({ group }) => !group.isConnected).map(({ group }) => group));
 }
 
 function name(group: SVGGElement, element: Element, drawing: Drawing): void {
