@@ -8,6 +8,7 @@ import { begin as beginRuns } from "./debug/run";
 import { ask } from "./dialogs";
 import * as documents from "./documents";
 import { follow } from "./drawing/model";
+import * as guide from "./guide";
 import * as keep from "./keep";
 import * as layout from "./layout";
 import { showFirst } from "./panes/files";
@@ -27,6 +28,7 @@ layout.begin(localStorage);
 register();
 run.commands();
 beginRuns();
+guide.begin();
 listen(window);
 render(h(Screen, {}), document.getElementById("page")!);
 effect(() => {

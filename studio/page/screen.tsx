@@ -9,6 +9,7 @@ import { Finder } from "./finder";
 import { Sign } from "./icons";
 import { bottom, clamp, narrow, palette, right, show, widths, type Bottom as Lower, type Narrow, type Right } from "./layout";
 import { report, trouble, Welcome } from "./panes/files";
+import { Guide } from "./panes/guide";
 import { Inspector } from "./panes/inspector";
 import { Palette } from "./panes/palette";
 import { Problems } from "./panes/problems";
@@ -77,6 +78,7 @@ function Centre() {
     <section class="pane drawing" data-pane="drawing" data-when="drawing" aria-label={words.drawing}>
       {current.value ? <Canvas /> : <Welcome />}
       <EndCard />
+      <Guide />
       {!palette.value && current.value && (
         <button class="opener" onClick={() => (palette.value = true)} aria-label={words.open(words.palette)} title={words.open(words.palette)}>
           <Sign name="palette" />

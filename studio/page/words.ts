@@ -113,9 +113,19 @@ export const words = {
   emptyPlanBody: "A blank drawing.",
   examplesBody: "A finished plan to look at, run and change. It is copied into the folder.",
 
-  comingDrawing: "The drawing of the plan",
-  comingPalette: "What a plan can be made of",
-  comingInspector: "Nothing is selected",
+  guide: "Your first plan, step by step",
+  guideProgress: (done: number, all: number) => `${done} of ${all} steps done`,
+  guideSteps: {
+    drive: { title: "Make it drive", body: "Drag Forward from the palette into the drawing, or click it." },
+    connect: { title: "Say what comes next", body: "The exit of the element leads nowhere yet. Click it, or drag it, and choose the end of the plan." },
+    run: { title: "Let it run", body: "Press Run. What is active is green." },
+    notice: { title: "Let it notice", body: "Drag CheckTouchSensor onto the element that drives. It watches as long as that is active." },
+    follow: { title: "What shall follow a bump?", body: "Click the event of the new supervisor and choose: a new Forward with a negative distance drives backwards. Connect its exit, too." },
+    stop: { title: "A button that always stops it", body: "Drag CheckEscapeButton onto the start of the plan. It watches as long as the plan runs." },
+    lead: { title: "Lead its event to the end", body: "Click the open exits and choose what follows, until the bar says ready." },
+    again: { title: "Run it again", body: "Watch which way is taken when the robot bumps into something." },
+    done: { title: "That is a whole plan", body: "The inspector sets values, the text says the same in words, and Files has examples to learn from." },
+  },
 };
 
 /** The text of a new plan; it is a file, not a message. */

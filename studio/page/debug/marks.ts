@@ -3,7 +3,7 @@ import { effect } from "@preact/signals";
 import { svg } from "../drawing/fragment";
 import { drawing } from "../drawing/model";
 import { rectOf, type Drawing, type Rect } from "../drawing/shapes";
-import { at, taken } from "./follow";
+import { at, taken, type At } from "./follow";
 import { active, frames, phase, state } from "./run";
 
 /** Milliseconds that an edge is shown as just taken. */
@@ -11,13 +11,15 @@ const FADES = 600;
 
 export interface Layers {
   root: Element;
-  /** Where marks go, over the drawing. */
+  /** Where marks go: borders below the elements, signs over them. */
+  below: SVGGElement;
   over: SVGGElement;
+  nodes: ReadonlyMap<string, SVGGElement>;
   edges: ReadonlyMap<string, SVGGElement>;
 }
 
 function frame([x, y, width, height]: Rect, name: string): SVGElement {
-  return svg("rect", { class: name, x: x - 1, y: y - 1, width: width + 2, height: height + 2, rx: 9 });
+  return svg("rect", { class: name, x: x - 1.5, y: y - 1.5, width: width + 3, height: height + 3, rx: 10.5 });
 }
 
 /** A triangle in a corner: what is active is told by more than its colour. */
@@ -47,30 +49,41 @@ export function marks(layers: Layers): () => void {
     layers.root.classList.toggle("running", runs);
     if (!drawn || !runs) {
       [last, shown, before] = [null, "", null];
-      return layers.over.replaceChildren();
+      return show(layers, [], [], new Set());
     }
     const found = at(frames.value, drawn.plan, now.stack, now.watching);
     const key = JSON.stringify([found, phase.value]);
     if (key === shown && drawn === before) return;
     [shown, before] = [key, drawn];
-    layers.over.replaceChildren(...shapes(drawn, found, phase.value === "held"));
     const innermost = found.active.find((each) => !each.inside)?.item ?? null;
+    show(layers, borders(drawn, found, phase.value === "held"), signs(drawn, found), new Set(innermost ? [innermost] : []));
     flash(layers, taken(drawn.edges.values(), last, innermost));
     last = innermost ?? last;
   });
 }
 
-function shapes(drawn: Drawing, found: ReturnType<typeof at>, held: boolean): SVGElement[] {
+function show({ below, over, nodes }: Layers, borders: SVGElement[], signs: SVGElement[], filled: ReadonlySet<string>): void {
+  below.replaceChildren(...borders);
+  over.replaceChildren(...signs);
+  for (const [item, group] of nodes) group.classList.toggle("active", filled.has(item));
+}
+
+const borders = (drawn: Drawing, found: At, held: boolean): SVGElement[] =>
+  found.active.flatMap(({ item, inside }) => {
+    const rect = rectOf(drawn, { item });
+    return rect ? [frame(rect, `run-active${inside ? " inside" : ""}${held ? " held" : ""}`)] : [];
+  });
+
+function signs(drawn: Drawing, found: At): SVGElement[] {
   const watching = found.watching.flatMap((item) => {
     const rect = rectOf(drawn, { item });
     return rect ? eye(rect) : [];
   });
-  const elements = found.active.flatMap(({ item, inside }) => {
+  const active = found.active.flatMap(({ item, inside }) => {
     const rect = rectOf(drawn, { item });
-    const name = `run-active${inside ? " inside" : ""}${held ? " held" : ""}`;
-    return rect ? [frame(rect, name), ...(inside ? [] : sign(rect))] : [];
+    return rect && !inside ? sign(rect) : [];
   });
-  return [...watching, ...elements];
+  return [...watching, ...active];
 }
 
 function flash({ edges }: Layers, id: string | null): void {

@@ -39,8 +39,9 @@ export function mountCanvas(host: HTMLElement): () => void {
   pane.append(scene.root, over);
   host.append(pane);
   render(<Over />, over);
-  const runs = svg("g", { class: "run-layer", "aria-hidden": "true" });
-  scene.marks.before(runs);
+  const [below, above] = [0, 1].map(() => svg("g", { class: "run-layer", "aria-hidden": "true" })) as [SVGGElement, SVGGElement];
+  scene.rings.before(below);
+  scene.marks.before(above);
   const watch = new ResizeObserver(() => (size.value = { width: pane.clientWidth, height: pane.clientHeight }));
   watch.observe(pane);
   const key = (event: KeyboardEvent): void => {
@@ -62,7 +63,7 @@ export function mountCanvas(host: HTMLElement): () => void {
   pane.addEventListener("pointerdown", settles, true);
   // A press says afterwards that it was one.
   pane.addEventListener("focus", () => (byKeys.value = true));
-  const ends = [catalog.begin(), messages.begin(), commands(), pointers(pane, scene), ...shows(scene, pane), ...sights(), focuses(pane), runMarks({ root: scene.root, over: runs, edges: scene.edges })];
+  const ends = [catalog.begin(), messages.begin(), commands(), pointers(pane, scene), ...shows(scene, pane), ...sights(), focuses(pane), runMarks({ root: scene.root, below, over: above, nodes: scene.nodes, edges: scene.edges })];
   return () => {
     ends.forEach((end) => end());
     watch.disconnect();

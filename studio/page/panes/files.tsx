@@ -2,6 +2,7 @@
 import { signal } from "@preact/signals";
 import { create, current, isOpen, open } from "../documents";
 import { askLine } from "../dialogs";
+import { guide } from "../guide";
 import { Sign } from "../icons";
 import { files, hello } from "../session";
 import { planText, words } from "../words";
@@ -43,17 +44,18 @@ const free = (name: string, ending: string): string => {
 };
 const planName = (name: string): string => name.replace(/(^|_)([a-z0-9])/g, (_, __, letter: string) => letter.toUpperCase());
 
-async function make(name: string, what: { text: string } | { example: string }): Promise<void> {
+async function make(name: string, what: { text: string } | { example: string }, made: (uri: string) => void = () => {}): Promise<void> {
   try {
     const uri = uriOf(name);
     await create({ uri, ...what });
+    made(uri);
     await show(uri);
   } catch (why) {
     report(why);
   }
 }
 
-export const makeFirst = (): Promise<void> => make(free("plan", ".afp"), { text: planText("Plan") });
+export const makeFirst = (): Promise<void> => make(free("plan", ".afp"), { text: planText("Plan") }, guide);
 export const makeExample = (name: string): Promise<void> => make(free(name, ".afp"), { example: name });
 
 export async function makeNew(): Promise<void> {

@@ -1,0 +1,76 @@
+// The first plan, built by the person: what the card says next follows from what the plan has, so that no order is forced.
+import { computed, signal } from "@preact/signals";
+import { current } from "./documents";
+import { ended } from "./debug/run";
+import { drawing } from "./drawing/model";
+import type { Drawing } from "./drawing/shapes";
+import { number } from "./problems";
+
+export const STEPS = ["drive", "connect", "run", "notice", "follow", "stop", "lead", "again"] as const;
+export type Step = (typeof STEPS)[number];
+
+/** What a plan has. */
+export interface Facts {
+  actors: number;
+  errors: number;
+  /** Supervisors of elements, and of the whole plan. */
+  watched: number;
+  stoppers: number;
+  /** Runs that have ended. */
+  runs: number;
+}
+
+/** What to do next; null where everything is done. */
+export function next({ actors, errors, watched, stoppers, runs }: Facts): Step | null {
+  if (actors === 0) return "drive";
+  if (watched === 0) return errors ? "connect" : runs === 0 ? "run" : "notice";
+  if (stoppers === 0) return errors ? "follow" : "stop";
+  if (errors) return "lead";
+  return runs < 2 ? "again" : null;
+}
+
+/** What a drawing shows of a plan. */
+export function facts(drawn: Pick<Drawing, "plan" | "elements">, errors: number, runs: number): Facts {
+  const elements = [...drawn.elements.values()];
+  const exits = elements.flatMap(({ pieces }) => pieces).filter(({ part }) => part.kind === "exit");
+  const names = (item: string): number => item.split(".").length;
+  return {
+    actors: elements.filter(({ kind }) => kind === "actor").length,
+    errors,
+    watched: exits.filter(({ item }) => names(item) === 3).length,
+    stoppers: exits.filter(({ item }) => names(item) === 2 && !drawn.elements.has(item)).length,
+    runs,
+  };
+}
+
+const KEY = "afp-studio-guide";
+/** The plan that is guided; empty without one. */
+const guided = signal("");
+const runs = signal(0);
+
+/** The step that is shown; null without a guide for the plan that is shown. */
+export const step = computed<Step | "done" | null>(() => {
+  if (!guided.value || guided.value !== current.value || !drawing.value) return null;
+  return next(facts(drawing.value, number("error"), runs.value)) ?? "done";
+});
+
+/** How much is done, of how much. */
+export const progress = (now: Step | "done"): [number, number] => [now === "done" ? STEPS.length : STEPS.indexOf(now), STEPS.length];
+
+export function guide(uri: string): void {
+  [guided.value, runs.value] = [uri, 0];
+  sessionStorage.setItem(KEY, uri);
+}
+
+export function leave(): void {
+  guided.value = "";
+  sessionStorage.removeItem(KEY);
+}
+
+/** Takes up the guide after a reload, and counts runs. */
+export function begin(): void {
+  guided.value = sessionStorage.getItem(KEY) ?? "";
+  ended.subscribe((end) => {
+    if (end) runs.value = runs.peek() + 1;
+  });
+}
