@@ -188,3 +188,67 @@ inBrowser("the selection is moved, copied, pasted and removed by keys", { "plan.
   await page.keyboard.press("Control+z");
   await holds("plan.afp", PLAN);
 });
+
+const clipboard = { permissions: ["clipboard-read", "clipboard-write"] };
+
+inBrowser("items are copied as text with their toolbox, cut and pasted, a supervisor onto another element", { "plan.afp": PLAN.replace("    }\n\n    actor turn", "        supervise touch: CheckTouchSensor { TouchSensorPressed -> turn }\n    }\n\n    actor turn") }, async (studio) => {
+  const { page, read } = studio;
+  const first = await read("plan.afp");
+  await ready(page, "P.go");
+  await page.keyboard.press("Home");
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("Control+c");
+  const copied = () => page.evaluate(() => navigator.clipboard.readText());
+  await page.waitForFunction(async () => (await navigator.clipboard.readText()).includes("supervise"));
+  assert.equal(await copied(), "use carbot\nsupervise touch: CheckTouchSensor { TouchSensorPressed -> turn }\n");
+  await page.keyboard.press("ArrowLeft");
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("Control+v");
+  await becomes(studio, "plan.afp", /actor turn: [^}]*supervise touch: CheckTouchSensor/);
+  await page.keyboard.press("Control+z");
+  await becomes(studio, "plan.afp", new RegExp(`^${first.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")}$`));
+  await page.keyboard.press("Home");
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("Control+x");
+  await becomes(studio, "plan.afp", /^(?![\s\S]*actor turn)/);
+  await page.keyboard.press("Control+v");
+  await becomes(studio, "plan.afp", /actor turn: Turn\(angle = 90 deg\)/);
+}, clipboard);
+
+const NESTED = `use carbot
+
+plan P {
+    start q
+    subplan q: Q { OK -> terminate }
+}
+
+plan Q {
+    start go
+    actor go: Forward { ForwardSuccessful -> terminate }
+}
+`;
+
+inBrowser("into a sub-plan and out of it, each with its own view; problems are said where they are", { "plan.afp": NESTED }, async (studio) => {
+  const { page } = studio;
+  await ready(page, "P.q");
+  await page.keyboard.press("-");
+  await page.keyboard.press("Home");
+  await page.keyboard.press("Control+Enter");
+  await page.locator('.node [data-item="Q.go"]').waitFor();
+  await page.locator(".board-zoom", { hasText: "100 %" }).waitFor();
+  await page.keyboard.press("Backspace");
+  await page.locator('.node [data-item="P.q"]').waitFor();
+  await page.locator(".board-zoom", { hasText: "80 %" }).waitFor();
+  await page.mouse.dblclick(...(await middle(page, name("P.q"))));
+  await page.locator('.node [data-item="Q.go"]').waitFor();
+  await page.locator(".board").focus();
+  await page.keyboard.press("Home");
+  await page.keyboard.press("Control+d");
+  await page.locator('.node [data-item="Q.go2"]').waitFor();
+  await page.mouse.move(...(await middle(page, name("Q.go2"))));
+  await page.locator(".tip-box", { hasText: "can never be reached" }).waitFor();
+  await page.mouse.move(300, 700);
+  // It has the focus of the keys still.
+  await page.keyboard.press("Escape");
+  await page.locator(".tip-box").waitFor({ state: "detached" });
+});
