@@ -69,8 +69,9 @@ test("the ground pans, with Shift it draws a box, with the middle button everyth
   assert.deepEqual(run(down(ELEMENT, [0, 0], { middle: true }), up([0, 0]))[1], []);
 });
 
-test("an exit and an arrow's head draw an edge; Escape sends nothing", () => {
-  for (const [hit, head] of [[EXIT, false], [HEAD, true]] as const) {
+test("an exit, an arrow's head and an entry draw a line; Escape sends nothing", () => {
+  const entry: Hit = { on: "entry", part: { item: "P.gap" }, element: "P.start" };
+  for (const [hit, head] of [[EXIT, false], [HEAD, true], [entry, false]] as const) {
     const [, effects] = run(down(hit), move([130, 100]), up([200, 200]));
     assert.deepEqual(effects, [{ do: "draw", from: hit.part, head }, { do: "lead", at: [130, 100] }, { do: "connect", at: [200, 200] }]);
   }

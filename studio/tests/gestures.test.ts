@@ -143,6 +143,22 @@ inBrowser("a value is set by steps, sign and formula; a name where it stands; a 
   await becomes(studio, "plan.afp", /actor go: Forward \{\n        supervise checkEscapeButton: CheckEscapeButton/);
 });
 
+inBrowser("an entry dragged onto an element or a port is bound to it, elsewhere the reason is said", { "plan.afp": PLAN.replace("    start go", "    var gap: length = 20 cm\n    var way: angle = 5 deg\n\n    start go") }, async (studio) => {
+  const { page } = studio;
+  await ready(page, "P.go");
+  const entry = (name: string): Promise<Spot> => middle(page, `.node [data-item="P.start"] text.entry:text-is("${name}")`);
+  await drag(page, await entry("gap"), await middle(page, name("P.go")));
+  await choose(page, "distance", "distance");
+  await becomes(studio, "plan.afp", /Forward\(distance = gap\)/);
+  await page.locator('.node [data-item="P.go"] text.entry').waitFor();
+  await drag(page, await entry("way"), await middle(page, '.node [data-item="P.turn"] text.formula'));
+  await becomes(studio, "plan.afp", /Turn\(angle = way\)/);
+  await drag(page, await entry("way"), await middle(page, '.node [data-item="P.go"] text.entry'));
+  await page.locator(".board-notice", { hasText: "angle" }).waitFor();
+  await drag(page, await entry("way"), [300, 600]);
+  await page.locator(".board-notice", { hasText: "Drop an entry on an element" }).waitFor();
+});
+
 inBrowser("zoom, fit and pan change no byte; what is beside the window comes into sight by keys", { "plan.afp": PLAN }, async ({ page, read }) => {
   await ready(page, "P.go");
   const zoom = page.locator(".board-zoom");

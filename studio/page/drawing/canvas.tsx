@@ -11,12 +11,13 @@ import * as catalog from "./catalog";
 import { Chooser, Rename, useInSight } from "./choices";
 import { question } from "./choose";
 import { carries, commands, fit, isMoving, reveal, settle } from "./keys";
+import { connecting, newLine } from "./lead";
 import { legible } from "./legible";
 import { mark } from "./marks";
 import { svg } from "./fragment";
 import * as messages from "./messages";
 import { drawing, plan, wanted } from "./model";
-import { box, byKeys, connecting, hovered, newLine, pointers } from "./pointer";
+import { box, byKeys, hovered, pointers } from "./pointer";
 import { renaming } from "./rename";
 import { notice, said, spoken } from "./say";
 import { planOf, type Part, type Point } from "./shapes";
@@ -205,7 +206,8 @@ function tip(): { at: Point; texts: { text: string; help?: boolean }[] } | null 
   const known = connecting.value;
   if (known) {
     const reason = known.over === null ? null : known.targets.get(known.over.slice(known.over.lastIndexOf(".") + 1));
-    return known.at[0] === 0 ? null : { at: known.at, texts: [{ text: reason ?? words.connectHint }] };
+    const entry = (known.from.part?.kind ?? "whole") === "whole";
+    return known.at && { at: known.at, texts: [{ text: reason ?? (entry ? words.portHint : words.connectHint) }] };
   }
   const last = selected.value.at(-1);
   const focus = byKeys.value && last ? { part: last, at: actions.beneath(last) } : null;

@@ -88,7 +88,7 @@ type Later = Extract<Event, { type: "move" | "up" }>;
 function down(state: State, event: Down): [State, Effect[]] {
   const { id, at, hit, shift, touch, selection } = event;
   if (state.is !== "idle") return second(state, event);
-  const held = hit && "element" in hit && hit.on !== "exit" ? hit.element : null;
+  const held = hit && "element" in hit && hit.on !== "exit" && hit.on !== "entry" ? hit.element : null;
   // Who is dragged: the selection, when it was pressed, or the element alone.
   const elements = held === null ? [] : selection.includes(held) ? selection : [held];
   return [{ is: "pressed", id, at, hit, shift, middle: event.middle, touch, elements }, []];
@@ -130,7 +130,7 @@ function decided(state: Pressed): [State, Effect[]] {
   const { id, at, hit } = state;
   const ground: [State, Effect[]] = state.shift && !state.touch ? [{ is: "boxing", id, from: at }, []] : [{ is: "panning", id, last: at }, []];
   if (state.middle || hit === null || hit.on === "edge") return state.middle ? [{ is: "panning", id, last: at }, []] : ground;
-  if (hit.on === "exit" || hit.on === "head") return [{ is: "drawing", id }, [{ do: "draw", from: hit.part, head: hit.on === "head" }]];
+  if (hit.on === "exit" || hit.on === "head" || hit.on === "entry") return [{ is: "drawing", id }, [{ do: "draw", from: hit.part, head: hit.on === "head" }]];
   return [{ is: "moving", id, from: at }, [{ do: "lift", elements: state.elements }]];
 }
 

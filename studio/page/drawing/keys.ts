@@ -1,6 +1,7 @@
 // The keys of the drawing, each a command that `Ctrl+K` finds by name as well.
 import { signal } from "@preact/signals";
 import { command, type Command } from "../commands";
+import * as layout from "../layout";
 import { pen } from "../session";
 import { select, selected } from "../selection";
 import * as actions from "./actions";
@@ -138,6 +139,12 @@ async function add(): Promise<void> {
   if (offer) await actions.addAfter(offer);
 }
 
+/** The form of the selection gets the focus. */
+function inspect(): void {
+  layout.show("inspector");
+  requestAnimationFrame(() => document.querySelector<HTMLElement>(".inspector input")?.focus());
+}
+
 async function copy(): Promise<void> {
   await navigator.clipboard.writeText(await actions.copied());
 }
@@ -175,6 +182,7 @@ export function commands(): () => void {
     { id: "connect", label: words.connect, key: "C", enabled: chosen, run: actions.connect },
     { id: "entry", label: words.addEntry, key: "E", enabled: may, run: entries.add },
     { id: "start", label: words.setStart, key: "S", enabled: chosen, run: actions.start },
+    { id: "inspect", label: words.inspect, key: "I", enabled: any, run: inspect },
     { id: "template", label: words.template, key: "T", enabled: chosen, run: actions.template },
     { id: "rename-item", label: words.rename, key: "F2", enabled: chosen, run: () => actions.rename(actions.focused()!) },
     { id: "remove", label: words.remove, key: "Delete", enabled: chosen, run: () => actions.remove(selected.peek()) },

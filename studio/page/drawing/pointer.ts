@@ -7,16 +7,15 @@ import * as ask from "./ask";
 import { IDLE, next, type Effect, type Event, type State } from "./gesture";
 import { hit, NEAR_EDGE, NEAR_FINGER, type Hit } from "./hit";
 import { carry, movable, places, snapped } from "./lift";
+import * as lead from "./lead";
 import { drawing, hold, release } from "./model";
-import { refuse, say } from "./say";
-import { centre, nameOf, planOf, rectOf, same, touches, type Part, type Point, type Rect } from "./shapes";
+import { say } from "./say";
+import { planOf, same, touches, type Point, type Rect } from "./shapes";
 import { show, view, type Stage } from "./stage";
 import { editing } from "./value";
 import { panned, toPlan, wheelFactor, zoomed } from "./view";
 import { words } from "./words";
 
-/** An exit that is being led somewhere. */
-export const connecting = signal<{ from: Part; targets: ReadonlyMap<string, string | null>; over: string | null; at: Point } | null>(null);
 /** A box that is being drawn, in units of the plan. */
 export const box = signal<Rect | null>(null);
 /** What the pointer is over, and where. */
@@ -125,13 +124,14 @@ function run(stage: Stage, effect: Effect): void {
       box.value = null;
       return;
     case "draw":
-      return void begin(effect.from);
+      hovered.value = null;
+      return void lead.begin(effect.from);
     case "lead":
-      return led(effect.at);
+      return lead.to(effect.at);
     case "connect":
-      return void connect(effect.at);
+      return void lead.drop(effect.at);
     case "undraw":
-      connecting.value = null;
+      lead.connecting.value = null;
   }
 }
 
@@ -194,49 +194,4 @@ function boxed(from: Point, to: Point, done: boolean): void {
   const inside = [...drawn.elements.values()].filter((element) => element.kind !== null && touches(element.rect, rect));
   const items = inside.map((element) => ({ item: element.item }));
   select([...selected.peek().filter((part) => !items.some((other) => same(other, part))), ...items], "drawing");
-}
-
-async function begin(from: Part): Promise<void> {
-  if (!pen.peek()) return;
-  connecting.value = { from, targets: new Map(), over: null, at: [0, 0] };
-  hovered.value = null;
-  select([from], "drawing");
-  const known = connecting.peek();
-  try {
-    const targets = await actions.fitting(from);
-    if (connecting.peek()?.from === known?.from && connecting.peek()) connecting.value = { ...connecting.peek()!, targets };
-  } catch (why) {
-    refuse(why);
-  }
-}
-
-function led(at: Point): void {
-  const drawn = drawing.peek();
-  if (!drawn || !connecting.peek()) return;
-  const found = hit(drawn, toPlan(view.peek(), at), view.peek().zoom, 0);
-  const over = found && "element" in found ? found.element : null;
-  connecting.value = { ...connecting.peek()!, over, at };
-}
-
-/** An exit is dropped: on an element that fits, on one that does not, or on the ground, which asks. */
-async function connect(at: Point): Promise<void> {
-  led(at);
-  const known = connecting.peek();
-  connecting.value = null;
-  if (!known) return;
-  const to = known.over && nameOf(known.over);
-  const reason = to === null ? null : known.targets.get(to);
-  if (reason) return refuse(reason);
-  if (to !== null && known.over && drawing.peek()?.elements.get(known.over)?.kind) return void (await actions.lead(known.from, to));
-  const [x, y] = toPlan(view.peek(), at);
-  await actions.whatThen(known.from, at, [Math.round((x - 60) / 12) * 12, Math.round(y / 12) * 12]);
-}
-
-/** The line from an exit to the pointer, in units of the plan. */
-export function newLine(): Point[] | null {
-  const drawn = drawing.value;
-  const known = connecting.value;
-  if (!drawn || !known || (known.at[0] === 0 && known.at[1] === 0)) return null;
-  const rect = rectOf(drawn, known.from);
-  return rect && [centre(rect), toPlan(view.value, known.at)];
 }

@@ -46,6 +46,7 @@ export const words = {
   remove: "Remove the selection",
   setStart: "Start with this element",
   rename: "Rename the selection",
+  inspect: "Show the selection as a form",
   addEntry: "Add an entry",
   duplicate: "Duplicate the selection",
   into: "Into the plan behind the element",
@@ -76,6 +77,9 @@ export const words = {
   renameLabel: (name: string) => `New name of ${name}`,
   nameHint: "Letters, digits and _; begin with a letter",
 
+  portHint: "Drop an entry on an element, or on one of its ports",
+  noFit: (name: string) => `'${name}' does not fit here`,
+  whichPort: (name: string) => `Which port takes ${name}?`,
   connectHint: "Drop it on what comes next, or on the ground",
   selectFirst: "Select an element first",
   noSubPlan: "There is no plan of this file behind this",

@@ -1,0 +1,85 @@
+// Something that is drawn from one place of the drawing to another: an exit to what comes next, an entry to a port.
+import { signal } from "@preact/signals";
+import { select } from "../selection";
+import { pen } from "../session";
+import * as actions from "./actions";
+import { anatomy, choices } from "./anatomy";
+import * as ask from "./ask";
+import { choose } from "./choose";
+import { hit } from "./hit";
+import { GRID } from "./lift";
+import { drawing } from "./model";
+import { refuse } from "./say";
+import { centre, nameOf, rectOf, type Part, type Point } from "./shapes";
+import { view } from "./stage";
+import { toPlan } from "./view";
+import { words } from "./words";
+
+/** What is being drawn, the names that it may be led to, each with the reason why not, and where it is, in pixels of the pane. */
+export const connecting = signal<{ from: Part; targets: ReadonlyMap<string, string | null>; over: string | null; at: Point | null } | null>(null);
+
+const isEntry = ({ part }: Part): boolean => part === undefined || part.kind === "whole";
+
+export async function begin(from: Part): Promise<void> {
+  if (!pen.peek()) return;
+  connecting.value = { from, targets: new Map(), over: null, at: null };
+  select([from], "drawing");
+  try {
+    // An entry goes to a port of any element: which ones it fits is asked at the drop.
+    const targets = await actions.fitting(isEntry(from) ? { item: from.item, part: { kind: "start" } } : from);
+    const now = connecting.peek();
+    if (now?.from === from) connecting.value = { ...now, targets };
+  } catch (why) {
+    refuse(why);
+  }
+}
+
+export function to(at: Point): void {
+  const [drawn, now] = [drawing.peek(), connecting.peek()];
+  if (!drawn || !now) return;
+  const found = hit(drawn, toPlan(view.peek(), at), view.peek().zoom, 0);
+  connecting.value = { ...now, over: found && "element" in found ? found.element : null, at };
+}
+
+/** Dropped on what fits, on what does not, or on the ground, which asks. */
+export async function drop(at: Point): Promise<void> {
+  to(at);
+  const [drawn, now] = [drawing.peek(), connecting.peek()];
+  connecting.value = null;
+  if (!drawn || !now) return;
+  const place = toPlan(view.peek(), at);
+  const found = hit(drawn, place, view.peek().zoom, 0);
+  if (isEntry(now.from)) return found && "element" in found ? bind(now.from, found.part, at) : refuse(words.portHint);
+  const over = now.over === null ? undefined : drawn.elements.get(now.over);
+  const reason = over && now.targets.get(nameOf(over.item));
+  if (reason) return refuse(reason);
+  if (over?.kind) return void (await actions.lead(now.from, nameOf(over.item)));
+  const grid = (value: number): number => Math.round(value / GRID) * GRID;
+  await actions.whatThen(now.from, at, [grid(place[0] - 60), grid(place[1])]);
+}
+
+/** Binds a port to an entry; dropped on an element, asks for the port where several fit. */
+async function bind(entry: Part, onto: Part, at: Point): Promise<void> {
+  const drawn = drawing.peek();
+  const found = drawn && (await anatomy(drawn, onto.item).catch(() => null));
+  if (!found) return refuse(words.portHint);
+  const name = nameOf(entry.item);
+  const reason = (port: (typeof found.ports)[number]): string | null => {
+    const known = port.answer?.candidates.find((candidate) => candidate.text === name);
+    return known ? known.refused : words.noFit(name);
+  };
+  const dropped = onto.part?.kind === "input" || onto.part?.kind === "output" ? found.ports.filter((port) => port.name === onto.part?.name) : found.ports;
+  const fits = dropped.filter((port) => reason(port) === null);
+  if (fits.length === 0) return refuse(dropped[0] ? (reason(dropped[0]) ?? words.portHint) : words.portHint);
+  const list = choices({ ...found, exits: [], ports: fits }).map(({ choice }) => choice);
+  const chosen = list.length === 1 ? list[0] : await choose(words.whichPort(name), list, at);
+  const port = fits.find((one) => `port ${one.name}` === chosen?.id);
+  if (port) await ask.edit([{ bind: { component: onto.item, port: port.name, to: port.out ? { out: name } : { in: name } } }], {}, [port.part]);
+}
+
+/** The line from where it began to the pointer, in units of the plan. */
+export function newLine(): Point[] | null {
+  const [drawn, now] = [drawing.value, connecting.value];
+  const rect = drawn && now?.at && rectOf(drawn, now.from);
+  return rect ? [centre(rect), toPlan(view.value, now.at!)] : null;
+}
