@@ -1,0 +1,46 @@
+// Two people in one folder: one changes it, the other watches, and may take over.
+import assert from "node:assert/strict";
+import type { Page } from "playwright-core";
+import { inBrowser } from "./browser";
+
+const PLAN = "use carbot\n\nplan P {\n    start go\n    actor go: Forward { ForwardSuccessful -> terminate }\n}\n";
+
+const openText = async (page: Page): Promise<void> => {
+  await page.locator(".rail button", { hasText: "Text" }).click();
+  await page.locator(".cm-content").waitFor();
+};
+
+const type = async (page: Page, words: string): Promise<void> => {
+  await page.locator(".cm-line", { hasText: "start go" }).click();
+  await page.keyboard.press("End");
+  await page.keyboard.type(words);
+};
+
+inBrowser("one changes, the other watches; who takes the pen begins a history of his own", { "plan.afp": PLAN }, async ({ page, holds }) => {
+  await openText(page);
+  const other = await page.context().newPage();
+  await other.goto(new URL("/", page.url()).href);
+  // The browser remembers which panes are open.
+  await other.locator(".cm-content").waitFor();
+  const banner = (who: Page) => who.getByText("Somebody else changes this folder. You watch.");
+  await banner(other).waitFor();
+  await type(page, " // one");
+  await other.locator(".cm-line", { hasText: "start go // one" }).waitFor();
+  await type(other, " // two");
+  await holds("plan.afp", PLAN.replace("start go", "start go // one"));
+  assert.equal(await other.locator(".cm-line", { hasText: "two" }).count(), 0);
+
+  await other.getByRole("button", { name: "Change it myself" }).click();
+  await banner(page).waitFor();
+  await banner(other).waitFor({ state: "detached" });
+  await other.getByRole("button", { name: "Nothing to undo" }).waitFor();
+  await type(other, " // two");
+  await holds("plan.afp", PLAN.replace("start go", "start go // one // two"));
+  await page.locator(".cm-line", { hasText: "// two" }).waitFor();
+  await type(page, " // three");
+  assert.equal(await page.locator(".cm-line", { hasText: "three" }).count(), 0);
+  await other.close();
+  await banner(page).waitFor({ state: "detached" });
+  await type(page, " // four");
+  await holds("plan.afp", PLAN.replace("start go", "start go // one // two // four"));
+});
