@@ -14,7 +14,7 @@
 //! | `text` | an excerpt |
 //! | `ebnf` | the grammar: the parser takes random sentences of it |
 //!
-//! `of=PATH` says that a block is an excerpt of that file of `examples/vacuum`, to the letter.
+//! `of=PATH` says that a block is an excerpt of that file, seen from `examples/vacuum`, to the letter.
 //! `set=ENTRY=VALUE` gives a plan an input that it needs to run. `file=NAME` puts a block's text into a file of that name, for the blocks after it on the page.
 
 pub mod rust;

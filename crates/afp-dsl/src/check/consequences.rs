@@ -71,18 +71,30 @@ fn hold_back_unread(files: &[PlanFile], unread: &[Span], diags: &mut Diagnostics
     });
     let broken = uses.filter(|item| unread.iter().any(|place| item.contains(*place)));
     whole.extend(broken.map(|item| item.file));
+    // What is wrong besides, once the line can be read: one edit does not mend it.
+    let mut besides: FxHashSet<(u16, usize)> = FxHashSet::default();
     diags.retain(|each| {
         // A unit is read, whatever stands around it.
         if each.code < Code::E0201 || each.code == Code::E0236 {
             return true;
         }
         let (file, at) = (each.span.file, each.span.start as usize);
-        let is_beside = lines.iter().any(|(other, line)| *other == file && line.contains(&at));
+        let beside = lines.iter().find(|(other, line)| *other == file && line.contains(&at));
         let may_come_of = || {
             let mut named = each.message.split('\'').skip(1).step_by(2);
             whole.contains(&file) || named.any(|name| words.contains(name))
         };
-        !(is_beside || MISSING.contains(&each.code) && may_come_of())
+        let is_missing = MISSING.contains(&each.code);
+        if let Some((_, line)) = beside.filter(|_| each.severity == Severity::Error) {
+            besides.insert((file, line.start));
+        }
+        !(beside.is_some() || is_missing && may_come_of())
+    });
+    diags.change(|each| {
+        let line = line(text(each.span.file), each.span);
+        if each.code < Code::E0201 && besides.contains(&(each.span.file, line.start)) {
+            each.fix = None;
+        }
     });
 }
 

@@ -393,7 +393,9 @@ fn report_missing(origin: &Origin<'_>, seen: &[&Name], unknown: usize, diags: &m
                 .help(format!("add '{}' with an element, {either}", edges.join(", "))),
         );
     }
-    let interrupted = is_plan && !seen.iter().any(|name| name.text == "Interrupted");
+    // An unknown one may be meant for it.
+    let named = unknown > 0 || seen.iter().any(|name| name.text == "Interrupted");
+    let interrupted = is_plan && !named;
     if let Some(edge) = signature.interrupting.filter(|_| interrupted) {
         diags.push(
             Diagnostic::new(

@@ -133,8 +133,14 @@ pub(crate) fn unknown<'a>(
 ) -> Diagnostic {
     let known = known.into_iter();
     let diagnostic = Diagnostic::new(code, span, message);
-    if let Some(meant) = words::nearest(name, known.clone()) {
-        return diagnostic.help(format!("write '{meant}'")).replace(meant);
+    match words::all_nearest(name, known.clone()).as_slice() {
+        [] => {}
+        [meant] => return diagnostic.help(format!("write '{meant}'")).replace(*meant),
+        // Which one is meant nobody knows.
+        several => {
+            let some = several.iter().copied().take(MOST_LISTED);
+            return diagnostic.help(format!("write {}", words::list(some, "or")));
+        }
     }
     let mut some: Vec<&str> = known.take(MOST_LISTED + 1).collect();
     match some.len() {

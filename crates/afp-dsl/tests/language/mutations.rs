@@ -15,9 +15,20 @@ use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use crate::support::{self, files, read};
 
 /// Folders of shipped plans, and toolboxes that some of them use.
-const FOLDERS: [&str; 3] =
-    ["../../plans", "../../examples/vacuum/plans", "../../examples/embed/plans"];
-const TOOLBOXES: [&str; 2] = ["../../examples/vacuum/vacuum.afp", "../../examples/embed/shop.afp"];
+const FOLDERS: [&str; 4] = [
+    "../../plans",
+    "../../examples/vacuum/plans",
+    "../../examples/embed/plans",
+    "../../examples/peers/plans",
+];
+const TOOLBOXES: [&str; 6] = [
+    "../../examples/vacuum/vacuum.afp",
+    "../../examples/embed/shop.afp",
+    "../../examples/peers/toolboxes/air.afp",
+    "../../examples/peers/toolboxes/bench.afp",
+    "../../examples/peers/toolboxes/house.afp",
+    "../../examples/peers/toolboxes/nav.afp",
+];
 
 /// How many mutants with an error are drawn.
 const MUTANTS: usize = 500;
@@ -111,7 +122,9 @@ fn corpus() -> (Vec<(String, String)>, Toolboxes) {
     }
     let paths = FOLDERS.iter().flat_map(|folder| files(folder));
     let name = |path: &std::path::Path| path.file_name().unwrap().to_string_lossy().into_owned();
-    let texts: Vec<_> = paths.map(|path| (name(&path), read(&path))).collect();
+    // Plans alone: the scenarios behind them are no part of what is drawn.
+    let plans = |text: String| text.split("\nscenario ").next().unwrap_or_default().to_owned();
+    let texts: Vec<_> = paths.map(|path| (name(&path), plans(read(&path)))).collect();
     for (name, text) in &texts {
         let compiled = compile(text, &toolboxes);
         assert!(errors(&compiled).is_empty(), "{name}: {}", compiled.render(false));

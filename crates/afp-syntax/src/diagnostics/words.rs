@@ -10,23 +10,32 @@ pub fn list<'a>(names: impl IntoIterator<Item = &'a str>, joint: &str) -> String
     }
 }
 
-/// The candidate that differs least from `name`, when it is near enough to be a slip.
+/// The candidate that differs least from `name`, when it is near enough to be a slip; of several the first.
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    all_nearest(name, candidates).first().copied()
+}
+
+/// The candidates that differ least from `name`, all by as much, when they are near enough to be a slip.
 ///
 /// Only what looks alike is compared letter by letter, and not more than some hundreds of those, so
 /// that thousands of unknown names among thousands of known ones are no trouble.
-pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn all_nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let limit = (name.chars().count() / 3).clamp(1, 3);
     let alike = candidates.into_iter().filter(|candidate| look_alike(name, candidate, limit));
     let (name, mut other, mut rows) = (letters(name, Vec::new()), Vec::new(), Rows::default());
-    let mut nearest = None;
+    let (mut least, mut nearest) = (limit, Vec::new());
     for candidate in alike.take(MOST_ALIKE) {
         other = letters(candidate, other);
         let score = distance(&name, &other, &mut rows);
-        if score <= limit && nearest.is_none_or(|(least, _)| score < least) {
-            nearest = Some((score, candidate));
+        if score < least {
+            nearest.clear();
+        }
+        if score <= least {
+            least = score;
+            nearest.push(candidate);
         }
     }
-    nearest.map(|(_, candidate)| candidate)
+    nearest
 }
 
 /// Whether two words are about as long and begin or end with the same letter; short ones and those
@@ -95,7 +104,7 @@ fn distance(left: &[char], right: &[char], rows: &mut Rows) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{Rows, distance, list, nearest};
+    use super::{Rows, all_nearest, distance, list, nearest};
 
     #[test]
     fn slips_find_the_name_that_was_meant() {
@@ -107,6 +116,7 @@ mod tests {
         assert_eq!(nearest("oFrward", names), Some("Forward"));
         assert_eq!(nearest("ba", ["ab", "cd"]), Some("ab"));
         assert_eq!(nearest("WÄNDE", ["Turn", "wände"]), Some("wände"));
+        assert_eq!(all_nearest("roundd", ["way", "rounds", "round"]), ["rounds", "round"]);
     }
 
     #[test]

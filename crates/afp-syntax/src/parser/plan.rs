@@ -346,7 +346,11 @@ impl Parser<'_, '_> {
                 .help(format!("write '{right}'"))
                 .replace(right),
         );
-        (0..tokens).for_each(|_| self.bump());
+        // A word is no name of the edge.
+        match self.at(Kind::Name) {
+            true => self.pass(tokens),
+            false => (0..tokens).for_each(|_| self.bump()),
+        }
     }
 
     /// `"(" {bind [","]} ")"`

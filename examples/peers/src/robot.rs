@@ -1,0 +1,151 @@
+//! The robot, which has no devices, and the world, in which there is nothing.
+
+use afp::core::Platform;
+use afp::core::devices::{ControlId, DeviceRow, Devices, FaultId};
+use afp::load::{ActorSlot, Args, Outputs, See, SupervisorSlot};
+use afp::{Environment, Events, Fault, Instant, StillClock};
+use afp_session::{Drawing, Pose2, Robot, Samples, Shape, Simulated, World, WorldError};
+
+/// The robot that plays every part.
+#[derive(Clone, Debug, Default)]
+pub struct StandIn {
+    now: Instant,
+}
+
+/// No devices at all.
+pub struct Nothing;
+
+impl Devices for Nothing {
+    const TABLE: &'static [DeviceRow] = &[];
+    type Control = ();
+    type Fault = ();
+
+    fn control(_: ControlId) -> Option<()> {
+        None
+    }
+
+    fn fault(_: FaultId, _: Option<f64>) -> Option<()> {
+        None
+    }
+}
+
+impl Environment for StandIn {
+    fn stop(&mut self, _: Instant) {}
+
+    fn emergency_stop(&mut self) {}
+}
+
+impl Platform for StandIn {
+    type Clock = StillClock;
+
+    fn clock(&self) -> StillClock {
+        StillClock
+    }
+
+    fn now(&self) -> Instant {
+        self.now
+    }
+
+    fn advance(&mut self, to: Instant) {
+        self.now = self.now.max(to);
+    }
+}
+
+impl Robot for StandIn {
+    type Devices = Nothing;
+
+    fn sample(&self, _: &mut Samples<'_, '_>) {}
+}
+
+impl Simulated for StandIn {
+    type World = Nowhere;
+
+    fn new(_: &Nowhere, _: u64) -> Result<StandIn, String> {
+        Ok(StandIn::default())
+    }
+}
+
+/// The world in which there is nothing.
+#[derive(Clone, Debug)]
+pub struct Nowhere;
+
+impl World for Nowhere {
+    const DEFAULT: &'static str = "";
+
+    fn read(_: &str) -> Result<Nowhere, WorldError> {
+        Ok(Nowhere)
+    }
+
+    fn name(&self) -> &str {
+        "nowhere"
+    }
+
+    fn started_at(&self, _: Pose2) -> Result<Nowhere, String> {
+        Ok(Nowhere)
+    }
+
+    fn scene(&self) -> Vec<Shape> {
+        Vec::new()
+    }
+
+    fn drawing(&self) -> Drawing {
+        Drawing::default()
+    }
+}
+
+/// A part that does nothing by itself.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Part;
+
+impl ActorSlot<StandIn> for Part {
+    fn start(
+        &mut self,
+        _: &dyn Args,
+        _: See<'_>,
+        _: &mut StandIn,
+        _: Instant,
+    ) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn poll(
+        &mut self,
+        _: &dyn Args,
+        _: &mut dyn Outputs,
+        _: &mut StandIn,
+        _: Instant,
+    ) -> Result<Option<u16>, Fault> {
+        Ok(None)
+    }
+
+    fn interrupt(&mut self, _: &mut StandIn, _: Instant) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn clear(&mut self) {}
+}
+
+impl SupervisorSlot<StandIn> for Part {
+    fn start(
+        &mut self,
+        _: &dyn Args,
+        _: Events,
+        _: See<'_>,
+        _: &mut StandIn,
+        _: Instant,
+    ) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn poll(
+        &mut self,
+        _: &dyn Args,
+        _: &mut dyn Outputs,
+        _: &mut StandIn,
+        _: Instant,
+    ) -> Result<Option<u16>, Fault> {
+        Ok(None)
+    }
+
+    fn clear(&mut self) {}
+}
