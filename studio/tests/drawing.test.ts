@@ -10,6 +10,7 @@ import { movable, places, snapped } from "../page/drawing/lift";
 import { home, step } from "../page/drawing/navigate";
 import { added, between, header } from "../page/drawing/offers";
 import { spoken } from "../page/drawing/say";
+import { rectOf } from "../page/drawing/shapes";
 import type { Answer, Drawing, Edge, Element, Point, Rect } from "../page/drawing/shapes";
 import { quantity, slider, spelled, stepped } from "../page/drawing/value";
 import { fitted, shown, toPane, toPlan, zoomed } from "../page/drawing/view";
@@ -70,6 +71,14 @@ test("arrow keys lead along exits, back, and to neighbours", () => {
   assert.deepEqual(step(drawn, { item: "P.c" }, "left"), { item: "P.b" });
   assert.deepEqual(step(drawn, { item: "P.a", part: { kind: "exit", name: "Done" } }, "down"), { item: "P.b" });
   assert.deepEqual(home(drawn), { item: "P" });
+});
+
+test("what is not drawn yet stands nowhere", () => {
+  const drawn = example();
+  assert.deepEqual(rectOf(drawn, { item: "P.a.touch" }), [220, 0, 120, 44]);
+  assert.deepEqual(rectOf(drawn, { item: "P.a", part: { kind: "input", name: "distance" } }), [100, 0, 120, 60]);
+  assert.equal(rectOf(drawn, { item: "P.a.lane" }), null);
+  assert.equal(rectOf(drawn, { item: "P.d" }), null);
 });
 
 test("names for screen readers", () => {

@@ -147,12 +147,12 @@ export function distance(points: readonly Point[], [px, py]: Point): number {
   return least;
 }
 
-/** Where a part is drawn: its piece, or the box of its element. */
+/** Where a part is drawn: its piece, or that of its item; null for what is not drawn yet. */
 export function rectOf(drawing: Drawing, part: Part): Rect | null {
   const holder = holderOf(drawing, part.item);
   if (!holder) return null;
   const key = keyOf(part);
   const piece = holder.pieces.find((piece) => keyOf(piece) === key);
   const whole = piece ?? holder.pieces.find((piece) => piece.item === part.item && piece.part.kind === "whole");
-  return whole?.rect ?? holder.rect;
+  return whole?.rect ?? (holder.item === part.item ? holder.rect : null);
 }
