@@ -28,12 +28,20 @@ interface Document extends Kept {
   failed: string | null;
 }
 
+type Taker = (uri: string, changes: Change[], maker: Maker, told: Told[]) => void;
+
 /** Who brought a change about, so that it is not told what it knows. */
 export type Maker = "text" | "outside" | "page";
 
 const documents = signal<ReadonlyMap<string, Document>>(new Map());
 const opening = new Map<string, Promise<void>>();
-const takers = new Set<(uri: string, changes: Change[], maker: Maker) => void>();
+/** A change as the server is told it: lines and columns of the text as it was right before. */
+export interface Told {
+  range: Range;
+  text: string;
+}
+
+const takers = new Set<Taker>();
 
 /** The address of the plan file that is shown; empty without one. */
 export const current = signal("");
@@ -54,7 +62,7 @@ export const nameOf = (uri: string): string =>
   files.value.find((file) => file.uri === uri)?.name ?? decodeURIComponent(uri.split("/").at(-1) ?? uri);
 
 /** Hears of every change of a text, after it was made; the answer ends that. */
-export function onText(take: (uri: string, changes: Change[], maker: Maker) => void): () => void {
+export function onText(take: Taker): () => void {
   takers.add(take);
   return () => takers.delete(take);
 }
@@ -88,7 +96,7 @@ function take(kept: Kept): void {
 /** Makes changes one after the other, tells everybody who shows a text, and the server unless it knows. */
 function make(changes: Change[], maker: Maker = "page", tell = true): Step[] {
   const steps: Step[] = [];
-  const told = new Map<string, { range: Range; text: string }[]>();
+  const told = new Map<string, Told[]>();
   for (const { uri, from, to, insert } of changes) {
     const document = documents.peek().get(uri);
     if (!document) continue;
@@ -105,7 +113,7 @@ function make(changes: Change[], maker: Maker = "page", tell = true): Step[] {
       lsp().notify("textDocument/didChange", { textDocument: { uri, version }, contentChanges });
     }
     const own = changes.filter((change) => change.uri === uri);
-    takers.forEach((take) => take(uri, own, maker));
+    takers.forEach((take) => take(uri, own, maker, contentChanges));
   }
   return steps;
 }

@@ -88,6 +88,7 @@ export const words = {
   stepOut: "Out of the sub-plan",
   stepBack: "To the element before",
   stop: "Stop",
+  breakpoint: "Stop here, or no longer",
   runAgain: "Run again",
   simulator: "simulator",
   speed: "Speed",

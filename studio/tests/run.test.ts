@@ -1,5 +1,7 @@
 // Runs in the page: the plan drives the simulated robot, the drawing shows where it is, its end is a card of sentences.
 import assert from "node:assert/strict";
+import { test } from "node:test";
+import { moved } from "../page/debug/breakpoints";
 import { inBrowser } from "./browser";
 
 const PLAN = `use std
@@ -76,4 +78,39 @@ inBrowser("a change of the text during a run marks it as older", { "plan.afp": P
   await page.getByRole("button", { name: /This run is of an older text/ }).click();
   await page.locator(".clock.running").waitFor();
   await page.getByRole("button", { name: /This run is of an older text/ }).waitFor({ state: "detached" });
+});
+
+test("breakpoints move with their lines", () => {
+  const at = (line: number, character: number) => ({ line, character });
+  const change = (from: [number, number], to: [number, number], text: string) => ({ range: { start: at(...from), end: at(...to) }, text });
+  assert.deepEqual(moved([2, 5], change([0, 0], [0, 0], "a\n")), [3, 6]);
+  assert.deepEqual(moved([2, 5], change([2, 0], [2, 0], "a\n")), [3, 6]);
+  assert.deepEqual(moved([2, 5], change([2, 4], [2, 4], "\n")), [2, 6]);
+  assert.deepEqual(moved([2, 5], change([1, 0], [2, 0], "")), [1, 4]);
+  assert.deepEqual(moved([2, 3, 5], change([2, 1], [5, 1], "")), [2]);
+  assert.deepEqual(moved([2, 3, 5], change([2, 1], [6, 0], "")), [2]);
+  assert.deepEqual(moved([2, 5], change([3, 0], [3, 2], "xyz")), [2, 5]);
+});
+
+inBrowser("a run stops at a breakpoint, which moves with the text and is remembered", { "plan.afp": PLAN }, async ({ page, isSaved }) => {
+  await page.locator(".rail button", { hasText: "Text" }).click();
+  await page.locator(".cm-line", { hasText: "actor first" }).click();
+  await page.locator(".breakpoint").waitFor({ state: "detached" });
+  // The selection follows the cursor.
+  await page.waitForTimeout(400);
+  await page.keyboard.press("F9");
+  await page.locator(".cm-stops .cm-breakpoint:visible").waitFor();
+  await page.locator("circle.breakpoint").waitFor();
+  await page.locator(".cm-line", { hasText: "plan Inner" }).click();
+  await page.keyboard.press("Home");
+  await page.keyboard.type("// above\n");
+  await isSaved();
+  await page.reload();
+  await page.locator(".cm-content").waitFor();
+  await page.locator(".cm-stops .cm-breakpoint:visible").waitFor();
+  await page.getByRole("button", { name: "Plans of this file" }).click();
+  await page.getByRole("menuitemradio", { name: "Outer" }).click();
+  await page.keyboard.press("F5");
+  await page.getByRole("button", { name: "Go on" }).waitFor();
+  assert.match((await page.locator(".clock").textContent())!, /^0\.5 s/);
 });

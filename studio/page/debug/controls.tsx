@@ -4,6 +4,7 @@ import { command } from "../commands";
 import { Tool } from "../bar";
 import { Sign } from "../icons";
 import { words } from "../words";
+import { toggleSelected } from "./breakpoints";
 import { active, again, back, dismiss, ended, goOn, into, next, older, out, pause, phase, setSpeed, speed, state, stop } from "./run";
 
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 20, null] as const;
@@ -61,5 +62,6 @@ export function commands(): void {
   command({ id: "out", label: words.stepOut, key: "Shift+F11", run: out, enabled: () => phase.value === "held" });
   command({ id: "back", label: words.stepBack, run: back, enabled: () => phase.value === "held" });
   command({ id: "stop", label: words.stop, key: "Shift+F5", run: stop, enabled: () => active.value });
+  command({ id: "breakpoint", label: words.breakpoint, key: "F9", run: () => void toggleSelected() });
   command({ id: "again", label: words.runAgain, key: "Ctrl+Shift+F5", run: again, enabled: () => phase.value !== "idle" });
 }

@@ -3,6 +3,7 @@ import { effect } from "@preact/signals";
 import { svg } from "../drawing/fragment";
 import { drawing } from "../drawing/model";
 import { rectOf, type Drawing, type Rect } from "../drawing/shapes";
+import { stops } from "./breakpoints";
 import { at, taken, type At } from "./follow";
 import { active, frames, phase, state } from "./run";
 
@@ -73,6 +74,19 @@ const borders = (drawn: Drawing, found: At, held: boolean): SVGElement[] =>
     const rect = rectOf(drawn, { item });
     return rect ? [frame(rect, `run-active${inside ? " inside" : ""}${held ? " held" : ""}`)] : [];
   });
+
+/** A disc on the left border of what a run stops at. */
+export function discs(layer: SVGGElement): () => void {
+  return effect(() => {
+    const drawn = drawing.value;
+    const rects = drawn ? [...stops.value].flatMap((item) => {
+      const rect = rectOf(drawn, { item });
+      return rect ? [rect] : [];
+    }) : [];
+    const made = rects.map(([x, y, , height]) => svg("circle", { class: "breakpoint", cx: x, cy: y + height / 2, r: 6 }));
+    layer.replaceChildren(...made);
+  });
+}
 
 function signs(drawn: Drawing, found: At): SVGElement[] {
   const watching = found.watching.flatMap((item) => {

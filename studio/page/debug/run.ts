@@ -1,5 +1,5 @@
 // A run of the plan: launched, paused, stepped, ended; what the page knows of it.
-import { computed, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import { connect, type Dap } from "../dap";
 import { current, nameOf, onText, saved } from "../documents";
 import { plan as shownPlan, trail } from "../drawing/model";
@@ -7,6 +7,7 @@ import { report, trouble } from "../panes/files";
 import { reveal } from "../places";
 import { number, problems } from "../problems";
 import { words } from "../words";
+import { breakpoints } from "./breakpoints";
 import type { Frame } from "./follow";
 
 export type Phase = "idle" | "starting" | "running" | "held" | "over";
@@ -100,8 +101,15 @@ export async function start(hold = false): Promise<void> {
 
 async function configure(own: Dap): Promise<void> {
   await own.request("afp/subscribe", { state: true });
+  await send(own);
   await own.request("configurationDone");
   if (phase.value === "starting") phase.value = "running";
+}
+
+/** Tells the debugger where to stop. */
+async function send(own: Dap): Promise<void> {
+  const files = Object.entries(breakpoints.peek());
+  await Promise.all(files.map(([uri, lines]) => own.request("setBreakpoints", { source: { path: pathOf(uri) }, breakpoints: lines.map((line) => ({ line: line + 1 })) })));
 }
 
 /** Waits a little until the server has written everything. */
@@ -221,8 +229,13 @@ export function revealSaid({ path, line }: Said): void {
   if (path && path === pathOf(uri)) void reveal(uri, { start: place, end: place }, "other");
 }
 
-/** Begins to notice that the text is another one than the one that runs. */
+/** Begins to notice that the text is another one than the one that runs, and where it shall stop. */
 export function begin(): () => void {
+  effect(() => {
+    void breakpoints.value;
+    // Lines of a text that is not the one that runs would be others.
+    if (dap && active.peek() && !older.peek()) void send(dap).catch(report);
+  });
   return onText((uri) => {
     if (active.value && program.startsWith(pathOf(uri)) && nameOf(uri).endsWith(".afp")) older.value = true;
   });

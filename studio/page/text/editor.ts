@@ -16,6 +16,7 @@ import { pen } from "../session";
 import { words } from "../words";
 import { marks } from "./marks";
 import { completion, hover } from "./sources";
+import { follow, stops } from "./stops";
 import { theme } from "./theme";
 
 /** Marks changes that come from `documents.ts`, which is not told of them. */
@@ -112,6 +113,7 @@ export function edit(host: HTMLElement, uri: string, nonce: string): { view: Edi
   const extensions = [
     EditorView.cspNonce.of(nonce),
     writable.of(ability()),
+    stops(uri),
     behaviour,
     autocompletion({ override: [completion(uri, together)], icons: false }),
     hoverTooltip(hover(uri), { hoverTime: 350 }),
@@ -120,6 +122,7 @@ export function edit(host: HTMLElement, uri: string, nonce: string): { view: Edi
   ];
   const view = new EditorView({ parent: host, state: EditorState.create({ doc: text(uri), extensions }) });
   const ends = [
+    follow(view, uri),
     onText((changed, changes, maker) => {
       if (changed !== uri || maker === "text") return;
       view.dispatch(...changes.map(({ from, to, insert }) => ({ changes: { from, to, insert }, sequential: true, annotations: fromPage.of(true) })));
