@@ -16,7 +16,7 @@ import pyarrow.parquet as pq
 COUNTS = ["run", "seed", "collisions", "interruptions", "deadline_misses"]
 WALL = ["wall_error_judged_s", "wall_error_max_m", "wall_error_mean_m"]
 NUMBERS = ["walldist_si", "time_s", "distance_m", "contacts_s", *WALL, "took_s"]
-TEXTS = ["world", "walldist", "ending", "where", "why", "trace", "command"]
+TEXTS = ["world", "walldist", "ending", "where", "why", "touched", "trace", "command"]
 TYPES = (
     dict.fromkeys(COUNTS, pa.uint64())
     | dict.fromkeys(NUMBERS, pa.float64())

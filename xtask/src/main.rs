@@ -17,6 +17,7 @@ mod pi;
 mod python;
 mod scxml;
 mod shell;
+mod studio;
 mod suites;
 mod vacuum;
 mod wasm;
@@ -68,6 +69,15 @@ enum Chore {
     Lint,
     /// Renders the book of docs/ with mdBook.
     Book,
+    /// Makes the studio's page and opens the studio; arguments go on to 'afpc studio'.
+    Studio {
+        /// Makes the page, nothing else.
+        #[arg(long)]
+        page: bool,
+        /// Arguments of 'afpc studio'.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<String>,
+    },
 }
 
 fn main() -> ExitCode {
@@ -79,6 +89,8 @@ fn main() -> ExitCode {
         Chore::Nightly { suites } => suites::run(suites::NIGHTLY, &suites),
         Chore::Lint => suites::run(suites::LINT, &[]),
         Chore::Book => book::run(),
+        Chore::Studio { page: true, .. } => studio::page(),
+        Chore::Studio { arguments, .. } => studio::open(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

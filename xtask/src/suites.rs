@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use crate::install::Profile;
 use crate::shell::{Failure, cargo, run as run_command};
 use crate::{
-    arm, bench, dap, engine, fuzz, gate, install, opencv, pi, python, scxml, vacuum, wasm,
+    arm, bench, dap, engine, fuzz, gate, install, opencv, pi, python, scxml, studio, vacuum, wasm,
 };
 
 /// A suite by its name.
@@ -18,6 +18,7 @@ pub const TEST: &[Suite] = &[
     ("python", python::run),
     ("scxml", || scxml::run(50)),
     ("dap", dap::run),
+    ("studio", studio::test),
     ("gate", gate::run),
     ("web", wasm::run),
     ("install", || install::run(Profile::Debug)),
@@ -38,6 +39,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("python long", python::long),
     ("scxml", || scxml::run(2000)),
     ("dap", dap::run),
+    ("studio", studio::test),
     ("gate", gate::run),
     ("web", wasm::run),
     ("install", || install::run(Profile::Release)),

@@ -9,10 +9,12 @@ mod steer;
 mod stop;
 mod time;
 mod why;
+mod world;
 
 use std::time::Duration as Wall;
 
 use afp_core::Instant;
+use afp_session::Drawing;
 use dapts::{IEvent, IRequest, event, request};
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
@@ -31,8 +33,25 @@ pub trait Host<'h> {
     /// There is none: why, and what to do.
     fn launch(&mut self, launch: &Launch) -> Result<Box<dyn Target + 'h>, String>;
 
+    /// What a run would take place in, before there is one.
+    ///
+    /// # Errors
+    /// There is none: why, and what to do.
+    fn world(&mut self, launch: &Launch) -> Result<Surroundings, String> {
+        Err(format!("nothing is known of the world of '{}'", launch.program))
+    }
+
     /// A path as [`Program::files`](crate::Program::files) have it, however it is written.
     fn path(&self, path: &str) -> String;
+}
+
+/// What a run takes place in.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Surroundings {
+    /// What a picture shows of it.
+    pub drawing: Drawing,
+    /// Other worlds that a run may take place in, as `launch` takes them, each with where it comes from.
+    pub worlds: Vec<(String, &'static str)>,
 }
 
 /// A debug adapter for one client.

@@ -24,7 +24,7 @@ mod text;
 mod watched;
 pub mod wire;
 
-pub use adapter::{Adapter, Host, Launch};
+pub use adapter::{Adapter, Host, Launch, Surroundings};
 pub use log_target::LogTarget;
 pub use program::{Entry, Place, Program, Spot, Unit};
 pub use session_target::SessionTarget;

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use afp_core::devices::DeviceRow;
+use afp_core::devices::{DeviceRow, find_signal};
 use afp_core::trace::{ComponentId, EntryName, TraceEntryId};
 use afp_core::{Duration, Instant, StartError};
 use afp_session::{
-    AnySession, Applied, Datum, NamedRecord, Observer, Open, Request, RunEvent, SetError, Stimulus,
-    View, refusal,
+    AnySession, Applied, Datum, NamedRecord, Observer, Open, Pose2, Request, RunEvent, SampleRef,
+    SetError, Stimulus, View, refusal,
 };
 
 use crate::program::Program;
@@ -174,6 +174,18 @@ impl Target for SessionTarget<'_> {
     fn seek(&mut self, to: Position) -> Result<(), String> {
         let asked = self.run.session.requests().to_vec();
         self.replay(&asked, to)
+    }
+
+    fn pose(&self) -> Option<Pose2> {
+        let session = &self.run.session;
+        let signal = find_signal(session.devices(), "robot", "pose")?;
+        let mut pose = None;
+        session.read(signal, &mut |sample| {
+            if let SampleRef::Pose(frame) = sample {
+                pose = Some(frame.pose);
+            }
+        });
+        pose
     }
 
     fn set(&mut self, entry: &str, text: &str) -> Result<String, String> {

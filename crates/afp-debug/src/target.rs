@@ -5,7 +5,7 @@ use std::sync::Arc;
 use afp_core::devices::DeviceRow;
 use afp_core::trace::ComponentId;
 use afp_core::{Duration, Instant};
-use afp_session::{Request, RunEvent};
+use afp_session::{Pose2, Request, RunEvent};
 
 use crate::program::Program;
 use crate::state::State;
@@ -46,6 +46,11 @@ pub trait Target {
     /// # Errors
     /// It cannot be done: why.
     fn seek(&mut self, to: Position) -> Result<(), String>;
+
+    /// Where the robot is, for pictures; none where it does not signal that.
+    fn pose(&self) -> Option<Pose2> {
+        None
+    }
 
     /// Writes an entry of the outermost plan as people write it; gives the value.
     ///

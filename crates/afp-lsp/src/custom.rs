@@ -5,6 +5,7 @@ pub(crate) mod edit;
 pub(crate) mod export;
 pub(crate) mod items;
 pub(crate) mod offers;
+pub(crate) mod robot;
 mod scene;
 
 pub(crate) use drawing::Subscription;
@@ -21,6 +22,7 @@ pub(crate) const METHODS: &[&str] = &[
     "afp/spanOf",
     "afp/palette",
     "afp/candidates",
+    "afp/robot",
     "afp/timing",
     "afp/export",
 ];

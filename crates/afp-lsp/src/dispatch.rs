@@ -4,7 +4,7 @@ use lsp_server::Request;
 use serde_json::Value;
 
 use crate::answer::{Answer, Failure, params};
-use crate::custom::{drawing, edit, export, items, offers};
+use crate::custom::{drawing, edit, export, items, offers, robot};
 use crate::server::Server;
 use crate::standard::{actions, completion, edits, hierarchy, looks, navigation, sync};
 
@@ -43,6 +43,7 @@ pub(crate) fn request(server: &mut Server, request: Request) -> Answer {
         "afp/spanOf" => call(server, value, items::span_of),
         "afp/palette" => call(server, value, offers::palette),
         "afp/candidates" => call(server, value, offers::candidates),
+        "afp/robot" => call(server, value, robot::robot),
         "afp/timing" => call(server, value, export::timing),
         "afp/export" => call(server, value, export::export),
         _ => Err(Failure::Unknown(method)),

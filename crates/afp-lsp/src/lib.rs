@@ -24,3 +24,4 @@ mod workspace;
 pub use host::{Host, NoFiles};
 pub use lsp_server::Message;
 pub use server::Server;
+pub use uri::{path_of, uri_of};

@@ -103,6 +103,12 @@ impl Server {
         messages
     }
 
+    /// The text of a document that the client has open, with the client's version of it.
+    pub fn text(&self, uri: &str) -> Option<(i32, &str)> {
+        let document = self.workspace.documents.get(&uri::path_of(uri))?;
+        Some((document.version, &document.text))
+    }
+
     /// The code to exit with, once the client has said goodbye: 0, or 1 where it did not shut the
     /// server down before.
     pub fn exit_code(&self) -> Option<u8> {

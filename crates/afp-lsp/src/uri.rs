@@ -30,6 +30,16 @@ pub(crate) fn uri(path: &str) -> Uri {
     Uri(format!("file://{root}{}", encoded(path)))
 }
 
+/// The path that an address stands for, as [`Host`](crate::Host) gets it.
+pub fn path_of(uri: &str) -> String {
+    path(&Uri(uri.to_owned()))
+}
+
+/// The address of a path.
+pub fn uri_of(path: &str) -> String {
+    uri(path).0
+}
+
 fn decoded(text: &str) -> String {
     let bytes = text.as_bytes();
     let mut plain = Vec::with_capacity(bytes.len());

@@ -9,6 +9,8 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use crate::commands::dap;
 #[cfg(feature = "lsp")]
 use crate::commands::lsp;
+#[cfg(feature = "studio")]
+use crate::commands::studio;
 use crate::commands::{
     build, check, completions, explain, fmt, graph, later, log, new, print, run, sweep, templates,
     test,
@@ -67,6 +69,10 @@ pub enum Command {
     #[cfg(feature = "dap")]
     #[command(after_help = dap::EXAMPLES)]
     Dap(dap::Arguments),
+    /// Draws and edits plans in the browser
+    #[cfg(feature = "studio")]
+    #[command(after_help = studio::EXAMPLES)]
+    Studio(studio::Arguments),
     /// Prints completions for a shell
     #[command(after_help = completions::EXAMPLES)]
     Completions(completions::Arguments),

@@ -5,6 +5,8 @@ pub mod check;
 pub mod completions;
 #[cfg(feature = "dap")]
 pub mod dap;
+#[cfg(any(feature = "lsp", feature = "studio"))]
+mod disk;
 pub mod explain;
 pub mod fmt;
 pub mod graph;
@@ -14,6 +16,8 @@ pub mod log;
 pub mod lsp;
 pub mod new;
 pub mod run;
+#[cfg(feature = "studio")]
+pub mod studio;
 pub mod sweep;
 pub mod templates;
 pub mod test;
@@ -44,6 +48,8 @@ pub fn dispatch(command: &Command, linked: &Linked<'_>) -> ExitCode {
         Command::Log(arguments) => log::run(arguments, linked),
         #[cfg(feature = "lsp")]
         Command::Lsp => lsp::run(),
+        #[cfg(feature = "studio")]
+        Command::Studio(arguments) => studio::run(arguments, linked),
         Command::New(arguments) => new::run(arguments),
         Command::Templates(arguments) => templates::run(arguments),
         #[cfg(feature = "dap")]

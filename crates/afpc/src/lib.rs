@@ -34,6 +34,8 @@ const FEATURES: &[&str] = &[
     "parquet",
     #[cfg(feature = "png")]
     "png",
+    #[cfg(feature = "studio")]
+    "studio",
 ];
 
 /// What is linked into the program.

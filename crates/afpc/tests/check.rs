@@ -157,7 +157,7 @@ fn a_wrong_plan_is_neither_charted_nor_run_nor_built() {
 #[test]
 fn commands_of_later_releases_and_of_other_builds_say_so() {
     let place = Place::new();
-    for name in ["replay", "deploy", "attach", "studio"] {
+    for name in ["replay", "deploy", "attach"] {
         let said = place.afpc(&format!("{name} some --option"));
         said.fails(2, &[&format!("'afpc {name}' is not in release"), "it comes with"]);
         assert!(!place.afpc("--help").out.contains(&format!("\n  {name} ")));
@@ -171,6 +171,8 @@ fn commands_of_later_releases_and_of_other_builds_say_so() {
         let built = format!("built without '{name}'");
         place.afpc(name).fails(2, &[&built, "--features full"]);
     }
+    #[cfg(not(feature = "studio"))]
+    place.afpc("studio").fails(2, &["built without 'studio'", "cargo studio"]);
     place.afpc("fly").fails(2, &["unrecognized subcommand 'fly'"]);
     place.afpc("check").fails(2, &["FILE"]);
 }

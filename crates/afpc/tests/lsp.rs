@@ -126,11 +126,12 @@ vim.fn.writefile(vim.split(table.concat(out, "\n"), "\n"), "found.txt")
 vim.cmd("quitall!")
 "#;
 
-/// What the book says to write into the configuration of Neovim, the first or second block.
+/// What the page on editors says to write into the configuration of Neovim, the first or second block.
 fn lua(nth: usize) -> String {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
     let blocks = afp_book::blocks(&docs).unwrap().into_iter();
-    blocks.filter(|block| block.kind == "lua").nth(nth).unwrap().text
+    let of_editors = |block: &afp_book::Block| block.page == "editors" && block.kind == "lua";
+    blocks.filter(of_editors).nth(nth).unwrap().text
 }
 
 #[test]

@@ -98,6 +98,7 @@ impl Adapter<'_> {
             "afp/why" => self.why(&parse(arguments)?),
             "afp/speed" => self.speed(&parse(arguments)?, now),
             "afp/seek" => self.seek(&parse(arguments)?),
+            "afp/world" => self.world(parse(arguments)?),
             "afp/subscribe" => {
                 let Subscribe { state } = parse(arguments)?;
                 self.run()?.told = state;

@@ -170,6 +170,7 @@ impl Adapter<'_> {
             ("watching", json!(watching)),
             ("entries", json!(entries)),
             ("held", json!(held)),
+            ("pose", json!(run.target.pose().map(|pose| [pose.x, pose.y, pose.heading]))),
         ] {
             body[name] = value;
         }

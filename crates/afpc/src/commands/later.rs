@@ -7,7 +7,6 @@ const LATER: &[(&str, &str)] = &[
     ("replay", "replay of logs"),
     ("deploy", "the Raspberry Pi driver"),
     ("attach", "the live server"),
-    ("studio", "the graphical editor"),
 ];
 
 /// Commands that this program was built without; each is a feature of its name.
@@ -16,6 +15,8 @@ const LEFT_OUT: &[&str] = &[
     "dap",
     #[cfg(not(feature = "lsp"))]
     "lsp",
+    #[cfg(not(feature = "studio"))]
+    "studio",
 ];
 
 /// The names of such commands.
@@ -26,10 +27,12 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// What to say to somebody who asks for such a command.
 pub fn refusal(name: &str) -> Option<RunError> {
     if LEFT_OUT.contains(&name) {
-        return Some(RunError::usage(
-            format!("this afpc was built without '{name}'"),
-            "'cargo install --path crates/afpc --features full' brings everything there is",
-        ));
+        // Its page is made by other programs than cargo.
+        let help = match name {
+            "studio" => "in a checkout of AFP, 'cargo studio' builds it and opens it",
+            _ => "'cargo install --path crates/afpc --features full' brings everything there is",
+        };
+        return Some(RunError::usage(format!("this afpc was built without '{name}'"), help));
     }
     let (_, what) = LATER.iter().find(|(later, _)| *later == name)?;
     let version = env!("CARGO_PKG_VERSION");

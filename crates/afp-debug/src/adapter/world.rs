@@ -1,0 +1,34 @@
+//! The world of a run, as a picture shows it.
+
+use afp_session::{Drawing, Pose2, Thing};
+use serde_json::{Value, json};
+
+use super::{Adapter, Answer, Launch, Surroundings};
+
+impl Adapter<'_> {
+    /// What a run would take place in: metres and radians, x forward from the start, y left.
+    pub(super) fn world(&mut self, launch: Launch) -> Answer<Value> {
+        let Surroundings { drawing, worlds } = self.host.world(&launch)?;
+        let Drawing { start, body, things, patches, lights } = &drawing;
+        let Pose2 { x, y, heading } = start;
+        let patches: Vec<_> = patches
+            .iter()
+            .map(|patch| json!({ "corners": patch.corners, "color": patch.color }))
+            .collect();
+        let worlds: Vec<_> =
+            worlds.iter().map(|(name, from)| json!({ "name": name, "from": from })).collect();
+        Ok(json!({
+            "start": [x, y, heading],
+            "body": body,
+            "things": things.iter().map(thing).collect::<Vec<_>>(),
+            "patches": patches,
+            "lights": lights,
+            "worlds": worlds,
+        }))
+    }
+}
+
+fn thing(thing: &Thing) -> Value {
+    let Thing { name, outline, low, labelled, path } = thing;
+    json!({ "name": name, "outline": outline, "low": low, "labelled": labelled, "path": path })
+}

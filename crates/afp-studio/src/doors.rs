@@ -1,0 +1,158 @@
+//! Who is let in: a code that works once becomes a cookie; foreign hosts and pages are turned away.
+
+use std::io;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use axum::http::HeaderMap;
+use axum::http::header::{COOKIE, HOST, ORIGIN};
+
+/// How long the code of an address works.
+const CODE_LASTS: Duration = Duration::from_secs(60);
+
+/// What a browser must know, and where it may come from.
+#[derive(Clone, Debug)]
+pub struct Secret {
+    port: u16,
+    /// What the cookie holds.
+    token: Arc<str>,
+    /// The code that has not been used yet, and when it was made.
+    code: Arc<Mutex<Option<(String, Instant)>>>,
+    origins: Arc<[String]>,
+}
+
+impl Secret {
+    /// New words for the server on a port.
+    ///
+    /// # Errors
+    /// The system has no randomness.
+    pub fn new(port: u16, origins: Vec<String>) -> io::Result<Secret> {
+        Ok(Secret {
+            port,
+            token: word()?.into(),
+            code: Arc::new(Mutex::new(Some((word()?, Instant::now())))),
+            origins: origins.into(),
+        })
+    }
+
+    /// The address with the code.
+    pub fn address(&self) -> String {
+        let code = self.code.lock().unwrap_or_else(PoisonError::into_inner);
+        let code = code.as_ref().map_or("", |(code, _)| code);
+        format!("http://127.0.0.1:{}/?code={code}", self.port)
+    }
+
+    /// A word for one answer: what styles of the page carry, so that no others work.
+    pub fn nonce() -> io::Result<String> {
+        word()
+    }
+
+    /// The cookie for who brings the code, which does not work again.
+    pub fn redeem(&self, code: &str) -> Option<String> {
+        let mut kept = self.code.lock().unwrap_or_else(PoisonError::into_inner);
+        let (good, made) = kept.as_ref()?;
+        if made.elapsed() > CODE_LASTS || !same(good, code) {
+            return None;
+        }
+        *kept = None;
+        let (name, token) = (self.cookie(), &self.token);
+        Some(format!("{name}={token}; HttpOnly; SameSite=Strict; Path=/"))
+    }
+
+    /// Whether a request is for this server and from a page of it.
+    pub fn is_ours(&self, headers: &HeaderMap) -> bool {
+        let named = |name| headers.get(name).map(|value| value.to_str().unwrap_or("?"));
+        let hosts = ["127.0.0.1", "localhost", "[::1]"].map(|host| format!("{host}:{}", self.port));
+        let tunnels = || self.origins.iter().filter_map(|origin| origin.split_once("://"));
+        let host = named(HOST).is_some_and(|host| {
+            hosts.iter().any(|own| own == host) || tunnels().any(|(_, own)| own == host)
+        });
+        // A page says where it is from whenever it opens a socket or sends anything.
+        let origin = named(ORIGIN).is_none_or(|origin| {
+            let own =
+                origin.strip_prefix("http://").is_some_and(|it| hosts.iter().any(|own| own == it));
+            own || self.origins.iter().any(|allowed| allowed == origin)
+        });
+        host && origin
+    }
+
+    /// Whether a request brings the cookie.
+    pub fn knows(&self, headers: &HeaderMap) -> bool {
+        let name = self.cookie();
+        let cookies = headers.get_all(COOKIE).iter().filter_map(|value| value.to_str().ok());
+        cookies
+            .flat_map(|cookies| cookies.split(';'))
+            .filter_map(|cookie| cookie.trim().split_once('='))
+            .any(|(key, value)| key == name && same(&self.token, value))
+    }
+
+    /// Cookies know no ports: their names do.
+    fn cookie(&self) -> String {
+        format!("afp_studio_{}", self.port)
+    }
+}
+
+/// A word that nobody guesses.
+fn word() -> io::Result<String> {
+    let mut bytes = [0; 16];
+    getrandom::fill(&mut bytes).map_err(|why| io::Error::other(why.to_string()))?;
+    Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
+}
+
+/// Compares in a time that does not tell where two words differ.
+fn same(one: &str, other: &str) -> bool {
+    let pairs = one.bytes().zip(other.bytes());
+    one.len() == other.len() && pairs.fold(0, |all, (one, other)| all | (one ^ other)) == 0
+}
+
+#[cfg(test)]
+mod tests {
+    use axum::http::HeaderValue;
+
+    use super::*;
+
+    fn headers(pairs: &[(axum::http::HeaderName, &str)]) -> HeaderMap {
+        let pairs = pairs.iter().cloned();
+        pairs.map(|(name, value)| (name, HeaderValue::from_str(value).unwrap())).collect()
+    }
+
+    #[test]
+    fn a_code_works_once_and_its_cookie_afterwards() {
+        let secret = Secret::new(4000, Vec::new()).unwrap();
+        let address = secret.address();
+        let code = address.split_once("code=").unwrap().1;
+        assert_eq!(secret.redeem("guessed"), None);
+        let cookie = secret.redeem(code).unwrap();
+        assert!(cookie.contains("HttpOnly") && cookie.contains("SameSite=Strict"), "{cookie}");
+        assert_eq!(secret.redeem(code), None);
+        let value = cookie.split(';').next().unwrap();
+        assert!(secret.knows(&headers(&[(COOKIE, &format!("a=b; {value}"))])));
+        for wrong in ["", "afp_studio_4000=", "afp_studio_4000=0123", "afp_studio_4001=x"] {
+            assert!(!secret.knows(&headers(&[(COOKIE, wrong)])), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn foreign_hosts_and_pages_are_not_ours() {
+        let secret = Secret::new(4000, vec!["https://lab.example".to_owned()]).unwrap();
+        let own = [
+            &[(HOST, "127.0.0.1:4000")][..],
+            &[(HOST, "localhost:4000"), (ORIGIN, "http://localhost:4000")],
+            &[(HOST, "lab.example"), (ORIGIN, "https://lab.example")],
+        ];
+        for pairs in own {
+            assert!(secret.is_ours(&headers(pairs)), "{pairs:?}");
+        }
+        let foreign = [
+            &[][..],
+            &[(HOST, "evil.example:4000")],
+            &[(HOST, "127.0.0.1:4001")],
+            &[(HOST, "127.0.0.1:4000"), (ORIGIN, "http://evil.example")],
+            &[(HOST, "127.0.0.1:4000"), (ORIGIN, "https://127.0.0.1:4000")],
+            &[(HOST, "127.0.0.1:4000"), (ORIGIN, "null")],
+        ];
+        for pairs in foreign {
+            assert!(!secret.is_ours(&headers(pairs)), "{pairs:?}");
+        }
+    }
+}

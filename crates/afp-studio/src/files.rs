@@ -1,0 +1,229 @@
+//! The files of a folder: what may be read and written, and how texts lie in them.
+
+use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+use std::{fs, io};
+
+/// Folders deeper than this are not looked into.
+const DEPTH: usize = 12;
+
+/// What is opened: plans, toolboxes and scenarios, the places of their drawings, projects.
+const ENDINGS: [&str; 3] = ["afp", "layout", "toml"];
+
+/// Texts longer than this are not opened.
+const LONGEST: u64 = 4 << 20;
+
+/// When a file was last written, and its length: another one is another file.
+pub(crate) type Stamp = (Option<SystemTime>, u64);
+
+/// A folder that nothing leads out of.
+#[derive(Clone, Debug)]
+pub struct Folder {
+    root: PathBuf,
+}
+
+/// A text as it lies on the disk.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Kept {
+    /// With `\n` between lines, where all of the file's lines end alike.
+    pub text: String,
+    /// What tells these bytes from others; none where there is no file.
+    pub etag: Option<String>,
+    style: Style,
+}
+
+/// What of a file is not its text, and stays.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Style {
+    marked: bool,
+    returns: bool,
+}
+
+impl Folder {
+    /// A folder that is there.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn new(path: &Path) -> io::Result<Folder> {
+        let root = fs::canonicalize(path)?;
+        match root.is_dir() {
+            true => Ok(Folder { root }),
+            false => Err(io::Error::from(io::ErrorKind::NotADirectory)),
+        }
+    }
+
+    /// Its path, without links.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// The file that a path means, links followed.
+    ///
+    /// # Errors
+    /// It lies outside, or is none of those that are opened: a sentence.
+    pub(crate) fn inside(&self, path: &str) -> Result<PathBuf, String> {
+        let path = Path::new(path);
+        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+        if !ENDINGS.contains(&ending) {
+            return Err(format!(
+                "'{}' is not opened here: only plans, toolboxes and scenarios (.afp), their drawings (.layout) and afp.toml are",
+                path.display()
+            ));
+        }
+        let outside = || format!("'{}' lies outside of '{}'", path.display(), self.root.display());
+        let real = match fs::canonicalize(path) {
+            Ok(real) => real,
+            // A file that is to be: its folder decides. A link that leads nowhere is not followed.
+            Err(_) if fs::symlink_metadata(path).is_ok() => return Err(outside()),
+            Err(_) => {
+                let folder = path.parent().and_then(|folder| fs::canonicalize(folder).ok());
+                let name = path.file_name().ok_or_else(outside)?;
+                folder
+                    .ok_or_else(|| format!("there is no folder for '{}'", path.display()))?
+                    .join(name)
+            }
+        };
+        if real.starts_with(&self.root) { Ok(real) } else { Err(outside()) }
+    }
+
+    /// The files that are opened by path, with their stamps, hidden folders and those that builds fill left out.
+    pub(crate) fn files(&self) -> BTreeMap<String, Stamp> {
+        let mut files = BTreeMap::new();
+        collect(&self.root, DEPTH, &mut files);
+        files
+    }
+
+    /// A path as people read it: from the root.
+    pub(crate) fn name(&self, path: &str) -> String {
+        let short = Path::new(path).strip_prefix(&self.root).unwrap_or(Path::new(path));
+        short.to_string_lossy().replace('\\', "/")
+    }
+}
+
+/// When a file was last written, and its length.
+pub(crate) fn stamp(path: &Path) -> Option<Stamp> {
+    let data = fs::metadata(path).ok()?;
+    Some((data.modified().ok(), data.len()))
+}
+
+/// Reads a file; one that is not there is empty.
+///
+/// # Errors
+/// It cannot be read, is no text or is too long: a sentence.
+pub(crate) fn read(path: &Path) -> Result<Kept, String> {
+    let wrong = |why: String| format!("cannot read '{}': {why}", path.display());
+    if stamp(path).is_some_and(|(_, length)| length > LONGEST) {
+        return Err(wrong("it is longer than 4 MiB".to_owned()));
+    }
+    let bytes = match fs::read(path) {
+        Ok(bytes) => bytes,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Kept::default()),
+        Err(error) => return Err(wrong(error.to_string())),
+    };
+    let etag = Some(etag(&bytes));
+    let text = String::from_utf8(bytes).map_err(|_| wrong("it is no UTF-8".to_owned()))?;
+    let marked = text.starts_with('\u{feff}');
+    let text = if marked { &text['\u{feff}'.len_utf8()..] } else { &text };
+    let ends = text.matches('\n').count();
+    let returns = ends > 0 && text.matches("\r\n").count() == ends;
+    let text = if returns { text.replace("\r\n", "\n") } else { text.to_owned() };
+    Ok(Kept { text, etag, style: Style { marked, returns } })
+}
+
+impl Kept {
+    /// Writes another text the way that this one lies there, whole or not at all; gives what lies there now.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub(crate) fn write(&self, path: &Path, text: &str) -> Result<Kept, String> {
+        let mark = if self.style.marked { "\u{feff}" } else { "" };
+        let lines = if self.style.returns { text.replace('\n', "\r\n") } else { text.to_owned() };
+        let bytes = format!("{mark}{lines}").into_bytes();
+        afp_output::write_whole(path, &bytes).map_err(|why| why.to_string())?;
+        Ok(Kept { text: text.to_owned(), etag: Some(etag(&bytes)), style: self.style })
+    }
+}
+
+fn etag(bytes: &[u8]) -> String {
+    let mut hasher = DefaultHasher::new();
+    bytes.hash(&mut hasher);
+    format!("{:016x}", hasher.finish())
+}
+
+fn collect(folder: &Path, depth: usize, files: &mut BTreeMap<String, Stamp>) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        let (path, name) = (entry.path(), entry.file_name());
+        let name = name.to_string_lossy();
+        // Links are not followed, so that no circle is walked.
+        let Ok(kind) = entry.file_type() else { continue };
+        if kind.is_dir() {
+            let built = matches!(&*name, "target" | "node_modules") || name.starts_with('.');
+            if depth > 0 && !built {
+                collect(&path, depth - 1, files);
+            }
+        } else if name.ends_with(".afp") || name == "afp.toml" {
+            let known = path.to_str().map(str::to_owned).zip(stamp(&path));
+            files.extend(known);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_leads_out_of_the_folder() {
+        let place = tempfile::tempdir().unwrap();
+        let root = place.path().join("in");
+        fs::create_dir_all(root.join("sub")).unwrap();
+        fs::write(place.path().join("out.afp"), "").unwrap();
+        fs::write(root.join("a.afp"), "").unwrap();
+        let folder = Folder::new(&root).unwrap();
+        let inside = |name: &str| folder.inside(root.join(name).to_str().unwrap());
+        for fine in ["a.afp", "new.afp", "sub/new.afp.layout", "afp.toml", "sub/../a.afp"] {
+            assert!(inside(fine).is_ok(), "{fine}: {:?}", inside(fine));
+        }
+        for wrong in
+            ["../out.afp", "../new.afp", "sub/../../out.afp", "none/new.afp", "a.sh", "target"]
+        {
+            assert!(inside(wrong).is_err(), "{wrong}");
+        }
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(place.path().join("out.afp"), root.join("link.afp"))
+                .unwrap();
+            std::os::unix::fs::symlink(place.path().join("none.afp"), root.join("dead.afp"))
+                .unwrap();
+            std::os::unix::fs::symlink(place.path(), root.join("up")).unwrap();
+            for wrong in ["link.afp", "dead.afp", "up/out.afp", "up/new.afp"] {
+                assert!(inside(wrong).is_err(), "{wrong}");
+            }
+        }
+    }
+
+    #[test]
+    fn line_ends_and_marks_stay() {
+        let place = tempfile::tempdir().unwrap();
+        let path = place.path().join("a.afp");
+        for (bytes, text, after) in [
+            ("a\nb\n", "a\nb\n", "a\nc\n"),
+            ("a\r\nb\r\n", "a\nb\n", "a\r\nc\r\n"),
+            ("\u{feff}a\r\nb\r\n", "a\nb\n", "\u{feff}a\r\nc\r\n"),
+            ("a\r\nb\n", "a\r\nb\n", "a\r\nc\n"),
+        ] {
+            fs::write(&path, bytes).unwrap();
+            let kept = read(&path).unwrap();
+            assert_eq!(kept.text, text);
+            let next = kept.write(&path, &text.replace('b', "c")).unwrap();
+            assert_eq!(fs::read_to_string(&path).unwrap(), after);
+            assert_eq!(read(&path).unwrap(), next);
+        }
+        fs::write(&path, [0xff, 0xfe]).unwrap();
+        assert!(read(&path).unwrap_err().contains("no UTF-8"));
+        assert_eq!(read(&place.path().join("none.afp")).unwrap(), Kept::default());
+    }
+}

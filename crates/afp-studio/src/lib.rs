@@ -1,0 +1,97 @@
+//! The studio's server: the plans of one folder, edited and drawn in a browser.
+//!
+//! Everything about texts and drawings is said in the Language Server Protocol over a socket, to a server of
+//! `afp-lsp` for each client; a *room* keeps what is the folder's: which texts are open, who changes them, what is
+//! saved. The room alone writes files, whole or not at all, and never over what somebody else has written meanwhile.
+//!
+//! It listens on the machine itself alone. Other users of the machine reach that as well, and so does any web page:
+//! what lets a browser in is a code that works once, and what it asks is looked at (`Host`, `Origin`) before
+//! anything is answered.
+
+mod debugging;
+mod doors;
+mod files;
+mod page;
+mod room;
+mod server;
+mod sockets;
+
+use std::io;
+use std::net::{Ipv4Addr, TcpListener};
+use std::path::PathBuf;
+use std::sync::mpsc::Sender;
+
+use afp_lsp::Host;
+
+pub use doors::Secret;
+pub use files::Folder;
+pub use room::{ClientId, Room};
+
+/// Where the language server of a client finds texts that nobody has open.
+pub type MakeHost = fn() -> Box<dyn Host>;
+
+/// What is served, and where.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The folder whose files may be read and written.
+    pub folder: PathBuf,
+    /// The file that is shown first.
+    pub open: Option<PathBuf>,
+    /// The port on the machine itself; 0 is a free one.
+    pub port: u16,
+    /// Addresses of pages beside our own that may talk with it, such as `http://localhost:8080` at the near end of
+    /// a tunnel.
+    pub origins: Vec<String>,
+    /// Plans that people can begin with: a name for the file, and the text.
+    pub examples: Vec<(String, String)>,
+}
+
+/// A client that wants to run and debug plans: it speaks the Debug Adapter Protocol, a message at a time.
+#[derive(Debug)]
+pub struct Debugging {
+    /// What it says; disconnected when it is gone.
+    pub said: std::sync::mpsc::Receiver<String>,
+    /// What it is told; closed when it is gone.
+    pub told: tokio::sync::mpsc::Sender<String>,
+}
+
+/// A server that has its port.
+#[derive(Debug)]
+pub struct Studio {
+    listener: TcpListener,
+    secret: Secret,
+    room: Room,
+}
+
+impl Studio {
+    /// Takes the port and reads the folder.
+    ///
+    /// # Errors
+    /// The port is taken, there is no such folder.
+    pub fn new(options: &Options, host: MakeHost) -> io::Result<Studio> {
+        let folder = Folder::new(&options.folder)?;
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, options.port))?;
+        let secret = Secret::new(listener.local_addr()?.port(), options.origins.clone())?;
+        let room = Room::new(folder, options.open.as_deref(), options.examples.clone(), host);
+        Ok(Studio { listener, secret, room })
+    }
+
+    /// What a browser opens: works once, for a minute.
+    pub fn address(&self) -> String {
+        self.secret.address()
+    }
+
+    /// The folder, without links.
+    pub fn folder(&self) -> PathBuf {
+        self.room.folder().root().to_owned()
+    }
+
+    /// Serves until the program is asked to end; then everything is saved. Whoever wants to debug is handed over.
+    ///
+    /// # Errors
+    /// The socket breaks.
+    pub fn serve(self, debuggers: Sender<Debugging>) -> io::Result<()> {
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+        runtime.block_on(server::serve(self.listener, self.secret, self.room, debuggers))
+    }
+}

@@ -1,0 +1,240 @@
+//! What all clients of a folder share: the texts that are open, who changes them, what is saved.
+//!
+//! A value without thread and clock: messages of clients go in, with the time, and messages to clients come out.
+
+mod document;
+mod requests;
+mod saving;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::Duration;
+
+use afp_lsp::{Message, Server, path_of, uri_of};
+use lsp_server::{Notification, Request};
+use serde_json::{Value, json};
+
+use crate::MakeHost;
+use crate::files::{Folder, Stamp};
+use document::Document;
+
+/// Tells clients apart.
+pub type ClientId = u32;
+
+/// Messages with those that they are for.
+pub type Out = Vec<(ClientId, Message)>;
+
+/// How often the folder is looked at for what others have written.
+const LOOKS_EVERY: Duration = Duration::from_millis(500);
+
+/// The room of a folder.
+pub struct Room {
+    folder: Folder,
+    open: Option<String>,
+    examples: Vec<(String, String)>,
+    host: MakeHost,
+    clients: BTreeMap<ClientId, Client>,
+    /// The texts that are open, by path.
+    documents: BTreeMap<String, Document>,
+    /// Who changes them.
+    pen: Option<ClientId>,
+    files: BTreeMap<String, Stamp>,
+    looked: Duration,
+}
+
+impl std::fmt::Debug for Room {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Room").field("folder", &self.folder).finish_non_exhaustive()
+    }
+}
+
+/// A client and its language server.
+struct Client {
+    server: Server,
+    /// Whether something came in since its server was last idle.
+    busy: bool,
+}
+
+impl Room {
+    /// A room without clients.
+    pub fn new(
+        folder: Folder,
+        open: Option<&Path>,
+        examples: Vec<(String, String)>,
+        host: MakeHost,
+    ) -> Room {
+        let open = open.and_then(|path| folder.inside(path.to_str()?).ok());
+        let open = open.and_then(|path| Some(uri_of(path.to_str()?)));
+        let files = folder.files();
+        let (clients, documents) = (BTreeMap::new(), BTreeMap::new());
+        let looked = Duration::ZERO;
+        Room { folder, open, examples, host, clients, documents, pen: None, files, looked }
+    }
+
+    /// The folder.
+    pub fn folder(&self) -> &Folder {
+        &self.folder
+    }
+
+    /// A client has come.
+    pub fn join(&mut self, client: ClientId) {
+        self.clients.insert(client, Client { server: Server::new((self.host)()), busy: false });
+        self.pen.get_or_insert(client);
+    }
+
+    /// A client is gone: the pen falls to another one.
+    pub fn leave(&mut self, client: ClientId) -> Out {
+        self.clients.remove(&client);
+        match self.pen == Some(client) {
+            true => self.hand_pen(self.clients.keys().next().copied()),
+            false => Vec::new(),
+        }
+    }
+
+    /// A message of a client.
+    pub fn handle(&mut self, client: ClientId, message: Message, now: Duration) -> Out {
+        if !self.clients.contains_key(&client) {
+            return Vec::new();
+        }
+        match message {
+            Message::Request(request) if requests::is_ours(&request.method) => {
+                let Request { id, method, params } = request;
+                let (answer, mut out) = requests::answer(self, client, &method, &params, now);
+                let response = match answer {
+                    Ok(value) => lsp_server::Response::new_ok(id, value),
+                    Err(why) => lsp_server::Response::new_err(id, REFUSED, why),
+                };
+                out.insert(0, (client, response.into()));
+                out
+            }
+            Message::Notification(notification) => self.notified(client, notification, now),
+            other => self.forward(client, other),
+        }
+    }
+
+    /// What the language servers have to say once no message is waiting.
+    pub fn idle(&mut self) -> Out {
+        let mut out = Vec::new();
+        for (&id, client) in &mut self.clients {
+            if std::mem::take(&mut client.busy) {
+                out.extend(client.server.idle().into_iter().map(|message| (id, message)));
+            }
+        }
+        out
+    }
+
+    fn forward(&mut self, id: ClientId, message: Message) -> Out {
+        let Some(client) = self.clients.get_mut(&id) else { return Vec::new() };
+        client.busy = true;
+        client.server.handle(message).into_iter().map(|message| (id, message)).collect()
+    }
+
+    fn notified(&mut self, id: ClientId, notification: Notification, now: Duration) -> Out {
+        let uri = notification.params["textDocument"]["uri"].as_str().map(str::to_owned);
+        let method = notification.method.clone();
+        let mut out = self.forward(id, notification.into());
+        let Some(uri) = uri else { return out };
+        match method.as_str() {
+            "textDocument/didOpen" => out.extend(self.opened(id, &uri)),
+            "textDocument/didChange" => out.extend(self.changed(id, &uri, now)),
+            "textDocument/didClose" => self.closed(&uri),
+            _ => {}
+        }
+        out
+    }
+
+    /// A client has opened a text: it is told where the room has another one.
+    fn opened(&mut self, id: ClientId, uri: &str) -> Out {
+        let path = path_of(uri);
+        match self.document(&path) {
+            Ok(document) => {
+                let text = document.text.clone();
+                self.differs(id, uri, &text)
+            }
+            // Texts that lie elsewhere are looked at and never written.
+            Err(_) => Vec::new(),
+        }
+    }
+
+    /// A client has changed a text: the others are told, or the client that may not.
+    fn changed(&mut self, id: ClientId, uri: &str, now: Duration) -> Out {
+        let path = path_of(uri);
+        let Some(text) = self.text_of(id, uri).map(str::to_owned) else { return Vec::new() };
+        let pen = *self.pen.get_or_insert(id);
+        let Ok(document) = self.document(&path) else { return Vec::new() };
+        if document.text == text {
+            return Vec::new();
+        }
+        if pen != id {
+            let kept = document.text.clone();
+            return vec![(id, changed(uri, &kept, true))];
+        }
+        document.set(text.clone(), now);
+        self.tell_all(uri, &text, true, Some(id))
+    }
+
+    /// Forgets a text that no client has open any more, once it is saved.
+    fn closed(&mut self, uri: &str) {
+        let still = self.clients.values().any(|client| client.server.text(uri).is_some());
+        let path = path_of(uri);
+        if !still && self.documents.get(&path).is_some_and(Document::is_saved) {
+            self.documents.remove(&path);
+        }
+    }
+
+    /// A text of the folder, read where nobody has it open yet.
+    fn document(&mut self, path: &str) -> Result<&mut Document, String> {
+        if !self.documents.contains_key(path) {
+            let file = self.folder.inside(path)?;
+            self.documents.insert(path.to_owned(), Document::read(file)?);
+        }
+        self.documents.get_mut(path).ok_or_else(|| "there is no such file".to_owned())
+    }
+
+    /// The text that a client has open.
+    fn text_of(&self, id: ClientId, uri: &str) -> Option<&str> {
+        Some(self.clients.get(&id)?.server.text(uri)?.1)
+    }
+
+    /// Tells a client the text of the room, where it has another one open.
+    fn differs(&self, id: ClientId, uri: &str, text: &str) -> Out {
+        match self.text_of(id, uri) {
+            Some(own) if own != text => vec![(id, changed(uri, text, true))],
+            _ => Vec::new(),
+        }
+    }
+
+    /// Tells clients that have it open that a text is another one.
+    fn tell_all(&self, uri: &str, text: &str, clean: bool, but: Option<ClientId>) -> Out {
+        let concerned = |&(&id, _): &(&ClientId, &Client)| {
+            Some(id) != but && self.text_of(id, uri).is_some_and(|own| !clean || own != text)
+        };
+        let clients = self.clients.iter().filter(concerned);
+        clients.map(|(&id, _)| (id, changed(uri, text, clean))).collect()
+    }
+
+    fn hand_pen(&mut self, to: Option<ClientId>) -> Out {
+        self.pen = to;
+        let say = |&id: &ClientId| {
+            (id, notification("afp/pen", json!({ "holder": to, "yours": to == Some(id) })))
+        };
+        self.clients.keys().map(say).collect()
+    }
+
+    /// The files as clients list them.
+    fn listed(&self) -> Value {
+        let file = |path: &String| json!({ "uri": uri_of(path), "name": self.folder.name(path) });
+        self.files.keys().map(file).collect()
+    }
+}
+
+/// The code of an answer that says why something is not done, for people.
+const REFUSED: i32 = -32803;
+
+fn notification(method: &str, params: Value) -> Message {
+    Notification { method: method.to_owned(), params }.into()
+}
+
+fn changed(uri: &str, text: &str, clean: bool) -> Message {
+    notification("afp/changed", json!({ "uri": uri, "text": text, "clean": clean }))
+}

@@ -1,0 +1,141 @@
+//! A text that is open, and the file that it is saved in.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use crate::files::{self, Kept, Stamp};
+
+/// How long a change waits for further ones before it is written.
+const SAVES_AFTER: Duration = Duration::from_millis(200);
+
+/// How long it takes until writing is tried again that has failed.
+const TRIES_AGAIN_AFTER: Duration = Duration::from_secs(2);
+
+pub(super) struct Document {
+    pub text: String,
+    file: PathBuf,
+    /// What lies in the file, as far as known: what others change is merged over this.
+    kept: Kept,
+    stamp: Option<Stamp>,
+    /// When it is to be written; none where it is.
+    due: Option<Duration>,
+    /// What somebody else has written that does not go together with this text: nothing is written before a person
+    /// has chosen.
+    theirs: Option<Kept>,
+}
+
+/// What a look at the file has shown.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Look {
+    /// Nothing new.
+    Same,
+    /// The text is another one now.
+    Changed,
+    /// Theirs, which does not go together with this text.
+    Conflict(String),
+}
+
+/// Which text of two that do not go together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Keep {
+    Mine,
+    Theirs,
+    /// Both, with the marks of version control between.
+    Both,
+}
+
+impl Document {
+    /// # Errors
+    /// The file cannot be read: a sentence.
+    pub fn read(file: PathBuf) -> Result<Document, String> {
+        let stamp = files::stamp(&file);
+        let kept = files::read(&file)?;
+        Ok(Document { text: kept.text.clone(), file, kept, stamp, due: None, theirs: None })
+    }
+
+    pub fn etag(&self) -> Option<&str> {
+        self.kept.etag.as_deref()
+    }
+
+    /// Another text, to be written soon.
+    pub fn set(&mut self, text: String, now: Duration) {
+        self.text = text;
+        self.due.get_or_insert(now + SAVES_AFTER);
+    }
+
+    pub fn is_saved(&self) -> bool {
+        self.due.is_none()
+    }
+
+    /// When it is to be written.
+    pub fn due(&self) -> Option<Duration> {
+        self.due.filter(|_| self.theirs.is_none())
+    }
+
+    /// Looks at the file: what somebody else has written is taken over, or merged by lines.
+    pub fn look(&mut self, now: Duration) -> Look {
+        let stamp = files::stamp(&self.file);
+        if self.stamp == stamp {
+            return Look::Same;
+        }
+        let Ok(found) = files::read(&self.file) else { return Look::Same };
+        self.stamp = stamp;
+        if found.etag == self.kept.etag {
+            return Look::Same;
+        }
+        // Somebody has removed it: the text is all that is left, and stays.
+        if found.etag.is_none() {
+            self.kept.etag = None;
+            return Look::Same;
+        }
+        if self.due.is_none() || self.text == found.text {
+            (self.due, self.theirs) = (None, None);
+            self.text.clone_from(&found.text);
+            self.kept = found;
+            return Look::Changed;
+        }
+        match diffy::merge(&self.kept.text, &self.text, &found.text) {
+            Ok(both) => {
+                (self.text, self.kept, self.due) = (both, found, Some(now));
+                Look::Changed
+            }
+            Err(_) => {
+                let text = found.text.clone();
+                self.theirs = Some(found);
+                Look::Conflict(text)
+            }
+        }
+    }
+
+    /// Ends a conflict; without one, nothing happens.
+    pub fn choose(&mut self, keep: Keep, now: Duration) {
+        let Some(theirs) = self.theirs.take() else { return };
+        match keep {
+            Keep::Mine => {}
+            Keep::Theirs => self.text.clone_from(&theirs.text),
+            Keep::Both => {
+                let merged = diffy::merge(&self.kept.text, &self.text, &theirs.text);
+                self.text = merged.unwrap_or_else(|marked| marked);
+            }
+        }
+        (self.kept, self.due) = (theirs, Some(now));
+    }
+
+    /// Writes the text.
+    ///
+    /// # Errors
+    /// It cannot be written; it will be tried again.
+    pub fn save(&mut self, now: Duration) -> Result<(), String> {
+        match self.kept.write(&self.file, &self.text) {
+            Ok(kept) => {
+                self.stamp = files::stamp(&self.file);
+                (self.kept, self.due) = (kept, None);
+                Ok(())
+            }
+            Err(why) => {
+                self.due = Some(now + TRIES_AGAIN_AFTER);
+                Err(why)
+            }
+        }
+    }
+}

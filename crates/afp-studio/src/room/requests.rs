@@ -1,0 +1,154 @@
+//! What a client asks of the room.
+
+use std::time::Duration;
+
+use afp_lsp::{path_of, uri_of};
+use serde_json::{Value, json};
+
+use super::document::Keep;
+use super::{ClientId, Out, Room};
+
+/// Requests that the room answers, and not the language server.
+const OURS: [&str; 7] =
+    ["afp/hello", "afp/read", "afp/create", "afp/rename", "afp/remove", "afp/choose", "afp/pen"];
+
+pub(super) fn is_ours(method: &str) -> bool {
+    OURS.contains(&method)
+}
+
+/// The answer, or a sentence that says why there is none; and what others are told.
+pub(super) fn answer(
+    room: &mut Room,
+    client: ClientId,
+    method: &str,
+    params: &Value,
+    now: Duration,
+) -> (Result<Value, String>, Out) {
+    let mut out = Out::new();
+    let answer = match method {
+        "afp/hello" => Ok(hello(room, client)),
+        "afp/pen" => {
+            if params["take"] == json!(true) {
+                out = room.hand_pen(Some(client));
+            }
+            Ok(json!({ "holder": room.pen, "yours": room.pen == Some(client) }))
+        }
+        "afp/read" => path(params, "uri").and_then(|path| read(room, &path)),
+        _ if room.pen != Some(client) => {
+            Err("somebody else has the pen: take it first, then change things".to_owned())
+        }
+        "afp/create" => create(room, params),
+        "afp/rename" => rename(room, params),
+        "afp/remove" => remove(room, params),
+        "afp/choose" => choose(room, params, now).map(|path| {
+            out = room.chosen(&path);
+            Value::Null
+        }),
+        _ => Err(format!("there is no '{method}'")),
+    };
+    if matches!(method, "afp/create" | "afp/rename" | "afp/remove") && answer.is_ok() {
+        room.files = room.folder.files();
+        let files = json!({ "files": room.listed() });
+        let say = |&id: &ClientId| (id, super::notification("afp/files", files.clone()));
+        out.extend(room.clients.keys().map(say));
+    }
+    (answer, out)
+}
+
+fn hello(room: &Room, client: ClientId) -> Value {
+    let documents = room.documents.iter().map(|(path, document)| {
+        json!({ "uri": uri_of(path), "text": document.text, "version": 0, "etag": document.etag() })
+    });
+    let examples =
+        room.examples.iter().map(|(name, text)| json!({ "name": name, "title": title(text) }));
+    json!({
+        "client": client,
+        "root": uri_of(&room.folder.root().to_string_lossy()),
+        "open": room.open,
+        "pen": room.pen == Some(client),
+        "trusted": false,
+        "documents": documents.collect::<Vec<_>>(),
+        "files": room.listed(),
+        "examples": examples.collect::<Vec<_>>(),
+    })
+}
+
+/// The first line of the help of a plan.
+fn title(text: &str) -> &str {
+    text.lines().find_map(|line| line.trim_start().strip_prefix("///")).unwrap_or_default().trim()
+}
+
+fn path(params: &Value, name: &str) -> Result<String, String> {
+    let uri = params[name].as_str().ok_or_else(|| format!("'{name}' is missing"))?;
+    Ok(path_of(uri))
+}
+
+fn read(room: &mut Room, path: &str) -> Result<Value, String> {
+    let document = room.document(path)?;
+    Ok(json!({ "uri": uri_of(path), "text": document.text, "version": 0, "etag": document.etag() }))
+}
+
+/// A new file with a text or an example, never over one that is there.
+fn create(room: &mut Room, params: &Value) -> Result<Value, String> {
+    let path = path(params, "uri")?;
+    let text = match (params["text"].as_str(), params["example"].as_str()) {
+        (Some(text), _) => text.to_owned(),
+        (None, Some(name)) => {
+            let found = room.examples.iter().find(|(known, _)| known == name);
+            found.ok_or_else(|| format!("there is no example '{name}'"))?.1.clone()
+        }
+        (None, None) => String::new(),
+    };
+    let file = room.folder.inside(&path)?;
+    if file.exists() {
+        return Err(format!("there is a file '{}' already", room.folder.name(&path)));
+    }
+    afp_output::write_whole(&file, text.as_bytes())
+        .map_err(|why| format!("cannot write '{}': {why}", file.display()))?;
+    room.documents.remove(&path);
+    read(room, &path)
+}
+
+fn rename(room: &mut Room, params: &Value) -> Result<Value, String> {
+    let (from, to) = (path(params, "uri")?, path(params, "to")?);
+    let (old, new) = (room.folder.inside(&from)?, room.folder.inside(&to)?);
+    if new.exists() {
+        return Err(format!("there is a file '{}' already", room.folder.name(&to)));
+    }
+    saved(room, &from)?;
+    std::fs::rename(&old, &new)
+        .map_err(|why| format!("cannot rename '{}': {why}", old.display()))?;
+    room.documents.remove(&from);
+    read(room, &to)
+}
+
+/// Removes a file and gives its text, so that it can be made again.
+fn remove(room: &mut Room, params: &Value) -> Result<Value, String> {
+    let path = path(params, "uri")?;
+    let file = room.folder.inside(&path)?;
+    let text = room.document(&path)?.text.clone();
+    std::fs::remove_file(&file)
+        .map_err(|why| format!("cannot remove '{}': {why}", file.display()))?;
+    room.documents.remove(&path);
+    Ok(json!({ "text": text }))
+}
+
+/// What is renamed is saved before.
+fn saved(room: &mut Room, path: &str) -> Result<(), String> {
+    match room.document(path)?.is_saved() {
+        true => Ok(()),
+        false => Err("it is not saved yet: wait a moment".to_owned()),
+    }
+}
+
+fn choose(room: &mut Room, params: &Value, now: Duration) -> Result<String, String> {
+    let path = path(params, "uri")?;
+    let keep = match params["keep"].as_str() {
+        Some("mine") => Keep::Mine,
+        Some("theirs") => Keep::Theirs,
+        Some("both") => Keep::Both,
+        _ => return Err("'keep' is 'mine', 'theirs' or 'both'".to_owned()),
+    };
+    room.document(&path)?.choose(keep, now);
+    Ok(path)
+}

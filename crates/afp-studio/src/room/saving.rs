@@ -1,0 +1,115 @@
+//! What happens by itself: texts are written, and what others have written is noticed.
+
+use std::time::Duration;
+
+use afp_lsp::uri_of;
+use serde_json::json;
+
+use super::document::Look;
+use super::{LOOKS_EVERY, Out, Room, changed, notification};
+
+impl Room {
+    /// When [`Room::tick`] has something to do.
+    pub fn due(&self) -> Duration {
+        let saves = self.documents.values().filter_map(|document| document.due());
+        saves.min().map_or(self.looked + LOOKS_EVERY, |due| due.min(self.looked + LOOKS_EVERY))
+    }
+
+    /// Writes what is due, and looks at the folder from time to time.
+    pub fn tick(&mut self, now: Duration) -> Out {
+        let mut out = Vec::new();
+        if now >= self.looked + LOOKS_EVERY {
+            self.looked = now;
+            out.extend(self.look_at_files());
+            let open: Vec<_> = self.documents.keys().cloned().collect();
+            for path in open {
+                out.extend(self.look_at(&path, now));
+            }
+        }
+        out.extend(self.save(now, |due| due <= now));
+        out
+    }
+
+    /// Writes everything, since the program ends.
+    pub fn save_all(&mut self, now: Duration) -> Out {
+        self.save(now, |_| true)
+    }
+
+    fn save(&mut self, now: Duration, wanted: impl Fn(Duration) -> bool) -> Out {
+        let due = |(path, document): (&String, &super::Document)| {
+            document.due().filter(|&due| wanted(due)).map(|_| path.clone())
+        };
+        let paths: Vec<_> = self.documents.iter().filter_map(due).collect();
+        let mut out = Vec::new();
+        for path in paths {
+            // Never over what somebody else has written meanwhile.
+            out.extend(self.look_at(&path, now));
+            let Some(document) = self.documents.get_mut(&path) else { continue };
+            if document.due().is_none() {
+                continue;
+            }
+            let saved = document.save(now);
+            let (text, etag) = (document.text.clone(), document.etag().map(str::to_owned));
+            if saved.is_ok() {
+                // It is no news that somebody else would have to be told of.
+                let stamp = crate::files::stamp(path.as_ref());
+                self.files.extend(stamp.map(|stamp| (path.clone(), stamp)));
+            }
+            let uri = uri_of(&path);
+            for (&id, client) in &self.clients {
+                let Some((version, own)) = client.server.text(&uri) else { continue };
+                let mut said = json!({ "uri": uri, "version": version, "etag": etag });
+                match &saved {
+                    Ok(()) if own != text => continue,
+                    Ok(()) => {}
+                    Err(why) => said["failed"] = json!(why),
+                }
+                out.push((id, notification("afp/saved", said)));
+            }
+        }
+        out
+    }
+
+    /// Looks at the file of an open text.
+    fn look_at(&mut self, path: &str, now: Duration) -> Out {
+        let Some(document) = self.documents.get_mut(path) else { return Vec::new() };
+        let look = document.look(now);
+        let text = document.text.clone();
+        let uri = uri_of(path);
+        match look {
+            Look::Same => Vec::new(),
+            Look::Changed => self.tell_all(&uri, &text, true, None),
+            Look::Conflict(theirs) => self.tell_all(&uri, &theirs, false, None),
+        }
+    }
+
+    /// Looks at the tree: which files there are, and whether one has changed that plans may use.
+    fn look_at_files(&mut self) -> Out {
+        let found = self.folder.files();
+        if found == self.files {
+            return Vec::new();
+        }
+        let others = !found.keys().eq(self.files.keys());
+        self.files = found;
+        let listed = self.listed();
+        let mut out = Vec::new();
+        let ids: Vec<_> = self.clients.keys().copied().collect();
+        for id in ids {
+            let watched = notification("workspace/didChangeWatchedFiles", json!({ "changes": [] }));
+            out.extend(self.forward(id, watched));
+            if others {
+                out.push((id, notification("afp/files", json!({ "files": listed }))));
+            }
+        }
+        out
+    }
+
+    /// Ends a conflict of a text with its file.
+    pub(super) fn chosen(&mut self, path: &str) -> Out {
+        let Some(document) = self.documents.get(path) else { return Vec::new() };
+        let (uri, text) = (uri_of(path), document.text.clone());
+        let ids: Vec<_> = self.clients.keys().copied().collect();
+        let having = ids.into_iter().filter(|&id| self.text_of(id, &uri).is_some());
+        having.map(|id| (id, changed(&uri, &text, true))).collect()
+    }
+}

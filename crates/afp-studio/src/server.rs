@@ -1,0 +1,152 @@
+//! Requests over HTTP: doors first, then the page, its files and its socket.
+
+use std::collections::HashMap;
+use std::net::TcpListener;
+use std::sync::mpsc::Sender;
+use std::{io, thread};
+
+use axum::Router;
+use axum::body::Body;
+use axum::extract::{Path, Query, Request, State, WebSocketUpgrade};
+use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
+use axum::middleware::{Next, from_fn_with_state};
+use axum::response::{IntoResponse, Response};
+use axum::routing::get;
+
+use crate::doors::Secret;
+use crate::room::Room;
+use crate::sockets::{self, Sockets};
+use crate::{Debugging, debugging, page};
+
+/// Frames that are longer end the connection.
+const LONGEST_FRAME: usize = 1 << 20;
+
+#[derive(Clone)]
+struct Shared {
+    secret: Secret,
+    sockets: Sockets,
+    debuggers: Sender<Debugging>,
+}
+
+/// Serves until the program is asked to end.
+pub(crate) async fn serve(
+    listener: TcpListener,
+    secret: Secret,
+    room: Room,
+    debuggers: Sender<Debugging>,
+) -> io::Result<()> {
+    let (sockets, end) = Sockets::new();
+    let worker = thread::spawn(move || sockets::run(room, end));
+    let shared = Shared { secret, sockets: sockets.clone(), debuggers };
+    let routes = Router::new()
+        .route("/", get(index))
+        .route("/lsp", get(texts))
+        .route("/dap", get(debugger))
+        .route("/drawing.css", get(colours))
+        .route("/{name}", get(file))
+        .layer(from_fn_with_state(shared.clone(), guard))
+        .with_state(shared);
+    listener.set_nonblocking(true)?;
+    let listener = tokio::net::TcpListener::from_std(listener)?;
+    let served = tokio::select! {
+        served = async { axum::serve(listener, routes).await } => served,
+        asked = tokio::signal::ctrl_c() => asked,
+    };
+    sockets.end();
+    let _ = tokio::task::spawn_blocking(move || worker.join()).await;
+    served
+}
+
+/// Turns away what is not ours and what brings no cookie, and says to the browser what the page may do.
+async fn guard(State(shared): State<Shared>, request: Request, next: Next) -> Response {
+    let headers = request.headers();
+    if !shared.secret.is_ours(headers) {
+        return (StatusCode::FORBIDDEN, "this server answers its own page alone\n").into_response();
+    }
+    let enters = request.uri().path() == "/" && request.uri().query().is_some();
+    if !enters && !shared.secret.knows(headers) {
+        let words = "this address needs its code: open the one that 'afpc studio' prints\n";
+        return (StatusCode::FORBIDDEN, words).into_response();
+    }
+    let mut response = next.run(request).await;
+    let headers = response.headers_mut();
+    for (name, value) in [
+        (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (header::REFERRER_POLICY, "no-referrer"),
+        (header::CACHE_CONTROL, "no-store"),
+    ] {
+        headers.insert(name, HeaderValue::from_static(value));
+    }
+    response
+}
+
+/// The page; the code in its address is changed into a cookie first.
+async fn index(
+    State(shared): State<Shared>,
+    Query(query): Query<HashMap<String, String>>,
+    headers: HeaderMap,
+) -> Response {
+    if let Some(code) = query.get("code") {
+        let known = shared.secret.knows(&headers);
+        return match shared.secret.redeem(code) {
+            Some(cookie) => ([(header::SET_COOKIE, cookie)], away()).into_response(),
+            None if known => away(),
+            None => {
+                let words = "this code has been used or is too old: start 'afpc studio' again\n";
+                (StatusCode::FORBIDDEN, words).into_response()
+            }
+        };
+    }
+    if !shared.secret.knows(&headers) {
+        return StatusCode::FORBIDDEN.into_response();
+    }
+    let Some((bytes, kind)) = page::file("index.html") else {
+        let words = "the page is not made yet: run 'cargo xtask studio'\n";
+        return (StatusCode::SERVICE_UNAVAILABLE, words).into_response();
+    };
+    let Ok(nonce) = Secret::nonce() else {
+        return StatusCode::INTERNAL_SERVER_ERROR.into_response();
+    };
+    let text = String::from_utf8_lossy(&bytes).replace("__NONCE__", &nonce);
+    let policy = format!(
+        "default-src 'none'; script-src 'self'; style-src 'self' 'nonce-{nonce}'; img-src 'self' data: blob:; \
+         connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    );
+    let headers = [
+        (header::CONTENT_TYPE, kind.to_owned()),
+        (HeaderName::from_static("content-security-policy"), policy),
+    ];
+    (headers, text).into_response()
+}
+
+/// To the page without the code, which would stay in the history otherwise.
+fn away() -> Response {
+    (StatusCode::SEE_OTHER, [(header::LOCATION, "/")]).into_response()
+}
+
+async fn file(Path(name): Path<String>) -> Response {
+    match page::file(&name) {
+        Some((bytes, kind)) => {
+            ([(header::CONTENT_TYPE, kind)], Body::from(bytes.into_owned())).into_response()
+        }
+        None => StatusCode::NOT_FOUND.into_response(),
+    }
+}
+
+/// The colours of drawings, which stand in one table for page, book and print.
+async fn colours() -> Response {
+    let sheet = afp_draw::sheet(afp_draw::Theme::Auto, false);
+    ([(header::CONTENT_TYPE, "text/css; charset=utf-8")], sheet).into_response()
+}
+
+async fn texts(State(shared): State<Shared>, upgrade: WebSocketUpgrade) -> Response {
+    limited(upgrade).on_upgrade(move |socket| sockets::talk(socket, shared.sockets))
+}
+
+async fn debugger(State(shared): State<Shared>, upgrade: WebSocketUpgrade) -> Response {
+    limited(upgrade).on_upgrade(move |socket| debugging::talk(socket, shared.debuggers))
+}
+
+fn limited(upgrade: WebSocketUpgrade) -> WebSocketUpgrade {
+    upgrade.max_message_size(LONGEST_FRAME).max_frame_size(LONGEST_FRAME)
+}

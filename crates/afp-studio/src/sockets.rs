@@ -1,0 +1,137 @@
+//! Clients over sockets, and the thread that the room lives on.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError, channel};
+use std::time::{Duration, Instant};
+
+use afp_lsp::Message;
+use axum::extract::ws::{self, WebSocket};
+use tokio::sync::mpsc;
+
+use crate::room::{ClientId, Out, Room};
+
+/// More clients than this are turned away.
+const MOST_CLIENTS: usize = 8;
+
+/// Messages that a client may leave unread before its connection ends.
+const UNREAD: usize = 512;
+
+/// The way to the room.
+#[derive(Clone)]
+pub(crate) struct Sockets {
+    events: Sender<Event>,
+    next: Arc<AtomicU32>,
+}
+
+pub(crate) enum Event {
+    Joined(ClientId, mpsc::Sender<String>),
+    Said(ClientId, Message),
+    Left(ClientId),
+    End,
+}
+
+impl Sockets {
+    pub fn new() -> (Sockets, Receiver<Event>) {
+        let (events, arrived) = channel();
+        (Sockets { events, next: Arc::new(AtomicU32::new(1)) }, arrived)
+    }
+
+    /// Lets the room save everything and end.
+    pub fn end(&self) {
+        let _ = self.events.send(Event::End);
+    }
+}
+
+/// Carries messages between a client and the room until one of them is gone.
+pub(crate) async fn talk(mut socket: WebSocket, sockets: Sockets) {
+    let id = sockets.next.fetch_add(1, Ordering::Relaxed);
+    let (out, mut answers) = mpsc::channel(UNREAD);
+    if sockets.events.send(Event::Joined(id, out)).is_err() {
+        return;
+    }
+    loop {
+        tokio::select! {
+            answer = answers.recv() => {
+                // No more answers: it has read too little, or there are too many clients.
+                let Some(answer) = answer else { break };
+                if socket.send(ws::Message::Text(answer.into())).await.is_err() {
+                    break;
+                }
+            }
+            said = socket.recv() => {
+                let Some(Ok(said)) = said else { break };
+                let text = match &said {
+                    ws::Message::Text(text) => text.as_str(),
+                    ws::Message::Close(_) | ws::Message::Binary(_) => break,
+                    ws::Message::Ping(_) | ws::Message::Pong(_) => continue,
+                };
+                // What is no message comes from no client of ours.
+                let Ok(message) = serde_json::from_str(text) else { break };
+                if sockets.events.send(Event::Said(id, message)).is_err() {
+                    break;
+                }
+            }
+        }
+    }
+    let _ = sockets.events.send(Event::Left(id));
+}
+
+/// The thread of the room: one message after the other, and what is due between.
+pub(crate) fn run(mut room: Room, arrived: Receiver<Event>) {
+    let begin = Instant::now();
+    let mut clients = BTreeMap::new();
+    loop {
+        let event = match arrived.try_recv() {
+            Ok(event) => Some(event),
+            Err(TryRecvError::Empty) => {
+                let said = room.idle();
+                send(&mut clients, said);
+                let wait = room.due().saturating_sub(begin.elapsed());
+                match arrived.recv_timeout(wait.max(Duration::from_millis(1))) {
+                    Ok(event) => Some(event),
+                    Err(RecvTimeoutError::Timeout) => None,
+                    Err(RecvTimeoutError::Disconnected) => break,
+                }
+            }
+            Err(TryRecvError::Disconnected) => break,
+        };
+        let out = match event {
+            Some(Event::Joined(_, _)) if clients.len() >= MOST_CLIENTS => Vec::new(),
+            Some(Event::Joined(id, to)) => {
+                clients.insert(id, to);
+                room.join(id);
+                Vec::new()
+            }
+            Some(Event::Said(id, message)) => room.handle(id, message, begin.elapsed()),
+            Some(Event::Left(id)) => {
+                clients.remove(&id);
+                room.leave(id)
+            }
+            Some(Event::End) => break,
+            None => Vec::new(),
+        };
+        send(&mut clients, out);
+        let out = room.tick(begin.elapsed());
+        send(&mut clients, out);
+    }
+    let out = room.save_all(begin.elapsed());
+    send(&mut clients, out);
+}
+
+/// Who reads too little loses the connection.
+fn send(clients: &mut BTreeMap<ClientId, mpsc::Sender<String>>, out: Out) {
+    for (id, message) in out {
+        let Some(to) = clients.get(&id) else { continue };
+        if to.try_send(written(&message)).is_err() {
+            clients.remove(&id);
+        }
+    }
+}
+
+fn written(message: &Message) -> String {
+    let mut value = serde_json::to_value(message).unwrap_or_default();
+    value["jsonrpc"] = "2.0".into();
+    value.to_string()
+}

@@ -1,0 +1,70 @@
+//! The server's doors, from outside: what a browser, another user and a foreign page get.
+
+use std::io::{Read, Write};
+use std::net::TcpStream;
+use std::thread;
+use std::time::Duration;
+
+use afp_lsp::NoFiles;
+use afp_studio::{Options, Studio};
+
+/// A server on a port of its own that ends with the test.
+fn serve() -> (u16, String) {
+    let folder = std::env::temp_dir();
+    let (port, origins, examples) = (0, Vec::new(), Vec::new());
+    let options = Options { folder, open: None, port, origins, examples };
+    let studio = Studio::new(&options, || Box::new(NoFiles)).unwrap();
+    let address = studio.address();
+    let rest = address.strip_prefix("http://127.0.0.1:").unwrap();
+    let (port, code) = rest.split_once("/?code=").unwrap();
+    let (port, code) = (port.parse().unwrap(), code.to_owned());
+    thread::spawn(move || studio.serve(std::sync::mpsc::channel().0));
+    (port, code)
+}
+
+/// What is answered to a request with these lines of its head.
+fn get(port: u16, path: &str, lines: &[&str]) -> String {
+    let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
+    stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+    let own = format!("Host: 127.0.0.1:{port}");
+    let own: &[&str] =
+        if lines.iter().any(|line| line.starts_with("Host:")) { &[] } else { &[&own] };
+    let lines = own.iter().chain(lines).map(|line| format!("{line}\r\n")).collect::<String>();
+    write!(stream, "GET {path} HTTP/1.1\r\n{lines}Connection: close\r\n\r\n").unwrap();
+    let mut answer = String::new();
+    stream.read_to_string(&mut answer).unwrap();
+    answer
+}
+
+fn status(answer: &str) -> &str {
+    answer.split(' ').nth(1).unwrap()
+}
+
+#[test]
+fn a_code_opens_once_and_foreign_pages_never() {
+    let (port, code) = serve();
+    assert_eq!(status(&get(port, "/", &[])), "403");
+    assert_eq!(status(&get(port, "/main.js", &[])), "403");
+    assert_eq!(status(&get(port, "/?code=0123", &[])), "403");
+    let foreign = ["Host: evil.example"];
+    assert_eq!(status(&get(port, &format!("/?code={code}"), &foreign)), "403");
+
+    let entered = get(port, &format!("/?code={code}"), &[]);
+    assert_eq!(status(&entered), "303", "{entered}");
+    let line = entered.lines().find(|line| line.to_lowercase().starts_with("set-cookie:")).unwrap();
+    let cookie = line.split([':', ';']).nth(1).unwrap().trim();
+    let cookie = format!("Cookie: {cookie}");
+    assert_eq!(status(&get(port, &format!("/?code={code}"), &[])), "403", "it works once");
+
+    let colours = get(port, "/drawing.css", &[&cookie]);
+    assert_eq!(status(&colours), "200");
+    assert!(colours.contains(".afp-plan") && colours.contains("nosniff"), "{colours}");
+    assert_eq!(status(&get(port, "/..%2fCargo.toml", &[&cookie])), "404");
+
+    let page = "Origin: http://evil.example";
+    assert_eq!(status(&get(port, "/lsp", &[&cookie, page])), "403");
+    let upgrade = ["Connection: Upgrade", "Upgrade: websocket", "Sec-WebSocket-Version: 13"];
+    let key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==";
+    let without = [upgrade[1], upgrade[2], key];
+    assert_eq!(status(&get(port, "/lsp", &without)), "403", "a socket needs the cookie");
+}

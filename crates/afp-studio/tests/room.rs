@@ -1,0 +1,261 @@
+//! A room with clients, on a folder of its own and a clock of the test.
+
+use std::fs;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use afp_lsp::{Host, Message};
+use afp_studio::{ClientId, Folder, Room};
+use serde_json::{Value, json};
+
+const PLAN: &str =
+    "use std\n\nplan P {\n    start go\n    actor go: Wait { Elapsed -> terminate }\n}\n";
+
+/// The files of the machine.
+struct Disk;
+
+impl Host for Disk {
+    fn read(&self, path: &str) -> Result<String, String> {
+        fs::read_to_string(path).map_err(|why| why.to_string())
+    }
+
+    fn plan_files(&self, _: &str) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn built_in(&self, _: &str, _: &str) -> Option<String> {
+        None
+    }
+}
+
+/// A folder with a plan, its room, and the time in it.
+struct Place {
+    folder: tempfile::TempDir,
+    room: Room,
+    now: Duration,
+    asked: i32,
+}
+
+impl Place {
+    fn new(text: &str) -> Place {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("p.afp"), text).unwrap();
+        let examples = vec![("first.afp".to_owned(), format!("/// Wait.\n{PLAN}"))];
+        let room =
+            Room::new(Folder::new(folder.path()).unwrap(), None, examples, || Box::new(Disk));
+        Place { folder, room, now: Duration::ZERO, asked: 0 }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().canonicalize().unwrap().join(name)
+    }
+
+    fn uri(&self, name: &str) -> String {
+        afp_lsp::uri_of(self.path(name).to_str().unwrap())
+    }
+
+    fn on_disk(&self) -> String {
+        fs::read_to_string(self.path("p.afp")).unwrap()
+    }
+
+    fn ask(&mut self, client: ClientId, method: &str, params: Value) -> Result<Value, String> {
+        self.asked += 1;
+        let message = json!({ "id": self.asked, "method": method, "params": params });
+        let out = self.room.handle(client, serde_json::from_value(message).unwrap(), self.now);
+        let answer = out.iter().find_map(|(id, message)| match message {
+            Message::Response(response) if *id == client => Some(response.clone()),
+            _ => None,
+        });
+        let value = serde_json::to_value(answer.unwrap()).unwrap();
+        match value["error"]["message"].as_str() {
+            Some(why) => Err(why.to_owned()),
+            None => Ok(value["result"].clone()),
+        }
+    }
+
+    fn tell(&mut self, client: ClientId, method: &str, params: Value) -> Vec<(ClientId, Value)> {
+        let message = json!({ "method": method, "params": params });
+        said(self.room.handle(client, serde_json::from_value(message).unwrap(), self.now))
+    }
+
+    /// A client that has the plan open.
+    fn client(&mut self, client: ClientId) {
+        self.room.join(client);
+        self.ask(client, "initialize", json!({ "capabilities": {} })).unwrap();
+        let read = self.ask(client, "afp/read", json!({ "uri": self.uri("p.afp") })).unwrap();
+        let document =
+            json!({ "uri": read["uri"], "languageId": "afp", "version": 1, "text": read["text"] });
+        let told = self.tell(client, "textDocument/didOpen", json!({ "textDocument": document }));
+        assert_eq!(told, []);
+    }
+
+    /// A client gives the plan a whole new text.
+    fn types(&mut self, client: ClientId, version: i32, text: &str) -> Vec<(ClientId, Value)> {
+        let document = json!({ "uri": self.uri("p.afp"), "version": version });
+        let change = json!({ "textDocument": document, "contentChanges": [{ "text": text }] });
+        self.tell(client, "textDocument/didChange", change)
+    }
+
+    /// Lets time pass.
+    fn pass(&mut self, milliseconds: u64) -> Vec<(ClientId, Value)> {
+        let end = self.now + Duration::from_millis(milliseconds);
+        let mut out = Vec::new();
+        while self.now < end {
+            self.now += Duration::from_millis(10);
+            out.extend(said(self.room.tick(self.now)));
+        }
+        out
+    }
+
+    /// Another program writes the plan; times of files may be coarse, so the length differs too.
+    fn outside(&self, text: &str) {
+        fs::write(self.path("p.afp"), text).unwrap();
+    }
+}
+
+/// Notifications, with their methods.
+fn said(out: Vec<(ClientId, Message)>) -> Vec<(ClientId, Value)> {
+    let value = |(id, message)| (id, serde_json::to_value::<Message>(message).unwrap());
+    out.into_iter().map(value).filter(|(_, value)| value["method"] != Value::Null).collect()
+}
+
+fn methods(out: &[(ClientId, Value)]) -> Vec<(ClientId, &str)> {
+    out.iter().map(|(id, value)| (*id, value["method"].as_str().unwrap())).collect()
+}
+
+#[test]
+fn what_is_typed_is_written_within_300_ms_and_then_said_to_be_saved() {
+    let mut place = Place::new(&PLAN.replace('\n', "\r\n"));
+    place.client(1);
+    let next = PLAN.replace("go", "stay");
+    assert_eq!(place.types(1, 2, &next), []);
+    assert!(place.on_disk().contains("start go"), "not at every key");
+    let out = place.pass(300);
+    assert_eq!(methods(&out), [(1, "afp/saved")]);
+    assert_eq!(out[0].1["params"]["version"], 2);
+    assert_eq!(place.on_disk(), next.replace('\n', "\r\n"));
+    assert_eq!(place.pass(2000), [], "what the room wrote is no news");
+}
+
+#[test]
+fn what_others_write_arrives() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    let next = format!("// theirs\n{PLAN}");
+    place.outside(&next);
+    let out = place.pass(600);
+    let changed = out.iter().find(|(_, value)| value["method"] == "afp/changed").unwrap();
+    assert_eq!(changed.1["params"]["text"], next);
+    assert_eq!(changed.1["params"]["clean"], true);
+}
+
+#[test]
+fn changes_of_other_lines_go_together() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    place.types(1, 2, &PLAN.replace("Elapsed -> terminate", "Elapsed -> go"));
+    place.outside(&format!("// theirs\n{PLAN}"));
+    place.pass(600);
+    let both = format!("// theirs\n{}", PLAN.replace("Elapsed -> terminate", "Elapsed -> go"));
+    assert_eq!(place.on_disk(), both);
+}
+
+#[test]
+fn what_does_not_go_together_is_not_written_before_somebody_has_chosen() {
+    let mine = PLAN.replace("terminate", "go");
+    let theirs = PLAN.replace("terminate", "other");
+    for (keep, expected) in [("mine", Some(&mine)), ("theirs", Some(&theirs)), ("both", None)] {
+        let mut place = Place::new(PLAN);
+        place.client(1);
+        place.types(1, 2, &mine);
+        place.outside(&theirs);
+        let out = place.pass(1000);
+        let conflict = out.iter().find(|(_, value)| value["params"]["clean"] == false).unwrap();
+        assert_eq!(conflict.1["params"]["text"], theirs);
+        assert_eq!(place.on_disk(), theirs, "never over somebody else's change");
+        let choice = json!({ "uri": place.uri("p.afp"), "keep": keep });
+        place.ask(1, "afp/choose", choice).unwrap();
+        place.pass(300);
+        match expected {
+            Some(text) => assert_eq!(&place.on_disk(), text),
+            None => assert!(
+                place.on_disk().contains("<<<<<<<") && place.on_disk().contains("-> other"),
+                "{}",
+                place.on_disk()
+            ),
+        }
+    }
+}
+
+#[test]
+fn one_client_has_the_pen() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    place.client(2);
+    let next = PLAN.replace("go", "stay");
+    let out = place.types(1, 2, &next);
+    assert_eq!(methods(&out), [(2, "afp/changed")], "who watches sees it");
+    // What a watcher is told it takes over; that is no change.
+    assert_eq!(place.types(2, 2, &next), []);
+    let out = place.types(2, 3, "nothing");
+    assert_eq!((out[0].0, &out[0].1["params"]["text"]), (2, &json!(next)));
+    let refused = place.ask(2, "afp/create", json!({ "uri": place.uri("n.afp") })).unwrap_err();
+    assert!(refused.contains("pen"), "{refused}");
+    assert_eq!(place.ask(2, "afp/pen", json!({ "take": true })).unwrap()["yours"], true);
+    place.types(2, 4, PLAN);
+    place.pass(300);
+    assert_eq!(place.on_disk(), PLAN);
+    let out = said(place.room.leave(2));
+    assert_eq!((out[0].0, &out[0].1["params"]["yours"]), (1, &json!(true)));
+}
+
+#[test]
+fn files_are_made_renamed_and_removed_within_the_folder_alone() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    let new = place.uri("n.afp");
+    let made = place.ask(1, "afp/create", json!({ "uri": new, "example": "first.afp" })).unwrap();
+    assert!(made["text"].as_str().unwrap().starts_with("/// Wait."));
+    let again = place.ask(1, "afp/create", json!({ "uri": new })).unwrap_err();
+    assert_eq!(again, "there is a file 'n.afp' already");
+    for wrong in ["../n.afp", "n.sh"] {
+        let uri = format!("{}/{wrong}", place.uri(""));
+        assert!(place.ask(1, "afp/create", json!({ "uri": uri })).is_err(), "{wrong}");
+    }
+    let over = json!({ "uri": new, "to": place.uri("p.afp") });
+    assert!(place.ask(1, "afp/rename", over).unwrap_err().contains("already"));
+    let to = place.uri("m.afp");
+    place.ask(1, "afp/rename", json!({ "uri": new, "to": to })).unwrap();
+    let gone = place.ask(1, "afp/remove", json!({ "uri": to })).unwrap();
+    assert!(gone["text"].as_str().unwrap().contains("plan P"));
+    let hello = place.ask(1, "afp/hello", json!({})).unwrap();
+    assert_eq!(hello["files"].as_array().unwrap().len(), 1);
+    assert_eq!(hello["examples"][0]["title"], "Wait.");
+}
+
+#[test]
+fn a_disk_that_takes_nothing_is_said_and_tried_again() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    let next = PLAN.replace("go", "stay");
+    place.types(1, 2, &next);
+    // In the way of the file: nothing can take its place.
+    fs::remove_file(place.path("p.afp")).unwrap();
+    fs::create_dir(place.path("p.afp")).unwrap();
+    let out = place.pass(300);
+    assert!(out.iter().any(|(_, value)| value["params"]["failed"].is_string()), "{out:?}");
+    fs::remove_dir(place.path("p.afp")).unwrap();
+    let out = place.pass(3000);
+    assert!(methods(&out).contains(&(1, "afp/saved")), "{out:?}");
+    assert_eq!(place.on_disk(), next);
+}
+
+#[test]
+fn everything_is_saved_at_the_end() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    let next = PLAN.replace("go", "stay");
+    place.types(1, 2, &next);
+    place.room.save_all(place.now);
+    assert_eq!(place.on_disk(), next);
+}

@@ -1,0 +1,125 @@
+//! What is debugged: plans of files on the robot that is linked in, simulated, and logs.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use afp_debug::{Host, Launch, LogTarget, Program, SessionTarget, Surroundings, Target};
+use afp_dsl::graph::Graph;
+use afp_run::world;
+
+use crate::plan_file::PlanFile;
+use crate::{Linked, runner};
+
+/// Runs plans of files on the robot that is linked in, simulated.
+pub struct Simulator<'a> {
+    linked: Linked<'a>,
+    /// Where what is run must lie; anywhere without one.
+    folder: Option<PathBuf>,
+}
+
+impl<'a> Simulator<'a> {
+    /// Runs any plan of this machine.
+    pub fn new(linked: &Linked<'a>) -> Self {
+        Simulator { linked: *linked, folder: None }
+    }
+
+    /// Runs plans and shows logs that lie in a folder, and no others.
+    #[cfg(feature = "studio")]
+    pub fn inside(linked: &Linked<'a>, folder: &Path) -> Self {
+        Simulator { linked: *linked, folder: Some(folder.to_owned()) }
+    }
+
+    /// # Errors
+    /// A path leads out of the folder.
+    fn check_all(&self, launch: &Launch) -> Result<(), String> {
+        let world = launch.world.as_ref().filter(|world| !world.starts_with(world::RANDOM));
+        let paths = [Some(&launch.program), launch.log.as_ref(), world].into_iter().flatten();
+        paths.filter(|path| !path.is_empty()).try_for_each(|path| self.check(path))
+    }
+
+    fn check(&self, path: &str) -> Result<(), String> {
+        let Some(folder) = &self.folder else { return Ok(()) };
+        // The plan may be named behind the file.
+        let file =
+            path.rsplit_once(".afp:").map_or(path.to_owned(), |(file, _)| format!("{file}.afp"));
+        match Path::new(&absolute(&file)).starts_with(folder) {
+            true => Ok(()),
+            false => Err(format!("'{path}' lies outside of '{}'", folder.display())),
+        }
+    }
+}
+
+impl<'a> Host<'a> for Simulator<'a> {
+    fn launch(&mut self, launch: &Launch) -> Result<Box<dyn Target + 'a>, String> {
+        self.check_all(launch)?;
+        if let Some(log) = &launch.log {
+            return Ok(Box::new(recorded(Path::new(log))?));
+        }
+        let file = PlanFile::read(&launch.program).map_err(|why| why.to_string())?;
+        let shown = file.compiled.render(false);
+        let graph = file.compiled.graph.clone().ok_or(shown)?;
+        let linked = runner::is_linked(&file.own, &graph, &self.linked);
+        if !linked.map_err(|why| why.to_string())? {
+            let program = &launch.program;
+            return Err(format!(
+                "'{program}' needs a robot or toolboxes of its project: start 'afpc dap {program}', which builds them"
+            ));
+        }
+        let robot = self.linked.robot;
+        let asked = launch.world.as_deref().map(Path::new);
+        let found = world::find(asked, &file.path, robot.kind()).map_err(|why| why.to_string())?;
+        let program = program(&graph, &file);
+        let launch = launch.clone();
+        let make = move || {
+            let session = robot.session(&graph, &*found.world, launch.seed, &[]);
+            let mut session = session.map_err(|why| format!("{why}: {}", why.help()))?;
+            for (name, text) in &launch.set {
+                session.set(name, text).map_err(|why| format!("'{name}': {why}"))?;
+            }
+            Ok(session)
+        };
+        Ok(Box::new(SessionTarget::new(Arc::new(program), Box::new(make))?))
+    }
+
+    fn world(&mut self, launch: &Launch) -> Result<Surroundings, String> {
+        self.check_all(launch)?;
+        let path = launch
+            .program
+            .rsplit_once(".afp:")
+            .map_or_else(|| launch.program.clone(), |(file, _)| format!("{file}.afp"));
+        let (path, kind) = (PathBuf::from(absolute(&path)), self.linked.robot.kind());
+        let asked = launch.world.as_deref().map(Path::new);
+        let found = world::find(asked, &path, kind).map_err(|why| why.to_string())?;
+        let worlds = world::all(&path, kind).map_err(|why| why.to_string())?;
+        Ok(Surroundings { drawing: found.world.drawing(), worlds })
+    }
+
+    fn path(&self, path: &str) -> String {
+        absolute(path)
+    }
+}
+
+/// A run that is over.
+fn recorded(path: &Path) -> Result<LogTarget, String> {
+    let log = afp_log::read(path).map_err(|why| why.to_string())?;
+    let file = PlanFile::of_log(&log).map_err(|why| why.to_string())?;
+    let shown = file.compiled.render(false);
+    let graph = file.compiled.graph.clone().ok_or(shown)?;
+    LogTarget::new(Arc::new(program(&graph, &file)), log.events)
+}
+
+/// A plan with its places; texts that are not those of files go along.
+fn program(graph: &Graph, file: &PlanFile) -> Program {
+    let mut program = Program::new(graph, &file.compiled.sources, &absolute);
+    program.keep_texts(&file.compiled.sources, &|path, text| {
+        fs::read_to_string(path).is_ok_and(|known| known == text)
+    });
+    program
+}
+
+/// A path from the root, without links, where the file is there.
+fn absolute(path: &str) -> String {
+    let path = path.strip_prefix("file://").unwrap_or(path);
+    fs::canonicalize(path).map_or_else(|_| path.to_owned(), |path| path.display().to_string())
+}

@@ -1,0 +1,104 @@
+//! The conversation with a client, whatever carries it.
+
+use std::io::{ErrorKind, Read, Write};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use afp_debug::Adapter;
+use afp_debug::wire::{Frames, WireError, frame};
+
+/// What there is to do next.
+pub enum Arrived {
+    /// Messages of the client are there, perhaps none that is whole.
+    Messages(Vec<String>),
+    /// Time has passed.
+    Nothing,
+    /// The client is gone.
+    End,
+}
+
+/// Talks with a client until it says goodbye or goes away; then the robot has stopped. `next` waits for the client, at
+/// most as long as it is told; `send` says whether somebody still listens.
+///
+/// # Errors
+/// Those of `next`.
+pub fn converse(
+    mut adapter: Adapter<'_>,
+    mut next: impl FnMut(Option<Duration>) -> Result<Arrived, WireError>,
+    mut send: impl FnMut(&[String]) -> bool,
+) -> Result<(), WireError> {
+    let begin = Instant::now();
+    while !adapter.is_over() {
+        let out = match next(adapter.due())? {
+            Arrived::Messages(messages) => {
+                let mut out = Vec::new();
+                for message in &messages {
+                    out.extend(adapter.handle(message, begin.elapsed()));
+                }
+                out
+            }
+            Arrived::Nothing => adapter.tick(begin.elapsed()),
+            Arrived::End => return Ok(()),
+        };
+        if !out.is_empty() && !send(&out) {
+            return Ok(());
+        }
+    }
+    Ok(())
+}
+
+/// Talks with a client over a stream of bytes.
+///
+/// # Errors
+/// What arrives are no messages.
+pub(super) fn serve(
+    adapter: Adapter<'_>,
+    from: impl Read + Send + 'static,
+    mut to: impl Write,
+) -> Result<(), WireError> {
+    let (sender, arrived) = channel();
+    // It ends with the stream, or with the program.
+    thread::spawn(move || read(from, &sender));
+    let mut frames = Frames::default();
+    let next = |due: Option<Duration>| match wait(&arrived, due) {
+        Ok(bytes) => {
+            frames.push(&bytes);
+            let mut messages = Vec::new();
+            while let Some(message) = frames.next_message()? {
+                messages.push(message);
+            }
+            Ok(Arrived::Messages(messages))
+        }
+        Err(RecvTimeoutError::Timeout) => Ok(Arrived::Nothing),
+        Err(RecvTimeoutError::Disconnected) => {
+            std::mem::take(&mut frames).finish().map(|()| Arrived::End)
+        }
+    };
+    let send = |out: &[String]| {
+        let bytes: Vec<u8> = out.iter().flat_map(|message| frame(message)).collect();
+        to.write_all(&bytes).and_then(|()| to.flush()).is_ok()
+    };
+    converse(adapter, next, send)
+}
+
+/// Waits, at most as long as the run can.
+fn wait(arrived: &Receiver<Vec<u8>>, due: Option<Duration>) -> Result<Vec<u8>, RecvTimeoutError> {
+    match due {
+        None => arrived.recv().map_err(|_| RecvTimeoutError::Disconnected),
+        Some(due) => arrived.recv_timeout(due),
+    }
+}
+
+fn read(mut from: impl Read, to: &Sender<Vec<u8>>) {
+    let mut buffer = [0; 1 << 14];
+    loop {
+        match from.read(&mut buffer) {
+            Ok(0) => return,
+            Ok(length) if to.send(buffer[..length].to_vec()).is_err() => return,
+            Ok(_) => {}
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(_) => return,
+        }
+    }
+}

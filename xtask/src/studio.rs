@@ -1,0 +1,70 @@
+//! The studio's page, made from `studio/` with npm, and its tests in a real browser.
+
+use std::path::PathBuf;
+use std::process::Command;
+use std::{env, fs};
+
+use crate::shell::{Failure, cargo, program, root, run as run_command, target};
+
+/// Builds the page, and the command line with it inside, and opens it.
+///
+/// # Errors
+/// No npm, no network for its packages the first time, or a build that fails.
+pub fn open(arguments: &[String]) -> Result<(), Failure> {
+    page()?;
+    let here = env::current_dir()?;
+    let build = ["run", "--quiet", "--release", "--package", "afpc", "--features", "studio,lsp"];
+    let manifest = root().join("Cargo.toml");
+    let mut command = cargo();
+    command.args(build).arg("--manifest-path").arg(manifest).args(["--", "studio"]);
+    run_command(command.args(arguments).current_dir(here))
+}
+
+/// Makes `studio/dist`.
+///
+/// # Errors
+/// As [`open`].
+pub fn page() -> Result<(), Failure> {
+    installed()?;
+    run_command(at_page("node").arg("build.mjs"))
+}
+
+/// The page's own tests, then people's gestures in Chromium on the real program.
+///
+/// # Errors
+/// As [`open`]; no browser; a test that fails.
+pub fn test() -> Result<(), Failure> {
+    page()?;
+    run_command(npm().args(["run", "--silent", "check"]))?;
+    let features = ["build", "--quiet", "--package", "afpc", "--features", "full,studio"];
+    run_command(cargo().args(features))?;
+    let afpc = target().join("debug").join(format!("afpc{}", env::consts::EXE_SUFFIX));
+    run_command(npm().args(["test"]).env("AFPC", afpc))
+}
+
+/// The packages that the lock names, installed once.
+fn installed() -> Result<(), Failure> {
+    let (lock, done) = (root().join("studio/package-lock.json"), installed_mark());
+    let wanted = fs::read_to_string(lock)?;
+    if fs::read_to_string(&done).is_ok_and(|installed| installed == wanted) {
+        return Ok(());
+    }
+    run_command(npm().args(["ci", "--ignore-scripts", "--no-audit", "--no-fund"]))
+        .map_err(|why| Failure(format!("{}\nhelp: install Node.js 20 or later with npm", why.0)))?;
+    fs::write(done, wanted)?;
+    Ok(())
+}
+
+fn installed_mark() -> PathBuf {
+    root().join("studio/node_modules/.installed")
+}
+
+fn npm() -> Command {
+    at_page(if cfg!(windows) { "npm.cmd" } else { "npm" })
+}
+
+fn at_page(name: &str) -> Command {
+    let mut command = program(name);
+    command.current_dir(root().join("studio"));
+    command
+}
