@@ -2,7 +2,7 @@
 import { computed, effect, signal } from "@preact/signals";
 import { connect, type Dap } from "../dap";
 import { current, nameOf, onText, saved } from "../documents";
-import { plan as shownPlan, trail } from "../drawing/model";
+import { plan as shownPlan, trail, wanted } from "../drawing/model";
 import { report, trouble } from "../panes/files";
 import { reveal } from "../places";
 import { number, problems } from "../problems";
@@ -74,7 +74,8 @@ export async function start(hold = false): Promise<void> {
   }
   trouble.value = null;
   const uri = current.value;
-  const plan = trail.value[0] ?? shownPlan.value ?? "";
+  // What was chosen last counts, though its drawing may still be on its way.
+  const plan = trail.value[0] ?? wanted.value ?? shownPlan.value ?? "";
   program = `${pathOf(uri)}${plan ? `:${plan}` : ""}`;
   [phase.value, state.value, ended.value, said.value, older.value, why.value] = ["starting", null, null, [], false, ""];
   frames.value = [{ path: "", plan }];
