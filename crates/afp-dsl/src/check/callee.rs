@@ -149,10 +149,7 @@ impl Context<'_> {
             .filter(|template| SignatureKind::Template(template.kind).keyword() == wanted.keyword);
         let mut known: Vec<&str> = fitting.map(|template| template.name.as_str()).collect();
         if wanted.keyword == "subplan" {
-            // A plan cannot be part of itself.
-            let own = |place: &usize| self.program.plans[*place].node.span().contains(span);
-            let others = self.file.plans.iter().filter(|(_, places)| !places.iter().any(own));
-            known = others.map(|(name, _)| name.as_str()).collect();
+            known = self.other_plans(span).collect();
         }
         known.sort_unstable();
         known.dedup();
@@ -167,6 +164,13 @@ impl Context<'_> {
                 _ => "add 'use' and the name of its toolbox at the top of the file",
             },
         )
+    }
+
+    /// The plans but that around a place: a plan cannot be part of itself.
+    fn other_plans(&self, place: Span) -> impl Iterator<Item = &str> {
+        let own = move |plan: &usize| self.program.plans[*plan].node.span().contains(place);
+        let others = self.file.plans.iter().filter(move |(_, plans)| !plans.iter().any(own));
+        others.map(|(name, _)| name.as_str())
     }
 
     /// The path of a file that has a plan of that name and is used by a used file only.

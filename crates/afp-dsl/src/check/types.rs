@@ -153,12 +153,9 @@ impl Types {
                 let mut seen = HashSet::new();
                 known.retain(|name| seen.insert(*name));
                 let message = format!("there is no type '{}'", name.text);
-                let span = reference.span();
                 diags.push(match meant::ty(&name.text) {
-                    Some(ty) => Diagnostic::new(Code::E0232, span, message)
-                        .help(format!("write '{ty}'"))
-                        .replace(ty),
-                    None => unknown(Code::E0232, span, message, &name.text, known, ""),
+                    Some(ty) => elsewhere(reference.span(), message, ty),
+                    None => unknown(Code::E0232, reference.span(), message, &name.text, known, ""),
                 });
                 None
             }
@@ -228,4 +225,9 @@ fn too_high(factor: &Factor, diags: &mut Diagnostics) {
         Diagnostic::new(Code::E0232, factor.span, "the exponent is too large")
             .help("exponents of a dimension go from -128 to 127"),
     );
+}
+
+/// Reports a type by the name that other languages have for it.
+fn elsewhere(span: Span, message: String, ours: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0232, span, message).help(format!("write '{ours}'")).replace(ours)
 }
