@@ -153,6 +153,7 @@ test("quantities are read, stepped on their grid and spelled", () => {
 test("templates become texts, and what is between two elements leads on", () => {
   const offer = { template: "Wait", kind: "actor" as const, toolbox: "std", icon: null, help: "", ports: [], exits: ["Elapsed"], snippet: "actor ${1:wait}: s.Wait {\n    Elapsed -> $2\n\\}", missingUse: "std" };
   assert.deepEqual(header(offer), { name: "wait", text: "actor wait: s.Wait {}", template: "s.Wait" });
+  assert.equal(header(offer, new Set(["wait", "wait2"])).text, "actor wait3: s.Wait {}");
   const from = { item: "P.a", part: { kind: "exit", name: "Done" } };
   assert.deepEqual(added("P", null, offer, from), [
     { addUse: { toolbox: "std" } },

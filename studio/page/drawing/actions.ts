@@ -65,24 +65,25 @@ export async function addAfter(offer: ask.Offer): Promise<void> {
   }
   const exits = part ? exitsOf(at.drawn, part.item) : [];
   const own = part?.part?.kind === "exit" ? exits.find((exit) => exit.part.part?.name === part.part?.name) : exits[0];
-  await ask.edit(offers.added(at.plan, null, offer, own?.open ? own.part : null));
+  await ask.edit(offers.added(at.plan, null, offer, own?.open ? own.part : null, offers.taken(at.drawn)));
 }
 
 /** Adds a template where it was dropped: on the ground, onto an element, onto an edge. */
 export async function addAt(offer: ask.Offer, to: { place: Point } | { owner: Part } | { edge: Edge }): Promise<void> {
   const at = here();
   if (!at) return refuse(words.noPlan);
-  const { name } = offers.header(offer);
+  const names = offers.taken(at.drawn);
+  const { name } = offers.header(offer, names);
   const supervises = offer.kind === "supervise";
   if ("owner" in to && supervises) {
     await ask.edit(offers.added(at.plan, ownerOf(at.drawn, to.owner), offer, null));
   } else if (supervises) {
     refuse(words.noElement);
   } else if ("edge" in to && to.edge.from !== to.edge.to) {
-    await ask.edit(offers.between(at.plan, offer, to.edge));
+    await ask.edit(offers.between(at.plan, offer, to.edge, names));
   } else {
     const places = "place" in to ? { [offers.pathOf(at.plan, null, name)]: to.place } : {};
-    await ask.edit(offers.added(at.plan, null, offer, null), places);
+    await ask.edit(offers.added(at.plan, null, offer, null, names), places);
   }
 }
 
@@ -104,8 +105,9 @@ export async function whatThen(from: Part, at: Point | null = below(from), place
     if (!chosen) return;
     const offer = fresh.find((offer) => offers.choice(offer).id === chosen.id);
     if (!offer) return void (await lead(from, chosen.id));
-    const places = place ? { [offers.pathOf(found.plan, null, offers.header(offer).name)]: place } : {};
-    await ask.edit(offers.added(found.plan, null, offer, from), places);
+    const names = offers.taken(found.drawn);
+    const places = place ? { [offers.pathOf(found.plan, null, offers.header(offer, names).name)]: place } : {};
+    await ask.edit(offers.added(found.plan, null, offer, from, names), places);
   } catch (why) {
     refuse(why);
   }

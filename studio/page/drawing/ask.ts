@@ -91,6 +91,14 @@ export async function edit(changes: Change[], places: Places = {}, chosen?: Part
 export const paste = (plan: string, owner: string | null, text: string, at: Point | null): Promise<string[] | null> =>
   attempt(() => ask<Made>("afp/paste", { plan, text, ...(owner ? { owner } : {}), ...(at ? { at } : {}) }));
 
+/** Places before texts: what is added appears where it belongs, and not somewhere else first. */
+function placed(edit: WorkspaceEdit): WorkspaceEdit {
+  const rank = (change: NonNullable<WorkspaceEdit["documentChanges"]>[number]): number =>
+    "kind" in change ? 0 : change.textDocument.uri.endsWith(".layout") ? 1 : 2;
+  const documentChanges = edit.documentChanges?.slice().sort((one, two) => rank(one) - rank(two));
+  return documentChanges ? { ...edit, documentChanges } : edit;
+}
+
 async function attempt(make: () => Promise<Made>, chosen?: Part[]): Promise<string[] | null> {
   let added: string[] = [];
   try {
@@ -98,7 +106,7 @@ async function attempt(make: () => Promise<Made>, chosen?: Part[]): Promise<stri
       const { label, edit, select } = await make();
       added = select;
       const parts = chosen ?? select.map((item) => ({ item }));
-      return { label, edit, ...(parts.length ? { select: parts } : {}) };
+      return { label, edit: placed(edit), ...(parts.length ? { select: parts } : {}) };
     });
     return added;
   } catch (why) {

@@ -1,5 +1,5 @@
 // Shows the list to choose from, the name that is written anew, and what is said at the pointer.
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { filtered, question, type Choice, type Question } from "./choose";
 import { icon } from "./fragment";
 import { isName, renaming } from "./rename";
@@ -19,7 +19,7 @@ export function Icon({ svg }: { svg: string | null | undefined }) {
 
 /** Moves a popup so that all of it is in sight. */
 export function useInSight(at: Point | null, host: { current: HTMLElement | null }, again: unknown): void {
-  useEffect(() => {
+  useLayoutEffect(() => {
     const popup = host.current;
     if (!popup) return;
     const { width, height } = size.peek();

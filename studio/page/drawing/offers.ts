@@ -1,13 +1,24 @@
 // Templates as texts and changes: what is added when one is chosen.
 import type { Change, Offer } from "./ask";
 import type { Choice } from "./choose";
-import { nameOf, planOf, type Edge, type Part } from "./shapes";
+import { nameOf, planOf, type Drawing, type Edge, type Part } from "./shapes";
 import { words } from "./words";
 
-/** An element or supervisor of a template, without ports and exits, and the name that it wishes for. */
-export function header(offer: Offer): { text: string; name: string; template: string } {
+/** The names that the items of a plan have. */
+export function taken(drawing: Drawing): Set<string> {
+  const pieces = [...drawing.elements.values()].flatMap((element) => element.pieces);
+  return new Set([...pieces.map((piece) => piece.item), ...drawing.entries.map((entry) => entry.item)].map(nameOf));
+}
+
+/**
+ * An element or supervisor of a template, without ports and exits, under a free name: the engine would take every later
+ * mention of a name that is taken for the new one.
+ */
+export function header(offer: Offer, taken: ReadonlySet<string> = new Set()): { text: string; name: string; template: string } {
   const found = /^(\w+) \$\{1:(\w+)\}: ([\w.]+)/.exec(offer.snippet);
-  const name = found?.[2] ?? offer.template.charAt(0).toLowerCase() + offer.template.slice(1);
+  const wished = found?.[2] ?? offer.template.charAt(0).toLowerCase() + offer.template.slice(1);
+  let name = wished;
+  for (let nth = 2; taken.has(name); nth++) name = `${wished}${nth}`;
   const template = found?.[3] ?? offer.template;
   return { name, template, text: `${found?.[1] ?? offer.kind} ${name}: ${template} {}` };
 }
@@ -25,19 +36,19 @@ export const leading = (from: Part, to: string): Change =>
     : { connect: { from: from.item, outcome: from.part?.name ?? "", to } };
 
 /** Adds what an offer makes, and leads an exit to it. */
-export function added(plan: string, owner: string | null, offer: Offer, from: Part | null): Change[] {
-  const { text, name } = header(offer);
+export function added(plan: string, owner: string | null, offer: Offer, from: Part | null, names?: ReadonlySet<string>): Change[] {
+  const { text, name } = header(offer, names);
   const add = { add: { plan, text, ...(owner ? { owner } : {}) } };
   return [...using(offer), add, ...(from ? [leading(from, name)] : [])];
 }
 
 /** Adds an element between the ends of an edge. */
-export function between(plan: string, offer: Offer, edge: Edge): Change[] {
+export function between(plan: string, offer: Offer, edge: Edge, names?: ReadonlySet<string>): Change[] {
   const from: Part = { item: edge.from, part: edge.part };
-  const { name } = header(offer);
+  const { name } = header(offer, names);
   const on = offer.exits[0];
   const leads = on === undefined ? [] : [{ connect: { from: pathOf(plan, null, name), outcome: on, to: nameOf(edge.to) } }];
-  return [...added(plan, null, offer, from), ...leads];
+  return [...added(plan, null, offer, from, names), ...leads];
 }
 
 /** An offer in a list. */

@@ -1,0 +1,80 @@
+// The first plan by the mouse alone: from an empty folder to a robot that bumps, backs up and turns, in few gestures.
+import assert from "node:assert/strict";
+import type { Page } from "playwright-core";
+import { inBrowser } from "./browser";
+
+/** More would not be a first visit. */
+const MOST = 25;
+
+class Mouse {
+  gestures = 0;
+  constructor(private readonly page: Page) {}
+
+  async middle(selector: string): Promise<[number, number]> {
+    const found = this.page.locator(selector).first();
+    await found.waitFor();
+    await found.evaluate((node) => node.closest(".palette-list, .chooser") && node.scrollIntoView({ block: "center" }));
+    // What travels to a new place has come to rest.
+    await this.page.evaluate(() => Promise.all(document.getAnimations().map((motion) => motion.finished.catch(() => {}))));
+    const box = (await found.boundingBox())!;
+    return [box.x + box.width / 2, box.y + box.height / 2];
+  }
+
+  async click(selector: string): Promise<void> {
+    this.gestures++;
+    await this.page.mouse.click(...(await this.middle(selector)));
+  }
+
+  async drag(from: string, to: string | [number, number]): Promise<void> {
+    this.gestures++;
+    const [x, y] = await this.middle(from);
+    await this.page.mouse.move(x, y);
+    await this.page.mouse.down();
+    await this.page.mouse.move(x + 6, y + 6);
+    await this.page.mouse.move(...(typeof to === "string" ? await this.middle(to) : to), { steps: 4 });
+    await this.page.mouse.up();
+  }
+
+  /** Chooses from the list that a drop has opened. */
+  choose = (label: string): Promise<void> => this.click(`.chooser .choice-label:text-is("${label}")`);
+}
+
+const template = (name: string): string => `[data-template=${name}]`;
+const name = (item: string): string => `.node [data-item="Plan.${item}"] text.name`;
+const open = (item: string): string => `.node [data-item="Plan.${item}"] text.open`;
+
+inBrowser("a first plan by the mouse alone", {}, async ({ page, read }) => {
+  const mouse = new Mouse(page);
+  const becomes = async (wanted: RegExp): Promise<void> => {
+    const end = Date.now() + 5000;
+    while (!wanted.test(await read("plan.afp")) && Date.now() < end) await new Promise((done) => setTimeout(done, 30));
+    assert.match(await read("plan.afp"), wanted);
+  };
+  await mouse.click(".card.main");
+  await page.locator('.node [data-item="Plan.start"]').waitFor();
+  await mouse.drag(template("Forward"), [480, 420]);
+  await mouse.drag(open("forward"), [330, 560]);
+  await mouse.choose("end the plan");
+  await page.locator(".count", { hasText: "ready" }).waitFor();
+  await mouse.drag(template("CheckTouchSensor"), name("forward"));
+  await mouse.drag(open("forward"), [760, 200]);
+  await mouse.choose("new: Forward");
+  await becomes(/TouchSensorPressed -> forward2/);
+  await mouse.click('.inspector .row:has-text("distance")');
+  await mouse.click('.inspector .value [aria-label="other sign"]');
+  await mouse.click('.inspector .value [aria-label="Set"]');
+  await becomes(/forward2: Forward\(distance = -1 m\)/);
+  await mouse.drag(open("forward2"), [440, 200]);
+  await mouse.choose("new: Turn");
+  await becomes(/actor turn: Turn/);
+  await mouse.drag(open("turn"), name("forward"));
+  await becomes(/TurnSuccessful -> forward\n/);
+  await mouse.click('.node [data-item="Plan.forward"] text.state');
+  await mouse.choose("forward");
+  await mouse.drag(template("CheckEscapeButton"), '.node [data-item="Plan.start"] text.start');
+  await mouse.click(open("start"));
+  await mouse.choose("end the plan");
+  await becomes(/supervise checkEscapeButton: CheckEscapeButton \{ EscapeButtonPressed -> terminate \}/);
+  await page.locator(".count", { hasText: "ready" }).waitFor();
+  assert.ok(mouse.gestures <= MOST, `${mouse.gestures} gestures`);
+});
