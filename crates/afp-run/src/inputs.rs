@@ -63,10 +63,11 @@ fn refused(names: &dyn Names, name: &str, text: &str, why: SetError) -> RunError
 pub fn missing(error: StartError, names: &dyn Names) -> RunError {
     match error {
         StartError::InputMissing(entry) => {
-            let EntryName { path, ty, .. } = names.entry(TraceEntryId(entry.into()));
+            let about = names.entry(TraceEntryId(entry.into()));
+            let path = about.path;
             RunError::usage(
                 format!("the 'in' entry '{path}' has neither a value nor a default"),
-                format!("give it one with '--set {path}=VALUE', a {ty}"),
+                format!("give it one with '--set {path}=VALUE', a {}", what_it_takes(about)),
             )
         }
         _ => RunError::usage("the plan runs already", "start a new one"),
@@ -80,15 +81,18 @@ fn unknown(name: &str, names: &dyn Names) -> RunError {
 fn settable(names: &dyn Names) -> String {
     let entries = (0..names.entries()).map(|id| names.entry(TraceEntryId(id)));
     let settable = entries.filter(|entry| entry.kind == EntryKind::In && !entry.path.contains('.'));
-    let list = settable.map(|entry| {
-        let range = entry.range_text().map(|range| format!(" {range}")).unwrap_or_default();
-        format!("'{}' ({}{range})", entry.path, entry.ty)
-    });
-    let list: Vec<_> = list.collect();
+    let list: Vec<_> =
+        settable.map(|entry| format!("'{}' ({})", entry.path, what_it_takes(entry))).collect();
     match list.is_empty() {
         true => "this plan has no 'in' entries".to_owned(),
         false => format!("entries that can be set: {}", list.join(", ")),
     }
+}
+
+/// The type of an entry and its range.
+fn what_it_takes(entry: EntryName) -> String {
+    let range = entry.range_text().map(|range| format!(" {range}")).unwrap_or_default();
+    format!("{}{range}", entry.ty)
 }
 
 /// The entry of that name.
