@@ -118,20 +118,6 @@ fn entries_are_set_with_their_units() {
 }
 
 #[test]
-fn an_entry_takes_what_is_in_its_range() {
-    let place = Place::new();
-    let ranged = "length from 10 cm to 2 * 25 cm";
-    place.write("a.afp", &WALL_FOLLOWING.replace("length = 30 cm", ranged));
-    let run = |set: &str| place.afpc(&format!("run a.afp --until 1s {set} {QUIET}"));
-    run("--set walldist=10cm").succeeds();
-    run("--set walldist=50cm").succeeds();
-    let range = "'walldist' (length from 0.1 m to 0.5 m)";
-    let why = "'walldist=51cm': the value is out of the entry's range, from 0.1 m to 0.5 m";
-    run("--set walldist=51cm").fails(2, &[why, range]);
-    run("").fails(2, &["'--set walldist=VALUE', a length from 0.1 m to 0.5 m"]);
-}
-
-#[test]
 fn an_entry_without_a_value_is_asked_for() {
     let place = Place::new();
     place.write("a.afp", &WALL_FOLLOWING.replace("length = 30 cm", "length"));
