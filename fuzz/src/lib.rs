@@ -3,11 +3,13 @@
 //! Each takes whatever bytes a fuzzer finds and panics when a property does not hold. The same
 //! functions run over the corpora in `cargo test`.
 
+mod debugger;
 mod edits;
 mod messages;
 mod names;
 mod text;
 
+pub use debugger::debugger;
 pub use edits::edits;
 pub use messages::messages;
 pub use text::{checker, formatter, layout, map, parser, scenario, settings, world};
@@ -22,6 +24,7 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("formatter", formatter),
     ("edits", edits),
     ("messages", messages),
+    ("debugger", debugger),
     ("settings", settings),
     ("layout", layout),
     ("world", world),

@@ -1,0 +1,91 @@
+//! Messages to the debug adapter: each request is answered once, and none brings the adapter down.
+
+use std::sync::{Arc, LazyLock};
+use std::time::Duration as Wall;
+
+use afp_core::Instant;
+use afp_core::trace::ComponentId;
+use afp_debug::wire::Frames;
+use afp_debug::{Adapter, Host, Launch, LogTarget, Program, Target};
+use afp_dsl::compile_plan;
+use afp_dsl::files::Texts;
+use afp_dsl::toolbox::Toolboxes;
+use afp_session::{EventKind, RunEvent};
+use afp_syntax::source::Source;
+use serde_json::Value;
+
+use crate::text::text;
+
+const PLAN: &str = "use std
+
+plan P {
+    in  pause: duration = 1 s
+    var left: int = 0
+    start a
+    actor a: Wait(duration = pause) {
+        Elapsed -> b
+        supervise late: CheckTimeout(duration = 4 s) { TimedOut -> b }
+    }
+    actor b: Wait(duration = 2 * pause) { Elapsed -> a }
+}
+";
+
+/// The plan as a program, made once.
+static PROGRAM: LazyLock<Option<Arc<Program>>> = LazyLock::new(|| {
+    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+    let source = Source::new("plan.afp", PLAN);
+    let compiled = compile_plan(&source, &toolboxes, &Texts::default(), None);
+    let program = Program::new(compiled.graph.as_ref()?, &compiled.sources, &str::to_owned);
+    Some(Arc::new(program))
+});
+
+/// A log of the plan: its elements take turns.
+struct Recorded;
+
+impl Host<'static> for Recorded {
+    fn launch(&mut self, _: &Launch) -> Result<Box<dyn Target>, String> {
+        let program = PROGRAM.clone().ok_or("the plan is wrong")?;
+        let units = (0..).map(ComponentId).zip(&program.units).skip(1);
+        let events = units.cycle().take(60).zip(1_u64..).flat_map(|((id, unit), second)| {
+            [EventKind::Started, EventKind::Input, EventKind::Finished].map(|kind| RunEvent {
+                at: Instant::from_nanos(second * 1_000_000_000),
+                kind,
+                component: unit.path.clone(),
+                component_id: id,
+                ..RunEvent::default()
+            })
+        });
+        let events = events.collect();
+        Ok(Box::new(LogTarget::new(program, events)?))
+    }
+
+    fn path(&self, path: &str) -> String {
+        path.to_owned()
+    }
+}
+
+/// Each line that is a request is one; other lines are told that they are none. The bytes are taken for a stream, too.
+///
+/// # Panics
+/// When a request has no response or several.
+pub fn debugger(data: &[u8]) {
+    let mut frames = Frames::default();
+    for piece in data.chunks(7) {
+        frames.push(piece);
+        while let Ok(Some(_)) = frames.next_message() {}
+    }
+    let mut adapter = Adapter::new(Box::new(Recorded));
+    let mut now = Wall::ZERO;
+    for line in text(data).lines() {
+        let asked = usize::from(serde_json::from_str::<dapts::Request>(line).is_ok());
+        let said = adapter.handle(line, now);
+        let is_response = |said: &&String| {
+            serde_json::from_str::<Value>(said).is_ok_and(|said| said["type"] == "response")
+        };
+        assert_eq!(said.iter().filter(is_response).count(), asked, "{line}");
+        for _ in 0..3 {
+            now += Wall::from_millis(50);
+            adapter.tick(now);
+        }
+    }
+}
