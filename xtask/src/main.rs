@@ -11,6 +11,7 @@ mod fuzz;
 mod gate;
 mod image;
 mod install;
+mod live;
 mod npm;
 mod opencv;
 mod pi;

@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 use crate::install::Profile;
 use crate::shell::{Failure, cargo, run as run_command};
 use crate::{
-    arm, bench, dap, engine, fuzz, gate, install, opencv, pi, python, scxml, studio, vacuum, wasm,
+    arm, bench, dap, engine, fuzz, gate, install, live, opencv, pi, python, scxml, studio, vacuum,
+    wasm,
 };
 
 /// A suite by its name.
@@ -19,6 +20,7 @@ pub const TEST: &[Suite] = &[
     ("scxml", || scxml::run(50)),
     ("dap", dap::run),
     ("studio", studio::test),
+    ("live", live::run),
     ("gate", gate::run),
     ("web", wasm::run),
     ("install", || install::run(Profile::Debug)),
@@ -40,6 +42,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("scxml", || scxml::run(2000)),
     ("dap", dap::run),
     ("studio", studio::test),
+    ("live", live::run),
     ("gate", gate::run),
     ("web", wasm::run),
     ("install", || install::run(Profile::Release)),

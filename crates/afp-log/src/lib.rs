@@ -5,6 +5,7 @@
 //! protobuf schemas and AFP's own (`proto/afp.proto`), readable without any code of ours.
 
 mod doctor;
+mod encode;
 mod error;
 mod event;
 mod foxglove;
@@ -22,10 +23,11 @@ mod write;
 
 pub use afp_session::{Kept, OwnedRecord};
 pub use doctor::doctor;
+pub use encode::Messages;
 pub use error::LogError;
 pub use event::{pack, unpack};
 pub use names::OwnedNames;
-pub use read::{Configured, Heard, LogData, TopicInfo, read};
+pub use read::{Configured, Heard, LogData, TopicInfo, configuration, read};
 pub use recipe::WORLD;
 pub use recorder::{About, FRAMES, Recorder, Signal, WhenFull, Written};
 pub use recover::{Recovered, recover, recovered_name};

@@ -113,6 +113,11 @@ pub fn read(path: &Path) -> Result<LogData, LogError> {
     Ok(log)
 }
 
+/// What all entries hold, as a message of `/plan/configuration` says; none for other bytes.
+pub fn configuration(bytes: &[u8]) -> Option<Configured> {
+    Configuration::decode(bytes).ok().map(configured)
+}
+
 /// The instant of a protobuf time stamp; one before zero counts as zero.
 pub(crate) fn instant(time: &Option<Timestamp>) -> Instant {
     let Some(Timestamp { seconds, nanos }) = *time else { return Instant::ZERO };

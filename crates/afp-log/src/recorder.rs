@@ -14,6 +14,7 @@ use afp_core::Instant;
 use afp_core::trace::{Record, Sink};
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
+use crate::encode::{Encoder, Messages};
 use crate::error::LogError;
 use crate::names::OwnedNames;
 use crate::robot::{Image, Level, Pose2, Ranging, Shape, Transform};
@@ -51,7 +52,7 @@ pub struct About {
 /// A log that was closed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
-    /// Where it is.
+    /// Where it is; empty where nothing was written to a file.
     pub path: PathBuf,
     /// Its size.
     pub bytes: u64,
@@ -108,7 +109,7 @@ impl Item {
     }
 }
 
-/// Records a run into an MCAP file.
+/// Records a run into an MCAP file, or sends it to whoever watches.
 ///
 /// The file is `NAME.part` until [`Recorder::finish`]; dropped without it, the file is closed in
 /// order but keeps that name.
@@ -146,7 +147,26 @@ impl Recorder {
         names: OwnedNames,
         when_full: WhenFull,
     ) -> Result<Self, LogError> {
-        let file = LogFile::create(path, about, names).map_err(|error| error.writing(path))?;
+        let failed = |error: LogError| error.writing(path);
+        let file = LogFile::create(path, about).map_err(failed)?;
+        Recorder::begin(Box::new(file), names, when_full, path).map_err(failed)
+    }
+
+    /// Sends a run to whoever takes its messages, by a thread of its own; what it cannot keep up with is dropped.
+    ///
+    /// # Errors
+    /// The first messages are not taken, or there is no thread.
+    pub fn stream(to: Box<dyn Messages>, names: OwnedNames) -> Result<Self, LogError> {
+        Recorder::begin(to, names, WhenFull::Drop, Path::new("live"))
+    }
+
+    fn begin(
+        to: Box<dyn Messages>,
+        names: OwnedNames,
+        when_full: WhenFull,
+        path: &Path,
+    ) -> Result<Self, LogError> {
+        let file = Encoder::new(to, names)?;
         let (queue, items) = RingBuffer::new(CAPACITY);
         let end = Arc::new(End::default());
         let seen = Arc::clone(&end);
@@ -268,7 +288,7 @@ impl Drop for Recorder {
 }
 
 /// The writer: the queue into the file until the recorder says that it is over.
-fn write_all(mut file: LogFile, mut items: Consumer<Item>, end: &End) -> Outcome {
+fn write_all(mut file: Encoder, mut items: Consumer<Item>, end: &End) -> Outcome {
     let mut flushed = Wall::now();
     let mut last = Instant::ZERO;
     let mut failure = None;

@@ -11,6 +11,7 @@ use afp_session::{
     SampleRef, Sampling, Shape,
 };
 
+use crate::encode::Messages;
 use crate::error::LogError;
 use crate::names::OwnedNames;
 use crate::recorder::{About, FRAMES, Recorder, Signal, WhenFull, Written};
@@ -18,6 +19,9 @@ use crate::robot::{Image, Level, Transform};
 
 /// How often a log gets what the camera sees.
 const FILM: Duration = Duration::from_millis(500);
+
+/// How often those who watch get all of the scene.
+const SCENES: Duration = Duration::from_secs(1);
 
 /// Records a session: its trace, and what its robot signals.
 pub struct SessionLog {
@@ -37,6 +41,8 @@ pub struct SessionLog {
     /// What moves, as it was last written.
     shapes: Vec<Shape>,
     moved: Vec<Shape>,
+    /// When all of the scene is sent anew; never into a file, which has its beginning.
+    scene_again: Instant,
 }
 
 impl SessionLog {
@@ -53,9 +59,35 @@ impl SessionLog {
         scene: Vec<Shape>,
         camera: bool,
     ) -> Result<Self, LogError> {
-        let mut recorder = Recorder::create(path, about, names, WhenFull::Wait)?;
+        let recorder = Recorder::create(path, about, names, WhenFull::Wait)?;
+        Ok(SessionLog::begin(recorder, devices, scene, camera, Instant::MAX))
+    }
+
+    /// Begins to send a session about to start to whoever takes its messages; a session never waits for them. What
+    /// stands in the room is sent anew each second, for those who come later.
+    ///
+    /// # Errors
+    /// The first messages are not taken, or there is no thread.
+    pub fn stream(
+        to: Box<dyn Messages>,
+        names: OwnedNames,
+        devices: &'static [DeviceRow],
+        scene: Vec<Shape>,
+        camera: bool,
+    ) -> Result<Self, LogError> {
+        let recorder = Recorder::stream(to, names)?;
+        Ok(SessionLog::begin(recorder, devices, scene, camera, Instant::ZERO))
+    }
+
+    fn begin(
+        mut recorder: Recorder,
+        devices: &'static [DeviceRow],
+        scene: Vec<Shape>,
+        camera: bool,
+        scene_again: Instant,
+    ) -> Self {
         recorder.scene(Instant::ZERO, scene.clone());
-        Ok(SessionLog {
+        SessionLog {
             recorder,
             signals: signals(devices).map(|(_, device, row)| channel(device, row)).collect(),
             body: afp_core::devices::find_signal(devices, "robot", "pose"),
@@ -66,7 +98,8 @@ impl SessionLog {
             camera: if camera { Instant::ZERO } else { Instant::MAX },
             shapes: scene,
             moved: Vec::new(),
-        })
+            scene_again,
+        }
     }
 
     /// Writes what the session came to, waits for the writer and gives the log its name.
@@ -180,6 +213,11 @@ impl Observer for SessionLog {
             self.recorder.transforms(at, frames);
         }
         self.frames.clear();
+        if at >= self.scene_again {
+            self.scene_again = at + SCENES;
+            self.moved.clear();
+            self.recorder.scene(at, self.shapes.clone());
+        }
         if !self.moved.is_empty() {
             self.recorder.scene(at, std::mem::take(&mut self.moved));
         }

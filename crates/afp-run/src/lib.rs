@@ -8,6 +8,7 @@ mod error;
 mod hash;
 pub mod inputs;
 mod keys;
+mod live;
 pub mod options;
 mod output;
 mod pace;

@@ -3,6 +3,7 @@
 mod help;
 mod parse;
 
+use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use afp_core::{Duration, Instant};
@@ -51,9 +52,9 @@ pub struct RunOptions {
     #[arg(long, value_name = "TIME", value_parser = afp_project::duration)]
     pub until: Option<Duration>,
 
-    /// Speed of simulated time: 1x is real time, max as fast as it goes
-    #[arg(long, value_name = "SPEED", default_value = "max", value_parser = parse::speed)]
-    pub speed: Speed,
+    /// Speed of simulated time: 1x is real time, max as fast as it goes [default: max, with '--live' 1x]
+    #[arg(long, value_name = "SPEED", value_parser = parse::speed)]
+    pub speed: Option<Speed>,
 
     /// Presses a control of the robot: --press NAME@3s, --press DEVICE.NAME@3s
     #[arg(long, value_name = "CONTROL@TIME", value_parser = parse::press)]
@@ -83,9 +84,17 @@ pub struct RunOptions {
     #[arg(long)]
     pub json: bool,
 
-    /// Serves live data on a port (comes with the live server)
-    #[arg(long, value_name = "PORT", hide = true)]
-    pub live: Option<u16>,
+    /// Serves Foxglove and others who watch the run while it goes on, on a port or an address with a port; without one
+    /// on 127.0.0.1:8765. For programs built with the feature 'live'
+    #[arg(
+        long,
+        value_name = "ADDRESS",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "8765",
+        value_parser = parse::address
+    )]
+    pub live: Option<SocketAddr>,
 
     /// Reports real-time behaviour (comes with the driver for the Raspberry Pi)
     #[arg(long, hide = true)]
@@ -101,22 +110,24 @@ impl RunOptions {
     /// # Errors
     /// [`RunError::Usage`] says what the option waits for.
     pub fn check(&self) -> Result<(), RunError> {
-        let refused = if self.live.is_some() {
-            ("'--live' waits for the live server of afp-log", "write a log with '--log FILE'")
-        } else if self.rt_report {
-            (
+        if self.rt_report {
+            return Err(RunError::usage(
                 "'--rt-report' waits for the real-time driver of afp",
                 "'--speed 1x' runs in real time, without guarantees",
-            )
-        } else {
-            return Ok(());
-        };
-        Err(RunError::usage(refused.0, refused.1))
+            ));
+        }
+        Ok(())
+    }
+
+    /// How fast time passes: as fast as it goes, in real time where others watch, unless that is said.
+    pub fn speed(&self) -> Speed {
+        let usual = if self.live.is_some() { Speed::Times(1.0) } else { Speed::Max };
+        self.speed.unwrap_or(usual)
     }
 
     /// When the run is stopped at the latest.
     pub fn end(&self) -> Instant {
-        match (self.until, self.speed) {
+        match (self.until, self.speed()) {
             (Some(until), _) => Instant::ZERO + until,
             (None, Speed::Max) => Instant::ZERO + DEFAULT_UNTIL,
             (None, Speed::Times(_)) => Instant::MAX,

@@ -19,6 +19,8 @@ pub(crate) enum Waited {
     Due,
     /// The Escape key was pressed first.
     Escape,
+    /// Somebody asked for something first.
+    Asked,
     /// Somebody asked to stop first.
     Stop,
 }
@@ -54,11 +56,14 @@ impl Pace {
         }
     }
 
-    /// Waits until simulated time `at` has come.
-    pub(crate) fn wait(&self, at: Instant, stop: &StopFlag) -> Waited {
+    /// Waits until simulated time `at` has come, or there is something else to do before.
+    pub(crate) fn wait(&self, at: Instant, stop: &StopFlag, asked: &dyn Fn() -> bool) -> Waited {
         loop {
             if stop.is_raised() {
                 return Waited::Stop;
+            }
+            if asked() {
+                return Waited::Asked;
             }
             let Speed::Times(times) = self.speed else { return Waited::Due };
             if self.keys.as_ref().is_some_and(Keys::escape_pressed) {

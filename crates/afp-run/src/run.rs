@@ -17,6 +17,7 @@ use afp_session::{
 use crate::again::Again;
 use crate::error::{EXIT_OK, EXIT_PLAN_ERROR, RunError};
 use crate::hash::hash;
+use crate::live::Live;
 use crate::options::{RunOptions, Speed};
 use crate::output::write_whole;
 use crate::pace::Pace;
@@ -27,7 +28,7 @@ use crate::svg::{self, Picture};
 use crate::world::LoadedWorld;
 use crate::{Program, inputs, requests};
 
-use gate::RunGate;
+use gate::{Halt, RunGate};
 use paths::Paths;
 
 /// Makes the session of a run: in a world, with a seed, judged by some measures.
@@ -167,17 +168,24 @@ fn drive(session: &mut dyn AnySession, setting: &Setting<'_>) -> Result<u8, RunE
     report.borrow_mut().head(&head(setting));
     let mut counts = Counts::new(session.names());
     let mut track = Track::new(session.devices());
-    let mut gate = RunGate::new(&report, Pace::new(options.speed), stop.clone());
+    let live = Live::begin(options.live, program.name, session)?;
+    let scene = || world.world.scene();
+    let sent = live.as_ref().map(|live| live.log(session, scene(), options.camera));
+    let mut sent = sent.transpose()?;
+    let mut gate = RunGate::new(&report, Pace::new(options.speed()), stop.clone(), live.as_ref());
     let mut requests = Requests::default();
     let mut shown = Shown(&report);
     let mut observers: Vec<&mut dyn Observer> =
         vec![&mut counts, &mut track, &mut requests, &mut shown];
-    observers.extend(log.as_mut().map(|log| log as &mut dyn Observer));
-    let stopped_by = run_to_end(session, end, &mut gate, &mut observers)
+    let logs = log.iter_mut().chain(&mut sent);
+    observers.extend(logs.map(|log| log as &mut dyn Observer));
+    let stopped_by = run_to_end(session, end, &mut gate, live.as_ref(), &mut observers)
         .map_err(|error| inputs::missing(error, session.names()))?;
     let speed = session.now().as_secs_f64() / gate.spent();
     drop(gate);
     let written = log.map(|log| log.finish(session)).transpose()?;
+    sent.map(|sent| sent.finish(session)).transpose()?;
+    live.into_iter().for_each(Live::finish);
     let requests = requests.finish(session);
     let came = Came { stopped_by, speed, written, counts, track, requests, raster };
     let code = came.finish(session, report.into_inner(), &paths, setting)?;
@@ -190,13 +198,21 @@ fn run_to_end(
     session: &mut dyn AnySession,
     end: Instant,
     gate: &mut RunGate<'_>,
+    live: Option<&Live>,
     observers: &mut [&mut dyn Observer],
 ) -> Result<Option<StoppedBy>, StartError> {
     loop {
         let went = session.run(end, gate, observers)?;
-        if let Some(at) = gate.take_escape() {
-            requests::press_stop(session, at);
-            continue;
+        match (gate.take_halt(), live) {
+            (Some((Halt::Escape, at)), _) => {
+                requests::press_stop(session, at);
+                continue;
+            }
+            (Some((Halt::Asked, at)), Some(live)) => {
+                live.serve(session, at);
+                continue;
+            }
+            _ => {}
         }
         let stopped_by = match (went, session.ending()) {
             (_, Some(_)) => return Ok(None),
@@ -290,7 +306,7 @@ fn head(setting: &Setting<'_>) -> Vec<(&'static str, String)> {
 fn about(setting: &Setting<'_>) -> About {
     let Setting { options, recipe, world, facts, .. } = setting;
     let mut about = About::new(recipe);
-    let clock = if options.speed == Speed::Max { "virtual" } else { "virtual, paced" };
+    let clock = if options.speed() == Speed::Max { "virtual" } else { "virtual, paced" };
     let more = [
         ("plan_hash", plan_hash(&recipe.texts)),
         ("world_hash", hash(&world.text)),

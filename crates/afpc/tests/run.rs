@@ -131,7 +131,7 @@ fn an_entry_without_a_value_is_asked_for() {
 fn options_that_wait_for_something_say_for_what() {
     let place = Place::with_plan();
     for (option, text) in [
-        ("--live 8765", "'--live' waits for the live server"),
+        ("--live=here", "expected a port, 8765, or"),
         ("--rt-report", "'--rt-report' waits for the real-time driver"),
     ] {
         place.afpc(&format!("run wall_following.afp {option}")).fails(2, &[text, "help: "]);

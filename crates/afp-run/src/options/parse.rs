@@ -1,6 +1,7 @@
 //! The values of options as people write them.
 
 use std::fmt;
+use std::net::{Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 
 use afp_core::Instant;
@@ -79,6 +80,16 @@ pub(super) fn speed(text: &str) -> Result<Speed, String> {
     match number {
         Some(times) if times > 0.0 && times.is_finite() => Ok(Speed::Times(times)),
         _ => Err("expected 'max' or a multiple of real time such as 1x".to_owned()),
+    }
+}
+
+/// Reads `8765`, a port of this machine alone, or `0.0.0.0:8765`.
+pub(super) fn address(text: &str) -> Result<SocketAddr, String> {
+    match text.parse::<u16>() {
+        Ok(port) => Ok((Ipv4Addr::LOCALHOST, port).into()),
+        Err(_) => text.parse().map_err(|_| {
+            "expected a port, 8765, or the number of an interface with one, 0.0.0.0:8765".to_owned()
+        }),
     }
 }
 
@@ -193,6 +204,16 @@ mod tests {
         assert_eq!((pose.x, pose.y, pose.heading), (1.0, -0.5, std::f64::consts::PI));
         for wrong in ["1,2,3", "1m,2m", "1m,2m,90deg,", "1m,2m,1m", "", "1m,2s,0deg"] {
             assert!(start(wrong).is_err_and(|why| why.contains("2m,1m,90deg")), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn addresses_are_those_of_this_machine_unless_told() {
+        assert_eq!(address("8765"), Ok(([127, 0, 0, 1], 8765).into()));
+        assert_eq!(address("0.0.0.0:80"), Ok(([0, 0, 0, 0], 80).into()));
+        assert!(address("[::1]:80").is_ok_and(|at| at.ip().is_loopback()));
+        for wrong in ["", "70000", "here", "1.2.3.4", "wall.afp"] {
+            assert!(address(wrong).is_err(), "{wrong}");
         }
     }
 

@@ -5,6 +5,7 @@ use std::cell::RefCell;
 use afp_core::Instant;
 use afp_session::{Gate, Go};
 
+use crate::live::Live;
 use crate::pace::{Pace, Waited};
 use crate::report::Report;
 use crate::stop::StopFlag;
@@ -14,13 +15,28 @@ pub(super) struct RunGate<'a> {
     report: &'a RefCell<Report>,
     pace: Pace,
     stop: StopFlag,
-    /// When the Escape key was pressed, until somebody does something about it.
-    escape: Option<Instant>,
+    live: Option<&'a Live>,
+    /// Why the run was halted and when, until somebody does something about it.
+    halt: Option<(Halt, Instant)>,
+}
+
+/// Why a run is halted for a moment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Halt {
+    /// The Escape key was pressed.
+    Escape,
+    /// Somebody who watches asks for something.
+    Asked,
 }
 
 impl<'a> RunGate<'a> {
-    pub(super) fn new(report: &'a RefCell<Report>, pace: Pace, stop: StopFlag) -> Self {
-        RunGate { report, pace, stop, escape: None }
+    pub(super) fn new(
+        report: &'a RefCell<Report>,
+        pace: Pace,
+        stop: StopFlag,
+        live: Option<&'a Live>,
+    ) -> Self {
+        RunGate { report, pace, stop, live, halt: None }
     }
 
     /// Seconds of real time so far.
@@ -28,9 +44,16 @@ impl<'a> RunGate<'a> {
         self.pace.spent()
     }
 
-    /// When the Escape key was pressed, since this was last asked for: the run was halted for it.
-    pub(super) fn take_escape(&mut self) -> Option<Instant> {
-        self.escape.take()
+    /// Why the run was halted and when, since this was last asked for.
+    pub(super) fn take_halt(&mut self) -> Option<(Halt, Instant)> {
+        self.halt.take()
+    }
+
+    /// Halts the run where time stands by the wall clock.
+    fn halt(&mut self, why: Halt, target: Instant, now: Instant) -> Go {
+        let at = self.pace.simulated().unwrap_or(target).min(target);
+        self.halt = Some((why, at.max(now)));
+        Go::Stop
     }
 }
 
@@ -41,13 +64,12 @@ impl Gate for RunGate<'_> {
         if report.is_closed() {
             return Go::Stop;
         }
-        match self.pace.wait(target, &self.stop) {
+        drop(report);
+        let asked = || self.live.is_some_and(Live::is_asked);
+        match self.pace.wait(target, &self.stop, &asked) {
             Waited::Due => Go::On,
-            Waited::Escape => {
-                let at = self.pace.simulated().unwrap_or(target).min(target);
-                self.escape = Some(at.max(now));
-                Go::Stop
-            }
+            Waited::Escape => self.halt(Halt::Escape, target, now),
+            Waited::Asked => self.halt(Halt::Asked, target, now),
             Waited::Stop => Go::Stop,
         }
     }

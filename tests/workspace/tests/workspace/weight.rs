@@ -1,5 +1,7 @@
 //! What `afpc` carries: no asynchronous run time and no web server; messages to editors go over standard input.
 
+use std::collections::BTreeSet;
+
 use afp_workspace::{cargo, output};
 
 /// Families of crates by the beginning of their names.
@@ -38,14 +40,24 @@ fn is_refused(name: &str) -> bool {
     })
 }
 
-#[test]
-fn the_command_line_carries_no_server() {
+/// What of those families is built into `afpc` with some features.
+fn refused(features: &str) -> BTreeSet<String> {
     let options = ["--package", "afpc", "--edges", "normal,build", "--prefix", "none"];
-    let tree = output(cargo("tree").args(options).args(["--format", "{p}"]));
+    let tree =
+        output(cargo("tree").args(options).args(["--format", "{p}", "--features", features]));
     let names: Vec<_> = tree.lines().filter_map(|line| line.split_whitespace().next()).collect();
     assert!(names.contains(&"clap") && names.contains(&"afp-core"), "{tree}");
-    let refused: Vec<_> = names.iter().filter(|name| is_refused(name)).collect();
-    assert!(refused.is_empty(), "{refused:?}");
+    names.into_iter().filter(|name| is_refused(name)).map(str::to_owned).collect()
+}
+
+#[test]
+fn the_command_line_carries_no_server() {
+    assert_eq!(refused(""), BTreeSet::new());
+}
+
+#[test]
+fn not_even_the_live_server_brings_an_asynchronous_runtime() {
+    assert_eq!(refused("full"), BTreeSet::from(["tungstenite".to_owned()]));
 }
 
 #[test]

@@ -1,0 +1,141 @@
+//! Who is let in: by the names that a browser says, then by a token.
+
+use std::io;
+use std::net::{IpAddr, SocketAddr};
+
+use tungstenite::handshake::server::Request;
+
+/// What a client may do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// Look, and nothing else.
+    Watcher,
+    /// Write entries, press buttons, break things, stop the plan.
+    Operator,
+}
+
+/// The words that let clients in.
+#[derive(Clone, Debug)]
+pub(crate) struct Tokens {
+    pub operator: String,
+    pub watcher: String,
+}
+
+/// Why somebody is sent away, with the code of HTTP.
+pub(crate) type Refusal = (u16, &'static str);
+
+impl Tokens {
+    /// Words that nobody guesses.
+    ///
+    /// # Errors
+    /// The machine has no randomness.
+    pub fn new() -> io::Result<Tokens> {
+        Ok(Tokens { operator: word()?, watcher: word()? })
+    }
+
+    fn role(&self, said: &str) -> Option<Role> {
+        let all = [(&self.operator, Role::Operator), (&self.watcher, Role::Watcher)];
+        // Both are looked at, so that the time does not tell which one it is.
+        let found = all.map(|(token, role)| is_same(token, said).then_some(role));
+        found.into_iter().flatten().next()
+    }
+
+    /// What a request may do.
+    ///
+    /// # Errors
+    /// It comes by a foreign name, from a foreign page, or without a token.
+    pub fn admit(&self, request: &Request, at: SocketAddr) -> Result<Role, Refusal> {
+        let header = |name: &str| request.headers().get(name).map(|value| value.to_str());
+        match header("host") {
+            Some(Ok(host)) if is_own_name(host, at) => {}
+            _ => return Err((403, "this server is not known by that name: write its number\n")),
+        }
+        match header("origin") {
+            None => {}
+            Some(Ok(origin)) if is_known_page(origin) => {}
+            _ => return Err((403, "pages of that origin may not look at robots\n")),
+        }
+        let query = request.uri().query().unwrap_or_default();
+        let said = query.split('&').find_map(|pair| pair.strip_prefix("token="));
+        let said = said.ok_or((401, "write the address as it was printed, with '?token='\n"))?;
+        self.role(said).ok_or((401, "that token is not the one that was printed\n"))
+    }
+}
+
+/// Whether a host is this machine by its number or as itself: names of others may lead anywhere tomorrow.
+fn is_own_name(host: &str, at: SocketAddr) -> bool {
+    let name = match host.rsplit_once(':') {
+        Some((name, port)) if port.parse() == Ok(at.port()) => name,
+        _ => return false,
+    };
+    name == "localhost" || name.trim_matches(['[', ']']).parse::<IpAddr>().is_ok()
+}
+
+/// Whether a page is one of this machine, or of Foxglove.
+fn is_known_page(origin: &str) -> bool {
+    let Some((scheme, rest)) = origin.split_once("://") else { return false };
+    let host = match rest.rsplit_once(':') {
+        Some((host, port)) if port.bytes().all(|digit| digit.is_ascii_digit()) => host,
+        _ => rest,
+    };
+    let loopback = host == "localhost"
+        || host.trim_matches(['[', ']']).parse::<IpAddr>().is_ok_and(|ip| ip.is_loopback());
+    loopback || (scheme == "https" && host.ends_with(".foxglove.dev"))
+}
+
+fn word() -> io::Result<String> {
+    let mut bytes = [0; 16];
+    getrandom::fill(&mut bytes).map_err(|why| io::Error::other(why.to_string()))?;
+    Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
+}
+
+/// Whether two texts are the same, in a time that does not tell how much of them is.
+fn is_same(one: &str, other: &str) -> bool {
+    let differing = one.bytes().zip(other.bytes()).fold(0, |all, (a, b)| all | (a ^ b));
+    one.len() == other.len() && differing == 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn admitted(host: &str, origin: Option<&str>, query: &str) -> Result<Role, u16> {
+        let tokens = Tokens { operator: "steer".into(), watcher: "watch".into() };
+        let mut request = Request::builder().uri(format!("/{query}")).header("host", host);
+        if let Some(origin) = origin {
+            request = request.header("origin", origin);
+        }
+        let request = request.body(()).expect("a request");
+        let at = SocketAddr::from(([127, 0, 0, 1], 8765));
+        tokens.admit(&request, at).map_err(|(code, _)| code)
+    }
+
+    #[test]
+    fn a_token_lets_in_whoever_comes_by_a_name_of_the_machine() {
+        for host in ["127.0.0.1:8765", "localhost:8765", "[::1]:8765", "192.168.0.7:8765"] {
+            assert_eq!(admitted(host, None, "?token=steer"), Ok(Role::Operator));
+            assert_eq!(admitted(host, None, "?a=b&token=watch"), Ok(Role::Watcher));
+            for query in ["", "?token=", "?token=stee", "?token=steers", "?nottoken=steer"] {
+                assert_eq!(admitted(host, None, query), Err(401), "{query}");
+            }
+        }
+    }
+
+    #[test]
+    fn foreign_names_and_pages_are_sent_away_whatever_they_know() {
+        for host in
+            ["evil.example:8765", "127.0.0.1:80", "127.0.0.1", "localhost.evil.example:8765", ""]
+        {
+            assert_eq!(admitted(host, None, "?token=steer"), Err(403), "{host}");
+        }
+        let own = "127.0.0.1:8765";
+        for page in ["http://localhost:3000", "https://app.foxglove.dev", "http://127.0.0.1"] {
+            assert_eq!(admitted(own, Some(page), "?token=steer"), Ok(Role::Operator), "{page}");
+        }
+        for page in
+            ["https://evil.example", "http://app.foxglove.dev", "https://foxglove.dev.evil", "null"]
+        {
+            assert_eq!(admitted(own, Some(page), "?token=steer"), Err(403), "{page}");
+        }
+    }
+}

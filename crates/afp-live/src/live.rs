@@ -1,0 +1,143 @@
+//! A server over one run.
+
+use std::fmt;
+use std::io;
+use std::net::SocketAddr;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, channel};
+use std::thread::JoinHandle;
+
+use afp_core::{Duration, Instant};
+use afp_log::Messages;
+use afp_session::{AnySession, HOLD, Request, SetError, Stimulus};
+
+use crate::admission::Tokens;
+use crate::hub::{Asked, Hub, Question, Stream};
+use crate::server;
+
+/// A run that others watch.
+pub struct Live {
+    hub: Arc<Hub>,
+    inbox: Receiver<Question>,
+    thread: Option<JoinHandle<()>>,
+    at: SocketAddr,
+    tokens: Tokens,
+}
+
+impl Live {
+    /// Begins to serve a run about to start, on an address; port 0 is any that is free.
+    ///
+    /// # Errors
+    /// The address is taken or none of this machine.
+    pub fn start(at: SocketAddr, name: &str, session: &dyn AnySession) -> io::Result<Live> {
+        let (ask, inbox) = channel();
+        let hub = Arc::new(Hub::new(name, session.names(), session.devices(), ask));
+        let tokens = Tokens::new()?;
+        let (at, thread) = server::start(at, Arc::clone(&hub), tokens.clone())?;
+        Ok(Live { hub, inbox, thread: Some(thread), at, tokens })
+    }
+
+    /// The addresses for clients: of who may steer, and of who may only watch.
+    pub fn addresses(&self) -> [String; 2] {
+        let mut at = self.at;
+        if at.ip().is_unspecified() {
+            at.set_ip(std::net::Ipv4Addr::LOCALHOST.into());
+        }
+        let Tokens { operator, watcher } = &self.tokens;
+        [operator, watcher].map(|token| format!("ws://{at}/?token={token}"))
+    }
+
+    /// Whether others than this machine reach it.
+    pub fn is_open(&self) -> bool {
+        !self.at.ip().is_loopback()
+    }
+
+    /// How many clients watch.
+    pub fn clients(&self) -> usize {
+        self.hub.clients()
+    }
+
+    /// Takes the messages of the run.
+    pub fn messages(&self) -> Box<dyn Messages> {
+        Box::new(Stream(Arc::clone(&self.hub)))
+    }
+
+    /// Whether somebody has asked for something.
+    pub fn is_asked(&self) -> bool {
+        self.hub.is_asked()
+    }
+
+    /// Does what was asked for, at an instant that is not over.
+    pub fn serve(&self, session: &mut dyn AnySession, at: Instant) {
+        while let Ok(Question { what, answer }) = self.inbox.try_recv() {
+            answer(done(session, at, what));
+            self.hub.answered();
+        }
+    }
+
+    /// Nothing comes any more; those who still read get the rest.
+    pub fn finish(mut self) {
+        self.close();
+    }
+
+    fn close(&mut self) {
+        self.hub.end();
+        if let Some(thread) = self.thread.take() {
+            // A thread that broke off has nothing left to say.
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Drop for Live {
+    fn drop(&mut self) {
+        self.close();
+    }
+}
+
+impl fmt::Debug for Live {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Live").field("at", &self.at).finish_non_exhaustive()
+    }
+}
+
+/// Does something that was asked for.
+fn done(session: &mut dyn AnySession, at: Instant, what: Asked) -> Result<(), String> {
+    match what {
+        Asked::Set { entry, text } => {
+            session.set(&entry, text.trim()).map(|_| ()).map_err(|why| match why {
+                SetError::Unreadable { units, .. } if !units.is_empty() => {
+                    let units = units.iter().take(8).map(String::as_str).collect::<Vec<_>>();
+                    let units = units.join(", ");
+                    format!("'{text}' does not fit: write a number and a unit, of {units}")
+                }
+                other => other.to_string(),
+            })
+        }
+        Asked::Press { control, held } => {
+            let press = |held| Stimulus::Press { control: control.clone(), held };
+            ask(session, at, &press(held.unwrap_or(true)))?;
+            if held.is_none() {
+                ask(session, at + HOLD, &press(false))?;
+            }
+            Ok(())
+        }
+        Asked::Fail { fault, amount, seconds } => {
+            let lasting = match seconds {
+                None => Duration::MAX,
+                Some(seconds) if seconds > 0.0 && seconds < 1e9 => {
+                    Duration::from_nanos((seconds * 1e9) as u64)
+                }
+                Some(_) => return Err("'seconds' is a number above 0".to_owned()),
+            };
+            ask(session, at, &Stimulus::Break { fault, amount, lasting })
+        }
+        Asked::Stop => session.at(at, Request::Stop).map(|_| ()).map_err(|why| why.to_string()),
+    }
+}
+
+fn ask(session: &mut dyn AnySession, at: Instant, what: &Stimulus) -> Result<(), String> {
+    let request = what.request(session.devices(), session.names());
+    let asked = request.and_then(|request| session.at(at, request));
+    asked.map(|_| ()).map_err(|why| why.to_string())
+}
