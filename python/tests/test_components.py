@@ -183,11 +183,11 @@ def test_interrupt_of_a_class_is_called_once() -> None:
 
 def test_supervisors_know_what_is_wanted() -> None:
     tools = afp.Toolbox("tools")
-    told: list[tuple[str, ...]] = []
+    told: list[set[str]] = []
 
     @tools.supervisor(events=["High", "Low"])
     class CheckLevel:
-        def __init__(self, wanted: tuple[str, ...]) -> None:
+        def __init__(self, wanted: set[str]) -> None:
             told.append(wanted)
 
         def poll(self, level: float) -> str | None:
@@ -205,7 +205,7 @@ def test_supervisors_know_what_is_wanted() -> None:
     simulation.run_to(0.3)
     simulation["level"] = 6.0
     result = simulation.run(until=2.0)
-    assert told == [("High",)] and result.ending == "interrupted" and result.time < 0.4
+    assert told == [{"High"}] and result.ending == "interrupted" and result.time < 0.4
 
 
 def test_objects_go_from_component_to_component() -> None:

@@ -88,7 +88,7 @@ impl Actor<templates::Hop, Board> for Hop {
 
 impl Supervisor<templates::CheckButton, Board> for CheckButton {
     #[inline]
-    fn start(_: check_button::Inputs, _: Events, _: &mut Board, _: Instant) -> Result<Self, Fault> {
+    fn start(_: check_button::Inputs, _: &mut Board, _: Instant) -> Result<Self, Fault> {
         Ok(CheckButton)
     }
 
@@ -96,6 +96,7 @@ impl Supervisor<templates::CheckButton, Board> for CheckButton {
     fn poll(
         &mut self,
         _: check_button::Live,
+        _: Events,
         board: &mut Board,
         _: Instant,
     ) -> Result<Option<check_button::Event>, Fault> {
@@ -105,7 +106,7 @@ impl Supervisor<templates::CheckButton, Board> for CheckButton {
 
 impl Supervisor<templates::CheckTouch, Board> for CheckTouch {
     #[inline]
-    fn start(_: check_touch::Inputs, _: Events, _: &mut Board, _: Instant) -> Result<Self, Fault> {
+    fn start(_: check_touch::Inputs, _: &mut Board, _: Instant) -> Result<Self, Fault> {
         Ok(CheckTouch)
     }
 
@@ -113,6 +114,7 @@ impl Supervisor<templates::CheckTouch, Board> for CheckTouch {
     fn poll(
         &mut self,
         _: check_touch::Live,
+        _: Events,
         board: &mut Board,
         _: Instant,
     ) -> Result<Option<check_touch::Event>, Fault> {
@@ -122,7 +124,7 @@ impl Supervisor<templates::CheckTouch, Board> for CheckTouch {
 
 impl Supervisor<templates::CheckRange, Board> for CheckRange {
     #[inline]
-    fn start(_: check_range::Inputs, _: Events, _: &mut Board, _: Instant) -> Result<Self, Fault> {
+    fn start(_: check_range::Inputs, _: &mut Board, _: Instant) -> Result<Self, Fault> {
         Ok(CheckRange)
     }
 
@@ -130,6 +132,7 @@ impl Supervisor<templates::CheckRange, Board> for CheckRange {
     fn poll(
         &mut self,
         live: check_range::Live,
+        _: Events,
         board: &mut Board,
         _: Instant,
     ) -> Result<Option<check_range::Event>, Fault> {
@@ -139,12 +142,7 @@ impl Supervisor<templates::CheckRange, Board> for CheckRange {
 
 impl Supervisor<templates::CheckBattery, Board> for CheckBattery {
     #[inline]
-    fn start(
-        inputs: check_battery::Inputs,
-        _: Events,
-        _: &mut Board,
-        _: Instant,
-    ) -> Result<Self, Fault> {
+    fn start(inputs: check_battery::Inputs, _: &mut Board, _: Instant) -> Result<Self, Fault> {
         Ok(CheckBattery { low: inputs.low.si() })
     }
 
@@ -152,6 +150,7 @@ impl Supervisor<templates::CheckBattery, Board> for CheckBattery {
     fn poll(
         &mut self,
         _: check_battery::Live,
+        _: Events,
         board: &mut Board,
         _: Instant,
     ) -> Result<Option<check_battery::Event>, Fault> {

@@ -12,18 +12,23 @@ use afp_core::{Events, Fault, Instant, Supervisor};
 #[derive(Clone, Debug)]
 pub struct CheckBattery {
     guard: Guard,
-    wanted: bool,
 }
 
 impl<E: Battery + ?Sized> Supervisor<templates::CheckBattery, E> for CheckBattery {
-    fn start(_: Inputs, wanted: Events, _: &mut E, now: Instant) -> Result<Self, Fault> {
-        Ok(CheckBattery { guard: Guard::new(NO_BATTERY, now), wanted: wanted.contains(0) })
+    fn start(_: Inputs, _: &mut E, now: Instant) -> Result<Self, Fault> {
+        Ok(CheckBattery { guard: Guard::new(NO_BATTERY, now) })
     }
 
-    fn poll(&mut self, live: Live, env: &mut E, now: Instant) -> Result<Option<Event>, Fault> {
+    fn poll(
+        &mut self,
+        live: Live,
+        wanted: Events,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Option<Event>, Fault> {
         let charge = self.guard.current(env.charge(), now)?;
         let low = charge.is_some_and(|charge| charge.left < live.charge);
-        Ok((low && self.wanted).then_some(Event::BatteryLow))
+        Ok((low && wanted.contains(0)).then_some(Event::BatteryLow))
     }
 }
 

@@ -10,22 +10,27 @@ use afp_core::{Events, Fault, Instant, Supervisor};
 #[derive(Clone, Debug)]
 pub struct CheckColor {
     guard: Guard,
-    wanted: bool,
     color: Color,
     tolerance: f64,
 }
 
 impl<E: ColorSensor + ?Sized> Supervisor<templates::CheckColor, E> for CheckColor {
-    fn start(inputs: Inputs, wanted: Events, _: &mut E, now: Instant) -> Result<Self, Fault> {
+    fn start(inputs: Inputs, _: &mut E, now: Instant) -> Result<Self, Fault> {
         let Inputs { red, green, blue, tolerance } = inputs;
-        let (guard, wanted) = (Guard::new(NO_COLOR, now), wanted.contains(0));
-        Ok(CheckColor { guard, wanted, color: Color { red, green, blue }, tolerance })
+        let guard = Guard::new(NO_COLOR, now);
+        Ok(CheckColor { guard, color: Color { red, green, blue }, tolerance })
     }
 
-    fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Option<Event>, Fault> {
+    fn poll(
+        &mut self,
+        _: Live,
+        wanted: Events,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Option<Event>, Fault> {
         let color = self.guard.current(env.color(), now)?;
         let seen = color.is_some_and(|color| self.is(color));
-        Ok((seen && self.wanted).then_some(Event::ColorSeen))
+        Ok((seen && wanted.contains(0)).then_some(Event::ColorSeen))
     }
 }
 

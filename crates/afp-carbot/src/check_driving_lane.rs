@@ -17,7 +17,6 @@ const ARRIVED: f64 = 3.0 / 180.0 * core::f64::consts::PI;
 /// sensor looks left, ahead, right, ahead and so on, one ping at least at each.
 #[derive(Clone, Debug)]
 pub struct CheckDrivingLane {
-    wanted: bool,
     clearance: f64,
     halfwidth: f64,
     /// Which of [`SWING`] the rotator goes to.
@@ -34,10 +33,9 @@ const SWING: [f64; 4] = [0.0, 1.0, 0.0, -1.0];
 impl<E: Navigator + Ultrasonic + Rotator + ?Sized> Supervisor<templates::CheckDrivingLane, E>
     for CheckDrivingLane
 {
-    fn start(inputs: Inputs, wanted: Events, env: &mut E, now: Instant) -> Result<Self, Fault> {
+    fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
         env.point(Angle::from_si(0.0), now);
         Ok(CheckDrivingLane {
-            wanted: wanted.contains(0),
             clearance: inputs.clearance.si(),
             halfwidth: inputs.halfwidth.si() + inputs.margin.si(),
             place: 0,
@@ -48,7 +46,13 @@ impl<E: Navigator + Ultrasonic + Rotator + ?Sized> Supervisor<templates::CheckDr
         })
     }
 
-    fn poll(&mut self, live: Live, env: &mut E, now: Instant) -> Result<Option<Event>, Fault> {
+    fn poll(
+        &mut self,
+        live: Live,
+        wanted: Events,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Option<Event>, Fault> {
         let reading = env.echo();
         let Some(echo) = self.guard.next(reading, self.last_ping, now)? else {
             return Ok(None);
@@ -67,7 +71,7 @@ impl<E: Navigator + Ultrasonic + Rotator + ?Sized> Supervisor<templates::CheckDr
         } else {
             self.arrival.elsewhere(&echo, now)?;
         }
-        Ok((self.wanted && self.blocks(&echo, reach)).then_some(Event::LaneNotFree))
+        Ok((wanted.contains(0) && self.blocks(&echo, reach)).then_some(Event::LaneNotFree))
     }
 }
 
@@ -97,12 +101,11 @@ mod tests {
             halfwidth: Length::from_si(0.25),
         };
         let (now, wanted) = (robot.now, Events::from_bits(wanted));
-        let mut lane: CheckDrivingLane =
-            Supervisor::<Template, Fake>::start(inputs, wanted, robot, now)?;
+        let mut lane: CheckDrivingLane = Supervisor::<Template, Fake>::start(inputs, robot, now)?;
         for _ in 0..200 {
             robot.tick();
             let (now, live) = (robot.now, Live { distance: Length::from_si(0.3) });
-            let event = Supervisor::<Template, Fake>::poll(&mut lane, live, robot, now)?;
+            let event = Supervisor::<Template, Fake>::poll(&mut lane, live, wanted, robot, now)?;
             if event.is_some() {
                 return Ok(event);
             }

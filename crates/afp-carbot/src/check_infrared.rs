@@ -17,8 +17,6 @@ pub struct CheckInfrared {
     guard: Guard,
     odometry: Guard,
     history: History,
-    seen_wanted: bool,
-    lost_wanted: bool,
     last_look: Instant,
     /// When there was light last; the beginning counts.
     seen: Instant,
@@ -27,21 +25,25 @@ pub struct CheckInfrared {
 impl<E: InfraredSensor + Odometry + ?Sized> Supervisor<templates::CheckInfrared, E>
     for CheckInfrared
 {
-    fn start(_: Inputs, wanted: Events, env: &mut E, now: Instant) -> Result<Self, Fault> {
+    fn start(_: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
         let mut history = History::new();
         history.note(env.motion());
         Ok(CheckInfrared {
             guard: Guard::new(NO_INFRARED, now),
             odometry: Guard::new(NO_ODOMETRY, now),
             history,
-            seen_wanted: wanted.contains(0),
-            lost_wanted: wanted.contains(1),
             last_look: now,
             seen: now,
         })
     }
 
-    fn poll(&mut self, live: Live, env: &mut E, now: Instant) -> Result<Option<Event>, Fault> {
+    fn poll(
+        &mut self,
+        live: Live,
+        wanted: Events,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Option<Event>, Fault> {
         let counted = env.motion();
         self.history.note(counted);
         let Some(motion) = self.odometry.current(counted, now)? else { return Ok(None) };
@@ -55,11 +57,11 @@ impl<E: InfraredSensor + Odometry + ?Sized> Supervisor<templates::CheckInfrared,
                 self.seen = reading.time;
                 let bearing = wrap(then.heading + glow.bearing.si() - motion.heading.si());
                 let bearing = Angle::from_si(bearing);
-                Ok(self.seen_wanted.then_some(Event::InfraredSeen { bearing }))
+                Ok(wanted.contains(0).then_some(Event::InfraredSeen { bearing }))
             }
             None => {
                 let lost = reading.time.since(self.seen) >= PATIENCE;
-                Ok((lost && self.lost_wanted).then_some(Event::InfraredLost))
+                Ok((lost && wanted.contains(1)).then_some(Event::InfraredLost))
             }
         }
     }

@@ -25,7 +25,6 @@ const SAME: f64 = 0.2;
 /// drives towards it.
 #[derive(Clone, Debug)]
 pub struct CheckMotion {
-    wanted: bool,
     /// Radians a second.
     speed: f64,
     history: History,
@@ -36,12 +35,11 @@ pub struct CheckMotion {
 }
 
 impl<E: FlowCamera + Odometry + ?Sized> Supervisor<templates::CheckMotion, E> for CheckMotion {
-    fn start(inputs: Inputs, wanted: Events, env: &mut E, now: Instant) -> Result<Self, Fault> {
+    fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
         let mut history = History::new();
         history.note(env.motion());
         env.flow(now)?;
         Ok(CheckMotion {
-            wanted: wanted.contains(0),
             speed: inputs.speed.si(),
             history,
             guard: Guard::new(NO_FLOW, now),
@@ -50,7 +48,13 @@ impl<E: FlowCamera + Odometry + ?Sized> Supervisor<templates::CheckMotion, E> fo
         })
     }
 
-    fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Option<Event>, Fault> {
+    fn poll(
+        &mut self,
+        _: Live,
+        wanted: Events,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Option<Event>, Fault> {
         self.history.note(env.motion());
         let lens = env.lens();
         let mut reading = env.flow(now)?;
@@ -75,7 +79,7 @@ impl<E: FlowCamera + Odometry + ?Sized> Supervisor<templates::CheckMotion, E> fo
             _ => (it.bearing, 1),
         });
         let lasts = self.before.is_some_and(|(_, times)| times >= IN_A_ROW);
-        Ok(something.filter(|_| lasts && self.wanted).map(|it| Event::MotionSeen {
+        Ok(something.filter(|_| lasts && wanted.contains(0)).map(|it| Event::MotionSeen {
             bearing: Angle::from_si(it.bearing),
             strength: it.strength,
         }))

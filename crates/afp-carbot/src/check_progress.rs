@@ -10,7 +10,6 @@ use afp_core::{Duration, Events, Fault, Instant, Supervisor};
 #[derive(Clone, Debug)]
 pub struct CheckProgress {
     guard: Guard,
-    wanted: bool,
     distance: f64,
     angle: f64,
     within: Duration,
@@ -19,10 +18,9 @@ pub struct CheckProgress {
 }
 
 impl<E: Odometry + ?Sized> Supervisor<templates::CheckProgress, E> for CheckProgress {
-    fn start(inputs: Inputs, wanted: Events, _: &mut E, now: Instant) -> Result<Self, Fault> {
+    fn start(inputs: Inputs, _: &mut E, now: Instant) -> Result<Self, Fault> {
         Ok(CheckProgress {
             guard: Guard::new(NO_ODOMETRY, now),
-            wanted: wanted.contains(0),
             distance: inputs.distance.si(),
             angle: inputs.angle.si(),
             within: inputs.within.duration(),
@@ -30,7 +28,13 @@ impl<E: Odometry + ?Sized> Supervisor<templates::CheckProgress, E> for CheckProg
         })
     }
 
-    fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Option<Event>, Fault> {
+    fn poll(
+        &mut self,
+        _: Live,
+        wanted: Events,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Option<Event>, Fault> {
         let Some(motion) = self.guard.current(env.motion(), now)? else { return Ok(None) };
         let (since, from) = *self.last.get_or_insert((now, motion));
         let gone = libm::hypot((motion.x - from.x).si(), (motion.y - from.y).si());
@@ -40,7 +44,7 @@ impl<E: Odometry + ?Sized> Supervisor<templates::CheckProgress, E> for CheckProg
             return Ok(None);
         }
         let late = now.since(since) >= self.within;
-        Ok((late && self.wanted).then_some(Event::NoProgress))
+        Ok((late && wanted.contains(0)).then_some(Event::NoProgress))
     }
 }
 
@@ -60,13 +64,8 @@ mod tests {
             within: Time::from_si(2.0),
         };
         let now = robot.now;
-        let mut watch: CheckProgress = Supervisor::<templates::CheckProgress, Fake>::start(
-            inputs,
-            Events::from_bits(wanted),
-            &mut robot,
-            now,
-        )
-        .unwrap();
+        let mut watch: CheckProgress =
+            Supervisor::<templates::CheckProgress, Fake>::start(inputs, &mut robot, now).unwrap();
         (0..1000).find_map(|_| {
             let now = robot.now;
             robot.drive(Speed::from_si(speed), AngularSpeed::from_si(turn), now);
@@ -75,6 +74,7 @@ mod tests {
             let event = Supervisor::<templates::CheckProgress, Fake>::poll(
                 &mut watch,
                 Live {},
+                Events::from_bits(wanted),
                 &mut robot,
                 now,
             );

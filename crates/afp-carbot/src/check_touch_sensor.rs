@@ -10,17 +10,22 @@ use afp_core::{Events, Fault, Instant, Supervisor};
 #[derive(Clone, Debug)]
 pub struct CheckTouchSensor {
     guard: Guard,
-    wanted: bool,
 }
 
 impl<E: TouchSensor + ?Sized> Supervisor<templates::CheckTouchSensor, E> for CheckTouchSensor {
-    fn start(_: Inputs, wanted: Events, _: &mut E, now: Instant) -> Result<Self, Fault> {
-        Ok(CheckTouchSensor { guard: Guard::new(NO_TOUCH, now), wanted: wanted.contains(0) })
+    fn start(_: Inputs, _: &mut E, now: Instant) -> Result<Self, Fault> {
+        Ok(CheckTouchSensor { guard: Guard::new(NO_TOUCH, now) })
     }
 
-    fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Option<Event>, Fault> {
+    fn poll(
+        &mut self,
+        _: Live,
+        wanted: Events,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Option<Event>, Fault> {
         let pressed = self.guard.current(env.touched(), now)?.unwrap_or(false);
-        Ok((pressed && self.wanted).then_some(Event::TouchSensorPressed))
+        Ok((pressed && wanted.contains(0)).then_some(Event::TouchSensorPressed))
     }
 }
 
@@ -35,10 +40,16 @@ mod tests {
     fn poll(robot: &mut Fake, wanted: u64, after: u64) -> Result<Option<Event>, Fault> {
         let now = robot.now;
         let mut watch: CheckTouchSensor =
-            Supervisor::<Template, Fake>::start(Inputs {}, Events::from_bits(wanted), robot, now)?;
+            Supervisor::<Template, Fake>::start(Inputs {}, robot, now)?;
         let now = now + Duration::from_millis(after);
         robot.now = now;
-        Supervisor::<Template, Fake>::poll(&mut watch, Live {}, robot, now)
+        Supervisor::<Template, Fake>::poll(
+            &mut watch,
+            Live {},
+            Events::from_bits(wanted),
+            robot,
+            now,
+        )
     }
 
     #[test]

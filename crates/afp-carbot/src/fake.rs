@@ -201,11 +201,11 @@ impl Fake {
         millis: u64,
     ) -> Result<Option<T::Event>, Fault> {
         let now = self.now;
-        let mut supervisor = S::start(inputs, Events::from_bits(wanted), self, now)?;
+        let mut supervisor = S::start(inputs, self, now)?;
         for _ in 0..millis / 10 {
             self.tick();
             let now = self.now;
-            let event = supervisor.poll(live(), self, now)?;
+            let event = supervisor.poll(live(), Events::from_bits(wanted), self, now)?;
             if event.is_some() {
                 return Ok(event);
             }

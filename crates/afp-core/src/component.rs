@@ -17,7 +17,7 @@ pub trait Environment {
     fn emergency_stop(&mut self);
 }
 
-/// The events of a supervisor that lead somewhere, by position in its template.
+/// Events of a supervisor, by position in its template.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Events(u64);
 
@@ -27,7 +27,7 @@ impl Events {
         Events(bits)
     }
 
-    /// Whether the template's `n`-th event leads somewhere.
+    /// Whether the template's `n`-th event is one of them.
     pub const fn contains(self, n: u16) -> bool {
         n < 64 && self.0 >> n & 1 == 1
     }
@@ -127,25 +127,22 @@ pub trait Actor<T: ActorTemplate, E: ?Sized>: Sized {
     note = "either the platform lacks what the implementation asks for, or there is no `impl Supervisor<{T}, _> for {Self}`"
 )]
 pub trait Supervisor<T: SupervisorTemplate, E: ?Sized>: Sized {
-    /// Begins to watch for the `wanted` events.
+    /// Begins to watch.
     ///
     /// # Errors
     /// A supervisor that cannot see is not "all clear": its actor goes to `Error`.
-    fn start(
-        inputs: T::Inputs<'_>,
-        wanted: Events,
-        env: &mut E,
-        now: Instant,
-    ) -> Result<Self, Fault>;
+    fn start(inputs: T::Inputs<'_>, env: &mut E, now: Instant) -> Result<Self, Fault>;
 
-    /// Looks without blocking; reports a wanted event or none, the first declared one where
-    /// several hold.
+    /// Looks without blocking; reports an event of the `wanted` ones or none, the first declared one
+    /// where several hold. Wanted is what would be taken: neither ignored, nor leading to where the
+    /// plan is already. That may be another set at each poll, and none.
     ///
     /// # Errors
     /// As for [`Supervisor::start`].
     fn poll(
         &mut self,
         live: T::Live<'_>,
+        wanted: Events,
         env: &mut E,
         now: Instant,
     ) -> Result<Option<T::Event>, Fault>;

@@ -8,6 +8,7 @@ mod ids;
 mod lower;
 mod order;
 mod size;
+mod wanted;
 
 pub(crate) use lower::lower;
 pub(crate) use order::polling_order;
@@ -32,8 +33,9 @@ pub struct Rows {
     pub reasons: Vec<String>,
     /// Where states and events lead; `None` where a state cannot be reached.
     pub edges: Vec<Option<Target>>,
-    /// For each element, its supervisors and the global ones in polling order.
-    pub sweeps: Vec<SupervisorId>,
+    /// For each element, the rows in [`Rows::supervisors`] of its supervisors and of the global ones, in
+    /// polling order.
+    pub sweeps: Vec<u16>,
 }
 
 /// A run of rows in another table.
@@ -86,9 +88,12 @@ pub struct ElementRow {
     pub child: Child,
 }
 
-/// One supervisor. The global ones come first, then the local ones, element by element.
+/// One supervisor. The global ones come first, then the local ones, element by element. Behind them
+/// stand rows for global ones of which an element wants other events than most do.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SupervisorRow {
+    /// Which supervisor it is.
+    pub instance: SupervisorId,
     /// Poll period in nanoseconds.
     pub period: u64,
     /// Deadline after each release in nanoseconds.
@@ -102,8 +107,11 @@ pub struct SupervisorRow {
     pub events: Range,
     /// Its `DeadlineMissed` edge.
     pub on_miss: Option<Target>,
-    /// The events that lead to something other than `ignore`: bit `n` is the template's `n`-th.
+    /// The events that would be taken, those neither ignored nor leading to where the plan is
+    /// already: bit `n` is the template's `n`-th.
     pub wanted: u64,
+    /// The same in the look, where an element's own supervisors do not start it anew.
+    pub wanted_in_look: u64,
 }
 
 impl Range {
@@ -120,7 +128,8 @@ impl Rows {
     }
 
     /// The supervisors polled while an element is active, in order.
-    pub fn sweep(&self, element: &ElementRow) -> &[SupervisorId] {
-        self.sweeps.get(element.sweep.indices()).unwrap_or(&[])
+    pub fn sweep(&self, element: &ElementRow) -> impl ExactSizeIterator<Item = SupervisorId> + '_ {
+        let rows = self.sweeps.get(element.sweep.indices()).unwrap_or(&[]);
+        rows.iter().map(|row| self.supervisors[usize::from(*row)].instance)
     }
 }

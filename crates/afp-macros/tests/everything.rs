@@ -77,7 +77,6 @@ mod kit {
     impl<V: afp_core::rt::Any> Supervisor<templates::Watch<V>, Script> for Watch<V> {
         fn start(
             inputs: templates::watch::Inputs<'_>,
-            _: Events,
             env: &mut Script,
             _: Instant,
         ) -> Result<Self, Fault> {
@@ -88,6 +87,7 @@ mod kit {
         fn poll(
             &mut self,
             _: templates::watch::Live<V>,
+            _: Events,
             _: &mut Script,
             _: Instant,
         ) -> Result<Option<templates::watch::Event<V>>, Fault> {

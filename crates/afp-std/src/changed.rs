@@ -13,18 +13,23 @@ const CHANGED: u16 = 0;
 #[derive(Clone, Copy, Debug)]
 pub struct Changed<V> {
     before: Option<V>,
-    wanted: Events,
 }
 
 impl<V: Any, E: ?Sized> Supervisor<templates::Changed<V>, E> for Changed<V> {
-    fn start(_: Inputs, wanted: Events, _: &mut E, _: Instant) -> Result<Self, Fault> {
-        Ok(Changed { before: None, wanted })
+    fn start(_: Inputs, _: &mut E, _: Instant) -> Result<Self, Fault> {
+        Ok(Changed { before: None })
     }
 
-    fn poll(&mut self, live: Live<V>, _: &mut E, _: Instant) -> Result<Option<Event>, Fault> {
+    fn poll(
+        &mut self,
+        live: Live<V>,
+        wanted: Events,
+        _: &mut E,
+        _: Instant,
+    ) -> Result<Option<Event>, Fault> {
         let changed = self.before.as_ref().is_some_and(|before| *before != live.value);
         self.before = Some(live.value);
-        Ok((changed && self.wanted.contains(CHANGED)).then_some(Event::Changed))
+        Ok((changed && wanted.contains(CHANGED)).then_some(Event::Changed))
     }
 }
 
@@ -34,10 +39,9 @@ mod tests {
 
     #[test]
     fn a_change_is_reported_once_and_the_first_value_is_none() {
-        let mut watch: Changed<i64> =
-            Supervisor::start(Inputs {}, Events::from_bits(1), &mut (), Instant::ZERO).unwrap();
+        let mut watch: Changed<i64> = Supervisor::start(Inputs {}, &mut (), Instant::ZERO).unwrap();
         let mut sees = |value| {
-            let said = watch.poll(Live { value }, &mut (), Instant::ZERO);
+            let said = watch.poll(Live { value }, Events::from_bits(1), &mut (), Instant::ZERO);
             said == Ok(Some(Event::Changed))
         };
         assert_eq!([1, 1, 2, 2, 1].map(&mut sees), [false, false, true, false, true]);

@@ -16,23 +16,28 @@ const ABOVE: u16 = 1;
 /// Compares a value with a limit at every poll.
 #[derive(Clone, Copy, Debug)]
 pub struct CheckValue<V> {
-    wanted: Events,
     value: PhantomData<V>,
 }
 
 impl<V: Number, E: ?Sized> Supervisor<templates::CheckValue<V>, E> for CheckValue<V> {
-    fn start(_: Inputs, wanted: Events, _: &mut E, _: Instant) -> Result<Self, Fault> {
-        Ok(CheckValue { wanted, value: PhantomData })
+    fn start(_: Inputs, _: &mut E, _: Instant) -> Result<Self, Fault> {
+        Ok(CheckValue { value: PhantomData })
     }
 
-    fn poll(&mut self, live: Live<V>, _: &mut E, _: Instant) -> Result<Option<Event>, Fault> {
+    fn poll(
+        &mut self,
+        live: Live<V>,
+        wanted: Events,
+        _: &mut E,
+        _: Instant,
+    ) -> Result<Option<Event>, Fault> {
         let (number, event) = match live.value.partial_cmp(&live.limit) {
             Some(Ordering::Less) => (BELOW, Event::Below),
             Some(Ordering::Greater) => (ABOVE, Event::Above),
             Some(Ordering::Equal) => return Ok(None),
             None => return Err(Fault::ARITHMETIC),
         };
-        Ok(self.wanted.contains(number).then_some(event))
+        Ok(wanted.contains(number).then_some(event))
     }
 }
 
@@ -43,8 +48,8 @@ mod tests {
     fn poll(wanted: u64, value: i64, limit: i64) -> Option<Event> {
         let wanted = Events::from_bits(wanted);
         let mut watch: CheckValue<i64> =
-            Supervisor::start(Inputs {}, wanted, &mut (), Instant::ZERO).unwrap();
-        watch.poll(Live { value, limit }, &mut (), Instant::ZERO).unwrap()
+            Supervisor::start(Inputs {}, &mut (), Instant::ZERO).unwrap();
+        watch.poll(Live { value, limit }, wanted, &mut (), Instant::ZERO).unwrap()
     }
 
     #[test]

@@ -14,23 +14,28 @@ const DUE: u16 = 0;
 pub struct Every {
     next: Instant,
     period: Duration,
-    wanted: Events,
 }
 
 impl<E: ?Sized> Supervisor<templates::Every, E> for Every {
-    fn start(inputs: Inputs, wanted: Events, _: &mut E, now: Instant) -> Result<Self, Fault> {
+    fn start(inputs: Inputs, _: &mut E, now: Instant) -> Result<Self, Fault> {
         let period = inputs.period.duration();
-        Ok(Every { next: now + period, period, wanted })
+        Ok(Every { next: now + period, period })
     }
 
-    fn poll(&mut self, _: Live, _: &mut E, now: Instant) -> Result<Option<Event>, Fault> {
+    fn poll(
+        &mut self,
+        _: Live,
+        wanted: Events,
+        _: &mut E,
+        now: Instant,
+    ) -> Result<Option<Event>, Fault> {
         if now < self.next {
             return Ok(None);
         }
         let (late, period) = (now.since(self.next).as_nanos(), self.period.as_nanos());
         let rest = late.checked_rem(period).unwrap_or(0);
         self.next = now + Duration::from_nanos(period - rest);
-        Ok(self.wanted.contains(DUE).then_some(Event::Due))
+        Ok(wanted.contains(DUE).then_some(Event::Due))
     }
 }
 
@@ -43,11 +48,10 @@ mod tests {
     #[test]
     fn each_period_is_reported_once_and_those_that_were_missed_together() {
         let inputs = Inputs { period: Time::from_si(2.0) };
-        let mut watch: Every =
-            Supervisor::start(inputs, Events::from_bits(1), &mut (), Instant::ZERO).unwrap();
+        let mut watch: Every = Supervisor::start(inputs, &mut (), Instant::ZERO).unwrap();
         let mut at = |ms| {
             let now = Instant::ZERO + Duration::from_millis(ms);
-            watch.poll(Live {}, &mut (), now) == Ok(Some(Event::Due))
+            watch.poll(Live {}, Events::from_bits(1), &mut (), now) == Ok(Some(Event::Due))
         };
         let quiet = [0, 1999, 2010, 4000 - 1, 6000 - 1, 13_999, 14_001];
         let due = [2000, 4010, 6000, 12_500, 14_000];

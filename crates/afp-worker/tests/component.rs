@@ -114,18 +114,14 @@ struct CheckButton {
 }
 
 impl Supervisor<templates::CheckButton, Bench> for CheckButton {
-    fn start(
-        _: templates::check_button::Inputs,
-        _: Events,
-        _: &mut Bench,
-        _: Instant,
-    ) -> Result<Self, Fault> {
+    fn start(_: templates::check_button::Inputs, _: &mut Bench, _: Instant) -> Result<Self, Fault> {
         Ok(CheckButton { seen: false })
     }
 
     fn poll(
         &mut self,
         _: templates::check_button::Live,
+        _: Events,
         env: &mut Bench,
         now: Instant,
     ) -> Result<Option<templates::check_button::Event>, Fault> {

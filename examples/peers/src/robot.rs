@@ -129,7 +129,6 @@ impl SupervisorSlot<StandIn> for Part {
     fn start(
         &mut self,
         _: &dyn Args,
-        _: Events,
         _: See<'_>,
         _: &mut StandIn,
         _: Instant,
@@ -140,6 +139,7 @@ impl SupervisorSlot<StandIn> for Part {
     fn poll(
         &mut self,
         _: &dyn Args,
+        _: Events,
         _: &mut dyn Outputs,
         _: &mut StandIn,
         _: Instant,

@@ -19,26 +19,26 @@ macro_rules! supervisor {
     ($name:ident, $module:ident, |$live:ident, $env:ident, $now:ident| $event:expr) => {
         #[doc = concat!("See `", stringify!($name), "` in `vacuum.afp`.")]
         #[derive(Clone, Debug)]
-        pub struct $name(Events);
+        pub struct $name;
 
         impl<E: Senses + ?Sized> Supervisor<templates::$name, E> for $name {
             fn start(
                 _: $module::Inputs,
-                wanted: Events,
                 _: &mut E,
                 _: Instant,
             ) -> Result<Self, Fault> {
-                Ok($name(wanted))
+                Ok($name)
             }
 
             fn poll(
                 &mut self,
                 $live: $module::Live,
+                wanted: Events,
                 $env: &mut E,
                 $now: Instant,
             ) -> Result<Option<$module::Event>, Fault> {
                 let event: Option<$module::Event> = $event;
-                Ok(event.filter(|event| self.0.contains(*event as u16)))
+                Ok(event.filter(|event| wanted.contains(*event as u16)))
             }
         }
     };

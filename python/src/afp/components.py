@@ -25,7 +25,7 @@ import inspect
 import os
 import re
 import types
-from collections.abc import Awaitable, Callable, Generator, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Generator, Mapping, Sequence, Set
 from pathlib import Path
 from typing import Any, TypeVar, get_type_hints
 
@@ -389,7 +389,7 @@ def _class_maker(kind: str, component: type, inputs: Sequence[str], live: Sequen
     start = _takes(begins, inputs, _GIVEN) if begins else []
     poll = _takes(_method(component, "poll"), live, ("robot",))
 
-    def make(robot: Robot, values: dict[str, Any], wanted: tuple[str, ...] = ()) -> _Running:
+    def make(robot: Robot, values: dict[str, Any], wanted: Set[str] = frozenset()) -> _Running:
         all = {"robot": robot, "wanted": wanted, **values}
         instance = component(**{name: all[name] for name in start})
         stop = getattr(instance, "interrupt", None)
@@ -415,7 +415,7 @@ def _nothing() -> None:
 def _function_maker(function: Callable[..., Any], inputs: Sequence[str], live: Sequence[str]) -> Callable[..., Any]:
     takes = _takes(function, [*inputs, *live], _GIVEN)
 
-    def make(robot: Robot, values: dict[str, Any], wanted: tuple[str, ...] = ()) -> _Running:
+    def make(robot: Robot, values: dict[str, Any], wanted: Set[str] = frozenset()) -> _Running:
         all = {"robot": robot, "wanted": wanted, **values}
         fixed = {name: all[name] for name in takes if name in all}
         read = [name for name in takes if name in live]

@@ -10,28 +10,23 @@ use crate::templates::{self, glance};
 #[derive(Clone, Debug)]
 pub struct Glance {
     name: Text,
-    wanted: Events,
 }
 
 impl Supervisor<templates::Glance, Platform> for Glance {
-    fn start(
-        inputs: glance::Inputs<'_>,
-        wanted: Events,
-        env: &mut Platform,
-        now: Instant,
-    ) -> Result<Self, Fault> {
+    fn start(inputs: glance::Inputs<'_>, env: &mut Platform, now: Instant) -> Result<Self, Fault> {
         env.call(inputs.name, Phase::Start, now)?;
-        Ok(Glance { name: Text::try_from(inputs.name)?, wanted })
+        Ok(Glance { name: Text::try_from(inputs.name)? })
     }
 
     fn poll(
         &mut self,
         _: glance::Live,
+        wanted: Events,
         env: &mut Platform,
         now: Instant,
     ) -> Result<Option<glance::Event>, Fault> {
         env.call(self.name.as_str(), Phase::Poll, now)?;
         let seen = env.outcomes(self.name.as_str(), now).next().is_some();
-        Ok((seen && self.wanted.contains(0)).then_some(glance::Event::Seen))
+        Ok((seen && wanted.contains(0)).then_some(glance::Event::Seen))
     }
 }

@@ -11,24 +11,19 @@ use crate::templates::{self, watch};
 pub struct Watch {
     name: Text,
     value: f64,
-    wanted: Events,
     polls: i64,
 }
 
 impl Supervisor<templates::Watch, Platform> for Watch {
-    fn start(
-        inputs: watch::Inputs<'_>,
-        wanted: Events,
-        env: &mut Platform,
-        now: Instant,
-    ) -> Result<Self, Fault> {
+    fn start(inputs: watch::Inputs<'_>, env: &mut Platform, now: Instant) -> Result<Self, Fault> {
         env.call(inputs.name, Phase::Start, now)?;
-        Ok(Watch { name: Text::try_from(inputs.name)?, value: inputs.value, wanted, polls: 0 })
+        Ok(Watch { name: Text::try_from(inputs.name)?, value: inputs.value, polls: 0 })
     }
 
     fn poll(
         &mut self,
         live: watch::Live,
+        wanted: Events,
         env: &mut Platform,
         now: Instant,
     ) -> Result<Option<watch::Event>, Fault> {
@@ -43,7 +38,7 @@ impl Supervisor<templates::Watch, Platform> for Watch {
             return Ok(None);
         }
         for (index, name) in (0..).zip(["First", "Second", "Third"]) {
-            if let (true, Some((_, number))) = (self.wanted.contains(index), reported(name)) {
+            if let (true, Some((_, number))) = (wanted.contains(index), reported(name)) {
                 let result = number.unwrap_or(self.value);
                 return Ok(Some(match name {
                     "First" => watch::Event::First { result },

@@ -47,6 +47,11 @@ const RULES: &[Rule] = &[
         ],
     ),
     (
+        "6.2",
+        "each poll is told the events that would be taken",
+        &["wanted_where_an_event_leads_is_active", "wanted_in_the_look"],
+    ),
+    (
         "6.3",
         "an event that leads to 'resume' interrupts nothing, and what it writes is seen in the same step",
         &["resume_goes_on", "resume_then_an_interrupt", "resume_by_a_missed_deadline"],

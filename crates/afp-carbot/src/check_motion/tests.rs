@@ -39,8 +39,7 @@ impl Eyes {
     fn watch(&mut self, millis: u64) -> Result<(u32, Option<Event>), Fault> {
         let inputs = Inputs { speed: AngularSpeed::from_si(0.1) };
         let wanted = Events::from_bits(1);
-        let mut watch: CheckMotion =
-            Supervisor::<Template, Self>::start(inputs, wanted, self, self.now)?;
+        let mut watch: CheckMotion = Supervisor::<Template, Self>::start(inputs, self, self.now)?;
         let (mut seen, mut last) = (0, None);
         for _ in 0..millis / 10 {
             self.now = self.now + Duration::from_millis(10);
@@ -48,7 +47,7 @@ impl Eyes {
                 self.taken = self.now;
             }
             let now = self.now;
-            let event = Supervisor::<Template, Self>::poll(&mut watch, Live {}, self, now)?;
+            let event = Supervisor::<Template, Self>::poll(&mut watch, Live {}, wanted, self, now)?;
             seen += u32::from(event.is_some());
             last = event.or(last);
         }

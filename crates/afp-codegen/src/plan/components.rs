@@ -6,7 +6,6 @@ use quote::quote;
 use super::bindings::Function;
 use super::context::{ComponentNames, Context};
 use super::elements::{self, passes, results};
-use super::rules::wanted;
 use super::supervisors;
 use crate::layout::at;
 use afp_dsl::graph::{Component, Element, PlanId};
@@ -80,20 +79,19 @@ fn used(name: TokenStream, used: bool) -> TokenStream {
 }
 
 fn start_supervisor(context: &Context<'_>) -> TokenStream {
-    let all = context.plan.supervisors.iter().zip(&context.rows.supervisors);
+    let all = context.plan.supervisors.iter().zip(&context.supervisors);
     let arms: Vec<_> = all
-        .zip(&context.supervisors)
-        .map(|((supervisor, row), names)| {
+        .map(|(supervisor, names)| {
             let bound = supervisors::bound(context, supervisor, names);
             let (number, field) = (&names.number, &names.inputs);
             let Function { scratch, call, .. } = bound.inputs();
-            let (wanted, at) = (wanted(row), at(supervisor.span));
+            let at = at(supervisor.span);
             quote! {
                 #at
                 #number => {
                     #scratch
                     let inputs = #call;
-                    self.supervisors.#field = cx.start_supervisor(inputs, #wanted)?;
+                    self.supervisors.#field = cx.start_supervisor(inputs)?;
                 }
             }
         })
@@ -129,18 +127,20 @@ fn poll_supervisor(context: &Context<'_>) -> TokenStream {
                     #scratch
                     let live = #call;
                     let watch = &mut self.supervisors.#field;
-                    Fired::supervisor(cx.poll_supervisor(watch, live), #outputs)
+                    Fired::supervisor(cx.poll_supervisor(watch, live, wanted), #outputs)
                 }
             }
         })
         .collect();
-    let [number, cx] = [quote!(supervisor), quote!(cx)].map(|name| used(name, !arms.is_empty()));
+    let [number, wanted, cx] =
+        [quote!(supervisor), quote!(wanted), quote!(cx)].map(|name| used(name, !arms.is_empty()));
     let body = select(quote!(supervisor), &arms, quote!(Fired::fault(Fault::INTERNAL)));
     quote! {
         #[inline]
         fn poll_supervisor<S: Sink, C: Clock>(
             &mut self,
             #number: u16,
+            #wanted: Events,
             #cx: &mut Cx<'_, E, S, C>,
         ) -> Fired {
             #body

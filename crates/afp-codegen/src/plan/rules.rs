@@ -1,12 +1,12 @@
 //! The fourth section: where every state and event leads, as static rows.
 
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::quote;
+use quote::{ToTokens, quote};
 
-use super::context::Context;
+use super::context::{ComponentNames, Context};
 use super::elements::description;
 use crate::layout::{at, comment, doc};
-use afp_dsl::graph::{Component, Element, Supervisor, Target, TemplateId};
+use afp_dsl::graph::{Component, Element, Target, TemplateId};
 use afp_dsl::rows::{ElementKind, ElementRow, Range, SupervisorRow};
 
 /// The tables of the plan.
@@ -16,10 +16,9 @@ pub fn rules(context: &Context<'_>) -> TokenStream {
         .zip(&context.elements)
         .map(|((element, row), names)| self::element(context, element, row, &names.place))
         .collect();
-    let supervisors: Vec<_> = (plan.supervisors.iter().zip(&rows.supervisors))
-        .zip(&context.supervisors)
-        .map(|((supervisor, row), names)| self::supervisor(context, supervisor, row, &names.text))
-        .collect();
+    let supervisors = (0..).zip(&rows.supervisors);
+    let supervisors: Vec<_> =
+        supervisors.map(|(place, row)| supervisor(context, place, row)).collect();
     let edges = edges(context);
     let sweeps = sweeps(context);
     let (reasons, static_reasons) = reasons(&rows.reasons);
@@ -32,7 +31,7 @@ pub fn rules(context: &Context<'_>) -> TokenStream {
     let notes = [
         "Where each state and event leads.",
         "The elements.",
-        "The supervisors: global ones, then local ones.",
+        "The supervisors: global ones, local ones, then global ones where their own events lead.",
         "Who is polled while an element is active, in order.",
     ];
     let [of_edges, of_elements, of_supervisors, of_sweeps] = notes.map(|note| doc("", note));
@@ -114,21 +113,22 @@ fn element(
 }
 
 /// One supervisor.
-fn supervisor(
-    context: &Context<'_>,
-    supervisor: &Supervisor,
-    row: &SupervisorRow,
-    name: &str,
-) -> TokenStream {
+fn supervisor(context: &Context<'_>, place: usize, row: &SupervisorRow) -> TokenStream {
+    let supervisor = &context.plan.supervisors[row.instance.index()];
+    let ComponentNames { text: name, number: instance, .. } =
+        &context.supervisors[row.instance.index()];
     let template = &context.template(supervisor.template).name;
-    let (note, at) = (comment(&format!("{name}: {template}")), at(supervisor.span));
+    let there = if place == row.instance.index() { "" } else { ", where an event of it leads" };
+    let (note, at) = (comment(&format!("{name}: {template}{there}")), at(supervisor.span));
     let [period, deadline, budget] = [row.period, row.deadline, row.budget].map(duration);
     let (slot, events) = (Literal::u16_unsuffixed(row.slot), range(row.events));
-    let (on_miss, wanted) = (target(context, row.on_miss), wanted(row));
+    let on_miss = target(context, row.on_miss);
+    let [wanted, wanted_in_look] = [row.wanted, row.wanted_in_look].map(event_set);
     quote! {
         #note
         #at
         SupervisorRow {
+            instance: #instance,
             period: #period,
             deadline: #deadline,
             budget: #budget,
@@ -136,13 +136,13 @@ fn supervisor(
             events: #events,
             on_miss: #on_miss,
             wanted: #wanted,
+            wanted_in_look: #wanted_in_look,
         }
     }
 }
 
-/// The events that lead to something other than `ignore`.
-pub fn wanted(row: &SupervisorRow) -> TokenStream {
-    let bits = row.wanted;
+/// A set of events.
+fn event_set(bits: u64) -> TokenStream {
     let bits: Literal =
         format!("0b{bits:b}").parse().unwrap_or_else(|_| Literal::u64_unsuffixed(bits));
     quote!(Events::from_bits(#bits))
@@ -188,8 +188,11 @@ fn sweeps(context: &Context<'_>) -> Vec<TokenStream> {
     let rows = context.rows;
     let mut sweeps = Vec::with_capacity(rows.sweeps.len());
     for (element, row) in context.plan.elements.iter().zip(&rows.elements) {
-        for (position, id) in rows.sweep(row).iter().enumerate() {
-            let number = &context.supervisors[id.index()].number;
+        for (position, watch) in rows.sweeps[row.sweep.indices()].iter().enumerate() {
+            let number = match context.supervisors.get(usize::from(*watch)) {
+                Some(names) => names.number.to_token_stream(),
+                None => Literal::u16_unsuffixed(*watch).to_token_stream(),
+            };
             let note =
                 (position == 0).then(|| comment(&format!("while {} is active", element.name)));
             sweeps.push(quote!(#note #number));

@@ -41,7 +41,7 @@ static ELEMENTS: [ElementRow; 1] = [
     },
 ];
 
-/// The supervisors: global ones, then local ones.
+/// The supervisors: global ones, local ones, then global ones where their own events lead.
 static SUPERVISORS: [SupervisorRow; 0] = [];
 
 /// Who is polled while an element is active, in order.
@@ -128,10 +128,11 @@ static ELEMENTS: [ElementRow; 3] = [
     },
 ];
 
-/// The supervisors: global ones, then local ones.
-static SUPERVISORS: [SupervisorRow; 3] = [
+/// The supervisors: global ones, local ones, then global ones where their own events lead.
+static SUPERVISORS: [SupervisorRow; 4] = [
     // late: CheckTimeout
     SupervisorRow {
+        instance: LATE,
         period: Duration::from_millis(10),
         deadline: Duration::from_millis(2),
         budget: Duration::from_micros(5),
@@ -139,9 +140,11 @@ static SUPERVISORS: [SupervisorRow; 3] = [
         events: Range { first: 5, len: 1 },
         on_miss: Target::Terminate,
         wanted: Events::from_bits(0b1),
+        wanted_in_look: Events::from_bits(0b1),
     },
     // wait.first: CheckValue
     SupervisorRow {
+        instance: WAIT_FIRST,
         period: Duration::from_millis(10),
         deadline: Duration::from_millis(10),
         budget: Duration::from_micros(5),
@@ -149,9 +152,11 @@ static SUPERVISORS: [SupervisorRow; 3] = [
         events: Range { first: 6, len: 2 },
         on_miss: Target::None,
         wanted: Events::from_bits(0b10),
+        wanted_in_look: Events::from_bits(0b10),
     },
     // wait.second: CheckTimeout
     SupervisorRow {
+        instance: WAIT_SECOND,
         period: Duration::from_millis(10),
         deadline: Duration::from_millis(1),
         budget: Duration::from_micros(5),
@@ -159,6 +164,19 @@ static SUPERVISORS: [SupervisorRow; 3] = [
         events: Range { first: 8, len: 1 },
         on_miss: Target::None,
         wanted: Events::from_bits(0b1),
+        wanted_in_look: Events::from_bits(0b1),
+    },
+    // late: CheckTimeout, where an event of it leads
+    SupervisorRow {
+        instance: LATE,
+        period: Duration::from_millis(10),
+        deadline: Duration::from_millis(2),
+        budget: Duration::from_micros(5),
+        slot: 0,
+        events: Range { first: 5, len: 1 },
+        on_miss: Target::Terminate,
+        wanted: Events::from_bits(0b0),
+        wanted_in_look: Events::from_bits(0b0),
     },
 ];
 
@@ -166,7 +184,7 @@ static SUPERVISORS: [SupervisorRow; 3] = [
 static SWEEPS: [u16; 4] = [
     // while wait is active
     WAIT_SECOND,
-    LATE,
+    3,
     WAIT_FIRST,
     // while inner is active
     LATE,

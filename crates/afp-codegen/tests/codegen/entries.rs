@@ -291,13 +291,11 @@ where
         match supervisor {
             WAIT_MORE => {
                 let inputs = Ok(std_templates::check_value::Inputs {});
-                self.supervisors.wait_more = cx
-                    .start_supervisor(inputs, Events::from_bits(0b0))?;
+                self.supervisors.wait_more = cx.start_supervisor(inputs)?;
             }
             WAIT_SAME => {
                 let inputs = Ok(std_templates::check_value::Inputs {});
-                self.supervisors.wait_same = cx
-                    .start_supervisor(inputs, Events::from_bits(0b0))?;
+                self.supervisors.wait_same = cx.start_supervisor(inputs)?;
             }
             _ => return Err(Fault::INTERNAL),
         }
@@ -308,18 +306,19 @@ where
     fn poll_supervisor<S: Sink, C: Clock>(
         &mut self,
         supervisor: u16,
+        wanted: Events,
         cx: &mut Cx<'_, E, S, C>,
     ) -> Fired {
         match supervisor {
             WAIT_MORE => {
                 let live = wait_more_live(&self.config);
                 let watch = &mut self.supervisors.wait_more;
-                Fired::supervisor(cx.poll_supervisor(watch, live), |_| Ok(()))
+                Fired::supervisor(cx.poll_supervisor(watch, live, wanted), |_| Ok(()))
             }
             WAIT_SAME => {
                 let live = wait_same_live(&self.config);
                 let watch = &mut self.supervisors.wait_same;
-                Fired::supervisor(cx.poll_supervisor(watch, live), |_| Ok(()))
+                Fired::supervisor(cx.poll_supervisor(watch, live, wanted), |_| Ok(()))
             }
             _ => Fired::fault(Fault::INTERNAL),
         }

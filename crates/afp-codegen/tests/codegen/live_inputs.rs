@@ -281,6 +281,7 @@ where
     fn poll_supervisor<S: Sink, C: Clock>(
         &mut self,
         _: u16,
+        _: Events,
         _: &mut Cx<'_, E, S, C>,
     ) -> Fired {
         Fired::fault(Fault::INTERNAL)
@@ -552,6 +553,7 @@ where
     fn poll_supervisor<S: Sink, C: Clock>(
         &mut self,
         _: u16,
+        _: Events,
         _: &mut Cx<'_, E, S, C>,
     ) -> Fired {
         Fired::fault(Fault::INTERNAL)

@@ -189,6 +189,7 @@ where
     fn poll_supervisor<S: Sink, C: Clock>(
         &mut self,
         _: u16,
+        _: Events,
         _: &mut Cx<'_, E, S, C>,
     ) -> Fired {
         Fired::fault(Fault::INTERNAL)
@@ -594,6 +595,7 @@ where
     fn poll_supervisor<S: Sink, C: Clock>(
         &mut self,
         _: u16,
+        _: Events,
         _: &mut Cx<'_, E, S, C>,
     ) -> Fired {
         Fired::fault(Fault::INTERNAL)

@@ -384,23 +384,20 @@ where
         match supervisor {
             ESCAPE => {
                 let inputs = Ok(carbot::check_escape_button::Inputs {});
-                self.supervisors.escape = cx
-                    .start_supervisor(inputs, Events::from_bits(0b1))?;
+                self.supervisors.escape = cx.start_supervisor(inputs)?;
             }
             SEARCH_FIRST_WALL_TOUCH => {
                 let inputs = Ok(carbot::check_touch_sensor::Inputs {});
-                self.supervisors.search_first_wall_touch = cx
-                    .start_supervisor(inputs, Events::from_bits(0b1))?;
+                self.supervisors.search_first_wall_touch = cx.start_supervisor(inputs)?;
             }
             SEARCH_FIRST_WALL_CHECK_LANE => {
                 let inputs = search_first_wall_check_lane();
                 self.supervisors.search_first_wall_check_lane = cx
-                    .start_supervisor(inputs, Events::from_bits(0b1))?;
+                    .start_supervisor(inputs)?;
             }
             FOLLOW_WALL_WALL_TOUCH => {
                 let inputs = Ok(carbot::check_touch_sensor::Inputs {});
-                self.supervisors.follow_wall_wall_touch = cx
-                    .start_supervisor(inputs, Events::from_bits(0b1))?;
+                self.supervisors.follow_wall_wall_touch = cx.start_supervisor(inputs)?;
             }
             _ => return Err(Fault::INTERNAL),
         }
@@ -411,28 +408,29 @@ where
     fn poll_supervisor<S: Sink, C: Clock>(
         &mut self,
         supervisor: u16,
+        wanted: Events,
         cx: &mut Cx<'_, E, S, C>,
     ) -> Fired {
         match supervisor {
             ESCAPE => {
                 let live = Ok(carbot::check_escape_button::Live {});
                 let watch = &mut self.supervisors.escape;
-                Fired::supervisor(cx.poll_supervisor(watch, live), |_| Ok(()))
+                Fired::supervisor(cx.poll_supervisor(watch, live, wanted), |_| Ok(()))
             }
             SEARCH_FIRST_WALL_TOUCH => {
                 let live = Ok(carbot::check_touch_sensor::Live {});
                 let watch = &mut self.supervisors.search_first_wall_touch;
-                Fired::supervisor(cx.poll_supervisor(watch, live), |_| Ok(()))
+                Fired::supervisor(cx.poll_supervisor(watch, live, wanted), |_| Ok(()))
             }
             SEARCH_FIRST_WALL_CHECK_LANE => {
                 let live = search_first_wall_check_lane_live(&self.config);
                 let watch = &mut self.supervisors.search_first_wall_check_lane;
-                Fired::supervisor(cx.poll_supervisor(watch, live), |_| Ok(()))
+                Fired::supervisor(cx.poll_supervisor(watch, live, wanted), |_| Ok(()))
             }
             FOLLOW_WALL_WALL_TOUCH => {
                 let live = Ok(carbot::check_touch_sensor::Live {});
                 let watch = &mut self.supervisors.follow_wall_wall_touch;
-                Fired::supervisor(cx.poll_supervisor(watch, live), |_| Ok(()))
+                Fired::supervisor(cx.poll_supervisor(watch, live, wanted), |_| Ok(()))
             }
             _ => Fired::fault(Fault::INTERNAL),
         }
@@ -671,10 +669,11 @@ static ELEMENTS: [ElementRow; 6] = [
     },
 ];
 
-/// The supervisors: global ones, then local ones.
+/// The supervisors: global ones, local ones, then global ones where their own events lead.
 static SUPERVISORS: [SupervisorRow; 4] = [
     // escape: CheckEscapeButton
     SupervisorRow {
+        instance: ESCAPE,
         period: Duration::from_millis(50),
         deadline: Duration::from_millis(10),
         budget: Duration::from_micros(10),
@@ -682,9 +681,11 @@ static SUPERVISORS: [SupervisorRow; 4] = [
         events: Range { first: 9, len: 1 },
         on_miss: Target::None,
         wanted: Events::from_bits(0b1),
+        wanted_in_look: Events::from_bits(0b1),
     },
     // searchFirstWall.touch: CheckTouchSensor
     SupervisorRow {
+        instance: SEARCH_FIRST_WALL_TOUCH,
         period: Duration::from_millis(1),
         deadline: Duration::from_millis(1),
         budget: Duration::from_micros(10),
@@ -692,9 +693,11 @@ static SUPERVISORS: [SupervisorRow; 4] = [
         events: Range { first: 10, len: 1 },
         on_miss: Target::None,
         wanted: Events::from_bits(0b1),
+        wanted_in_look: Events::from_bits(0b1),
     },
     // searchFirstWall.checkLane: CheckDrivingLane
     SupervisorRow {
+        instance: SEARCH_FIRST_WALL_CHECK_LANE,
         period: Duration::from_millis(20),
         deadline: Duration::from_millis(5),
         budget: Duration::from_micros(100),
@@ -702,9 +705,11 @@ static SUPERVISORS: [SupervisorRow; 4] = [
         events: Range { first: 11, len: 1 },
         on_miss: Target::None,
         wanted: Events::from_bits(0b1),
+        wanted_in_look: Events::from_bits(0b1),
     },
     // followWall.wallTouch: CheckTouchSensor
     SupervisorRow {
+        instance: FOLLOW_WALL_WALL_TOUCH,
         period: Duration::from_millis(5),
         deadline: Duration::from_millis(2),
         budget: Duration::from_micros(10),
@@ -712,6 +717,7 @@ static SUPERVISORS: [SupervisorRow; 4] = [
         events: Range { first: 12, len: 1 },
         on_miss: Target::None,
         wanted: Events::from_bits(0b1),
+        wanted_in_look: Events::from_bits(0b1),
     },
 ];
 

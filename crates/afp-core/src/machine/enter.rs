@@ -82,12 +82,13 @@ impl<P: PlanState> Level<P> {
         // Whatever ran since the last poll of a supervisor took its time too.
         cx.step.clock = cx.clock.now(cx.now);
         for global in [true, false] {
-            for &supervisor in t.table().sweep(row) {
-                let Some(row) = t.table().supervisor(supervisor) else { continue };
+            for &row in t.table().sweep(row) {
+                let Some(row) = t.table().supervisor(row) else { continue };
+                let supervisor = row.instance;
                 if (supervisor < t.table().globals) != global {
                     continue;
                 }
-                if let Err(what) = self.poll_if_due(t, supervisor, row, moment, cx) {
+                if let Err(what) = self.poll_if_due(t, row, moment, cx) {
                     return Some(Found { supervisor, what });
                 }
             }

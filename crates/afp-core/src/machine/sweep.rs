@@ -105,7 +105,7 @@ impl<P: PlanState> Level<P> {
     fn poll_in_sweep<E, S, C>(
         &mut self,
         t: &P::Tables,
-        supervisor: u16,
+        row: u16,
         moment: Moment,
         seen: &mut Seen,
         cx: &mut Cx<'_, E, S, C>,
@@ -116,8 +116,8 @@ impl<P: PlanState> Level<P> {
         C: Clock,
         P: Plan<E>,
     {
-        let Some(row) = t.table().supervisor(supervisor) else { return false };
-        match self.poll_if_due(t, supervisor, row, moment, cx) {
+        let Some(row) = t.table().supervisor(row) else { return false };
+        match self.poll_if_due(t, row, moment, cx) {
             Ok(next) => {
                 if let Seen::Nothing(wake) = seen {
                     *wake = (*wake).min(next);
@@ -125,7 +125,7 @@ impl<P: PlanState> Level<P> {
                 false
             }
             Err(what) => {
-                *seen = Seen::Something(Found { supervisor, what });
+                *seen = Seen::Something(Found { supervisor: row.instance, what });
                 true
             }
         }
@@ -136,7 +136,6 @@ impl<P: PlanState> Level<P> {
     pub(super) fn poll_if_due<E, S, C>(
         &mut self,
         t: &P::Tables,
-        supervisor: u16,
         row: &SupervisorRow,
         moment: Moment,
         cx: &mut Cx<'_, E, S, C>,
@@ -157,8 +156,10 @@ impl<P: PlanState> Level<P> {
         let next = release + row.period;
         slot.next = next;
         let begin = cx.step.clock;
+        let supervisor = row.instance;
+        let wanted = if moment.look { row.wanted_in_look } else { row.wanted };
         let id = supervisor_id(t, cx, supervisor);
-        let fired = cx.call(id, |cx| self.plan.poll_supervisor(supervisor, cx));
+        let fired = cx.call(id, |cx| self.plan.poll_supervisor(supervisor, wanted, cx));
         let end = cx.clock.now(cx.now);
         cx.step.clock = end;
         if S::ENABLED {
@@ -168,7 +169,7 @@ impl<P: PlanState> Level<P> {
         if on_time && fired.is_nothing() {
             return Ok(next);
         }
-        self.judge(t, (supervisor, row), Poll { release, begin, end, fired }, moment, cx)
+        self.judge(t, row, Poll { release, begin, end, fired }, moment, cx)
     }
 
     /// Decides what a poll means that was late or brought something.
@@ -177,7 +178,7 @@ impl<P: PlanState> Level<P> {
     fn judge<E, S, C>(
         &mut self,
         t: &P::Tables,
-        (supervisor, row): (u16, &SupervisorRow),
+        row: &SupervisorRow,
         poll: Poll,
         moment: Moment,
         cx: &mut Cx<'_, E, S, C>,
@@ -188,6 +189,7 @@ impl<P: PlanState> Level<P> {
         C: Clock,
         P: Plan<E>,
     {
+        let supervisor = row.instance;
         let release = serve(poll.release, row.period, cx.now);
         if let Some(slot) = self.slots.as_mut().get_mut(usize::from(row.slot)) {
             slot.next = release.next;
@@ -199,7 +201,7 @@ impl<P: PlanState> Level<P> {
         };
         let late = end > deadline || release.skipped > 0;
         if late {
-            trace_miss(t, (supervisor, row), &release, poll.begin, end, cx);
+            trace_miss(t, row, &release, poll.begin, end, cx);
         }
         if let Some(event) = event {
             let target = t.table().edge(row.events, event);
@@ -366,7 +368,7 @@ fn takes<E: ?Sized, S: Sink, C>(
 #[cold]
 fn trace_miss<E: ?Sized, S: Sink, C>(
     t: &impl Tables,
-    (supervisor, row): (u16, &SupervisorRow),
+    row: &SupervisorRow,
     release: &Release,
     begin: Instant,
     end: Instant,
@@ -378,7 +380,7 @@ fn trace_miss<E: ?Sized, S: Sink, C>(
     if S::ENABLED {
         let late = release.skipped > 0 || begin + row.budget > deadline;
         let record = Record::Missed {
-            supervisor: supervisor_id(t, cx, supervisor),
+            supervisor: supervisor_id(t, cx, row.instance),
             lateness: end - deadline,
             cause: if late { Cause::LateRelease } else { Cause::LongPoll },
             skipped: release.skipped,

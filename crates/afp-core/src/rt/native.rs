@@ -74,7 +74,6 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
     pub fn start_supervisor<'i, T, A>(
         &mut self,
         inputs: Result<T::Inputs<'i>, Fault>,
-        wanted: Events,
     ) -> Result<Option<A>, Fault>
     where
         T: SupervisorTemplate,
@@ -82,7 +81,7 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
         A: Supervisor<T, E>,
     {
         let inputs = self.read(inputs?)?;
-        A::start(inputs, wanted, self.env, self.now).map(Some)
+        A::start(inputs, self.env, self.now).map(Some)
     }
 
     /// Polls a supervisor.
@@ -94,6 +93,7 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
         &mut self,
         supervisor: &mut Option<A>,
         live: Result<T::Live<'i>, Fault>,
+        wanted: Events,
     ) -> Result<Option<T::Event>, Fault>
     where
         T: SupervisorTemplate,
@@ -103,7 +103,7 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
         let supervisor = supervisor.as_mut().ok_or(Fault::INTERNAL)?;
         let live = live?;
         live.check()?;
-        supervisor.poll(live, self.env, self.now)
+        supervisor.poll(live, wanted, self.env, self.now)
     }
 
     /// Runs a computation.

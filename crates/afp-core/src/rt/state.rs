@@ -1,6 +1,7 @@
 //! What the scheduler asks of a plan.
 
 use crate::clock::Clock;
+use crate::component::Events;
 use crate::fault::Fault;
 use crate::rt::plan::{Committer, Cx, Fired, Polled, Slot, Started};
 use crate::rt::table::Tables;
@@ -110,11 +111,12 @@ pub trait Plan<E: ?Sized>: PlanState {
         cx: &mut Cx<'_, E, S, C>,
     ) -> Result<(), Fault>;
 
-    /// Polls a supervisor.
+    /// Polls a supervisor for the events that would be taken.
     #[doc(hidden)]
     fn poll_supervisor<S: Sink, C: Clock>(
         &mut self,
         supervisor: u16,
+        wanted: Events,
         cx: &mut Cx<'_, E, S, C>,
     ) -> Fired;
 

@@ -71,9 +71,12 @@ pub struct ElementRow {
     pub child: Child,
 }
 
-/// One supervisor. The global ones come first, then the local ones, element by element.
+/// One supervisor. The global ones come first, then the local ones, element by element. Behind them
+/// stand rows for global ones of which an element wants other events than most do.
 #[derive(Clone, Copy, Debug)]
 pub struct SupervisorRow {
+    /// Which supervisor it is.
+    pub instance: u16,
     /// Poll period, above zero.
     pub period: Duration,
     /// Deadline after each release.
@@ -87,8 +90,10 @@ pub struct SupervisorRow {
     pub events: Range,
     /// Its `DeadlineMissed` edge.
     pub on_miss: Target,
-    /// The events that are connected to something other than `ignore`.
+    /// The events that would be taken.
     pub wanted: Events,
+    /// The events that would be taken in the look.
+    pub wanted_in_look: Events,
 }
 
 /// All rows of one plan. Reading a row that does not exist gives `None`, never a panic.
@@ -108,7 +113,7 @@ pub struct PlanTable<'a> {
     pub reasons: &'a [Fault],
     /// Targets of states and events.
     pub edges: &'a [Target],
-    /// For each element, its supervisors and the global ones in polling order.
+    /// For each element, the rows of its supervisors and of the global ones in polling order.
     pub sweeps: &'a [u16],
 }
 

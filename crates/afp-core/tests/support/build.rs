@@ -328,6 +328,7 @@ impl Spec {
         let connected = guard.events.iter().enumerate().filter(|(_, (_, to))| *to != "ignore");
         let wanted = connected.fold(0, |bits, (n, _)| bits | 1 << n);
         self.supervisor_rows.push(SupervisorRow {
+            instance: index as u16,
             period: Duration::from_millis(guard.period),
             deadline: Duration::from_millis(guard.deadline),
             budget: Duration::from_millis(guard.budget),
@@ -335,6 +336,7 @@ impl Spec {
             events,
             on_miss: self.optional(guard.on_miss),
             wanted: Events::from_bits(wanted),
+            wanted_in_look: Events::from_bits(wanted),
         });
     }
 

@@ -203,6 +203,7 @@ impl Plan<World> for Scripted {
     fn poll_supervisor<S: Sink, C: Clock>(
         &mut self,
         supervisor: u16,
+        wanted: Events,
         cx: &mut Cx<'_, World, S, C>,
     ) -> Fired {
         let spec = self.spec.clone();
@@ -213,7 +214,6 @@ impl Plan<World> for Scripted {
             return Fired::fault(fault);
         }
         self.see(guard.live, guard.name, cx);
-        let wanted = spec.supervisor_rows[index].wanted;
         let Some(event) = cx.env.outcome(guard.name, wanted, cx.now) else {
             return Fired::NOTHING;
         };

@@ -37,7 +37,8 @@ pub(super) fn check(
     for place in order {
         if let Some(plan) = &plans[*place] {
             // What people can count in the text is reported also for a plan without a graph.
-            let derived = |table| matches!(table, Table::Edges | Table::Reasons | Table::Sweeps);
+            let derived =
+                |table| !matches!(table, Table::Entries | Table::Elements | Table::Supervisors);
             let rows = tables(plan).into_iter().filter(|(table, _)| derived(*table));
             too_many_rows(program.plans[*place].name.as_ref(), rows, diags);
         }
@@ -91,6 +92,7 @@ fn what(table: Table) -> &'static str {
         Table::Entries => "entries",
         Table::Elements => "elements",
         Table::Supervisors => "supervisors",
+        Table::Watches => "supervisors and elements that events of global ones lead to",
         Table::Edges => "states and events",
         Table::Reasons => "reasons to fail",
         Table::Sweeps => "pairs of an element and a supervisor that watches it",

@@ -1,8 +1,11 @@
 //! From plans to tables.
 
-use crate::graph::{Component, Element, Graph, Plan, Supervisor, SupervisorId, Target, resuming};
+use crate::graph::{
+    Component, Element, ElementId, Graph, Plan, Supervisor, SupervisorId, resuming,
+};
 use crate::rows::ids::blocks;
 use crate::rows::size::has_sweep;
+use crate::rows::wanted::{elsewhere, wanted};
 use crate::rows::{Child, ElementKind, ElementRow, Range, Rows, SupervisorRow, polling_order};
 
 /// The tables of all plans of a graph, in their order; `None` when a table would have too many rows,
@@ -24,22 +27,30 @@ fn rows(graph: &Graph, plan: &Plan, children: &[Child]) -> Option<Rows> {
         edges: Vec::new(),
         sweeps: Vec::new(),
     };
+    let elsewhere = elsewhere(plan);
     let resuming = resuming(plan.elements.iter().map(Some));
     for ((element, child), resumes) in plan.elements.iter().zip(children).zip(resuming) {
-        let row = add_element(&mut rows, graph, plan, element, *child)?;
-        rows.elements.push(ElementRow { resumes, ..row });
+        let polled = polled(plan, &elsewhere, (rows.elements.len(), element))?;
+        let sweep = append(&mut rows.sweeps, polled)?;
+        let row = add_element(&mut rows, graph, element, *child)?;
+        rows.elements.push(ElementRow { resumes, sweep, ..row });
     }
     for (index, supervisor) in plan.supervisors.iter().enumerate() {
         let row = add_supervisor(&mut rows, graph, plan, supervisor, index)?;
         rows.supervisors.push(row);
     }
+    for (supervisor, there) in elsewhere {
+        let wanted = wanted(&plan.supervisors[supervisor.index()], Some(there))?;
+        let row = rows.supervisors[supervisor.index()].clone();
+        rows.supervisors.push(SupervisorRow { wanted, wanted_in_look: wanted, ..row });
+    }
     Some(rows)
 }
 
+/// The row of an element, without what the whole plan decides.
 fn add_element(
     rows: &mut Rows,
     graph: &Graph,
-    plan: &Plan,
     element: &Element,
     child: Child,
 ) -> Option<ElementRow> {
@@ -49,10 +60,6 @@ fn add_element(
         Component::SubPlan(_) => (ElementKind::SubPlan, 0),
     };
     let states = append(&mut rows.edges, element.states.iter().copied())?;
-    let polled = match has_sweep(element.component) {
-        true => sweep(plan, element),
-        false => Vec::new(),
-    };
     let first = element.supervisors.first().map_or(0, |id| id.0);
     let len = u16::try_from(element.supervisors.len()).ok()?;
     Some(ElementRow {
@@ -62,15 +69,28 @@ fn add_element(
         on_error: element.on_error,
         resumes: false,
         locals: Range { first, len },
-        sweep: append(&mut rows.sweeps, polled)?,
+        sweep: Range::default(),
         child,
     })
 }
 
-/// The supervisors that are polled while `element` is active: its own and the global ones.
-fn sweep(plan: &Plan, element: &Element) -> Vec<SupervisorId> {
+/// The rows of the supervisors that are polled while an element is active: its own and the global ones.
+fn polled(
+    plan: &Plan,
+    elsewhere: &[(SupervisorId, ElementId)],
+    (place, element): (usize, &Element),
+) -> Option<Vec<u16>> {
+    if !has_sweep(element.component) {
+        return Some(Vec::new());
+    }
     let globals = (0..plan.globals).map(SupervisorId);
-    polling_order(plan, globals.chain(element.supervisors.iter().copied()))
+    let ids = polling_order(plan, globals.chain(element.supervisors.iter().copied()));
+    let here = ElementId(u16::try_from(place).ok()?);
+    let row = |id: SupervisorId| match elsewhere.binary_search(&(id, here)) {
+        Ok(behind) => u16::try_from(plan.supervisors.len() + behind).ok(),
+        Err(_) => Some(id.0),
+    };
+    ids.into_iter().map(row).collect()
 }
 
 fn add_supervisor(
@@ -81,6 +101,7 @@ fn add_supervisor(
     index: usize,
 ) -> Option<SupervisorRow> {
     let index = u16::try_from(index).ok()?;
+    let wanted_in_look = wanted(supervisor, supervisor.owner)?;
     let slot = match supervisor.owner {
         None => index,
         Some(owner) => {
@@ -89,23 +110,16 @@ fn add_supervisor(
         }
     };
     Some(SupervisorRow {
+        instance: SupervisorId(index),
         period: supervisor.every,
         deadline: supervisor.deadline,
         budget: graph.template(supervisor.template).budget.unwrap_or(0),
         slot,
         events: append(&mut rows.edges, supervisor.events.iter().copied().map(Some))?,
         on_miss: supervisor.on_miss,
-        wanted: wanted(&supervisor.events)?,
+        wanted: wanted(supervisor, None)?,
+        wanted_in_look,
     })
-}
-
-/// The events that lead to something other than `ignore`.
-fn wanted(events: &[Target]) -> Option<u64> {
-    let mut bits = 0;
-    for (index, _) in events.iter().enumerate().filter(|(_, target)| **target != Target::Ignore) {
-        bits |= 1_u64.checked_shl(u32::try_from(index).ok()?)?;
-    }
-    Some(bits)
 }
 
 /// Adds rows to a shared table and says where they stand.

@@ -1,6 +1,7 @@
 //! How many rows the tables of a plan have.
 
 use crate::graph::{Component, Plan};
+use crate::rows::wanted::elsewhere;
 
 /// Greatest number of rows of one table.
 pub(crate) const MAX_ROWS: usize = u16::MAX as usize;
@@ -20,6 +21,8 @@ pub(crate) enum Table {
     Elements,
     /// Supervisors.
     Supervisors,
+    /// Supervisors, the global ones once more for each element that their events lead to.
+    Watches,
     /// States of elements and events of supervisors.
     Edges,
     /// Texts behind `fail`.
@@ -29,7 +32,7 @@ pub(crate) enum Table {
 }
 
 /// The rows of each table of a plan.
-pub(crate) fn tables(plan: &Plan) -> [(Table, usize); 6] {
+pub(crate) fn tables(plan: &Plan) -> [(Table, usize); 7] {
     let states = plan.elements.iter().map(|element| element.states.len());
     let events = plan.supervisors.iter().map(|supervisor| supervisor.events.len());
     let watched = plan.elements.iter().filter(|element| has_sweep(element.component));
@@ -38,6 +41,7 @@ pub(crate) fn tables(plan: &Plan) -> [(Table, usize); 6] {
         (Table::Entries, plan.entries.len()),
         (Table::Elements, plan.elements.len()),
         (Table::Supervisors, plan.supervisors.len()),
+        (Table::Watches, plan.supervisors.len() + elsewhere(plan).len()),
         (Table::Edges, states.chain(events).sum()),
         (Table::Reasons, plan.reasons.len()),
         (Table::Sweeps, polled.sum()),

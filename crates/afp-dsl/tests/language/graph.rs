@@ -44,7 +44,6 @@ fn the_plan_of_the_paper_compiles_without_a_word() {
     let rows = graph.rows(graph.main);
     let sweep: Vec<_> = rows
         .sweep(&rows.elements[0])
-        .iter()
         .map(|id| plan.supervisors[id.index()].name.as_str())
         .collect();
     assert_eq!(sweep, ["touch", "checkLane", "escape"]);

@@ -85,27 +85,25 @@ const MAX_AGE: Duration = Duration::from_millis(100);
 
 /// Watches the bumper.
 #[derive(Clone, Debug)]
-pub struct CheckBumper {
-    wanted: bool,
-}
+pub struct CheckBumper;
 
 impl<E: Bumper + ?Sized> Supervisor<templates::CheckBumper, E> for CheckBumper {
     fn start(
         _: check_bumper::Inputs,
-        wanted: Events,
         _: &mut E,
         _: Instant,
     ) -> Result<Self, Fault> {
-        Ok(CheckBumper { wanted: wanted.contains(0) })
+        Ok(CheckBumper)
     }
 
     fn poll(
         &mut self,
         _: check_bumper::Live,
+        wanted: Events,
         env: &mut E,
         now: Instant,
     ) -> Result<Option<check_bumper::Event>, Fault> {
         let pressed = env.pressed().fresh(now, MAX_AGE).ok_or(SILENT)?;
-        Ok((pressed && self.wanted).then_some(check_bumper::Event::Bumped))
+        Ok((pressed && wanted.contains(0)).then_some(check_bumper::Event::Bumped))
     }
 }

@@ -5,7 +5,7 @@ use afp_core::rt::{Args, Outputs};
 use afp_core::{Events, Fault, Instant};
 use afp_session::Simulated;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::PySet;
 
 use super::PyHandle;
 use super::call::PyTemplate;
@@ -13,13 +13,22 @@ use super::call::PyTemplate;
 /// The slot of a supervisor in Python.
 pub struct PySupervisor {
     template: PyTemplate,
+    watching: Option<Watching>,
+}
+
+/// A supervisor that watches.
+struct Watching {
     /// Its method.
-    poll: Option<PyHandle>,
+    poll: PyHandle,
+    /// The set of wanted events that it was given.
+    wanted: PyHandle,
+    /// What that set holds.
+    told: Events,
 }
 
 impl PySupervisor {
     pub fn new(template: PyTemplate) -> Self {
-        PySupervisor { template, poll: None }
+        PySupervisor { template, watching: None }
     }
 }
 
@@ -27,38 +36,48 @@ impl<R: Simulated> SupervisorSlot<R> for PySupervisor {
     fn start(
         &mut self,
         args: &dyn Args,
-        wanted: Events,
         see: See<'_>,
         env: &mut R,
         _: Instant,
     ) -> Result<(), Fault> {
         let template = &self.template;
         let inputs = template.inputs(args, see)?;
-        let declared = template.declared()?;
-        let events = (0..).zip(&declared.outcomes).filter(|(event, _)| wanted.contains(*event));
-        let events: Vec<_> = events.map(|(_, event)| event.name.as_str()).collect();
-        let poll = template.host.call_with_robot(env, &template.caller, |py| {
+        let (poll, wanted) = template.host.call_with_robot(env, &template.caller, |py| {
             let robot = template.host.robot.clone_ref(py);
-            let wanted = PyTuple::new(py, &events)?;
-            let supervisor = template.make(py, (robot, inputs.dict(py)?, wanted))?;
-            Ok(template.host.handles.put(supervisor.getattr("poll")?.unbind()))
+            let wanted = PySet::empty(py)?;
+            let supervisor = template.make(py, (robot, inputs.dict(py)?, &wanted))?;
+            let poll = template.host.handles.put(supervisor.getattr("poll")?.unbind());
+            Ok((poll, template.host.handles.put(wanted.into_any().unbind())))
         })?;
-        self.poll = Some(poll);
+        self.watching = Some(Watching { poll, wanted, told: Events::from_bits(0) });
         Ok(())
     }
 
     fn poll(
         &mut self,
         args: &dyn Args,
+        wanted: Events,
         to: &mut dyn Outputs,
         env: &mut R,
         _: Instant,
     ) -> Result<Option<u16>, Fault> {
-        let poll = self.poll.as_ref().ok_or(Fault::INTERNAL)?;
-        self.template.poll(poll, args, to, env)
+        let watching = self.watching.as_mut().ok_or(Fault::INTERNAL)?;
+        if watching.told != wanted {
+            let template = &self.template;
+            let events = (0..).zip(&template.declared()?.outcomes);
+            let events = events.filter(|(event, _)| wanted.contains(*event));
+            let names: Vec<_> = events.map(|(_, event)| event.name.as_str()).collect();
+            template.host.call_with_robot(env, &template.caller, |py| {
+                let set = watching.wanted.get(py)?.cast::<PySet>()?.clone();
+                set.clear();
+                names.iter().try_for_each(|name| set.add(name))
+            })?;
+            watching.told = wanted;
+        }
+        self.template.poll(&watching.poll, args, to, env)
     }
 
     fn clear(&mut self) {
-        self.poll = None;
+        self.watching = None;
     }
 }

@@ -216,18 +216,14 @@ impl<E: Rolls + ?Sized> Actor<templates::Roll, E> for Roll {
 pub struct CheckBumper;
 
 impl<E: Rolls + ?Sized> Supervisor<templates::CheckBumper, E> for CheckBumper {
-    fn start(
-        _: templates::check_bumper::Inputs,
-        _: Events,
-        _: &mut E,
-        _: Instant,
-    ) -> Result<Self, Fault> {
+    fn start(_: templates::check_bumper::Inputs, _: &mut E, _: Instant) -> Result<Self, Fault> {
         Ok(CheckBumper)
     }
 
     fn poll(
         &mut self,
         _: templates::check_bumper::Live,
+        _: Events,
         env: &mut E,
         _: Instant,
     ) -> Result<Option<templates::check_bumper::Event>, Fault> {

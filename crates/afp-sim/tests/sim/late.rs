@@ -87,13 +87,14 @@ fn a_bearing_is_against_the_heading_of_the_moment_with_late_readings_too() {
         let mut sim = late([2.0, 0.0], millis, 1);
         let (inputs, wanted) = (check_infrared::Inputs {}, Events::from_bits(1));
         let mut watch: CheckInfrared =
-            Supervisor::<Template, Simulation>::start(inputs, wanted, &mut sim, at(0)).unwrap();
+            Supervisor::<Template, Simulation>::start(inputs, &mut sim, at(0)).unwrap();
         let (mut seen, mut squares) = (0.0, 0.0);
         for n in 0..100 {
             // To and fro, so that the light stays in view.
             drive(&mut sim, 0.0, if n % 40 < 20 { 0.8 } else { -0.8 }, 50);
             let (live, now) = (check_infrared::Live { strength: 0.05 }, sim.now());
-            let event = Supervisor::<Template, Simulation>::poll(&mut watch, live, &mut sim, now);
+            let event =
+                Supervisor::<Template, Simulation>::poll(&mut watch, live, wanted, &mut sim, now);
             let Ok(Some(check_infrared::Event::InfraredSeen { bearing })) = event else { continue };
             let pose = sim.truth().pose();
             let eye = [pose.x + 0.18 * pose.heading.cos(), pose.y + 0.18 * pose.heading.sin()];

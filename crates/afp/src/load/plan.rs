@@ -68,7 +68,6 @@ impl EntryInfo {
 struct WatchSlot<E: ?Sized + 'static> {
     inputs: Inputs,
     outputs: Arc<[Binding]>,
-    wanted: Events,
     slot: Box<dyn SupervisorSlot<E>>,
     injected: Injected,
 }
@@ -83,7 +82,6 @@ impl<E: ?Sized + 'static> WatchSlot<E> {
         Some(WatchSlot {
             inputs: self.inputs.clone(),
             outputs: self.outputs.clone(),
-            wanted: self.wanted,
             slot: self.slot.try_clone()?,
             injected: self.injected.clone(),
         })
@@ -353,13 +351,14 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
     ) -> Result<(), Fault> {
         let watch = self.supervisors.get_mut(usize::from(supervisor)).ok_or(Fault::INTERNAL)?;
         let args = watch.inputs.pull(&self.config.values);
-        cx.show_inputs(|see, env, now| watch.slot.start(&args, watch.wanted, see, env, now))
+        cx.show_inputs(|see, env, now| watch.slot.start(&args, see, env, now))
     }
 
     #[inline]
     fn poll_supervisor<S: Sink, C: Clock>(
         &mut self,
         supervisor: u16,
+        wanted: Events,
         cx: &mut Cx<'_, E, S, C>,
     ) -> Fired {
         let Some(watch) = self.supervisors.get_mut(usize::from(supervisor)) else {
@@ -370,7 +369,7 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
         }
         let mut stage = Stage::new(&watch.outputs, &mut self.config.staged);
         let args = watch.inputs.pull(&self.config.values);
-        match watch.slot.poll(&args, &mut stage, cx.env, cx.now) {
+        match watch.slot.poll(&args, wanted, &mut stage, cx.env, cx.now) {
             Ok(None) => Fired::NOTHING,
             Ok(Some(event)) => Fired::event(event, stage.result()),
             Err(fault) => Fired::fault(fault),

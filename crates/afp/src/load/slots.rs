@@ -53,25 +53,25 @@ pub trait ActorSlot<E: ?Sized>: Send {
 
 /// The slot of a supervisor, as [`ActorSlot`] is of an actor.
 pub trait SupervisorSlot<E: ?Sized>: Send {
-    /// Makes the supervisor and begins to watch for the wanted events.
+    /// Makes the supervisor and begins to watch.
     ///
     /// # Errors
     /// As [`Supervisor::start`].
     fn start(
         &mut self,
         args: &dyn Args,
-        wanted: Events,
         see: See<'_>,
         env: &mut E,
         now: Instant,
     ) -> Result<(), Fault>;
-    /// The event seen, its outputs handed over.
+    /// The wanted event seen, its outputs handed over.
     ///
     /// # Errors
     /// As [`Supervisor::poll`].
     fn poll(
         &mut self,
         args: &dyn Args,
+        wanted: Events,
         to: &mut dyn Outputs,
         env: &mut E,
         now: Instant,
@@ -182,12 +182,11 @@ where
     fn start(
         &mut self,
         args: &dyn Args,
-        wanted: Events,
         see: See<'_>,
         env: &mut E,
         now: Instant,
     ) -> Result<(), Fault> {
-        self.running = Some(A::start(inputs(args, see)?, wanted, env, now)?);
+        self.running = Some(A::start(inputs(args, see)?, env, now)?);
         Ok(())
     }
 
@@ -195,12 +194,13 @@ where
     fn poll(
         &mut self,
         args: &dyn Args,
+        wanted: Events,
         to: &mut dyn Outputs,
         env: &mut E,
         now: Instant,
     ) -> Result<Option<u16>, Fault> {
         let supervisor = self.running.as_mut().ok_or(Fault::INTERNAL)?;
-        let event = supervisor.poll(inputs(args, None)?, env, now)?;
+        let event = supervisor.poll(inputs(args, None)?, wanted, env, now)?;
         Ok(event.map(|event| give(event, to)))
     }
 

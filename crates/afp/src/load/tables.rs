@@ -54,7 +54,7 @@ impl LoadedTables {
             supervisors: rows.supervisors.iter().map(supervisor).collect(),
             reasons: rows.reasons.iter().map(|text| reason(text)).collect(),
             edges: rows.edges.iter().copied().map(target).collect(),
-            sweeps: rows.sweeps.iter().map(|id| id.0).collect(),
+            sweeps: rows.sweeps.clone(),
         }))
     }
 }
@@ -78,6 +78,7 @@ fn element(row: &rows::ElementRow) -> ElementRow {
 
 fn supervisor(row: &rows::SupervisorRow) -> SupervisorRow {
     SupervisorRow {
+        instance: row.instance.0,
         period: Duration::from_nanos(row.period),
         deadline: Duration::from_nanos(row.deadline),
         budget: Duration::from_nanos(row.budget),
@@ -85,6 +86,7 @@ fn supervisor(row: &rows::SupervisorRow) -> SupervisorRow {
         events: range(row.events),
         on_miss: target(row.on_miss),
         wanted: Events::from_bits(row.wanted),
+        wanted_in_look: Events::from_bits(row.wanted_in_look),
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use afp_core::Environment;
-use afp_core::rt::{Child, Events, Machine, Tables};
+use afp_core::rt::{Child, Machine, Tables};
 use afp_dsl::graph::{self, Component, EntryKind, Graph, PlanId};
 use afp_dsl::types::Type;
 
@@ -35,7 +35,7 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
         self.check_objects(plan)?;
         let rows = tables.table();
         let elements = plan.elements.iter().zip(rows.elements);
-        let supervisors = plan.supervisors.iter().zip(rows.supervisors);
+        let supervisors = plan.supervisors.iter();
         Ok(LoadedPlan {
             config: Config::new(&plan.entries, |ty| match ty {
                 Type::Object(object) => self.registry.object_cell(&object.toolbox, &object.name),
@@ -49,7 +49,7 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
                 .map(|(element, row)| self.element(element, &plan.entries, row.child))
                 .collect::<Result<_, _>>()?,
             supervisors: supervisors
-                .map(|(supervisor, row)| self.supervisor(supervisor, &plan.entries, row.wanted))
+                .map(|supervisor| self.supervisor(supervisor, &plan.entries))
                 .collect::<Result<_, _>>()?,
             tables,
         })
@@ -88,12 +88,10 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
         &self,
         supervisor: &graph::Supervisor,
         entries: &[graph::Entry],
-        wanted: Events,
     ) -> Result<WatchSlot<E>, LoadError> {
         Ok(WatchSlot {
             inputs: Inputs::new(&supervisor.inputs),
             outputs: Binding::all(&supervisor.outputs, entries),
-            wanted,
             injected: None,
             slot: self.find(supervisor.template, Registry::new_supervisor)?,
         })

@@ -49,7 +49,6 @@ pub struct CheckTurned {
 impl<E: Odometry + ?Sized> Supervisor<templates::CheckTurned, E> for CheckTurned {
     fn start(
         inputs: check_turned::Inputs,
-        _: Events,
         env: &mut E,
         _: Instant,
     ) -> Result<Self, Fault> {
@@ -59,7 +58,7 @@ impl<E: Odometry + ?Sized> Supervisor<templates::CheckTurned, E> for CheckTurned
 
     fn poll(
         &mut self,
-        _: check_turned::Live,
+        _: check_turned::Live, _: Events,
         env: &mut E,
         _: Instant,
     ) -> Result<Option<check_turned::Event>, Fault> {

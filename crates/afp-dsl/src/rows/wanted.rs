@@ -1,0 +1,43 @@
+//! Which events a poll of a supervisor can take.
+//!
+//! An event of a global supervisor is not taken where it leads to the element that is active already,
+//! nor is in the look one that would start its own element anew.
+
+use crate::graph::{ElementId, Plan, Supervisor, SupervisorId, Target};
+use crate::rows::size::has_sweep;
+
+/// The events that lead to something other than `ignore` and the element `there`; `None` where they are
+/// too many for a set.
+pub(super) fn wanted(supervisor: &Supervisor, there: Option<ElementId>) -> Option<u64> {
+    let mut bits = 0;
+    let taken = |target: &Target| match target {
+        Target::Ignore => false,
+        Target::Element(to) => Some(*to) != there,
+        Target::Terminate | Target::Fail(_) | Target::Resume => true,
+    };
+    for (index, _) in supervisor.events.iter().enumerate().filter(|(_, target)| taken(target)) {
+        bits |= 1_u64.checked_shl(u32::try_from(index).ok()?)?;
+    }
+    Some(bits)
+}
+
+/// The global supervisors with each of the elements that events of theirs lead to: while such a one is
+/// active, these are not wanted.
+pub(super) fn elsewhere(plan: &Plan) -> Vec<(SupervisorId, ElementId)> {
+    let mut pairs = Vec::new();
+    let globals = plan.supervisors.iter().take(usize::from(plan.globals));
+    for (supervisor, id) in globals.zip((0..).map(SupervisorId)) {
+        let mut there: Vec<_> =
+            supervisor.events.iter().filter_map(|to| watched(plan, *to)).collect();
+        there.sort_unstable();
+        there.dedup();
+        pairs.extend(there.into_iter().map(|element| (id, element)));
+    }
+    pairs
+}
+
+/// The element behind an edge, unless it is a computation, while which nobody watches.
+fn watched(plan: &Plan, target: Target) -> Option<ElementId> {
+    let Target::Element(id) = target else { return None };
+    plan.elements.get(id.index()).filter(|element| has_sweep(element.component)).map(|_| id)
+}
