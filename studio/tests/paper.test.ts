@@ -76,7 +76,7 @@ async function follow(hands: Hands): Promise<void> {
   await hands.stands("followWall");
   await hands.connect("ForwardSuccessful", "followWall", "ForwardSuccessful -> followWall");
   await hands.key("ArrowUp");
-  await hands.connect("LaneNotFree", "findWallAngle", "LaneNotFree\\s+-> findWallAngle\\s+");
+  await hands.connect("LaneNotFree", "findWallAngle", "LaneNotFree\\s+-> findWallAngle\n");
   await hands.key("ArrowUp");
   await hands.create("WallLost", "Turn", "turnAfterWallLost");
   await hands.value("angle", "-60 deg");
