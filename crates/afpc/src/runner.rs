@@ -34,6 +34,7 @@ pub fn become_one_for<'a>(
 ///
 /// # Errors
 /// A robot or a toolbox without a crate.
+#[cfg(feature = "dap")]
 pub fn is_linked(own: &OwnToolboxes, graph: &Graph, linked: &Linked<'_>) -> Result<bool, NoPlan> {
     let parts = Parts::of_plans([(own, graph)])?;
     Ok(parts.is_none_or(|parts| parts.are_in(linked.own_robot, linked.toolboxes)))
