@@ -104,7 +104,7 @@ impl Client {
 
     fn complete(&mut self, turn: usize) -> Duration {
         self.version += 1;
-        let text = if turn % 2 == 0 { "// a" } else { "// b" };
+        let text = if turn.is_multiple_of(2) { "// a" } else { "// b" };
         self.change(URI, 2, text, if turn == 0 { 0 } else { 4 });
         let at =
             json!({ "textDocument": { "uri": URI }, "position": { "line": 5, "character": 4 } });

@@ -182,8 +182,11 @@ fn long_run() -> Result<(), Failure> {
 }
 
 fn clippy() -> Result<(), Failure> {
-    let all = ["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"];
-    run_command(cargo().args(all))
+    let deny = ["--", "--deny", "warnings"];
+    run_command(cargo().args(["clippy", "--workspace", "--all-targets"]).args(deny))?;
+    // With all that can be left out of the command line.
+    let whole = ["clippy", "--package", "afpc", "--all-targets", "--features", "full,studio"];
+    run_command(cargo().args(whole).args(deny))
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use afp_dsl::compile_plan;
 use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
 use afp_live::Live;
-use afp_log::{About, Messages, OwnedNames, SessionLog};
+use afp_log::{About, OwnedNames, SessionLog};
 use afp_session::{AnySession, Go, Loader};
 use afp_syntax::source::Source;
 use serde_json::{Value, json};
@@ -51,6 +51,9 @@ struct Client {
     /// Messages of channels that came before something else that was waited for.
     kept: Vec<Message>,
 }
+
+/// Messages with their times in nanoseconds, by the number of the subscription.
+type Channels = BTreeMap<u32, Vec<(u64, Vec<u8>)>>;
 
 impl Client {
     fn new(address: &str) -> Result<Client, Box<Error>> {
@@ -101,7 +104,7 @@ impl Client {
     }
 
     /// All messages of channels until the server says goodbye, by the number of the subscription.
-    fn rest(&mut self) -> (BTreeMap<u32, Vec<(u64, Vec<u8>)>>, Vec<String>) {
+    fn rest(&mut self) -> (Channels, Vec<String>) {
         let (mut all, mut said) = (BTreeMap::<u32, Vec<_>>::new(), Vec::new());
         loop {
             let kept = (!self.kept.is_empty()).then(|| self.kept.remove(0));

@@ -163,12 +163,7 @@ impl Checker<'_> {
         if causes.iter().any(|cause| leads(&cause) && fits(&cause)) {
             return Some(());
         }
-        let name = match target {
-            ClaimTarget::Element(path) => path.text(),
-            ClaimTarget::Terminate => "terminate".to_owned(),
-            ClaimTarget::Fail => "fail".to_owned(),
-            ClaimTarget::Resume => "resume".to_owned(),
-        };
+        let name = written(target);
         let others: Vec<_> = causes
             .iter()
             .filter(leads)
@@ -416,5 +411,15 @@ impl Checker<'_> {
             return None;
         }
         Some(Claim::Happens(Cause { component: self.paths.number(found), outcome }))
+    }
+}
+
+/// A target as a claim names it.
+fn written(target: &ClaimTarget) -> String {
+    match target {
+        ClaimTarget::Element(path) => path.text(),
+        ClaimTarget::Terminate => "terminate".to_owned(),
+        ClaimTarget::Fail => "fail".to_owned(),
+        ClaimTarget::Resume => "resume".to_owned(),
     }
 }
