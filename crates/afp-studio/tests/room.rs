@@ -150,6 +150,16 @@ fn what_others_write_arrives() {
 }
 
 #[test]
+fn what_somebody_else_has_written_is_saved() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    let next = PLAN.replace("go", "stay");
+    place.types(1, 2, &next);
+    place.outside(&next);
+    assert_eq!(methods(&place.pass(600)), [(1, "afp/saved")]);
+}
+
+#[test]
 fn changes_of_other_lines_go_together() {
     let mut place = Place::new(PLAN);
     place.client(1);

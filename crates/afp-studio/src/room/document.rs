@@ -31,6 +31,8 @@ pub(super) enum Look {
     Same,
     /// The text is another one now.
     Changed,
+    /// Somebody else has written this very text.
+    Saved,
     /// Theirs, which does not go together with this text.
     Conflict(String),
 }
@@ -88,8 +90,11 @@ impl Document {
             self.kept.etag = None;
             return Look::Same;
         }
-        if self.due.is_none() || self.text == found.text {
-            (self.due, self.theirs) = (None, None);
+        if self.text == found.text {
+            (self.due, self.theirs, self.kept) = (None, None, found);
+            return Look::Saved;
+        }
+        if self.due.is_none() {
             self.text.clone_from(&found.text);
             self.kept = found;
             return Look::Changed;

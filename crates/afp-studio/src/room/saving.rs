@@ -49,23 +49,30 @@ impl Room {
                 continue;
             }
             let saved = document.save(now);
-            let (text, etag) = (document.text.clone(), document.etag().map(str::to_owned));
             if saved.is_ok() {
                 // It is no news that somebody else would have to be told of.
                 let stamp = crate::files::stamp(path.as_ref());
                 self.files.extend(stamp.map(|stamp| (path.clone(), stamp)));
             }
-            let uri = uri_of(&path);
-            for (&id, client) in &self.clients {
-                let Some((version, own)) = client.server.text(&uri) else { continue };
-                let mut said = json!({ "uri": uri, "version": version, "etag": etag });
-                match &saved {
-                    Ok(()) if own != text => continue,
-                    Ok(()) => {}
-                    Err(why) => said["failed"] = json!(why),
-                }
-                out.push((id, notification("afp/saved", said)));
+            out.extend(self.tell_saved(&path, saved));
+        }
+        out
+    }
+
+    /// Tells the clients that have it open whether a text is saved.
+    fn tell_saved(&self, path: &str, saved: Result<(), String>) -> Out {
+        let Some(document) = self.documents.get(path) else { return Vec::new() };
+        let uri = uri_of(path);
+        let mut out = Vec::new();
+        for (&id, client) in &self.clients {
+            let Some((version, own)) = client.server.text(&uri) else { continue };
+            let mut said = json!({ "uri": uri, "version": version, "etag": document.etag() });
+            match &saved {
+                Ok(()) if own != document.text => continue,
+                Ok(()) => {}
+                Err(why) => said["failed"] = json!(why),
             }
+            out.push((id, notification("afp/saved", said)));
         }
         out
     }
@@ -78,6 +85,7 @@ impl Room {
         let uri = uri_of(path);
         match look {
             Look::Same => Vec::new(),
+            Look::Saved => self.tell_saved(path, Ok(())),
             Look::Changed => self.tell_all(&uri, &text, true, None),
             Look::Conflict(theirs) => self.tell_all(&uri, &theirs, false, None),
         }
