@@ -2,7 +2,7 @@
 import { command } from "./commands";
 import { finding, showingKeys } from "./finder";
 import { redo, redoLabel, undo, undoLabel } from "./history";
-import { bottom, narrow, palette, right, show } from "./layout";
+import { bottom, narrow, palette, right, show, world } from "./layout";
 import { makeNew } from "./panes/files";
 import { words } from "./words";
 
@@ -14,6 +14,7 @@ export function register(): void {
   command({ id: "pane-next", label: words.nextPane, key: "F6", run: () => step(1) });
   command({ id: "pane-before", label: words.lastPane, key: "Shift+F6", run: () => step(-1) });
   command({ id: "palette", label: words.palette, run: () => toggle("palette") });
+  command({ id: "world", label: words.world, run: () => toggle("world") });
   command({ id: "text", label: words.text, key: "Ctrl+E", run: () => toggle("text") });
   command({ id: "inspector", label: words.inspector, run: () => toggle("inspector") });
   command({ id: "problems", label: words.problems, key: "Ctrl+Shift+M", run: () => toggle("problems") });
@@ -21,12 +22,13 @@ export function register(): void {
   command({ id: "new", label: words.newPlan, run: makeNew });
 }
 
-function toggle(name: "palette" | "text" | "inspector" | "problems" | "run"): void {
-  const open = { palette: palette.value, problems: bottom.value === "problems", run: bottom.value === "run", text: right.value === "text", inspector: right.value === "inspector" }[name];
+function toggle(name: "palette" | "world" | "text" | "inspector" | "problems" | "run"): void {
+  const open = { palette: palette.value, world: world.value, problems: bottom.value === "problems", run: bottom.value === "run", text: right.value === "text", inspector: right.value === "inspector" }[name];
   if (!open) {
     show(name);
     enterSoon(name);
   } else if (name === "palette") palette.value = false;
+  else if (name === "world") world.value = false;
   else if (name === "problems" || name === "run") bottom.value = null;
   else right.value = null;
   if (open) narrow.value = "drawing";

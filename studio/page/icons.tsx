@@ -11,6 +11,7 @@ const PATHS = {
   file: "M4 1.8h5L12.5 5v9.2H4zM9 1.8V5h3.5",
   plus: "M8 3v10M3 8h10",
   palette: "M2.5 2.5h4.5V7H2.5zM9 2.5h4.5V7H9zM2.5 9h4.5v4.5H2.5zM9 9h4.5v4.5H9z",
+  world: "M2 2.5h12v11H2zM4.8 8.5a2 2 0 1 0 4 0 2 2 0 0 0-4 0M8.8 8.5h2.4",
   drawing: "M2 2.5h6v4H2zM8 9.5h6v4H8zM5 6.5v5h3",
   inspector: "M2.5 4.5h6M11.5 4.5h2M2.5 11.5h2M7.5 11.5h6M8.5 2.5v4M4.5 9.5v4",
   text: "M2.5 3.5h7M2.5 6.5h11M2.5 9.5h9M2.5 12.5h5",

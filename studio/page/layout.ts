@@ -3,13 +3,15 @@ import { effect, signal } from "@preact/signals";
 
 export type Right = "inspector" | "text";
 export type Bottom = "problems" | "run";
-export type Narrow = "palette" | "drawing" | Right | Bottom;
+export type Narrow = "palette" | "drawing" | "world" | Right | Bottom;
 
 export const palette = signal(true);
+/** Over what is open at the right. */
+export const world = signal(true);
 export const right = signal<Right | null>("inspector");
 export const bottom = signal<Bottom | null>(null);
 /** Widths in pixels. */
-export const widths = signal({ inspector: 300, text: 460 });
+export const widths = signal({ world: 340, inspector: 340, text: 460 });
 /** The pane that is shown where there is room for one alone. */
 export const narrow = signal<Narrow>("drawing");
 
@@ -20,9 +22,10 @@ export function begin(storage: Storage): void {
   try {
     const kept = JSON.parse(storage.getItem(KEY) ?? "{}");
     if (typeof kept.palette === "boolean") palette.value = kept.palette;
+    if (typeof kept.world === "boolean") world.value = kept.world;
     if (["inspector", "text", null].includes(kept.right)) right.value = kept.right;
     if (["problems", "run", null].includes(kept.bottom)) bottom.value = kept.bottom;
-    for (const name of ["inspector", "text"] as const) {
+    for (const name of ["world", "inspector", "text"] as const) {
       const width = kept.widths?.[name];
       if (Number.isFinite(width)) widths.value = { ...widths.value, [name]: clamp(width) };
     }
@@ -30,7 +33,7 @@ export function begin(storage: Storage): void {
     // What cannot be read is forgotten.
   }
   effect(() => {
-    const kept = { palette: palette.value, right: right.value, bottom: bottom.value, widths: widths.value };
+    const kept = { palette: palette.value, world: world.value, right: right.value, bottom: bottom.value, widths: widths.value };
     storage.setItem(KEY, JSON.stringify(kept));
   });
 }
@@ -41,6 +44,7 @@ export const clamp = (width: number): number => Math.round(Math.min(900, Math.ma
 export function show(pane: Narrow): void {
   narrow.value = pane;
   if (pane === "palette") palette.value = true;
+  else if (pane === "world") world.value = true;
   else if (pane === "problems" || pane === "run") bottom.value = pane;
   else if (pane !== "drawing") right.value = pane;
 }

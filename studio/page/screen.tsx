@@ -7,7 +7,7 @@ import { EndCard } from "./debug/controls";
 import { mountCanvas } from "./drawing/canvas";
 import { Finder } from "./finder";
 import { Sign } from "./icons";
-import { bottom, clamp, narrow, palette, right, show, widths, type Bottom as Lower, type Narrow, type Right } from "./layout";
+import { bottom, clamp, narrow, palette, right, show, widths, world, type Bottom as Lower, type Narrow, type Right } from "./layout";
 import { report, trouble, Welcome } from "./panes/files";
 import { Guide } from "./panes/guide";
 import { Inspector } from "./panes/inspector";
@@ -15,6 +15,7 @@ import { Palette } from "./panes/palette";
 import { Problems } from "./panes/problems";
 import { RunPane } from "./panes/run";
 import { TextPane } from "./panes/text";
+import { WorldPane } from "./panes/world";
 import { hello, lsp, pen } from "./session";
 import { words } from "./words";
 
@@ -27,7 +28,7 @@ export function Screen() {
       <main class="middle">
         {palette.value && current.value && <Side />}
         <Centre />
-        {current.value && <RightPane />}
+        {current.value && <RightPanes />}
       </main>
       <Bottom />
       {current.value && <NarrowBar />}
@@ -94,25 +95,44 @@ function Canvas() {
   return <div class="canvas" ref={host} />;
 }
 
-const TABS: { name: Right; label: string }[] = [
+type Beside = "world" | Right;
+
+const TABS: { name: Beside; label: string }[] = [
+  { name: "world", label: words.world },
   { name: "inspector", label: words.inspector },
   { name: "text", label: words.text },
 ];
 
-function RightPane() {
+/** Beside the drawing: the world, and below it what else is open. */
+function RightPanes() {
   const open = right.value;
-  const toggle = (name: Right): void => (open === name ? void (right.value = null) : show(name));
+  const of: Beside | null = open ?? (world.value ? "world" : null);
+  const isOpen = (name: Beside): boolean => (name === "world" ? world.value : open === name);
+  const toggle = (name: Beside): void => {
+    if (!isOpen(name)) show(name);
+    else if (name === "world") world.value = false;
+    else right.value = null;
+  };
   return (
     <>
-      {open && <Divider of={open} />}
-      {open && (
-        <section class="pane right" data-pane="right" data-when={open} aria-label={open === "text" ? words.text : words.inspector} ref={(node) => { node?.style.setProperty("--width", `${widths.value[open]}px`); }}>
-          <div class="body" tabIndex={-1}>{open === "text" ? <TextPane /> : <Inspector />}</div>
-        </section>
+      {of && <Divider of={of} />}
+      {of && (
+        <div class="column" ref={(node) => { node?.style.setProperty("--width", `${widths.value[of]}px`); }}>
+          {world.value && (
+            <section class="pane right around" data-pane="world" data-when="world" aria-label={words.world}>
+              <div class="body" tabIndex={-1}><WorldPane /></div>
+            </section>
+          )}
+          {open && (
+            <section class="pane right" data-pane="right" data-when={open} aria-label={open === "text" ? words.text : words.inspector}>
+              <div class="body" tabIndex={-1}>{open === "text" ? <TextPane /> : <Inspector />}</div>
+            </section>
+          )}
+        </div>
       )}
       <nav class="rail" aria-label={words.panes}>
         {TABS.map(({ name, label }) => (
-          <button aria-pressed={open === name} onClick={() => toggle(name)} key={name}>
+          <button aria-pressed={isOpen(name)} onClick={() => toggle(name)} key={name}>
             <Sign name={name} />
             <span>{label}</span>
           </button>
@@ -123,7 +143,7 @@ function RightPane() {
 }
 
 /** The line between drawing and pane: dragged, or moved by arrows. */
-function Divider({ of }: { of: Right }) {
+function Divider({ of }: { of: Beside }) {
   const put = (width: number): void => {
     widths.value = { ...widths.value, [of]: clamp(width) };
   };
@@ -143,7 +163,7 @@ function Divider({ of }: { of: Right }) {
     put(widths.value[of] + step);
   };
   return (
-    <div class="divider" role="separator" aria-orientation="vertical" tabIndex={0} aria-label={words.resize(of === "text" ? words.text : words.inspector)}
+    <div class="divider" role="separator" aria-orientation="vertical" tabIndex={0} aria-label={words.resize(words[of])}
       aria-valuenow={widths.value[of]} aria-valuemin={220} aria-valuemax={900} onPointerDown={down} onKeyDown={key} />
   );
 }

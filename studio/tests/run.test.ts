@@ -1,8 +1,11 @@
 // Runs in the page: the plan drives the simulated robot, the drawing shows where it is, its end is a card of sentences.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { moved } from "../page/debug/breakpoints";
 import { inBrowser } from "./browser";
+
+const PAPER = readFileSync(new URL("../../plans/wall_following.afp", import.meta.url), "utf8");
 
 const PLAN = `use std
 
@@ -113,4 +116,40 @@ inBrowser("a run stops at a breakpoint, which moves with the text and is remembe
   await page.keyboard.press("F5");
   await page.getByRole("button", { name: "Go on" }).waitFor();
   assert.match((await page.locator(".clock").textContent())!, /^0\.5 s/);
+});
+
+inBrowser("the world is there before a run; a run moves the robot, a press of a control ends it", { "wall_following.afp": PAPER }, async ({ page }) => {
+  const robot = page.locator(".floor .robot");
+  await robot.waitFor();
+  assert.ok((await page.locator(".floor .thing").count()) > 4);
+  const begun = await robot.getAttribute("transform");
+  const escape = page.locator(".stimuli .stops", { hasText: "escape" });
+  assert.ok(await escape.isDisabled());
+  await page.keyboard.press("F5");
+  await page.locator(".floor .driven").first().waitFor({ state: "attached" });
+  await page.waitForFunction((before) => document.querySelector(".floor .robot")!.getAttribute("transform") !== before, begun);
+  await escape.click();
+  const card = page.locator(".end-card");
+  await card.waitFor();
+  assert.match(await card.innerText(), /WallFollowing was interrupted/);
+  assert.notEqual(await robot.getAttribute("transform"), begun);
+  await card.getByRole("button", { name: "OK" }).click();
+  await page.waitForFunction((before) => document.querySelector(".floor .robot")!.getAttribute("transform") === before, begun);
+  assert.equal(await page.locator(".floor .driven").count(), 0);
+});
+
+inBrowser("another world and another seed are those of the next run; what fails is said", { "wall_following.afp": PAPER }, async ({ page }) => {
+  await page.locator(".floor .robot").waitFor();
+  const before = await page.locator(".floor").getAttribute("viewBox");
+  await page.getByLabel("World", { exact: true }).and(page.locator("select")).selectOption("random:1");
+  await page.waitForFunction((before) => document.querySelector(".floor")?.getAttribute("viewBox") !== before, before);
+  await page.getByLabel("Seed").fill("7");
+  await page.keyboard.press("F5");
+  await page.locator(".clock.running").waitFor();
+  await page.getByText("Let something fail").click();
+  await page.getByLabel("What fails").selectOption("battery.low");
+  await page.getByLabel("share").waitFor();
+  await page.getByRole("button", { name: "Let it fail" }).click();
+  await page.keyboard.press("Control+Shift+U");
+  await page.locator(".run-pane li", { hasText: "battery.low" }).waitFor();
 });

@@ -19,6 +19,8 @@ export interface State {
   watching: string[];
   entries: Record<string, string>;
   held: boolean;
+  /** Where the robot is, metres and radians; null for one that does not say so. */
+  pose: readonly [number, number, number] | null;
 }
 
 export interface Ended {
@@ -45,6 +47,10 @@ export const frames = signal<readonly Frame[]>([]);
 export const older = signal(false);
 /** How fast time passes; null is as fast as it can be computed. */
 export const speed = signal<number | null>(1);
+/** Where the next run takes place; null leaves it to the plan and its project. */
+export const world = signal<string | null>(null);
+/** The seed of all noise of the next run. */
+export const seed = signal(0);
 /** Why it stands still. */
 export const why = signal("");
 export const active = computed(() => phase.value === "running" || phase.value === "held" || phase.value === "starting");
@@ -57,8 +63,8 @@ const MOST = 1000;
 let dap: Dap | null = null;
 let program = "";
 
-const pathOf = (uri: string): string => decodeURIComponent(new URL(uri).pathname);
-const address = (): string => `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/dap`;
+export const pathOf = (uri: string): string => decodeURIComponent(new URL(uri).pathname);
+export const address = (): string => `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/dap`;
 
 /** Runs the plan that is shown, or the one that led to it; with errors it shows the first of them instead. */
 export async function start(hold = false): Promise<void> {
@@ -94,7 +100,7 @@ export async function start(hold = false): Promise<void> {
   });
   try {
     await own.request("initialize", { adapterID: "afp", clientID: "afp-studio", linesStartAt1: true, columnsStartAt1: true });
-    await own.request("launch", { program, stopOnEntry: hold, ...(speed.value === null ? {} : { speed: speed.value }) });
+    await own.request("launch", { program, stopOnEntry: hold, seed: seed.value, ...(world.value === null ? {} : { world: world.value }), ...(speed.value === null ? {} : { speed: speed.value }) });
   } catch (reason) {
     failed(reason);
   }
@@ -169,7 +175,8 @@ function failed(reason: unknown): void {
   phase.value = "idle";
 }
 
-const order = (command: string, args: object = { threadId: 1 }): Promise<unknown> | undefined => dap?.request(command, args).catch(report);
+/** Asks something of the run; what is refused is shown. */
+export const order = (command: string, args: object = { threadId: 1 }): Promise<unknown> | undefined => dap?.request(command, args).catch(report);
 
 export const pause = (): unknown => order("pause");
 export const next = (): unknown => step("next");

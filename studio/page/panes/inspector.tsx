@@ -1,5 +1,5 @@
 // What is selected, as a form: name, template, ports, exits, timing and help; the plan with its entries where nothing is.
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import * as actions from "../drawing/actions";
 import { anatomy, worth, type Anatomy, type Port } from "../drawing/anatomy";
 import * as ask from "../drawing/ask";
@@ -118,10 +118,13 @@ function Component({ drawn, part }: { drawn: Drawing; part: Part }) {
 
 function PortRow({ port }: { port: Port }) {
   const [open, setOpen] = useState(false);
+  const host = useRef<HTMLDivElement>(null);
+  // The controls of a value that is opened are in sight at once.
+  useEffect(() => void (open && host.current?.scrollIntoView({ block: "nearest" })), [open]);
   const { answer, name, out, part } = port;
   const missing = !answer?.value && !answer?.default && !out;
   return (
-    <div class={`port ${open ? "open" : ""}`}>
+    <div class={`port ${open ? "open" : ""}`} ref={host}>
       <button type="button" class={`row ${missing ? "undone" : ""} ${answer?.value ? "" : "default"}`} aria-expanded={open} onClick={() => setOpen(!open)}>
         <span>{name}</span><span class="row-value">{out && answer?.value ? "⇒ " : ""}{worth(port)}</span>
       </button>

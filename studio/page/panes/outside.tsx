@@ -1,0 +1,93 @@
+// What a hand can do to the robot while a plan runs: press its controls, let a part of it fail.
+import { signal } from "@preact/signals";
+import { useRef } from "preact/hooks";
+import { active, order } from "../debug/run";
+import { Sign } from "../icons";
+import { press, tap } from "../world/press";
+import { devices, type Fault, type Stimulus } from "../world/surroundings";
+import { words } from "../words";
+
+const nameOf = (spoken: string): string => spoken.split(".").at(-1)!;
+
+/** A button for each control, those that stop first. */
+export function Stimuli() {
+  const all = devices.value.flatMap(({ stimuli }) => stimuli);
+  const sorted = [...all.filter(({ stops }) => stops), ...all.filter(({ stops }) => !stops)];
+  if (!sorted.length) return null;
+  return (
+    <div class="stimuli" role="group" aria-label={words.controlsOfRobot}>
+      {sorted.map((each) => <Control of={each} key={each.words} />)}
+    </div>
+  );
+}
+
+function Control({ of: { words: spoken, help, stops } }: { of: Stimulus }) {
+  const release = useRef<(() => void) | null>(null);
+  const down = (event: PointerEvent & { currentTarget: HTMLElement }): void => {
+    if (event.button !== 0 || !active.value) return;
+    event.currentTarget.setPointerCapture(event.pointerId);
+    release.current ??= press(spoken);
+  };
+  const up = (): void => {
+    release.current?.();
+    release.current = null;
+  };
+  // Keys and screen readers click without a pointer: a whole press.
+  const click = (event: MouseEvent): void => {
+    if (event.detail === 0) tap(spoken);
+  };
+  return (
+    <button class={stops ? "stops" : ""} disabled={!active.value} title={active.value ? help : words.pressLater(help)}
+      onPointerDown={down} onPointerUp={up} onPointerCancel={up} onLostPointerCapture={up} onClick={click}>
+      {stops && <Sign name="stop" />}
+      {nameOf(spoken)}
+    </button>
+  );
+}
+
+/** What fails next, how much (null: as the robot says), and for how many seconds (null: until the end). */
+const fault = signal("");
+const amount = signal<number | null>(null);
+const lasting = signal<number | null>(5);
+const SECONDS = [1, 5, 30, null] as const;
+
+const inject = ({ words: spoken }: Fault): unknown =>
+  order("afp/fault", { fault: spoken, ...(amount.value === null ? {} : { amount: amount.value }), ...(lasting.value === null ? {} : { seconds: lasting.value }) });
+
+/** A folded list of what can fail. */
+export function Faults() {
+  const failing = devices.value.filter(({ faults }) => faults.length);
+  if (!failing.length) return null;
+  const all = failing.flatMap(({ faults }) => faults);
+  const one = all.find((each) => each.words === fault.value) ?? all[0]!;
+  const pick = (spoken: string): void => {
+    [fault.value, amount.value] = [spoken, null];
+  };
+  return (
+    <details class="faults">
+      <summary>{words.faults}</summary>
+      <div>
+        <select aria-label={words.fault} value={one.words} onChange={(event) => pick(event.currentTarget.value)}>
+          {failing.map(({ name, faults }) => (
+            <optgroup label={name} key={name}>
+              {faults.map((each) => <option value={each.words} key={each.words}>{each.words}</option>)}
+            </optgroup>
+          ))}
+        </select>
+        {one.amount && (
+          <label>
+            {one.amount.name}
+            <input type="number" step="any" min={one.amount.range[0]} max={one.amount.range[1]} value={amount.value ?? one.amount.default}
+              onChange={(event) => (amount.value = Number.isFinite(event.currentTarget.valueAsNumber) ? event.currentTarget.valueAsNumber : null)} />
+            {one.amount.unit}
+          </label>
+        )}
+        <select aria-label={words.lasting} value={String(lasting.value)} onChange={(event) => (lasting.value = event.currentTarget.value === "null" ? null : Number(event.currentTarget.value))}>
+          {SECONDS.map((each) => <option value={String(each)} key={each}>{words.lastingOf(each)}</option>)}
+        </select>
+        <button disabled={!active.value} onClick={() => inject(one)}>{words.inject}</button>
+      </div>
+      <p>{one.help}</p>
+    </details>
+  );
+}

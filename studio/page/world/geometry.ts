@@ -1,0 +1,98 @@
+// The floor seen from above, in metres, x to the right and y up: where things are, what a picture must hold, the path driven.
+
+export type Point = readonly [number, number];
+/** Metres and radians, counter-clockwise from x. */
+export type Pose = readonly [number, number, number];
+
+export interface Thing {
+  name: string;
+  outline: readonly Point[];
+  /** Whether sensors look over it. */
+  low: boolean;
+  labelled: boolean;
+  /** Where its middle goes; empty for what stays. */
+  path: readonly Point[];
+}
+
+/** What a picture of a world shows. */
+export interface World {
+  start: Pose;
+  /** The outline of the robot at the origin, looking along x. */
+  body: readonly Point[];
+  things: readonly Thing[];
+  patches: readonly { corners: readonly Point[]; color: readonly [number, number, number] }[];
+  lights: readonly Point[];
+}
+
+/** A rectangle: its lower left corner and its size. */
+export interface Box {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+}
+
+/** Room around everything, as a share of the longer side. */
+const MARGIN = 0.03;
+/** Metres that a picture shows at least. */
+const LEAST = 0.5;
+/** Metres between two points of the path. */
+const APART = 0.01;
+/** Points of a piece of the path; only the last piece is drawn anew when the robot moves. */
+const PIECE = 200;
+/** Pieces that are kept. */
+const PIECES = 100;
+
+/** The outline of a body that stands at a pose. */
+export function placed(body: readonly Point[], [x, y, heading]: Pose): Point[] {
+  const [cos, sin] = [Math.cos(heading), Math.sin(heading)];
+  return body.map(([u, v]) => [x + u * cos - v * sin, y + u * sin + v * cos]);
+}
+
+/** What a picture of a world must hold: everything in it, with a margin. */
+export function frame(world: World): Box {
+  const things = world.things.flatMap(({ outline, path }) => [...outline, ...path]);
+  const all = [...things, ...world.patches.flatMap(({ corners }) => corners), ...world.lights, ...placed(world.body, world.start)];
+  const bound = (axis: 0 | 1): [number, number] => {
+    const [low, high] = all.reduce(([low, high], point) => [Math.min(low, point[axis]), Math.max(high, point[axis])], [Infinity, -Infinity]);
+    const [middle, half] = [(low + high) / 2, Math.max(high - low, LEAST) / 2];
+    return [middle - half, middle + half];
+  };
+  if (!all.length) return { x: -LEAST, y: -LEAST, width: 2 * LEAST, height: 2 * LEAST };
+  const [[left, right], [bottom, top]] = [bound(0), bound(1)];
+  const margin = MARGIN * Math.max(right - left, top - bottom);
+  return { x: left - margin, y: bottom - margin, width: right - left + 2 * margin, height: top - bottom + 2 * margin };
+}
+
+/** The same for SVG, whose y goes down. */
+export const viewBox = ({ x, y, width, height }: Box): string => [x, -(y + height), width, height].map(short).join(" ");
+
+/** Pixels for a metre, where a picture stands in a rectangle of pixels. */
+export const scaleIn = (box: Box, width: number, height: number): number => Math.min(width / box.width, height / box.height);
+
+/** A length as SVG takes it: to a tenth of a millimetre. */
+export const short = (metres: number): string => String(Math.round(metres * 1e4) / 1e4);
+
+export const points = (all: readonly (readonly number[])[]): string => all.map(([x, y]) => `${short(x!)},${short(y!)}`).join(" ");
+
+/** The middle of an outline. */
+export function middle(outline: readonly Point[]): Point {
+  const sum = outline.reduce(([x, y], [u, v]) => [x + u, y + v] as const, [0, 0] as const);
+  return [sum[0] / outline.length, sum[1] / outline.length];
+}
+
+/** Where the robot was, with the seconds of the run, in pieces that each begin where the one before ends. */
+export type Path = readonly (readonly (readonly [number, number, number])[])[];
+
+/** The path after the robot was seen somewhere. What lies later is cut: a run may have been moved back. */
+export function extended(path: Path, [x, y]: Pose, at: number): Path {
+  const later = (path.at(-1)?.at(-1)?.[2] ?? 0) > at;
+  const before = later ? path.map((piece) => piece.filter((point) => point[2] <= at)).filter((piece) => piece.length > 1) : path;
+  const last = before.at(-1);
+  const end = last?.at(-1);
+  const step = [x, y, at] as const;
+  if (!last || !end) return [[step]];
+  if (Math.hypot(x - end[0], y - end[1]) < APART) return before;
+  if (last.length < PIECE) return [...before.slice(0, -1), [...last, step]];
+  return [...before, [end, step]].slice(-PIECES);
+}

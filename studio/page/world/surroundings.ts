@@ -1,0 +1,99 @@
+// The world that a run of the plan takes place in and the robot in it: known before any run, asked for anew after each.
+import { batch, effect, signal } from "@preact/signals";
+import { connect } from "../dap";
+import { active, address, pathOf, seed, state, world } from "../debug/run";
+import { current } from "../documents";
+import { files, lsp } from "../session";
+import { extended, type Path, type World } from "./geometry";
+
+export interface Surroundings extends World {
+  /** The worlds to choose from, as a run takes them, each with where it comes from; first the one that is taken by itself. */
+  worlds: readonly { name: string; from: string }[];
+}
+
+export interface Stimulus {
+  words: string;
+  help: string;
+  /** Whether it is there to end what runs. */
+  stops: boolean;
+}
+
+export interface Fault {
+  words: string;
+  help: string;
+  amount: { name: string; unit: string; range: [number, number]; default: number } | null;
+}
+
+export interface Device {
+  name: string;
+  help: string;
+  stimuli: readonly Stimulus[];
+  faults: readonly Fault[];
+}
+
+/** The world; null where it is not known. */
+export const surroundings = signal<Surroundings | null>(null);
+/** Why it is not known, as a sentence; empty while it is. */
+export const missing = signal("");
+export const devices = signal<readonly Device[]>([]);
+/** The path that the robot has driven in the run that is shown. */
+export const path = signal<Path>([]);
+
+let asked = 0;
+
+async function askWorld(uri: string, chosen: string | null): Promise<void> {
+  const own = ++asked;
+  const dap = connect(address(), () => {});
+  try {
+    const found = await dap.request<Surroundings>("afp/world", { program: pathOf(uri), ...(chosen === null ? {} : { world: chosen }) });
+    if (own === asked) batch(() => ([surroundings.value, missing.value] = [found, ""]));
+  } catch (why) {
+    if (own === asked) batch(() => ([surroundings.value, missing.value] = [null, (why as Error).message]));
+  } finally {
+    dap.close();
+  }
+}
+
+async function askRobot(uri: string): Promise<void> {
+  const found = await lsp().request<{ devices: Device[] }>("afp/robot", { textDocument: { uri } }).catch(() => null);
+  if (current.peek() === uri) devices.value = found?.devices ?? [];
+}
+
+/** Begins to keep them; the answer ends that. */
+export function begin(): () => void {
+  let before = "";
+  const asks = effect(() => {
+    const [uri, connected, runs, chosen] = [current.value, lsp().open.value, active.value, world.value];
+    // Files that come and go may be worlds.
+    void files.value;
+    if (!uri || !connected || runs) return;
+    const other = before !== uri;
+    before = uri;
+    if (other) world.value = null;
+    if (!other || chosen === null) void askWorld(uri, other ? null : chosen);
+  });
+  const robots = effect(() => {
+    if (current.value && lsp().open.value) void askRobot(current.value);
+  });
+  const paths = state.subscribe((now) => {
+    const before = path.peek();
+    if (now?.pose) path.value = extended(before, now.pose, now.at);
+    else if (!now && before.length) path.value = [];
+  });
+  return () => {
+    asks();
+    robots();
+    paths();
+  };
+}
+
+/** Chooses where the next run takes place; the first of the list is taken by itself. */
+export function choose(name: string): void {
+  world.value = name === surroundings.peek()?.worlds[0]?.name ? null : name;
+}
+
+/** Sets the seed of all noise of the next run; what is no whole number from 0 on is left. */
+export function sow(text: string): void {
+  const number = Number(text);
+  if (text.trim() && Number.isSafeInteger(number) && number >= 0) seed.value = number;
+}

@@ -1,0 +1,75 @@
+// The world without a page: what a picture holds, the path in pieces, the robot between two poses.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { extended, frame, middle, placed, points, scaleIn, viewBox, type Path, type Point, type World } from "../page/world/geometry";
+import { between, shown, towards } from "../page/world/motion";
+
+const BODY: Point[] = [[0.2, 0.1], [-0.2, 0.1], [-0.2, -0.1], [0.2, -0.1]];
+const thing = (outline: Point[], path: Point[] = []) => ({ name: "box", outline, low: false, labelled: true, path });
+const world = (change: Partial<World>): World => ({ start: [0, 0, 0], body: BODY, things: [], patches: [], lights: [], ...change });
+const near = (found: number, wanted: number): void => assert.ok(Math.abs(found - wanted) < 1e-9, `${found} is not ${wanted}`);
+
+test("a body stands at its pose, turned counter-clockwise", () => {
+  const [front] = placed(BODY, [1, 2, Math.PI / 2]);
+  near(front![0], 0.9);
+  near(front![1], 2.2);
+});
+
+test("a picture holds the robot, things and where they go, patches and lights, with a margin; y goes up", () => {
+  const all = frame(world({ things: [thing([[1, 0], [2, 0], [2, 1]], [[2, 1], [2, 3]])], patches: [{ corners: [[-1, 0], [0, -2]], color: [1, 2, 3] }], lights: [[4, 0]] }));
+  near(all.x, -1.15);
+  near(all.y, -2.15);
+  near(all.width, 5.3);
+  near(all.height, 5.3);
+  assert.equal(viewBox(all), "-1.15 -3.15 5.3 5.3");
+  near(scaleIn(all, 530, 265), 50);
+});
+
+test("a picture of nearly nothing is half a metre wide at least", () => {
+  const small = frame(world({ body: [[0, 0]] }));
+  near(small.width, 0.53);
+  near(small.height, 0.53);
+  assert.ok(frame(world({ body: [] })).width > 0);
+});
+
+test("outlines: their points and their middle", () => {
+  assert.equal(points([[0.123456, -1], [2, 0]]), "0.1235,-1 2,0");
+  assert.deepEqual(middle([[0, 0], [2, 0], [2, 2], [0, 2]]), [1, 1]);
+});
+
+test("a path grows as the robot moves, in pieces that hang together", () => {
+  let path: Path = [];
+  for (let at = 0; at <= 450; at++) path = extended(path, [at / 10, 0, 0], at);
+  assert.deepEqual(path.map((piece) => piece.length), [200, 200, 53]);
+  assert.deepEqual(path[1]![0], path[0]!.at(-1));
+  assert.equal(path.flat().length - path.length + 1, 451);
+  assert.equal(extended(path, [45, 0.001, 1], 451), path);
+});
+
+test("a run that is moved back takes its path back", () => {
+  let path: Path = [];
+  for (let at = 0; at <= 250; at++) path = extended(path, [at / 10, 0, 0], at);
+  const back = extended(path, [10, 0, 0], 100);
+  assert.equal(back.length, 1);
+  assert.deepEqual(back[0]!.at(-1), [10, 0, 100]);
+  assert.deepEqual(extended(path, [3, 4, 0], 0), [[[3, 4, 0]]]);
+});
+
+test("between two poses the robot turns the shorter way", () => {
+  const [x, y, heading] = between([0, 0, 3], [1, 2, -3], 0.5);
+  near(x, 0.5);
+  near(y, 1);
+  near(Math.cos(heading), -1);
+});
+
+test("a motion goes on from what is shown, as long as poses take to come, and ends", () => {
+  const first = towards(null, [0, 0, 0], 1000, false);
+  assert.deepEqual(shown(first, 1000), [0, 0, 0]);
+  const second = towards(first, [1, 0, 0], 1050, false);
+  near(shown(second, 1075)[0], 0.5);
+  const third = towards(second, [1, 1, 0], 1075, false);
+  near(shown(third, 1075)[0], 0.5);
+  assert.deepEqual(shown(third, 1100), [1, 1, 0]);
+  assert.equal(towards(third, [0, 0, 0], 9000, false).end, 9120);
+  assert.deepEqual(shown(towards(second, [5, 5, 0], 1060, true), 1060), [5, 5, 0]);
+});
