@@ -14,6 +14,7 @@ use crate::{Linked, runner};
 
 pub use simulator::Simulator;
 use talk::serve;
+#[cfg(feature = "studio")]
 pub use talk::{Arrived, converse};
 
 /// Arguments of `afpc dap`.
