@@ -107,6 +107,7 @@ export const words = {
   world: "World",
   worldOf: (name: string, from: string) => `${name.split("/").at(-1) || "the robot's own"} (${from})`,
   noWorld: (why: string) => `The world cannot be shown: ${why}`,
+  tryAgain: "Try again",
   worldComes: "The world is on its way …",
   seenFromAbove: ([x, y, heading]: readonly [number, number, number]) => `The world from above; the robot is at ${x.toFixed(2)} m, ${y.toFixed(2)} m and looks to ${Math.round((heading * 180) / Math.PI)}°`,
   seed: "Seed",

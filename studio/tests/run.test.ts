@@ -153,3 +153,24 @@ inBrowser("another world and another seed are those of the next run; what fails 
   await page.keyboard.press("Control+Shift+U");
   await page.locator(".run-pane li", { hasText: "battery.low" }).waitFor();
 });
+
+const ROOM = `version = 1\nname = "room"\n[robot]\npose_m_deg = [1.0, 1.0, 0.0]\n`;
+const PROJECT = { "plan.afp": PAPER, "afp.toml": `[run]\nworld = "a.toml"\n`, "a.toml": ROOM, "b.toml": "version = 1\n" };
+
+inBrowser("a world that cannot be had leaves the one that is there and says why", PROJECT, async ({ page }) => {
+  const where = page.locator(".where select");
+  await where.waitFor();
+  const named = await where.inputValue();
+  assert.match(named, /a\.toml$/);
+  await where.selectOption({ label: "b.toml (a file)" });
+  await page.locator(".banner.error", { hasText: "b.toml" }).waitFor();
+  await page.locator(".floor .robot").waitFor();
+  await page.waitForFunction((named) => document.querySelector<HTMLSelectElement>(".where select")!.value === named, named);
+});
+
+inBrowser("why no world can be shown is said, and asked once more", { ...PROJECT, "a.toml": "version = 1\n" }, async ({ page, write }) => {
+  await page.locator(".world .empty", { hasText: "a.toml" }).waitFor();
+  await write("a.toml", ROOM);
+  await page.getByRole("button", { name: "Try again" }).click();
+  await page.locator(".floor .robot").waitFor();
+});

@@ -3,7 +3,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { active, seed, state, world as chosen } from "../debug/run";
 import { frame, middle, points, scaleIn, short, viewBox, type Point, type Pose, type Thing } from "../world/geometry";
 import { shown, towards, type Motion } from "../world/motion";
-import { choose, missing, path, sow, surroundings, type Surroundings } from "../world/surroundings";
+import { again, choose, missing, path, sow, surroundings, type Surroundings } from "../world/surroundings";
 import { words } from "../words";
 import { Faults, Stimuli } from "./outside";
 
@@ -12,12 +12,22 @@ export function WorldPane() {
   return (
     <div class="world">
       {world && <Where world={world} />}
-      {world ? <Picture world={world} /> : <p class="empty">{missing.value ? words.noWorld(missing.value) : words.worldComes}</p>}
+      {world ? <Picture world={world} /> : <Absent />}
       <Stimuli />
       <Faults />
     </div>
   );
 }
+
+const Absent = () =>
+  missing.value ? (
+    <div class="empty">
+      <p>{words.noWorld(missing.value)}</p>
+      <button onClick={() => void again()}>{words.tryAgain}</button>
+    </div>
+  ) : (
+    <p class="empty">{words.worldComes}</p>
+  );
 
 /** In which world the next run takes place, and with which noise. */
 function Where({ world }: { world: Surroundings }) {

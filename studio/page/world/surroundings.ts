@@ -3,6 +3,7 @@ import { batch, effect, signal } from "@preact/signals";
 import { connect } from "../dap";
 import { active, address, pathOf, seed, state, world } from "../debug/run";
 import { current } from "../documents";
+import { trouble } from "../panes/files";
 import { files, lsp } from "../session";
 import { extended, type Path, type World } from "./geometry";
 
@@ -48,11 +49,22 @@ async function askWorld(uri: string, chosen: string | null): Promise<void> {
     const found = await dap.request<Surroundings>("afp/world", { program: pathOf(uri), ...(chosen === null ? {} : { world: chosen }) });
     if (own === asked) batch(() => ([surroundings.value, missing.value] = [found, ""]));
   } catch (why) {
-    if (own === asked) batch(() => ([surroundings.value, missing.value] = [null, (why as Error).message]));
+    if (own === asked) refuse((why as Error).message, chosen);
   } finally {
     dap.close();
   }
 }
+
+/** A world that was chosen and cannot be had leaves the one that is there. */
+function refuse(why: string, chosen: string | null): void {
+  batch(() => {
+    if (chosen === null) [surroundings.value, missing.value] = [null, why];
+    else [world.value, trouble.value] = [null, why];
+  });
+}
+
+/** Asks once more for what could not be shown. */
+export const again = (): Promise<void> => askWorld(current.peek(), null);
 
 async function askRobot(uri: string): Promise<void> {
   const found = await lsp().request<{ devices: Device[] }>("afp/robot", { textDocument: { uri } }).catch(() => null);
