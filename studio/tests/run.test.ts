@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
+import AxeBuilder from "@axe-core/playwright";
 import { moved } from "../page/debug/breakpoints";
 import { inBrowser } from "./browser";
 
@@ -149,6 +150,8 @@ inBrowser("another world and another seed are those of the next run; what fails 
   await page.getByText("Let something fail").click();
   await page.getByLabel("What fails").selectOption("battery.low");
   await page.getByLabel("share").waitFor();
+  const { violations } = await new AxeBuilder({ page }).include(".world").analyze();
+  assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(" ")}`), []);
   await page.getByRole("button", { name: "Let it fail" }).click();
   await page.keyboard.press("Control+Shift+U");
   await page.locator(".run-pane li", { hasText: "battery.low" }).waitFor();

@@ -1,7 +1,7 @@
 // The world without a page: what a picture holds, the path in pieces, the robot between two poses.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { extended, frame, middle, placed, points, scaleIn, viewBox, type Path, type Point, type World } from "../page/world/geometry";
+import { extended, frame, middle, placed, placeOf, points, scaleIn, viewBox, type Path, type Point, type World } from "../page/world/geometry";
 import { between, shown, towards } from "../page/world/motion";
 
 const BODY: Point[] = [[0.2, 0.1], [-0.2, 0.1], [-0.2, -0.1], [0.2, -0.1]];
@@ -35,6 +35,17 @@ test("a picture of nearly nothing is half a metre wide at least", () => {
 test("outlines: their points and their middle", () => {
   assert.equal(points([[0.123456, -1], [2, 0]]), "0.1235,-1 2,0");
   assert.deepEqual(middle([[0, 0], [2, 0], [2, 2], [0, 2]]), [1, 1]);
+});
+
+test("a name stands in its thing, below it where it would hide it, and never out of the picture", () => {
+  const box = { x: 0, y: 0, width: 4, height: 4 };
+  const square = (x: number, y: number, size: number): Point[] => [[x, y], [x + size, y], [x + size, y + size], [x, y + size]];
+  assert.deepEqual(placeOf(square(1, 1, 2), box, [1, 0.2]), [2, 2]);
+  assert.deepEqual(placeOf([[1, 0], [1.4, 0], [1.4, 2], [1, 2]], box, [1, 0.2]), [1.2, 1]);
+  const [x, y] = placeOf(square(1, 1, 0.5), box, [1, 0.2]);
+  near(x, 1.25);
+  near(y, 0.86);
+  assert.deepEqual(placeOf(square(3.6, 0, 0.4), box, [1, 0.2]), [3.5, 0.1]);
 });
 
 test("a path grows as the robot moves, in pieces that hang together", () => {

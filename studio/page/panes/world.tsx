@@ -1,7 +1,7 @@
 // The world from above: what stands in it, the robot at its pose, the path that it has driven; seen before any run.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { active, seed, state, world as chosen } from "../debug/run";
-import { frame, middle, points, scaleIn, short, viewBox, type Point, type Pose, type Thing } from "../world/geometry";
+import { frame, placeOf, points, scaleIn, short, viewBox, type Point, type Pose, type Thing } from "../world/geometry";
 import { shown, towards, type Motion } from "../world/motion";
 import { again, choose, missing, path, sow, surroundings, type Surroundings } from "../world/surroundings";
 import { words } from "../words";
@@ -46,6 +46,10 @@ function Where({ world }: { world: Surroundings }) {
   );
 }
 
+/** Pixels of a name: its height, and the width of a letter. */
+const TALL = 11;
+const LETTER = 6;
+
 function Picture({ world }: { world: Surroundings }) {
   const host = useRef<SVGSVGElement>(null);
   const [scale, setScale] = useState(100);
@@ -64,7 +68,7 @@ function Picture({ world }: { world: Surroundings }) {
         {world.things.map((thing, at) => <Obstacle thing={thing} key={at} />)}
         {world.lights.map(([x, y], at) => <circle class="light" cx={short(x)} cy={short(y)} r={pixels(6)} key={at} />)}
         <Driven />
-        {world.things.filter(({ labelled }) => labelled).map(({ name, outline }, at) => <Label name={name} at={middle(outline)} size={pixels(11)} key={at} />)}
+        {world.things.filter(({ labelled }) => labelled).map(({ name, outline }, at) => <Label name={name} at={placeOf(outline, box, [(name.length * LETTER) / scale, TALL / scale])} size={pixels(TALL)} key={at} />)}
         <Robot world={world} />
       </g>
     </svg>

@@ -81,6 +81,16 @@ export function middle(outline: readonly Point[]): Point {
   return [sum[0] / outline.length, sum[1] / outline.length];
 }
 
+/** Where the middle of a name stands: in its thing or, where it would hide that, below; never out of the picture. */
+export function placeOf(outline: readonly Point[], box: Box, [width, height]: readonly [number, number]): Point {
+  const [x, y] = middle(outline);
+  const [across, up] = ([0, 1] as const).map((axis) => outline.map((point) => point[axis]));
+  const hides = Math.max(...across!) - Math.min(...across!) < width && Math.max(...up!) - Math.min(...up!) < 3 * height;
+  const level = hides ? Math.min(...up!) - 0.7 * height : y;
+  const within = (at: number, low: number, size: number, half: number): number => Math.min(Math.max(at, low + half), low + size - half);
+  return [within(x, box.x, box.width, width / 2), within(level, box.y, box.height, height / 2)];
+}
+
 /** Where the robot was, with the seconds of the run, in pieces that each begin where the one before ends. */
 export type Path = readonly (readonly (readonly [number, number, number])[])[];
 
