@@ -170,12 +170,17 @@ impl Adapter<'_> {
             ("watching", json!(watching)),
             ("entries", json!(entries)),
             ("held", json!(held)),
-            ("pose", json!(run.target.pose().map(|pose| [pose.x, pose.y, pose.heading]))),
+            ("pose", json!(run.target.pose().map(|it| [it.x, it.y, it.heading].map(rounded)))),
         ] {
             body[name] = value;
         }
         self.tell("afp/state", body);
     }
+}
+
+/// Four digits behind the point: tenths of a millimetre are enough for pictures.
+fn rounded(number: f64) -> f64 {
+    (number * 1e4).round() / 1e4
 }
 
 /// A file as the protocol names it.

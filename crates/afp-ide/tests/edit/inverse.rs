@@ -67,6 +67,23 @@ fn items(outline: &Outline) -> Vec<Item> {
     enums.chain(plans).collect()
 }
 
+/// Where all edges of a text lead, by element and name.
+fn targets(text: &str) -> Vec<String> {
+    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+    let compiled = compile(&Source::new("case.afp", text), &toolboxes, &Texts::default());
+    let components = compiled.outline.plans.iter().flat_map(Plan::components);
+    let exits = components.flat_map(|component| {
+        component.exits.iter().map(|exit| {
+            let target = exit.edge.as_ref().and_then(|edge| edge.target.as_ref());
+            let target = target.map_or("", |target| &target.text);
+            format!("{}.{} -> {target}", component.item, exit.name)
+        })
+    });
+    let mut targets: Vec<_> = exits.collect();
+    targets.sort();
+    targets
+}
+
 /// Each edge of a component led to `terminate`, each formula doubled, and back.
 fn of_component(text: &str, component: &Component) -> usize {
     let mut tried = 0;
@@ -79,7 +96,15 @@ fn of_component(text: &str, component: &Component) -> usize {
             outcome: exit.name.to_string(),
             to: to.to_owned(),
         };
-        there_and_back(text, &to("terminate"), &to(&target.text));
+        let edges = component.exits.iter().filter_map(|exit| exit.edge.as_ref());
+        let same_line = edges.filter_map(|edge| edge.target.as_ref());
+        if same_line.filter(|other| other.span == target.span).count() > 1 {
+            // What has left a line that it shared comes back on a line of its own.
+            let back = changed(&changed(text, &to("terminate")), &to(&target.text));
+            assert_eq!(targets(&back), targets(text), "{item}.{}", exit.name);
+        } else {
+            there_and_back(text, &to("terminate"), &to(&target.text));
+        }
         tried += 1;
     }
     for input in &component.inputs {
