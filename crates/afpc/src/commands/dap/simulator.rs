@@ -91,7 +91,15 @@ impl<'a> Host<'a> for Simulator<'a> {
         let (path, kind) = (PathBuf::from(absolute(&path)), self.linked.robot.kind());
         let asked = launch.world.as_deref().map(Path::new);
         let found = world::find(asked, &path, kind).map_err(|why| why.to_string())?;
-        let worlds = world::all(&path, kind).map_err(|why| why.to_string())?;
+        let mut worlds = world::all(&path, kind).map_err(|why| why.to_string())?;
+        // What would be refused is not offered; the first one is taken without being named.
+        let open = |name: &str| {
+            name.is_empty() || name.starts_with(world::RANDOM) || self.check(name).is_ok()
+        };
+        if let Some((first, _)) = worlds.first_mut().filter(|(name, _)| !open(name)) {
+            first.clear();
+        }
+        worlds.retain(|(name, _)| open(name));
         Ok(Surroundings { drawing: found.world.drawing(), worlds })
     }
 
