@@ -74,7 +74,7 @@ async function main(file) {
     }
   }
   console.log(`${counts.runs} runs, ${counts.events} events, ${counts.places} places compared`);
-  console.log(`${counts.cut} runs compared up to a result that did not convert`);
+  console.log(`${counts.cut} runs compared up to a value that charts cannot see`);
   console.log(`${counts.passed} passed, ${counts.failed} failed`);
   // A comparison that compares next to nothing is none.
   const enough = counts.places >= counts.runs && counts.cut * 5 <= counts.runs;

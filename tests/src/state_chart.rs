@@ -25,7 +25,7 @@ use steps::{Seen, Steps};
 /// `chart`, and `runs`, each a list of steps. A step has the `event` to be fed (`null` for the
 /// start) and what must hold then: `active`, ids of active states; `only`, the id of the one
 /// active state without states inside; `same`, that nothing changed. `cut` counts the runs that
-/// end early because a sub-plan's result did not convert, which charts cannot see.
+/// end early because a value of a sub-plan did not convert or was out of its range, which charts cannot see.
 pub fn case(name: &str, graph: &Graph, scripts: &[Script]) -> Value {
     let places = places::places(graph);
     let runs = scripts.iter().map(|script| steps::steps(&places, &seen(graph, script)));

@@ -311,7 +311,7 @@ def _declaration(
             type_ = _type(hint, f"the output '{port}' of '{name}'")
             carried.setdefault(port, (type_, []))[1].append(state)
     lines = [f"icon {_text(icon)}"] if icon else []
-    lines += [f"uses {', '.join(uses)}"] if uses else []
+    lines += [f"uses {device}" for device in uses]
     lines += ports
     lines += [f"out {port}: {type_} on {' | '.join(states)}" for port, (type_, states) in carried.items()]
     lines += [timing] if timing else []

@@ -153,7 +153,9 @@ fn step(places: &Places, steps: &mut Steps, previous: Option<Seen>, record: Seen
         Seen::Ended(WHOLE, ending) => ended(places, ending, steps),
         Seen::Ended(plan, ending) => {
             let finishes = matches!(rest, [Seen::Finished(element, _), ..] if *element == plan);
-            steps.cut = !matches!(ending, Ending::Error(_)) && !finishes;
+            // An initial value that is out of its range: the chart is inside of the plan already.
+            let never_began = previous == Some(Seen::Started(plan));
+            steps.cut = never_began || !matches!(ending, Ending::Error(_)) && !finishes;
         }
     }
 }
