@@ -15,6 +15,7 @@ use std::time::Duration as Wall;
 
 use afp_core::Instant;
 use afp_session::Drawing;
+use afp_token::Token;
 use dapts::{IEvent, IRequest, event, request};
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
@@ -66,7 +67,7 @@ pub struct Adapter<'h> {
     /// Whether the client has said goodbye.
     over: bool,
     /// What the client has to know.
-    token: Option<String>,
+    token: Option<Token>,
 }
 
 /// How a client counts.
@@ -125,8 +126,8 @@ impl<'h> Adapter<'h> {
     }
 
     /// The same for anybody who can reach it: it launches nothing without this token among the arguments.
-    pub fn guarded(host: Box<dyn Host<'h> + 'h>, token: &str) -> Adapter<'h> {
-        Adapter { token: Some(token.to_owned()), ..Adapter::new(host) }
+    pub fn guarded(host: Box<dyn Host<'h> + 'h>, token: &Token) -> Adapter<'h> {
+        Adapter { token: Some(token.clone()), ..Adapter::new(host) }
     }
 
     /// Whether the client has said goodbye.

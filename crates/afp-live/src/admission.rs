@@ -3,6 +3,7 @@
 use std::io;
 use std::net::{IpAddr, SocketAddr};
 
+use afp_token::Token;
 use tungstenite::handshake::server::Request;
 
 /// What a client may do.
@@ -17,8 +18,8 @@ pub(crate) enum Role {
 /// The words that let clients in.
 #[derive(Clone, Debug)]
 pub(crate) struct Tokens {
-    pub operator: String,
-    pub watcher: String,
+    pub operator: Token,
+    pub watcher: Token,
 }
 
 /// Why somebody is sent away, with the code of HTTP.
@@ -30,13 +31,13 @@ impl Tokens {
     /// # Errors
     /// The machine has no randomness.
     pub fn new() -> io::Result<Tokens> {
-        Ok(Tokens { operator: word()?, watcher: word()? })
+        Ok(Tokens { operator: Token::new()?, watcher: Token::new()? })
     }
 
     fn role(&self, said: &str) -> Option<Role> {
         let all = [(&self.operator, Role::Operator), (&self.watcher, Role::Watcher)];
         // Both are looked at, so that the time does not tell which one it is.
-        let found = all.map(|(token, role)| is_same(token, said).then_some(role));
+        let found = all.map(|(token, role)| token.is(said).then_some(role));
         found.into_iter().flatten().next()
     }
 
@@ -83,24 +84,13 @@ fn is_known_page(origin: &str) -> bool {
     loopback || (scheme == "https" && host.ends_with(".foxglove.dev"))
 }
 
-fn word() -> io::Result<String> {
-    let mut bytes = [0; 16];
-    getrandom::fill(&mut bytes).map_err(|why| io::Error::other(why.to_string()))?;
-    Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
-}
-
-/// Whether two texts are the same, in a time that does not tell how much of them is.
-fn is_same(one: &str, other: &str) -> bool {
-    let differing = one.bytes().zip(other.bytes()).fold(0, |all, (a, b)| all | (a ^ b));
-    one.len() == other.len() && differing == 0
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn admitted(host: &str, origin: Option<&str>, query: &str) -> Result<Role, u16> {
-        let tokens = Tokens { operator: "steer".into(), watcher: "watch".into() };
+        let tokens =
+            Tokens { operator: Token::from_word("steer"), watcher: Token::from_word("watch") };
         let mut request = Request::builder().uri(format!("/{query}")).header("host", host);
         if let Some(origin) = origin {
             request = request.header("origin", origin);

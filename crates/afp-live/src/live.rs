@@ -44,7 +44,7 @@ impl Live {
             at.set_ip(std::net::Ipv4Addr::LOCALHOST.into());
         }
         let Tokens { operator, watcher } = &self.tokens;
-        [operator, watcher].map(|token| format!("ws://{at}/?token={token}"))
+        [operator, watcher].map(|token| format!("ws://{at}/?token={}", token.word()))
     }
 
     /// Whether others than this machine reach it.

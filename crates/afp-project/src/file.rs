@@ -10,7 +10,7 @@ use crate::project::{Mistake, Project, Toolbox};
 use crate::read::read;
 
 /// The file's name.
-const NAME: &str = "afp.toml";
+pub(crate) const NAME: &str = "afp.toml";
 
 /// A project file that says nothing wrong; where there is none, nothing is said.
 #[derive(Clone, Debug)]

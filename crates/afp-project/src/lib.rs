@@ -28,9 +28,11 @@ mod krate;
 mod project;
 mod read;
 mod time;
+mod tree;
 
 pub use file::{ProjectError, ProjectFile, ToolboxFile, shown};
 pub use krate::{CrateLink, RobotLink};
 pub use project::{Crate, Mistake, Origin, Project, Robot, Target, Toolbox};
 pub use read::read;
 pub use time::duration;
+pub use tree::files;

@@ -4,6 +4,7 @@ use std::io;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use afp_token::Token;
 use axum::http::HeaderMap;
 use axum::http::header::{COOKIE, HOST, ORIGIN};
 
@@ -15,9 +16,9 @@ const CODE_LASTS: Duration = Duration::from_secs(60);
 pub struct Secret {
     port: u16,
     /// What the cookie holds.
-    token: Arc<str>,
+    token: Token,
     /// The code that has not been used yet, and when it was made.
-    code: Arc<Mutex<Option<(String, Instant)>>>,
+    code: Arc<Mutex<Option<(Token, Instant)>>>,
     origins: Arc<[String]>,
 }
 
@@ -29,8 +30,8 @@ impl Secret {
     pub fn new(port: u16, origins: Vec<String>) -> io::Result<Secret> {
         Ok(Secret {
             port,
-            token: word()?.into(),
-            code: Arc::new(Mutex::new(Some((word()?, Instant::now())))),
+            token: Token::new()?,
+            code: Arc::new(Mutex::new(Some((Token::new()?, Instant::now())))),
             origins: origins.into(),
         })
     }
@@ -38,24 +39,19 @@ impl Secret {
     /// The address with the code.
     pub fn address(&self) -> String {
         let code = self.code.lock().unwrap_or_else(PoisonError::into_inner);
-        let code = code.as_ref().map_or("", |(code, _)| code);
+        let code = code.as_ref().map_or("", |(code, _)| code.word());
         format!("http://127.0.0.1:{}/?code={code}", self.port)
-    }
-
-    /// A word for one answer: what styles of the page carry, so that no others work.
-    pub fn nonce() -> io::Result<String> {
-        word()
     }
 
     /// The cookie for who brings the code, which does not work again.
     pub fn redeem(&self, code: &str) -> Option<String> {
         let mut kept = self.code.lock().unwrap_or_else(PoisonError::into_inner);
         let (good, made) = kept.as_ref()?;
-        if made.elapsed() > CODE_LASTS || !same(good, code) {
+        if made.elapsed() > CODE_LASTS || !good.is(code) {
             return None;
         }
         *kept = None;
-        let (name, token) = (self.cookie(), &self.token);
+        let (name, token) = (self.cookie(), self.token.word());
         Some(format!("{name}={token}; HttpOnly; SameSite=Strict; Path=/"))
     }
 
@@ -83,26 +79,13 @@ impl Secret {
         cookies
             .flat_map(|cookies| cookies.split(';'))
             .filter_map(|cookie| cookie.trim().split_once('='))
-            .any(|(key, value)| key == name && same(&self.token, value))
+            .any(|(key, value)| key == name && self.token.is(value))
     }
 
     /// Cookies know no ports: their names do.
     fn cookie(&self) -> String {
         format!("afp_studio_{}", self.port)
     }
-}
-
-/// A word that nobody guesses.
-fn word() -> io::Result<String> {
-    let mut bytes = [0; 16];
-    getrandom::fill(&mut bytes).map_err(|why| io::Error::other(why.to_string()))?;
-    Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
-}
-
-/// Compares in a time that does not tell where two words differ.
-fn same(one: &str, other: &str) -> bool {
-    let pairs = one.bytes().zip(other.bytes());
-    one.len() == other.len() && pairs.fold(0, |all, (one, other)| all | (one ^ other)) == 0
 }
 
 #[cfg(test)]

@@ -6,9 +6,6 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 use std::{fs, io};
 
-/// Folders deeper than this are not looked into.
-const DEPTH: usize = 12;
-
 /// What is opened: plans, toolboxes and scenarios, the places of their drawings, projects.
 const ENDINGS: [&str; 3] = ["afp", "layout", "toml"];
 
@@ -88,11 +85,10 @@ impl Folder {
         if real.starts_with(&self.root) { Ok(real) } else { Err(outside()) }
     }
 
-    /// The files that are opened by path, with their stamps, hidden folders and those that builds fill left out.
+    /// The files that are opened, by path, with their stamps.
     pub(crate) fn files(&self) -> BTreeMap<String, Stamp> {
-        let mut files = BTreeMap::new();
-        collect(&self.root, DEPTH, &mut files);
-        files
+        let files = afp_project::files(&self.root).into_iter();
+        files.filter_map(|path| Some((path.to_str()?.to_owned(), stamp(&path)?))).collect()
     }
 
     /// A path as people read it: from the root.
@@ -150,25 +146,6 @@ fn etag(bytes: &[u8]) -> String {
     let mut hasher = DefaultHasher::new();
     bytes.hash(&mut hasher);
     format!("{:016x}", hasher.finish())
-}
-
-fn collect(folder: &Path, depth: usize, files: &mut BTreeMap<String, Stamp>) {
-    let Ok(entries) = fs::read_dir(folder) else { return };
-    for entry in entries.flatten() {
-        let (path, name) = (entry.path(), entry.file_name());
-        let name = name.to_string_lossy();
-        // Links are not followed, so that no circle is walked.
-        let Ok(kind) = entry.file_type() else { continue };
-        if kind.is_dir() {
-            let built = matches!(&*name, "target" | "node_modules") || name.starts_with('.');
-            if depth > 0 && !built {
-                collect(&path, depth - 1, files);
-            }
-        } else if name.ends_with(".afp") || name == "afp.toml" {
-            let known = path.to_str().map(str::to_owned).zip(stamp(&path));
-            files.extend(known);
-        }
-    }
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::net::TcpListener;
 use std::sync::mpsc::Sender;
 use std::{io, thread};
 
+use afp_token::Token;
 use axum::Router;
 use axum::body::Body;
 use axum::extract::{Path, Query, Request, State, WebSocketUpgrade};
@@ -104,13 +105,14 @@ async fn index(
         let words = "the page is not made yet: run 'cargo xtask studio'\n";
         return (StatusCode::SERVICE_UNAVAILABLE, words).into_response();
     };
-    let Ok(nonce) = Secret::nonce() else {
+    let Ok(nonce) = Token::new() else {
         return StatusCode::INTERNAL_SERVER_ERROR.into_response();
     };
-    let text = String::from_utf8_lossy(&bytes).replace("__NONCE__", &nonce);
+    let text = String::from_utf8_lossy(&bytes).replace("__NONCE__", nonce.word());
     let policy = format!(
-        "default-src 'none'; script-src 'self'; style-src 'self' 'nonce-{nonce}'; img-src 'self' data: blob:; \
-         connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+        "default-src 'none'; script-src 'self'; style-src 'self' 'nonce-{}'; img-src 'self' data: blob:; \
+         connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+        nonce.word()
     );
     let headers = [
         (header::CONTENT_TYPE, kind.to_owned()),

@@ -99,7 +99,7 @@ impl Adapter<'_> {
             return Err("a plan runs already: 'restart' begins it again".into());
         }
         let told = launch.token.as_deref().unwrap_or_default();
-        if self.token.as_deref().is_some_and(|token| !is_same(token, told)) {
+        if self.token.as_ref().is_some_and(|token| !token.is(told)) {
             return Err("'token' is the one that 'afpc dap' printed".into());
         }
         if launch.speed.is_some_and(|speed| !(speed > 0.0 && speed.is_finite())) {
@@ -204,12 +204,6 @@ impl Adapter<'_> {
         self.breakpoints.filters = filters;
         Ok(Value::Null)
     }
-}
-
-/// Whether two texts are the same, in a time that does not tell how much of them is.
-fn is_same(one: &str, other: &str) -> bool {
-    let differing = one.bytes().zip(other.bytes()).fold(0, |all, (a, b)| all | (a ^ b));
-    one.len() == other.len() && differing == 0
 }
 
 /// The number of the thread that is the flow of action.

@@ -7,6 +7,7 @@ use std::net::{Ipv4Addr, TcpListener};
 
 use afp_debug::Adapter;
 use afp_run::{EXIT_OK, RunError, say};
+use afp_token::Token;
 use clap::Args;
 
 use crate::plan_file::{NoPlan, PlanFile};
@@ -65,9 +66,9 @@ fn listen(port: u16, linked: &Linked<'_>) -> Result<(), RunError> {
     let wanted = format!("127.0.0.1:{port}");
     let failed = RunError::file("cannot listen on", wanted.as_ref());
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(failed)?;
-    let token = token().map_err(RunError::file("cannot make", "a token".as_ref()))?;
+    let token = Token::new().map_err(RunError::file("cannot make", "a token".as_ref()))?;
     let port = listener.local_addr().map_or(port, |address| address.port());
-    say(format!("listening on 127.0.0.1:{port}, token {token}\n"));
+    say(format!("listening on 127.0.0.1:{port}, token {}\n", token.word()));
     for stream in listener.incoming() {
         let Ok(stream) = stream else { continue };
         let Ok(back) = stream.try_clone() else { continue };
@@ -78,11 +79,4 @@ fn listen(port: u16, linked: &Linked<'_>) -> Result<(), RunError> {
         }
     }
     Ok(())
-}
-
-/// A word that nobody guesses.
-fn token() -> std::io::Result<String> {
-    let mut bytes = [0; 16];
-    getrandom::fill(&mut bytes).map_err(|why| std::io::Error::other(why.to_string()))?;
-    Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
 }

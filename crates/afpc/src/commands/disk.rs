@@ -12,19 +12,15 @@ use crate::plan_file::read_used;
 #[derive(Debug)]
 pub struct Disk;
 
-/// Folders deeper than this are not searched for plans.
-const DEPTH: usize = 12;
-
 impl Host for Disk {
     fn read(&self, path: &str) -> Result<String, String> {
         read_used(path)
     }
 
     fn plan_files(&self, folder: &str) -> Vec<String> {
-        let mut paths = Vec::new();
-        search(Path::new(folder), DEPTH, &mut paths);
-        paths.sort();
-        paths
+        let files = afp_project::files(Path::new(folder)).into_iter();
+        let plans = files.filter(|path| path.extension().is_some_and(|ending| ending == "afp"));
+        plans.filter_map(|path| Some(path.to_str()?.to_owned())).collect()
     }
 
     fn built_in(&self, name: &str, text: &str) -> Option<String> {
@@ -36,26 +32,5 @@ impl Host for Disk {
         fs::create_dir_all(&folder).ok()?;
         write_whole("cannot write the toolbox", &path, text).ok()?;
         path.to_str().map(str::to_owned)
-    }
-}
-
-/// The plan files and toolboxes below a folder; hidden folders and those that builds fill are left out.
-fn search(folder: &Path, depth: usize, paths: &mut Vec<String>) {
-    let Ok(entries) = fs::read_dir(folder) else { return };
-    for entry in entries.flatten() {
-        let (name, path) = (entry.file_name(), entry.path());
-        let name = name.to_string_lossy();
-        // Links are not followed, so that no circle is walked.
-        let Ok(kind) = entry.file_type() else { continue };
-        if kind.is_dir()
-            && depth > 0
-            && !name.starts_with('.')
-            && name != "target"
-            && name != "node_modules"
-        {
-            search(&path, depth - 1, paths);
-        } else if kind.is_file() && name.ends_with(".afp") {
-            paths.extend(path.to_str().map(str::to_owned));
-        }
     }
 }
