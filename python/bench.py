@@ -19,7 +19,10 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
 
+import numpy as np
+
 import afp
+import afp.gym
 
 ROOT = Path(__file__).resolve().parents[1]
 PLAN = ROOT / "plans/wall_following.afp"
@@ -106,6 +109,25 @@ def threads_gain() -> float:
     return max(ours for ours, _ in pairs) / max(theirs for _, theirs in pairs)
 
 
+def robots_gain() -> float:
+    """What many robots at once gain on one after the other, against what two processes gain on arithmetic."""
+    many, steps = 16, 25
+    room = afp.World.random(3)
+    one, all = afp.gym.CarbotEnv(room, ends=[]), afp.gym.CarbotVectorEnv(many, room, ends=[])
+    one.reset(seed=0)
+    all.reset(seed=0)
+    action = np.array([0.3, 0.3])
+    actions = np.tile(action, (many, 1))
+
+    def pair(processes: ProcessPoolExecutor) -> tuple[float, float]:
+        alone = seconds(lambda: [one.step(action) for _ in range(many * steps)])
+        return alone / seconds(lambda: [all.step(actions) for _ in range(steps)]), gain(processes, count)
+
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as processes:
+        pairs = [pair(processes) for _ in range(ROUNDS)]
+    return max(ours for ours, _ in pairs) / max(theirs for _, theirs in pairs)
+
+
 def interrupted() -> float:
     """Milliseconds from Ctrl-C to its exception."""
 
@@ -145,6 +167,7 @@ BARS: list[tuple[str, Callable[[], float], str, float]] = [
     ("run, against the loop of afpc run", run_cost, "<=", 1.2),
     ("step() beyond the step, us", step_cost, "<=", 3.0),
     ("two threads' gain, against two processes'", threads_gain, ">=", 0.9),
+    ("16 robots' gain, against two processes'", robots_gain, ">=", 0.9),
     ("Ctrl-C to its exception, ms", interrupted, "<=", 100.0),
     ("supervisor at 1 kHz, times real time", supervised, ">=", 20.0),
 ]

@@ -75,7 +75,12 @@ fn random_plans(toolboxes: &Toolboxes) -> io::Result<String> {
     let (mut code, mut table) = (String::new(), String::new());
     for seed in 0..wanted.unwrap_or(RANDOM_PLANS) {
         let name = format!("seed{seed}");
-        code += &module(&name, Path::new(&name), &random::plan(seed).text, toolboxes)?;
+        code += &module(
+            &name,
+            &Path::new(&name).with_extension("afp"),
+            &random::plan(seed).text,
+            toolboxes,
+        )?;
         let _ = writeln!(table, "    |script| afp_tests::drive::drive({name}::new(), script),");
     }
     let _ = write!(

@@ -56,7 +56,7 @@ pub fn run(rounds: u32, report: &mut Report) {
         presses: Vec::new(),
         failures: Vec::new(),
         plan: source.name.clone(),
-        worlds: vec![None],
+        worlds: vec![afp_sweep::Room::OfPlan],
         axes: Vec::new(),
         seeds: Seeds::new(0..LONG),
         until: Duration::from_secs(SECONDS),
@@ -67,7 +67,7 @@ pub fn run(rounds: u32, report: &mut Report) {
     let setting = setting.unwrap_or_else(|why| panic!("{why}"));
     let stop = AtomicBool::new(false);
     let maker = |row: &Row<'_>| setting.make(row);
-    let engine = Engine { sweep: &sweep, maker: &maker, jobs: 1, stop: &stop };
+    let engine = Engine { sweep: &sweep, maker: &maker, jobs: 1, stop: &stop, watch: None };
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let best = measure(u64::from(rounds.div_ceil(25)).min(LONG / RUNS), engine, cores);
     tell(&best, cores, report);

@@ -1,6 +1,9 @@
 //! Edits of any kind on any text: in order, inside the text, and no harm to what could be read.
 
+use std::sync::LazyLock;
+
 use afp_draw::layout_file::Layout;
+use afp_dsl::toolbox::Toolboxes;
 use afp_ide::edit::{Binding, Change, TextEdit, apply, edit, follow};
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::item::Item;
@@ -9,6 +12,9 @@ use afp_syntax::source::Source;
 use arbitrary::{Result, Unstructured};
 
 use crate::names::Names;
+
+/// The built-in ones.
+static TOOLBOXES: LazyLock<Toolboxes> = LazyLock::new(|| afp_toolboxes::sources().collect());
 
 /// Texts that stand for formulas, types, times and items.
 const FRAGMENTS: &[&str] = &[
@@ -42,7 +48,7 @@ pub fn edits(data: &[u8]) {
     let user = format!("use \"fuzzed.afp\"\n{}", text.replace("plan ", "plan other_"));
     let files = [Source::new("fuzzed.afp", text), Source::new("user.afp", user)];
     let home = usize::from(head.first().is_some_and(|byte| byte % 2 == 1));
-    let Ok(edits) = edit(&files, home, &change) else { return };
+    let Ok(edits) = edit(&files, &TOOLBOXES, home, &change) else { return };
     for (place, file) in files.iter().enumerate() {
         let own: Vec<_> =
             edits.iter().filter(|edit| usize::from(edit.span.file) == place).cloned().collect();
@@ -69,7 +75,7 @@ fn errors(text: &str) -> usize {
 }
 
 fn change(bytes: &mut Unstructured<'_>, names: &Names) -> Result<Change> {
-    let which = bytes.int_in_range(0..=20)?;
+    let which = bytes.int_in_range(0..=21)?;
     let item = item(bytes, names)?;
     let name = names.choose(bytes)?;
     let fragment = (*bytes.choose(FRAGMENTS)?).to_owned();
@@ -105,6 +111,7 @@ fn change(bytes: &mut Unstructured<'_>, names: &Names) -> Result<Change> {
             let elements = vec![item.name().to_owned(), names.choose(bytes)?];
             Change::Extract { plan, elements, new_plan: "Fresh".into(), element: "fresh".into() }
         }
+        20 => Change::SetNote { item, text: fragment },
         _ => Change::Inline { plan, element: name },
     })
 }

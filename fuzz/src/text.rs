@@ -143,7 +143,11 @@ pub fn scenario(data: &[u8]) {
 /// The texts of the plans that scenarios may be for.
 fn plan_file(path: &str) -> Result<String, String> {
     const PLANS: &[(&str, &str)] = &[
+        ("plans/avoid_obstacle.afp", include_str!("../../plans/avoid_obstacle.afp")),
         ("plans/find_infrared.afp", include_str!("../../plans/find_infrared.afp")),
+        ("plans/find_object.afp", include_str!("../../plans/find_object.afp")),
+        ("plans/navigate_room.afp", include_str!("../../plans/navigate_room.afp")),
+        ("plans/patrol.afp", include_str!("../../plans/patrol.afp")),
         ("plans/patterns.afp", include_str!("../../plans/patterns.afp")),
         ("plans/wall_following.afp", include_str!("../../plans/wall_following.afp")),
     ];

@@ -14,6 +14,7 @@ import pytest
 
 import afp
 from afp import cluster
+from afp.sweeps import Spec
 
 if not os.environ.get("AFP_RAY"):
     pytest.skip("AFP_RAY is not set; the nightly suite 'python long' sets it", allow_module_level=True)
@@ -74,7 +75,7 @@ def test_a_worker_dies_and_no_run_is_lost_or_doubled(monkeypatch: pytest.MonkeyP
 def test_a_worker_with_another_plan_refuses(tmp_path: Path) -> None:
     file = tmp_path / "go.afp"
     file.write_text("use carbot\nplan Go { start go actor go: Forward(distance = 1 m) { ForwardSuccessful -> terminate } }")
-    spec = cluster.Spec.of(afp.load(file), [None], (0, 1), [], 5.0)
+    spec = cluster.Sent.of(afp.load(file), Spec([None], (0, 1), [], 5.0, {}))
     with pytest.raises(afp.AfpError, match="other versions"):
         cluster.work(spec.packed(), "another", [0])
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import gc
 import pickle
 import weakref
@@ -390,3 +391,16 @@ def test_components_go_with_their_simulation() -> None:
     run(tools, "start go actor go: Waits { Done -> terminate }", until=0.1)
     gc.collect()
     assert kept[0]() is None
+
+
+def test_an_actor_that_awaits_asyncio_is_told_what_it_can_await() -> None:
+    tools = afp.Toolbox("tools")
+
+    @tools.actor(states=["Done"])
+    async def Sleepy() -> str:
+        await asyncio.sleep(0.1)
+        return "Done"
+
+    text = "use tools plan P { start a actor a: Sleepy { Done -> terminate } }"
+    with pytest.raises(TypeError, match=r"an actor can await afp.tick\(\) only; no event loop"):
+        afp.Simulation(afp.Plan(text, toolboxes=[tools])).run(until=1.0).check()

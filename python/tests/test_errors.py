@@ -113,3 +113,25 @@ def test_numbers_of_numpy_are_numbers(wall_following: afp.Plan) -> None:
         return "Done"
 
     assert "by: float = 0.5" in tools.text and "times: int = 2" in tools.text
+
+
+def test_a_quantity_stays_one_in_whatever_it_is_computed_with() -> None:
+    angle = afp.deg(10)
+    alike = [2 * angle, np.float64(2) * angle, np.int64(2) * angle, angle * np.float32(2), angle / 0.5, sum([angle, angle]), angle + angle]
+    assert all(isinstance(it, afp.Quantity) and it.unit == "rad" and it == pytest.approx(2 * float(angle)) for it in alike)
+    assert (round(angle, 1), +angle, -angle) == (afp.rad(0.2), angle, afp.deg(-10)) and (+angle).unit == round(angle, 1).unit == "rad"
+    assert all(type(it) is float for it in (angle + 0.1, 0.1 + angle, 1 - angle, 2 / angle, angle / angle))
+    assert isinstance(np.array([1.0, 2.0]) * angle, np.ndarray) and isinstance(angle * np.arange(2), np.ndarray)
+    for wrong in (lambda: afp.cm(30) - angle, lambda: angle + afp.s(1), lambda: sum([afp.cm(1), angle])):
+        with pytest.raises(TypeError, match="have no sum and no difference"):
+            wrong()
+    with pytest.raises(TypeError):
+        "a" * angle  # type: ignore[operator]
+
+
+def test_a_number_in_an_array_of_one_is_a_number() -> None:
+    plan = afp.Plan("use std\nplan P { in f: float = 1.0 in n: int = 1 start w actor w: Wait(duration = 1 s) { Elapsed -> terminate } }")
+    entries = afp.Simulation(plan, set={"f": np.array(4.5), "n": np.array(3)}).entries
+    assert entries == {"f": 4.5, "n": 3}
+    with pytest.raises(TypeError, match="'f' is a float, not a ndarray"):
+        afp.Simulation(plan, set={"f": np.array([1.0, 2.0])})

@@ -58,3 +58,12 @@ def test_a_log_is_whole_when_the_plan_has_ended_or_the_simulation_is_gone(tmp_pa
     assert afp.Log(closed).events
     with pytest.raises(RuntimeError, match="was closed with its log"):
         simulation.run_to(2.0)
+
+
+def test_a_log_has_the_entries_at_its_end_as_a_result_has(tmp_path: Path, wall_following: afp.Plan) -> None:
+    with afp.Simulation(wall_following, log=tmp_path / "run.mcap") as simulation:
+        result = simulation.run(until=20.0)
+    log = afp.Log(tmp_path / "run.mcap")
+    assert log.entries == result.entries and len(log.configurations) > 1
+    assert log.configurations[0][1] != log.entries
+    assert set(log.columns) == set(result.columns)

@@ -195,3 +195,8 @@ def test_a_drawing_that_takes_long_is_interrupted_and_leaves_others_their_turn()
 def test_every_shipped_plan_is_in_order() -> None:
     for file in (ROOT / "plans").glob("*.afp"):
         assert afp.load(file).diagnostics == []
+
+
+def test_a_drawing_is_saved_as_it_is_shown(tmp_path: Path, wall_following: afp.Plan) -> None:
+    wall_following.save_svg(tmp_path / "plan.svg")
+    assert (tmp_path / "plan.svg").read_text(encoding="utf-8") == wall_following.svg() == wall_following._repr_svg_()

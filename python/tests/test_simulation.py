@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import copy
 import json
 import os
+import pickle
 import subprocess
 import sys
 import threading
@@ -55,11 +55,28 @@ def test_a_result_tells_everything(wall_following: afp.Plan) -> None:
     assert result.path.shape == (501, 4) and result.path.dtype == np.float64
     assert 0.5 < result.distance < 5.0 and result.timeline
     assert result.entries["walldist"] == 0.3
-    table = result.columns()
+    table = result.columns
     assert {len(column) for column in table.values()} == {len(result.events)}
     assert "WallFollowing" in result._repr_html_() and "interrupted" in repr(result)
     del simulation
     assert result.path[-1, 0] == 10.0
+
+
+def test_an_event_says_which_element_was_active_and_whether_it_answered() -> None:
+    plan = afp.Plan("""use carbot
+plan Keys {
+    start wait
+    supervise keys: CheckEscapeButtonClick { EscapeButtonClicked -> terminate }
+    actor wait: Hold { on keys { EscapeButtonClicked -> drive } }
+    actor drive: Forward { ForwardSuccessful -> drive }
+}
+""")
+    simulation = afp.Simulation(plan)
+    simulation.fire("keys", "EscapeButtonClicked", at=1.0)
+    simulation.fire("keys", "EscapeButtonClicked", at=2.0)
+    events = [event for event in simulation.run(until=3.0).events if event.kind == "event"]
+    answers = [(event.target, event.element, event.on) for event in events]
+    assert answers == [("drive", "wait", True), ("terminate", "drive", False)]
 
 
 def test_stimuli(wall_following: afp.Plan) -> None:
@@ -96,7 +113,7 @@ def test_stimuli_that_make_no_sense(wall_following: afp.Plan) -> None:
     with pytest.raises(ValueError, match="-1 is no seed"):
         afp.Simulation(wall_following, seed=-1)
     with pytest.raises(TypeError, match="cannot be pickled"):
-        copy.copy(simulation)
+        pickle.dumps(simulation)
     simulation.fire("followWall.wallTouch", "TouchSensorPressed", at=0.1)
     with pytest.raises(afp.AfpError, match="at 0.1 s: 'followWall.wallTouch' is not active"):
         simulation.run(until=1.0)
@@ -197,7 +214,7 @@ def test_the_interpreter_is_free_while_a_plan_runs(wall_following: afp.Plan) -> 
     while runner.is_alive():
         counted += 1
         try:
-            _ = simulation.time
+            _ = simulation.entries
         except RuntimeError as error:
             assert "is running" in str(error)
             busy += 1

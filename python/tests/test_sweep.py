@@ -61,8 +61,6 @@ def test_what_makes_no_sense_is_refused() -> None:
         afp.sweep(plan, vary={"way": [afp.deg(1), 2]}, progress=False)
     with pytest.raises(ValueError, match="no backend"):
         afp.sweep(plan, backend="slurm")
-    with pytest.raises(ValueError, match="step of 1"):
-        afp.sweep(plan, seeds=range(0, 9, 2))
     with pytest.raises(ValueError, match="no values"):
         afp.sweep(plan, vary={"way": []})
     with pytest.raises(ValueError, match="give how many"):
@@ -79,8 +77,6 @@ def test_what_makes_no_sense_is_refused() -> None:
         afp.sweep(plan, seeds=10**12)
     with pytest.raises(afp.PlanError):
         afp.sweep(afp.Plan("plan P {"))
-    with pytest.raises(ValueError, match="write its text"):
-        afp.sweep(plan, afp.World.parse(afp.World.random(3).text))
 
 
 def test_a_sweep_goes_on_where_it_was_stopped(tmp_path: Path) -> None:
@@ -190,7 +186,7 @@ def test_a_command_says_when_it_does_something_else(wall_following: afp.Plan) ->
 
 
 def test_the_bar_is_drawn_ten_times_a_second_and_at_the_end() -> None:
-    from afp.sweeps import Bar
+    from afp.progress import Bar
 
     shown: list[tuple[str, bool]] = []
     clock = iter(number / 100 for number in range(10_000))

@@ -62,7 +62,7 @@ with afp.Simulation(plan, log={str(tmp_path / "run.mcap")!r}) as simulation:
     result = simulation.run(until=0.2)
 log = afp.Log({str(tmp_path / "run.mcap")!r})
 runs = afp.sweep(plan, until=0.2, progress=False)
-assert result.columns() and runs.columns and log.events
+assert result.columns and runs.columns and log.events
 for call in {calls!r}:
     try:
         eval(call)

@@ -2,12 +2,16 @@
 import { command } from "./commands";
 import { finding, showingKeys } from "./finder";
 import { redo, redoLabel, undo, undoLabel } from "./history";
-import { bottom, narrow, palette, right, show, world } from "./layout";
+import { bottom, isBottom, narrow, palette, right, show, world, type Narrow } from "./layout";
 import { makeNew } from "./panes/files";
+import { current } from "./documents";
+import { sought } from "./seek";
 import { words } from "./words";
 
 export function register(): void {
-  command({ id: "find", label: words.commands, key: "Ctrl+K", run: () => (finding.value = true) });
+  command({ id: "find", label: words.commands, key: "Ctrl+K", run: () => (finding.value = "commands") });
+  command({ id: "seek", label: words.seek, key: "Ctrl+F", enabled: () => current.value !== "", run: () => (sought.value ??= "") });
+  command({ id: "goto", label: words.goto, key: "Ctrl+P", run: () => (finding.value = "things") });
   command({ id: "keys", label: words.keys, key: "?", run: () => (showingKeys.value = true) });
   command({ id: "undo", label: words.undo("…"), key: "Ctrl+Z", run: undo, enabled: () => undoLabel.value !== null });
   command({ id: "redo", label: words.redo("…"), key: ["Ctrl+Shift+Z", "Ctrl+Y"], run: redo, enabled: () => redoLabel.value !== null });
@@ -19,17 +23,21 @@ export function register(): void {
   command({ id: "inspector", label: words.inspector, run: () => toggle("inspector") });
   command({ id: "problems", label: words.problems, key: "Ctrl+Shift+M", run: () => toggle("problems") });
   command({ id: "run-pane", label: words.runPane, key: "Ctrl+Shift+U", run: () => toggle("run") });
+  command({ id: "timeline", label: words.timeline, key: "Ctrl+Shift+Y", run: () => toggle("timeline") });
+  command({ id: "scenarios", label: words.scenarios, run: () => toggle("scenarios") });
+  command({ id: "jobs", label: words.jobs, run: () => toggle("jobs") });
+  command({ id: "outline", label: words.outline, run: () => toggle("outline") });
   command({ id: "new", label: words.newPlan, run: makeNew });
 }
 
-function toggle(name: "palette" | "world" | "text" | "inspector" | "problems" | "run"): void {
-  const open = { palette: palette.value, world: world.value, problems: bottom.value === "problems", run: bottom.value === "run", text: right.value === "text", inspector: right.value === "inspector" }[name];
+function toggle(name: Narrow): void {
+  const open = name === "palette" ? palette.value : name === "world" ? world.value : bottom.value === name || right.value === name;
   if (!open) {
     show(name);
     enterSoon(name);
   } else if (name === "palette") palette.value = false;
   else if (name === "world") world.value = false;
-  else if (name === "problems" || name === "run") bottom.value = null;
+  else if (isBottom(name)) bottom.value = null;
   else right.value = null;
   if (open) narrow.value = "drawing";
 }
@@ -43,7 +51,7 @@ function step(by: number): void {
 }
 
 /** Puts the focus into a pane that is about to appear. */
-function enterSoon(name: string, frames = 20): void {
+function enterSoon(name: string, frames = 120): void {
   const pane = document.querySelector(`[data-when=${name}]`);
   // The editor comes a frame after its pane.
   const early = !pane || (name === "text" && !pane.querySelector(".cm-content"));

@@ -25,7 +25,7 @@ export function Bar() {
       <Tool icon="redo" label={words.redo(redoLabel.value)} disabled={!redoLabel.value} run={redo} />
       <ProblemCount />
       {current.value && <Controls />}
-      <Tool icon="search" label={`${words.commands} (Ctrl+K)`} run={() => (finding.value = true)} />
+      <Tool icon="search" label={`${words.commands} (Ctrl+K)`} run={() => (finding.value = "commands")} />
     </header>
   );
 }

@@ -65,11 +65,3 @@ export function listen(page: Window): void {
     found.run();
   });
 }
-
-/** Commands whose names hold all words that were typed, those that begin with them first. */
-export function matching(typed: string, all: readonly Command[]): Command[] {
-  const wanted = typed.toLowerCase().split(/\s+/).filter(Boolean);
-  const rank = (each: Command) => (each.label.toLowerCase().startsWith(wanted[0] ?? "") ? 0 : 1);
-  const fits = all.filter((each) => wanted.every((word) => each.label.toLowerCase().includes(word)));
-  return fits.map((each, at) => ({ each, at })).sort((a, b) => rank(a.each) - rank(b.each) || a.at - b.at).map(({ each }) => each);
-}

@@ -1,9 +1,10 @@
 // The texts of the page: opened from the room, changed in one place, told to the server, said to be saved by it alone.
 import { computed, signal } from "@preact/signals";
 import { attach, clear, push, record, type Change, type Step } from "./history";
-import { Refused, type Lsp } from "./lsp";
+import { LOST, Refused, type Lsp } from "./lsp";
 import { offset, position, type Range } from "./positions";
-import { select, type Part } from "./selection";
+import type { Part } from "./drawing/shapes";
+import { select } from "./selection";
 import { files, lsp, pen, type Kept } from "./session";
 import { words } from "./words";
 
@@ -42,6 +43,11 @@ export interface Told {
 }
 
 const takers = new Set<Taker>();
+
+/** Texts that the server was told since the one that is known to be written: it may have written any of them. */
+const told = new Map<string, string[]>();
+/** So many of them are kept. */
+const MOST_TOLD = 256;
 
 /** The address of the plan file that is shown; empty without one. */
 export const current = signal("");
@@ -96,21 +102,22 @@ function take(kept: Kept): void {
 /** Makes changes one after the other, tells everybody who shows a text, and the server unless it knows. */
 function make(changes: Change[], maker: Maker = "page", tell = true): Step[] {
   const steps: Step[] = [];
-  const told = new Map<string, Told[]>();
+  const made = new Map<string, Told[]>();
   for (const { uri, from, to, insert } of changes) {
     const document = documents.peek().get(uri);
     if (!document) continue;
     const before = document.text;
     const range = { start: position(before, from), end: position(before, to) };
-    told.set(uri, [...(told.get(uri) ?? []), { range, text: insert }]);
+    made.set(uri, [...(made.get(uri) ?? []), { range, text: insert }]);
     put({ ...document, text: before.slice(0, from) + insert + before.slice(to) });
     steps.push({ uri, from, removed: before.slice(from, to), inserted: insert });
   }
-  for (const [uri, contentChanges] of told) {
+  for (const [uri, contentChanges] of made) {
     if (tell) {
       const version = documents.peek().get(uri)!.version + 1;
       put({ ...documents.peek().get(uri)!, version });
       lsp().notify("textDocument/didChange", { textDocument: { uri, version }, contentChanges });
+      if (lsp().open.peek()) told.set(uri, [...(told.get(uri) ?? []), text(uri)].slice(-MOST_TOLD));
     }
     const own = changes.filter((change) => change.uri === uri);
     takers.forEach((take) => take(uri, own, maker, contentChanges));
@@ -142,13 +149,23 @@ export class Stale extends Error {}
 /** Asks for an edit and makes it, again where the text has changed meanwhile. */
 export async function change(ask: () => Promise<{ edit: WorkspaceEdit; label: string; select?: Part[] } | null>): Promise<void> {
   for (let attempt = 0; attempt < 4; attempt++) {
-    const found = await ask();
+    const found = await asked(ask);
     if (!found) return;
     try {
       return await apply(found.edit, found.label, found.select);
     } catch (why) {
       if (!(why instanceof Stale)) throw why;
     }
+  }
+}
+
+/** Asks once more where the connection was lost before the answer: an edit is computed by the server and made here. */
+async function asked<T>(ask: () => Promise<T>): Promise<T> {
+  try {
+    return await ask();
+  } catch (why) {
+    if (why instanceof Refused && why.code === LOST) return ask();
+    throw why;
   }
 }
 
@@ -189,6 +206,7 @@ export function begin(ask: (title: string, body: string, choices: string[]) => P
     const document = documents.peek().get(uri);
     if (!document) return;
     const base = version === document.version ? document.text : document.base;
+    if (!failed && version === document.version) told.delete(uri);
     put(failed ? { ...document, failed } : { ...document, written: Math.max(document.written, version), base, failed: null });
   });
   lsp().on("afp/changed", ({ uri, text: now, clean }: { uri: string; text: string; clean: boolean }) => {
@@ -239,9 +257,12 @@ export async function again(first: Lsp): Promise<void> {
     const { text: theirs, etag } = await first.request<Kept>("afp/read", { uri });
     const { text: mine, base, version: before } = documents.peek().get(uri)!;
     const version = before + 1;
+    // What was killed may have written more than it could say.
+    const ours = theirs === base || told.get(uri)?.includes(theirs);
+    told.delete(uri);
     first.notify("textDocument/didOpen", { textDocument: { uri, languageId: "afp", version, text: theirs } });
     put({ ...documents.peek().get(uri)!, version, written: version, etag, base: theirs, failed: null });
-    if (theirs === base && mine !== base) {
+    if (ours && mine !== theirs) {
       first.notify("textDocument/didChange", { textDocument: { uri, version: version + 1 }, contentChanges: [{ text: mine }] });
       put({ ...documents.peek().get(uri)!, version: version + 1 });
     } else if (theirs !== mine) {

@@ -1,18 +1,23 @@
-// `Ctrl+K`: every command by its name; `?`: every key.
+// `Ctrl+K`: every command by its name; `Ctrl+P`: every plan, element and entry; `?`: every key.
 import { signal } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
-import { commands, isEnabled, keysOf, matching, type Command } from "./commands";
+import type { ComponentChildren } from "preact";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { commands, isEnabled, keysOf, type Command } from "./commands";
+import { nameOf } from "./documents";
+import { report } from "./panes/files";
+import { reveal, symbols } from "./places";
+import { matching } from "./ranking";
 import { words } from "./words";
 
-export const finding = signal(false);
+/** Which list is open. */
+export const finding = signal<"commands" | "things" | null>(null);
 export const showingKeys = signal(false);
-const typed = signal("");
-const chosen = signal(0);
 
 export function Finder() {
   return (
     <>
-      {finding.value && <Find />}
+      {finding.value === "commands" && <Commands />}
+      {finding.value === "things" && <Things />}
       {showingKeys.value && <Keys />}
     </>
   );
@@ -32,14 +37,32 @@ function modal(close: () => void) {
   return { ref: dialog, onCancel: close, onClick: click };
 }
 
-function Find() {
-  const close = (): void => {
-    [finding.value, typed.value, chosen.value] = [false, "", 0];
-  };
+interface Found {
+  id: string;
+  label: string;
+  hint?: ComponentChildren;
+  run(): unknown;
+}
+
+interface Given {
+  label: string;
+  hint: string;
+  nothing: string;
+  /** What has the words that were typed, the best first. */
+  find(typed: string): readonly Found[];
+}
+
+/** A field, and below it what was found; `Enter` or a click takes one. */
+function Picker({ label, hint, nothing, find }: Given) {
+  const [typed, setTyped] = useState("");
+  const [chosen, setChosen] = useState(0);
+  const list = useRef<HTMLUListElement>(null);
+  const close = (): void => void (finding.value = null);
   const given = modal(close);
-  const found = matching(typed.value, commands.value.filter(isEnabled));
-  const at = Math.min(chosen.value, found.length - 1);
-  const run = (one: Command | undefined): void => {
+  const found = find(typed);
+  const at = Math.min(chosen, found.length - 1);
+  useEffect(() => list.current?.querySelector("[aria-selected=true]")?.scrollIntoView({ block: "nearest" }), [at]);
+  const run = (one: Found | undefined): void => {
     if (!one) return;
     close();
     // Once the focus is back where it was.
@@ -47,29 +70,55 @@ function Find() {
   };
   const key = (event: KeyboardEvent): void => {
     const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
-    if (step) chosen.value = (at + step + found.length) % Math.max(1, found.length);
+    if (step) setChosen((at + step + found.length) % Math.max(1, found.length));
     else if (event.key === "Enter") run(found[at]);
     else return;
     event.preventDefault();
   };
   return (
-    <dialog class="finder" aria-label={words.commands} {...given}>
+    <dialog class="finder" aria-label={label} {...given}>
       <input
         role="combobox" aria-expanded="true" aria-controls="found" aria-activedescendant={found[at] ? `found-${at}` : undefined}
-        aria-label={words.findCommand} placeholder={words.findCommand} spellcheck={false} value={typed.value} onKeyDown={key}
-        onInput={(event) => { typed.value = event.currentTarget.value; chosen.value = 0; }}
+        aria-label={hint} placeholder={hint} spellcheck={false} value={typed} onKeyDown={key}
+        onInput={(event) => { setTyped(event.currentTarget.value); setChosen(0); }}
       />
-      <ul id="found" role="listbox" aria-label={words.commands}>
+      <ul id="found" role="listbox" aria-label={label} ref={list}>
         {found.map((each, place) => (
           <li id={`found-${place}`} role="option" aria-selected={place === at} onClick={() => run(each)} key={each.id}>
             <span>{each.label}</span>
-            {keysOf(each).slice(0, 1).map((key) => <kbd key={key}>{key}</kbd>)}
+            {each.hint}
           </li>
         ))}
       </ul>
-      {found.length === 0 && <p class="empty">{words.noCommand}</p>}
+      {found.length === 0 && <p class="empty">{nothing}</p>}
     </dialog>
   );
+}
+
+function Commands() {
+  const found = (one: Command): Found => ({ ...one, hint: keysOf(one).slice(0, 1).map((key) => <kbd key={key}>{key}</kbd>) });
+  const find = (typed: string): Found[] => matching(typed, commands.value.filter(isEnabled)).map(found);
+  return <Picker label={words.commands} hint={words.findCommand} nothing={words.noCommand} find={find} />;
+}
+
+/** Every plan, element and entry of the folder. */
+function Things() {
+  const [all, setAll] = useState<readonly Found[]>([]);
+  useEffect(() => void things().then(setAll, report), []);
+  return <Picker label={words.goto} hint={words.gotoHint} nothing={words.noThing} find={(typed) => matching(typed, all).slice(0, MOST)} />;
+}
+
+/** So many are shown; who types more of the name sees the others. */
+const MOST = 60;
+
+async function things(): Promise<Found[]> {
+  const all = await symbols();
+  return all.map(({ name, container, uri, range }, nth) => ({
+    id: String(nth),
+    label: name,
+    hint: <small>{[container, nameOf(uri)].filter(Boolean).join(" · ")}</small>,
+    run: () => reveal(uri, range, "other"),
+  }));
 }
 
 function Keys() {

@@ -1,8 +1,9 @@
 // Which panes are open, and how wide they are; remembered by the browser.
 import { effect, signal } from "@preact/signals";
 
-export type Right = "inspector" | "text";
-export type Bottom = "problems" | "run";
+export type Right = "inspector" | "text" | "outline";
+export type Bottom = "problems" | "run" | "timeline" | "scenarios" | "jobs";
+export const BOTTOMS: readonly Bottom[] = ["problems", "run", "timeline", "scenarios", "jobs"];
 export type Narrow = "palette" | "drawing" | "world" | Right | Bottom;
 
 export const palette = signal(true);
@@ -11,7 +12,7 @@ export const world = signal(true);
 export const right = signal<Right | null>("inspector");
 export const bottom = signal<Bottom | null>(null);
 /** Widths in pixels. */
-export const widths = signal({ world: 340, inspector: 340, text: 460 });
+export const widths = signal({ world: 340, inspector: 340, text: 460, outline: 340 });
 /** The pane that is shown where there is room for one alone. */
 export const narrow = signal<Narrow>("drawing");
 
@@ -23,9 +24,9 @@ export function begin(storage: Storage): void {
     const kept = JSON.parse(storage.getItem(KEY) ?? "{}");
     if (typeof kept.palette === "boolean") palette.value = kept.palette;
     if (typeof kept.world === "boolean") world.value = kept.world;
-    if (["inspector", "text", null].includes(kept.right)) right.value = kept.right;
-    if (["problems", "run", null].includes(kept.bottom)) bottom.value = kept.bottom;
-    for (const name of ["world", "inspector", "text"] as const) {
+    if (["inspector", "text", "outline", null].includes(kept.right)) right.value = kept.right;
+    if ([...BOTTOMS, null].includes(kept.bottom)) bottom.value = kept.bottom;
+    for (const name of ["world", "inspector", "text", "outline"] as const) {
       const width = kept.widths?.[name];
       if (Number.isFinite(width)) widths.value = { ...widths.value, [name]: clamp(width) };
     }
@@ -40,11 +41,13 @@ export function begin(storage: Storage): void {
 
 export const clamp = (width: number): number => Math.round(Math.min(900, Math.max(220, width)));
 
+export const isBottom = (pane: string): pane is Bottom => BOTTOMS.some((each) => each === pane);
+
 /** Shows a pane, wherever it is. */
 export function show(pane: Narrow): void {
   narrow.value = pane;
   if (pane === "palette") palette.value = true;
   else if (pane === "world") world.value = true;
-  else if (pane === "problems" || pane === "run") bottom.value = pane;
+  else if (isBottom(pane)) bottom.value = pane;
   else if (pane !== "drawing") right.value = pane;
 }

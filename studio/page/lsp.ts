@@ -20,6 +20,9 @@ export class Refused extends Error {
   }
 }
 
+/** The number of an answer that will not come: the connection was lost. */
+export const LOST = 0;
+
 /** The part of a WebSocket that is used, so that tests bring their own. */
 export interface Socket {
   send(text: string): void;
@@ -108,7 +111,7 @@ export function connect(
       socket = null;
       open.value = false;
       for (const [id, each] of asked) {
-        if (each.sent) each.reject(new Refused(0, words.connectionLost));
+        if (each.sent) each.reject(new Refused(LOST, words.connectionLost));
         if (each.sent) asked.delete(id);
       }
       setTimeout(begin, WAITS[Math.min(attempts++, WAITS.length - 1)]);

@@ -3,7 +3,8 @@ import { effect, signal } from "@preact/signals";
 import { current, isOpen, open } from "./documents";
 import type { Position, Range } from "./positions";
 import { lsp } from "./session";
-import { origin, select, selected, type Origin, type Part } from "./selection";
+import type { Part } from "./drawing/shapes";
+import { origin, select, selected, type Origin } from "./selection";
 
 /** Where the text pane shall put its cursor: set by whoever selects elsewhere, taken by the pane. */
 export const shown = signal<{ uri: string; range: Range; focus: boolean } | null>(null);
@@ -15,6 +16,27 @@ export const itemAt = (uri: string, position: Position): Promise<Part | null> =>
 /** The place of an item, or of a part of it. */
 export const spanOf = (uri: string, { item, part }: Part): Promise<Range | null> =>
   lsp().request<Range | null>("afp/spanOf", { textDocument: { uri }, item, ...(part ? { part } : {}) });
+
+/** Something of the folder that has a name. */
+export interface Named {
+  name: string;
+  /** What it stands in. */
+  container: string;
+  uri: string;
+  range: Range;
+}
+
+/** Every plan, element and entry of the folder, plans first. */
+export async function symbols(): Promise<Named[]> {
+  type Symbol = { name: string; kind: number; containerName?: string | null; location: { uri: string; range: Range } };
+  const all = (await lsp().request<Symbol[] | null>("workspace/symbol", { query: "" })) ?? [];
+  const rank = [CLASS, FUNCTION, VARIABLE];
+  const known = all.filter(({ kind }) => rank.includes(kind)).sort((one, two) => rank.indexOf(one.kind) - rank.indexOf(two.kind));
+  return known.map(({ name, containerName, location }) => ({ name, container: containerName ?? "", ...location }));
+}
+
+/** The protocol's numbers of what plans, elements and entries are. */
+const [CLASS, FUNCTION, VARIABLE] = [5, 12, 13];
 
 /** Shows a place in the text, and its item in the drawing. */
 export async function reveal(uri: string, range: Range, from: Origin, focus = false): Promise<void> {

@@ -1,6 +1,8 @@
 // The screen: bar, palette, drawing, panes at the right and below, each where studio and browser window have room.
+import { h, type ComponentChild } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import { Bar, Tool } from "./bar";
+import { Book } from "./book";
 import { Dialogs } from "./dialogs";
 import { conflicts, current, nameOf } from "./documents";
 import { EndCard } from "./debug/controls";
@@ -9,12 +11,18 @@ import { Finder } from "./finder";
 import { Sign } from "./icons";
 import { bottom, clamp, narrow, palette, right, show, widths, world, type Bottom as Lower, type Narrow, type Right } from "./layout";
 import { report, trouble, Welcome } from "./panes/files";
+import { ForcedBar } from "./panes/forced";
 import { Guide } from "./panes/guide";
 import { Inspector } from "./panes/inspector";
+import { Jobs } from "./panes/jobs";
+import { Outline } from "./panes/outline";
 import { Palette } from "./panes/palette";
 import { Problems } from "./panes/problems";
 import { RunPane } from "./panes/run";
+import { Scenarios } from "./panes/scenarios";
 import { TextPane } from "./panes/text";
+import { Timeline } from "./panes/timeline";
+import { WhyCard } from "./panes/why";
 import { WorldPane } from "./panes/world";
 import { hello, lsp, pen } from "./session";
 import { words } from "./words";
@@ -24,15 +32,17 @@ export function Screen() {
   return (
     <div class="studio" data-narrow={narrow.value}>
       <Bar />
+      <ForcedBar />
       <Banners />
       <main class="middle">
         {palette.value && current.value && <Side />}
         <Centre />
-        {current.value && <RightPanes />}
+        <RightPanes />
       </main>
       <Bottom />
       {current.value && <NarrowBar />}
       <Dialogs />
+      <Book />
       <Finder />
     </div>
   );
@@ -79,6 +89,7 @@ function Centre() {
     <section class="pane drawing" data-pane="drawing" data-when="drawing" aria-label={words.drawing}>
       {current.value ? <Canvas /> : <Welcome />}
       <EndCard />
+      <WhyCard />
       <Guide />
       {!palette.value && current.value && (
         <button class="opener" onClick={() => (palette.value = true)} aria-label={words.open(words.palette)} title={words.open(words.palette)}>
@@ -101,11 +112,13 @@ const TABS: { name: Beside; label: string }[] = [
   { name: "world", label: words.world },
   { name: "inspector", label: words.inspector },
   { name: "text", label: words.text },
+  { name: "outline", label: words.outline },
 ];
 
 /** Beside the drawing: the world, and below it what else is open. */
 function RightPanes() {
-  const open = right.value;
+  // Before there is a plan, there is its world.
+  const open = current.value ? right.value : null;
   const of: Beside | null = open ?? (world.value ? "world" : null);
   const isOpen = (name: Beside): boolean => (name === "world" ? world.value : open === name);
   const toggle = (name: Beside): void => {
@@ -124,14 +137,14 @@ function RightPanes() {
             </section>
           )}
           {open && (
-            <section class="pane right" data-pane="right" data-when={open} aria-label={open === "text" ? words.text : words.inspector}>
-              <div class="body" tabIndex={-1}>{open === "text" ? <TextPane /> : <Inspector />}</div>
+            <section class="pane right" data-pane="right" data-when={open} aria-label={words[open]}>
+              <div class="body" tabIndex={-1}>{open === "text" ? <TextPane /> : open === "outline" ? <Outline /> : <Inspector />}</div>
             </section>
           )}
         </div>
       )}
       <nav class="rail" aria-label={words.panes}>
-        {TABS.map(({ name, label }) => (
+        {TABS.filter(({ name }) => current.value || name === "world").map(({ name, label }) => (
           <button aria-pressed={isOpen(name)} onClick={() => toggle(name)} key={name}>
             <Sign name={name} />
             <span>{label}</span>
@@ -171,7 +184,12 @@ function Divider({ of }: { of: Beside }) {
 const LOWER: { name: Lower; label: string }[] = [
   { name: "problems", label: words.problems },
   { name: "run", label: words.runPane },
+  { name: "timeline", label: words.timeline },
+  { name: "scenarios", label: words.scenarios },
+  { name: "jobs", label: words.jobs },
 ];
+
+const LOWER_PANES: Record<Lower, () => ComponentChild> = { problems: Problems, run: RunPane, timeline: Timeline, scenarios: Scenarios, jobs: Jobs };
 
 /** The pane below: what is open of it, or what was chosen where there is room for one pane alone. */
 function Bottom() {
@@ -191,7 +209,7 @@ function Bottom() {
         </div>
         <Tool icon="close" label={words.close(words.pane)} run={close} />
       </header>
-      <div class="body" tabIndex={-1}>{open === "problems" ? <Problems /> : <RunPane />}</div>
+      <div class="body" tabIndex={-1}>{h(LOWER_PANES[open], {})}</div>
     </section>
   );
 }

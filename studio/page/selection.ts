@@ -1,11 +1,6 @@
 // What is selected: items of the plan, or parts of them. Drawing, text and inspector show the same selection.
 import { signal } from "@preact/signals";
-
-export interface Part {
-  /** The path of an item, as `WallFollowing.followWall`. */
-  item: string;
-  part?: { kind: string; name?: string; nth?: number };
-}
+import type { Part } from "./drawing/shapes";
 
 export type Origin = "drawing" | "text" | "other";
 

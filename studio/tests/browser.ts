@@ -1,13 +1,15 @@
 // The real page in a real browser: `afpc studio` on a folder of the test, in Debian's Chromium.
+import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { existsSync } from "node:fs";
 import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
+import { chromium, type Browser, type BrowserContextOptions, type Locator, type Page } from "playwright-core";
 
-const AFPC = process.env.AFPC ?? "";
+/** The program. */
+export const AFPC = process.env.AFPC ?? "";
 const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
 const REASON = !AFPC ? "AFPC does not say where afpc is" : !existsSync(CHROMIUM) ? `there is no ${CHROMIUM}` : null;
 
@@ -22,17 +24,42 @@ export interface Studio {
   write(name: string, text: string): Promise<void>;
   /** Waits until a file has a text. */
   holds(name: string, text: string): Promise<void>;
+  /** Waits until a file has what a pattern says. */
+  becomes(name: string, wanted: RegExp): Promise<void>;
+  /** Kills the server, as a crash does. */
+  crash(): Promise<void>;
+  /** Starts another server on the same port, which the browser may enter. */
+  restart(): Promise<void>;
   /** Waits until the page says "saved". */
   isSaved(): Promise<void>;
+}
+
+/** What is read once it is as wanted, or when patience has ended. */
+async function settled(read: () => Promise<string>, isWanted: (now: string) => boolean): Promise<string> {
+  const end = Date.now() + PATIENCE;
+  for (;;) {
+    const now = await read();
+    if (isWanted(now) || Date.now() > end) return now;
+    await new Promise((done) => setTimeout(done, 30));
+  }
+}
+
+/** Waits until something on the page says what a pattern wants. */
+export async function shows(part: Locator, wanted: RegExp): Promise<void> {
+  assert.match(await settled(() => part.innerText(), (now) => wanted.test(now)), wanted);
 }
 
 let browser: Browser | null = null;
 after(() => browser?.close());
 
 /** Starts the server of a folder; the answer has its address and what ends it. */
-async function serve(folder: string): Promise<{ address: string; end: () => Promise<void> }> {
-  const child = spawn(AFPC, ["studio", folder, "--port", "0", "--no-open"], { stdio: ["ignore", "pipe", "pipe"] });
+async function serve(folder: string, port = "0"): Promise<{ address: string; end: () => Promise<void>; kill: () => Promise<void> }> {
+  const child = spawn(AFPC, ["studio", folder, "--port", port, "--no-open"], { stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, XDG_CONFIG_HOME: join(folder, ".config") } });
   const gone = new Promise<void>((done) => child.once("close", () => done()));
+  const kill = async (): Promise<void> => {
+    child.kill("SIGKILL");
+    await gone;
+  };
   const end = async (): Promise<void> => {
     child.kill("SIGTERM");
     const timer = setTimeout(() => child.kill("SIGKILL"), 3000);
@@ -55,34 +82,36 @@ async function serve(folder: string): Promise<{ address: string; end: () => Prom
     await end();
     throw why;
   });
-  return { address, end };
+  return { address, end, kill };
 }
 
 /** A test in the browser, on a folder with some files. What the page writes to its console as an error fails it. */
-export function inBrowser(name: string, files: Record<string, string>, run: (studio: Studio) => Promise<void>, options: BrowserContextOptions = {}): void {
-  test(name, { timeout: 60_000, skip: REASON ?? false }, async () => {
+export function inBrowser(name: string, files: Record<string, string>, run: (studio: Studio) => Promise<void>, options: BrowserContextOptions & { ignore?: RegExp; timeout?: number } = {}): void {
+  test(name, { timeout: options.timeout ?? 120_000, skip: REASON ?? false }, async () => {
     browser ??= await chromium.launch({ executablePath: CHROMIUM, args: ["--no-sandbox"] });
     const folder = await mkdtemp(join(tmpdir(), "afp-studio-"));
     for (const [file, text] of Object.entries(files)) await writeFile(join(folder, file), text);
-    const server = await serve(folder);
-    const context = await browser.newContext({ viewport: { width: 1366, height: 768 }, ...options });
+    let server = await serve(folder);
+    const { ignore, timeout: _, ...others } = options;
+    const context = await browser.newContext({ viewport: { width: 1366, height: 768 }, ...others });
     try {
       context.setDefaultTimeout(PATIENCE);
       const page = await context.newPage();
       const wrong: string[] = [];
       page.on("pageerror", (why) => wrong.push(String(why)));
-      page.on("console", (message) => message.type() === "error" && wrong.push(message.text()));
+      page.on("console", (message) => message.type() === "error" && !ignore?.test(message.text()) && wrong.push(message.text()));
       await page.goto(server.address);
       const read = (file: string) => readFile(join(folder, file), "utf8").catch(() => "");
       const write = (file: string, text: string) => writeFile(join(folder, file), text);
-      const holds = async (file: string, text: string): Promise<void> => {
-        const end = Date.now() + PATIENCE;
-        while ((await read(file)) !== text && Date.now() < end) await new Promise((done) => setTimeout(done, 30));
-        const now = await read(file);
-        if (now !== text) throw new Error(`${file} holds\n${now}\nand not\n${text}`);
+      const holds = async (file: string, text: string): Promise<void> => assert.equal(await settled(() => read(file), (now) => now === text), text);
+      const becomes = async (file: string, wanted: RegExp): Promise<void> => assert.match(await settled(() => read(file), (now) => wanted.test(now)), wanted);
+      const crash = () => server.kill();
+      const restart = async (): Promise<void> => {
+        server = await serve(folder, new URL(server.address).port);
+        await context.request.get(server.address);
       };
       const isSaved = () => page.locator(".saved.saved:not(.saving)").waitFor();
-      const failed = await run({ page, folder, read, write, holds, isSaved }).then(() => null, (why: Error) => why);
+      const failed = await run({ page, folder, read, write, holds, becomes, crash, restart, isSaved }).then(() => null, (why: Error) => why);
       if (wrong.length) throw new Error(`the page says: ${wrong.join("\n")}`, { cause: failed });
       if (failed) throw failed;
     } finally {

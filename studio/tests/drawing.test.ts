@@ -171,9 +171,11 @@ test("ports and heads are read as the engine writes them", () => {
   assert.equal(headed("var every: length").template, "");
 });
 
-test("a list is filtered by all words, what begins with them first, what is refused last", () => {
+test("a list is filtered by all words, what is called so first, then what begins with them, what is refused last", () => {
   const choice = (label: string, hint = "", refused: string | null = null) => ({ id: label, label, hint, refused });
   const all = [choice("goOn"), choice("turn", "goes round", "no"), choice("wait a go"), choice("go")];
-  assert.deepEqual(filtered(all, "go").map(({ label }) => label), ["goOn", "go", "wait a go", "turn"]);
+  assert.deepEqual(filtered(all, "go").map(({ label }) => label), ["go", "goOn", "wait a go", "turn"]);
   assert.deepEqual(filtered(all, "go wa").map(({ label }) => label), ["wait a go"]);
+  const made = [choice("new: Curve", "turns on the way"), choice("new: TurnBack"), choice("new: Turn")];
+  assert.deepEqual(filtered(made, "new: Turn").map(({ label }) => label), ["new: Turn", "new: TurnBack", "new: Curve"]);
 });

@@ -5,6 +5,8 @@ import { inBrowser } from "./browser";
 
 /** More would not be a first visit. */
 const MOST = 25;
+/** From there to a failed scenario that is shown at its moment. */
+const MORE = 10;
 
 class Mouse {
   gestures = 0;
@@ -13,7 +15,7 @@ class Mouse {
   async middle(selector: string): Promise<[number, number]> {
     const found = this.page.locator(selector).first();
     await found.waitFor();
-    await found.evaluate((node) => node.closest(".palette-list, .chooser") && node.scrollIntoView({ block: "center" }));
+    await found.evaluate((node) => node.closest(".palette-list, .chooser, .inspector, .results") && node.scrollIntoView({ block: "center" }));
     // What travels to a new place has come to rest.
     await this.page.evaluate(() => Promise.all(document.getAnimations().map((motion) => motion.finished.catch(() => {}))));
     const box = (await found.boundingBox())!;
@@ -43,13 +45,8 @@ const template = (name: string): string => `[data-template=${name}]`;
 const name = (item: string): string => `.node [data-item="Plan.${item}"] text.name`;
 const open = (item: string): string => `.node [data-item="Plan.${item}"] text.open`;
 
-inBrowser("a first plan by the mouse alone", {}, async ({ page, read }) => {
+inBrowser("a first plan by the mouse alone", {}, async ({ page, becomes }) => {
   const mouse = new Mouse(page);
-  const becomes = async (wanted: RegExp): Promise<void> => {
-    const end = Date.now() + 5000;
-    while (!wanted.test(await read("plan.afp")) && Date.now() < end) await new Promise((done) => setTimeout(done, 30));
-    assert.match(await read("plan.afp"), wanted);
-  };
   await mouse.click(".card.main");
   await page.locator('.node [data-item="Plan.start"]').waitFor();
   await mouse.drag(template("Forward"), [480, 420]);
@@ -59,22 +56,41 @@ inBrowser("a first plan by the mouse alone", {}, async ({ page, read }) => {
   await mouse.drag(template("CheckTouchSensor"), name("forward"));
   await mouse.drag(open("forward"), [760, 200]);
   await mouse.choose("new: Forward");
-  await becomes(/TouchSensorPressed -> forward2/);
+  await becomes("plan.afp", /TouchSensorPressed -> forward2/);
   await mouse.click('.inspector .row:has-text("distance")');
   await mouse.click('.inspector .value [aria-label="other sign"]');
   await mouse.click('.inspector .value [aria-label="Set"]');
-  await becomes(/forward2: Forward\(distance = -1 m\)/);
+  await becomes("plan.afp", /forward2: Forward\(distance = -1 m\)/);
   await mouse.drag(open("forward2"), [440, 200]);
   await mouse.choose("new: Turn");
-  await becomes(/actor turn: Turn/);
+  await becomes("plan.afp", /actor turn: Turn/);
   await mouse.drag(open("turn"), name("forward"));
-  await becomes(/TurnSuccessful -> forward\n/);
+  await becomes("plan.afp", /TurnSuccessful -> forward\n/);
   await mouse.click('.node [data-item="Plan.forward"] text.state');
   await mouse.choose("forward");
   await mouse.drag(template("CheckEscapeButton"), '.node [data-item="Plan.start"] text.start');
   await mouse.click(open("start"));
   await mouse.choose("end the plan");
-  await becomes(/supervise checkEscapeButton: CheckEscapeButton \{ EscapeButtonPressed -> terminate \}/);
+  await becomes("plan.afp", /supervise checkEscapeButton: CheckEscapeButton \{ EscapeButtonPressed -> terminate \}/);
   await page.locator(".count", { hasText: "ready" }).waitFor();
   assert.ok(mouse.gestures <= MOST, `${mouse.gestures} gestures`);
-});
+
+  const more = mouse.gestures + MORE;
+  await mouse.click(".count");
+  await mouse.click('.bottom [role=tab]:text-is("Scenarios")');
+  await mouse.click('.jobs-pane button:text-is("Write some")');
+  await page.locator(".jobs-pane .busy").waitFor({ state: "detached", timeout: 30_000 });
+  await mouse.click('.jobs-pane button:text-is("Run scenarios")');
+  await page.locator(".jobs-pane .sum", { hasText: "passed" }).waitFor({ timeout: 30_000 });
+  await mouse.click('.node text:text-is("checkTouchSensor")');
+  await mouse.click('.inspector .periods button:text-is("50 ms")');
+  await becomes("plan.afp", /checkTouchSensor: CheckTouchSensor every 50 ms/);
+  await mouse.click('.jobs-pane button:text-is("Run scenarios")');
+  await page.locator(".jobs-pane .sum", { hasText: "failed" }).waitFor({ timeout: 30_000 });
+  await page.locator(".failed-number").first().waitFor();
+  await mouse.click(".results .failed .show");
+  await page.locator(".clock.held").waitFor();
+  await page.locator(".lane.flow rect").first().waitFor();
+  await page.waitForFunction(() => Number.parseFloat(document.querySelector(".clock")!.textContent!) > 0);
+  assert.ok(mouse.gestures <= more, `${mouse.gestures - more + MORE} more gestures`);
+}, { timeout: 150_000 });

@@ -124,3 +124,28 @@ test("arrows carry the selection, Shift farther, Enter puts it down and Escape b
   assert.deepEqual(pressed(two!, { key: "Escape", shiftKey: false }), [null, { do: "putBack" }]);
   assert.equal(pressed(two!, { key: "a", shiftKey: false }), null);
 });
+
+test("a finger that rests opens the menu, and means nothing more; one that has moved does not, and a mouse never", () => {
+  const [state, effects] = run(down(ELEMENT, [100, 100], { touch: true }), { type: "rest", id: 1 }, move([160, 100]), up([160, 100]));
+  assert.equal(state.is, "idle");
+  assert.deepEqual(effects, [{ do: "menu", hit: ELEMENT, at: [100, 100] }]);
+  const [, panned] = run(down(null, [100, 100], { touch: true }), move([160, 100]), { type: "rest", id: 1 });
+  assert.deepEqual(done(panned), ["pan"]);
+  const [pressed, none] = run(down(ELEMENT), { type: "rest", id: 1 });
+  assert.deepEqual([pressed.is, none], ["pressed", []]);
+});
+
+test("a supervisor is drawn to another element, its element is moved", () => {
+  const touch: Hit = { on: "element", part: { item: "P.go.touch" }, element: "P.go" };
+  const [, drawn] = run(down(touch), move([160, 100]), up([200, 100]));
+  assert.deepEqual(done(drawn), ["draw", "lead", "connect"]);
+  const [, moved] = run(down(ELEMENT), move([160, 100]), up([200, 100]));
+  assert.deepEqual(done(moved), ["lift", "drag", "drop"]);
+});
+
+test("with several to be selected, a finger draws a box and a tap adds", () => {
+  const [, boxed] = run(down(null, [100, 100], { touch: true, shift: true }), move([160, 100]), up([200, 100]));
+  assert.deepEqual(done(boxed), ["box", "boxed"]);
+  const [, tapped] = run(down(ELEMENT, [100, 100], { touch: true, shift: true }), up([100, 100]));
+  assert.deepEqual(tapped, [{ do: "click", hit: ELEMENT, at: [100, 100], add: true }]);
+});

@@ -1,7 +1,8 @@
 // Gestures of the drawing, by mouse and by keys, each ending in the bytes of the files.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
-import { inBrowser, type Studio } from "./browser";
+import { inBrowser } from "./browser";
+import { exit, middle, name, type Spot } from "./spots";
 
 const PLAN = `use carbot
 
@@ -17,17 +18,6 @@ plan P {
     }
 }
 `;
-
-type Spot = [x: number, y: number];
-
-/** The middle of something drawn. */
-async function middle(page: Page, selector: string): Promise<Spot> {
-  const box = await page.locator(selector).first().boundingBox();
-  assert.ok(box, selector);
-  return [box.x + box.width / 2, box.y + box.height / 2];
-}
-const name = (item: string): string => `.node [data-item="${item}"] text.name`;
-const exit = (item: string, label: string): string => `.node [data-item="${item}"] text:text-is("${label}")`;
 
 async function drag(page: Page, from: Spot, to: Spot, drop = true): Promise<void> {
   await page.mouse.move(...from);
@@ -53,13 +43,6 @@ async function choose(page: Page, typed: string, label: string): Promise<void> {
   await list.waitFor({ state: "detached" });
 }
 
-/** Waits until a file holds what a pattern says. */
-async function becomes({ read }: Studio, file: string, wanted: RegExp): Promise<void> {
-  const end = Date.now() + 5000;
-  while (!wanted.test(await read(file)) && Date.now() < end) await new Promise((done) => setTimeout(done, 30));
-  assert.match(await read(file), wanted);
-}
-
 inBrowser("a drag writes one place on the grid, Escape none, undo gives the first bytes", { "plan.afp": PLAN }, async (studio) => {
   const { page, read, holds } = studio;
   await ready(page, "P.turn");
@@ -75,7 +58,7 @@ inBrowser("a drag writes one place on the grid, Escape none, undo gives the firs
   assert.deepEqual(await middle(page, name("P.turn")), from);
   assert.equal(places, 0);
   await drag(page, from, [from[0] + 130, from[1] + 70]);
-  await becomes(studio, "plan.afp.layout", /^P\.turn \d+ \d+\n$/);
+  await studio.becomes("plan.afp.layout", /^P\.turn \d+ \d+\n$/);
   assert.equal(places, 1);
   const [, x, y] = (await read("plan.afp.layout")).trim().split(" ").map(Number);
   assert.deepEqual([x! % 12, y! % 12], [0, 0]);
@@ -111,14 +94,14 @@ inBrowser("templates are dropped on the ground, onto an element and onto an edge
     return middle(page, `[data-template=${name}]`);
   };
   await drag(page, await template("CheckTouchSensor"), await middle(page, name("P.go")));
-  await becomes(studio, "plan.afp", /actor go: Forward \{\n        supervise checkTouchSensor: CheckTouchSensor \{\}/);
+  await studio.becomes("plan.afp", /actor go: Forward \{\n        supervise checkTouchSensor: CheckTouchSensor \{\}/);
   await drag(page, await template("SearchWall"), [330, 640]);
-  await becomes(studio, "plan.afp", /actor searchWall: SearchWall \{\}/);
-  await becomes(studio, "plan.afp.layout", /P\.searchWall -?\d+ -?\d+/);
+  await studio.becomes("plan.afp", /actor searchWall: SearchWall \{\}/);
+  await studio.becomes("plan.afp.layout", /P\.searchWall -?\d+ -?\d+/);
   await page.locator('.node [data-item="P.searchWall"]').waitFor();
   const line = await page.locator('.way [data-item="P.go"][data-exit="ForwardSuccessful"] .flow').boundingBox();
   await drag(page, await template("Curve"), [line!.x + line!.width / 2, line!.y + 6]);
-  await becomes(studio, "plan.afp", /ForwardSuccessful -> curve/);
+  await studio.becomes("plan.afp", /ForwardSuccessful -> curve/);
   assert.match(await read("plan.afp"), /actor curve: Curve \{\n\s*CurveSuccessful -> turn\n/);
 });
 
@@ -130,17 +113,17 @@ inBrowser("a value is set by steps, sign and formula; a name where it stands; a 
   await popup.getByRole("button", { name: "other sign" }).click();
   await popup.getByRole("button", { name: "more" }).click();
   await popup.getByRole("button", { name: "Set" }).click();
-  await becomes(studio, "plan.afp", /Turn\(angle = -\d+ deg\)/);
+  await studio.becomes("plan.afp", /Turn\(angle = -\d+ deg\)/);
   await popup.waitFor({ state: "detached" });
   await page.mouse.dblclick(...(await middle(page, name("P.turn"))));
   await page.locator("input.rename").fill("left");
   await page.keyboard.press("Enter");
-  await becomes(studio, "plan.afp", /-> left[\s\S]*actor left: Turn/);
+  await studio.becomes("plan.afp", /-> left[\s\S]*actor left: Turn/);
   await page.locator('.node [data-item="P.go"]').waitFor();
   await page.mouse.click(...(await middle(page, name("P.go"))));
   await page.locator(".inspector-head", { hasText: "go" }).waitFor();
   await page.locator("[data-template=CheckEscapeButton]").click();
-  await becomes(studio, "plan.afp", /actor go: Forward \{\n        supervise checkEscapeButton: CheckEscapeButton/);
+  await studio.becomes("plan.afp", /actor go: Forward \{\n        supervise checkEscapeButton: CheckEscapeButton/);
 });
 
 inBrowser("an entry dragged onto an element or a port is bound to it, elsewhere the reason is said", { "plan.afp": PLAN.replace("    start go", "    var gap: length = 20 cm\n    var way: angle = 5 deg\n\n    start go") }, async (studio) => {
@@ -149,10 +132,10 @@ inBrowser("an entry dragged onto an element or a port is bound to it, elsewhere 
   const entry = (name: string): Promise<Spot> => middle(page, `.node [data-item="P.start"] text.entry:text-is("${name}")`);
   await drag(page, await entry("gap"), await middle(page, name("P.go")));
   await choose(page, "distance", "distance");
-  await becomes(studio, "plan.afp", /Forward\(distance = gap\)/);
+  await studio.becomes("plan.afp", /Forward\(distance = gap\)/);
   await page.locator('.node [data-item="P.go"] text.entry').waitFor();
   await drag(page, await entry("way"), await middle(page, '.node [data-item="P.turn"] text.formula'));
-  await becomes(studio, "plan.afp", /Turn\(angle = way\)/);
+  await studio.becomes("plan.afp", /Turn\(angle = way\)/);
   await drag(page, await entry("way"), await middle(page, '.node [data-item="P.go"] text.entry'));
   await page.locator(".board-notice", { hasText: "angle" }).waitFor();
   await drag(page, await entry("way"), [300, 600]);
@@ -189,18 +172,18 @@ inBrowser("the selection is moved, copied, pasted and removed by keys", { "plan.
   await page.keyboard.press("Escape");
   assert.equal(await read("plan.afp.layout"), "");
   for (const key of ["m", "ArrowRight", "Shift+ArrowDown", "Enter"]) await page.keyboard.press(key);
-  await becomes(studio, "plan.afp.layout", /^P\.turn -?\d+ \d+\n$/);
+  await studio.becomes("plan.afp.layout", /^P\.turn -?\d+ \d+\n$/);
   await page.keyboard.press("Control+Shift+l");
   await holds("plan.afp.layout", "");
   await page.keyboard.press("Control+d");
-  await becomes(studio, "plan.afp", /actor turn2: Turn\(angle = 90 deg\)/);
+  await studio.becomes("plan.afp", /actor turn2: Turn\(angle = 90 deg\)/);
   await page.locator('.node [data-item="P.turn2"]').waitFor();
   await page.keyboard.press("Delete");
   await holds("plan.afp", PLAN);
   await page.locator(".board").focus();
   await page.keyboard.press("Control+a");
   await page.keyboard.press("Delete");
-  await becomes(studio, "plan.afp", /^use carbot\n\nplan P \{\s*\}\n$/);
+  await studio.becomes("plan.afp", /^use carbot\n\nplan P \{\s*\}\n$/);
   await page.keyboard.press("Control+z");
   await holds("plan.afp", PLAN);
 });
@@ -220,15 +203,15 @@ inBrowser("items are copied as text with their toolbox, cut and pasted, a superv
   await page.keyboard.press("ArrowLeft");
   await page.keyboard.press("ArrowDown");
   await page.keyboard.press("Control+v");
-  await becomes(studio, "plan.afp", /actor turn: [^}]*supervise touch: CheckTouchSensor/);
+  await studio.becomes("plan.afp", /actor turn: [^}]*supervise touch: CheckTouchSensor/);
   await page.keyboard.press("Control+z");
-  await becomes(studio, "plan.afp", new RegExp(`^${first.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")}$`));
+  await studio.holds("plan.afp", first);
   await page.keyboard.press("Home");
   await page.keyboard.press("ArrowDown");
   await page.keyboard.press("Control+x");
-  await becomes(studio, "plan.afp", /^(?![\s\S]*actor turn)/);
+  await studio.becomes("plan.afp", /^(?![\s\S]*actor turn)/);
   await page.keyboard.press("Control+v");
-  await becomes(studio, "plan.afp", /actor turn: Turn\(angle = 90 deg\)/);
+  await studio.becomes("plan.afp", /actor turn: Turn\(angle = 90 deg\)/);
 }, clipboard);
 
 const NESTED = `use carbot

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import AxeBuilder from "@axe-core/playwright";
 import type { Page } from "playwright-core";
-import { inBrowser } from "./browser";
+import { inBrowser, shows } from "./browser";
 
 const PLAN = `use carbot
 
@@ -104,7 +104,7 @@ inBrowser("completion writes a whole element, a fix mends a mistake, a name is c
   await page.keyboard.type("Tur");
   await page.locator(".cm-tooltip-autocomplete li", { hasText: "Turn" }).first().click();
   await page.locator(".cm-line", { hasText: "TurnSuccessful ->" }).waitFor();
-  assert.match(await page.locator(".cm-content").innerText(), /\n    actor turn: Turn \{\n        TurnSuccessful -> /);
+  await shows(page.locator(".cm-content"), /\n    actor turn: Turn \{\n        TurnSuccessful -> /);
   // The element, then the line and what was typed in it.
   await page.keyboard.press("Control+z");
   await page.keyboard.press("Control+z");
@@ -141,6 +141,11 @@ for (const colorScheme of ["light", "dark"] as const) {
     await page.locator(".count", { hasText: "error" }).click();
     await page.locator(".problems li").first().waitFor();
     await clean("text and problems");
+    await page.getByRole("button", { name: /^What E\d+ means/ }).first().click();
+    await page.locator("dialog.book").waitFor();
+    await clean("a page of the book");
+    await page.keyboard.press("Escape");
+    await page.locator("dialog.book").waitFor({ state: "detached" });
     await page.locator(".rail button", { hasText: "Inspector" }).click();
     await clean("inspector");
     await page.getByRole("button", { name: "Files" }).click();
@@ -155,6 +160,29 @@ for (const colorScheme of ["light", "dark"] as const) {
     await clean("keys");
   }, { colorScheme });
 }
+
+inBrowser("a code opens its page of the book, with both examples", { "plan.afp": PLAN.replace("start go", "start gone") }, async ({ page }) => {
+  await page.locator(".count", { hasText: "error" }).click();
+  const button = page.getByRole("button", { name: /^What E\d+ means/ }).first();
+  const code = await button.textContent();
+  await button.click();
+  const book = page.getByRole("dialog", { name: `What ${code} means` });
+  await book.getByRole("heading", { name: new RegExp(`^${code}:`) }).waitFor();
+  assert.ok((await book.locator("pre").count()) >= 2);
+  await book.getByRole("button", { name: "Close" }).click();
+  await book.waitFor({ state: "detached" });
+  await page.waitForFunction((text) => document.activeElement?.textContent === text, code);
+});
+
+inBrowser("a template has a page with all of its ports and states", { "plan.afp": PLAN.replace("Forward {", "Forward(\n        // : Turn\n        distance = 1 m\n    ) {") }, async ({ page }) => {
+  await page.locator('.node [data-item$=".go"] text.name').first().click({ force: true });
+  await page.getByRole("button", { name: "All about Forward" }).click();
+  const book = page.getByRole("dialog", { name: "All about Forward" });
+  await book.getByText("Drive straight ahead").waitFor();
+  await book.getByRole("listitem").filter({ hasText: "ForwardSuccessful" }).waitFor();
+  await page.keyboard.press("Escape");
+  await book.waitFor({ state: "detached" });
+});
 
 inBrowser("keys reach every pane; commands are found by name", { "plan.afp": PLAN }, async ({ page }) => {
   await page.locator(".count", { hasText: "ready" }).waitFor();

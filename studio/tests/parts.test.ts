@@ -1,7 +1,8 @@
 // Small parts without a page: positions, Markdown, names of keys, commands, the socket.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { command, commandFor, commands, isForField, keyName, matching } from "../page/commands";
+import { command, commandFor, commands, isForField, keyName } from "../page/commands";
+import { matching } from "../page/ranking";
 import { connect, type Socket } from "../page/lsp";
 import { blocks } from "../page/markdown";
 import { offset, position } from "../page/positions";

@@ -11,6 +11,8 @@ const openText = async (page: Page): Promise<void> => {
 };
 
 const type = async (page: Page, words: string): Promise<void> => {
+  // A page behind another one draws no frames.
+  await page.bringToFront();
   await page.locator(".cm-line", { hasText: "start go" }).click();
   await page.keyboard.press("End");
   await page.keyboard.type(words);

@@ -4,7 +4,7 @@ import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import AxeBuilder from "@axe-core/playwright";
 import { moved } from "../page/debug/breakpoints";
-import { inBrowser } from "./browser";
+import { inBrowser, shows } from "./browser";
 
 const PAPER = readFileSync(new URL("../../plans/wall_following.afp", import.meta.url), "utf8");
 
@@ -52,12 +52,12 @@ inBrowser("runs, shows the active element through sub-plans, pauses, steps and e
   await page.getByRole("button", { name: "Go on" }).click();
   const card = page.locator(".end-card");
   await card.waitFor();
-  assert.match(await card.innerText(), /Outer ended as it says itself, after 6\.5/);
+  await shows(card, /Outer ended as it says itself, after 6\.5/);
   await card.getByRole("button", { name: "Run again" }).click();
   await page.locator(".run-active").first().waitFor();
   await page.keyboard.press("Shift+F5");
   await card.waitFor();
-  assert.match(await card.innerText(), /interrupted/);
+  await shows(card, /interrupted/);
   await card.getByRole("button", { name: "OK" }).click();
   await card.waitFor({ state: "detached" });
 });
@@ -86,14 +86,16 @@ inBrowser("a change of the text during a run marks it as older", { "plan.afp": P
 
 test("breakpoints move with their lines", () => {
   const at = (line: number, character: number) => ({ line, character });
+  const lines = (...all: number[]) => all.map((line) => ({ line }));
   const change = (from: [number, number], to: [number, number], text: string) => ({ range: { start: at(...from), end: at(...to) }, text });
-  assert.deepEqual(moved([2, 5], change([0, 0], [0, 0], "a\n")), [3, 6]);
-  assert.deepEqual(moved([2, 5], change([2, 0], [2, 0], "a\n")), [3, 6]);
-  assert.deepEqual(moved([2, 5], change([2, 4], [2, 4], "\n")), [2, 6]);
-  assert.deepEqual(moved([2, 5], change([1, 0], [2, 0], "")), [1, 4]);
-  assert.deepEqual(moved([2, 3, 5], change([2, 1], [5, 1], "")), [2]);
-  assert.deepEqual(moved([2, 3, 5], change([2, 1], [6, 0], "")), [2]);
-  assert.deepEqual(moved([2, 5], change([3, 0], [3, 2], "xyz")), [2, 5]);
+  assert.deepEqual(moved(lines(2, 5), change([0, 0], [0, 0], "a\n")), lines(3, 6));
+  assert.deepEqual(moved(lines(2, 5), change([2, 0], [2, 0], "a\n")), lines(3, 6));
+  assert.deepEqual(moved(lines(2, 5), change([2, 4], [2, 4], "\n")), lines(2, 6));
+  assert.deepEqual(moved(lines(2, 5), change([1, 0], [2, 0], "")), lines(1, 4));
+  assert.deepEqual(moved(lines(2, 3, 5), change([2, 1], [5, 1], "")), lines(2));
+  assert.deepEqual(moved(lines(2, 3, 5), change([2, 1], [6, 0], "")), lines(2));
+  assert.deepEqual(moved([{ line: 2, condition: "a > 1" }], change([0, 0], [0, 0], "a\n")), [{ line: 3, condition: "a > 1" }]);
+  assert.deepEqual(moved(lines(2, 5), change([3, 0], [3, 2], "xyz")), lines(2, 5));
 });
 
 inBrowser("a run stops at a breakpoint, which moves with the text and is remembered", { "plan.afp": PLAN }, async ({ page, isSaved }) => {
@@ -116,7 +118,7 @@ inBrowser("a run stops at a breakpoint, which moves with the text and is remembe
   await page.getByRole("menuitemradio", { name: "Outer" }).click();
   await page.keyboard.press("F5");
   await page.getByRole("button", { name: "Go on" }).waitFor();
-  assert.match((await page.locator(".clock").textContent())!, /^0\.5 s/);
+  await shows(page.locator(".clock"), /^0\.5 s/);
 });
 
 inBrowser("the world is there before a run; a run moves the robot, a press of a control ends it", { "wall_following.afp": PAPER }, async ({ page }) => {
@@ -132,7 +134,7 @@ inBrowser("the world is there before a run; a run moves the robot, a press of a 
   await escape.click();
   const card = page.locator(".end-card");
   await card.waitFor();
-  assert.match(await card.innerText(), /WallFollowing was interrupted/);
+  await shows(card, /WallFollowing was interrupted/);
   assert.notEqual(await robot.getAttribute("transform"), begun);
   await card.getByRole("button", { name: "OK" }).click();
   await page.waitForFunction((before) => document.querySelector(".floor .robot")!.getAttribute("transform") === before, begun);

@@ -1,7 +1,7 @@
 // The drawing by fingers: every drag has a twin of taps, one finger pans, two zoom.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
-import { inBrowser, type Studio } from "./browser";
+import { inBrowser } from "./browser";
 
 const PLAN = `use carbot
 
@@ -20,12 +20,6 @@ async function tap(page: Page, selector: string): Promise<void> {
   await page.touchscreen.tap(box.x + box.width / 2, box.y + box.height / 2);
 }
 
-async function becomes({ read }: Studio, wanted: RegExp): Promise<void> {
-  const end = Date.now() + 5000;
-  while (!wanted.test(await read("plan.afp")) && Date.now() < end) await new Promise((done) => setTimeout(done, 30));
-  assert.match(await read("plan.afp"), wanted);
-}
-
 const fingers = { hasTouch: true, viewport: { width: 1024, height: 768 } };
 
 inBrowser("taps add, connect and set values", { "plan.afp": PLAN }, async (studio) => {
@@ -34,19 +28,19 @@ inBrowser("taps add, connect and set values", { "plan.afp": PLAN }, async (studi
   await tap(page, '.node [data-item="P.go"] text.name');
   await page.locator("[data-template=CheckTouchSensor]").scrollIntoViewIfNeeded();
   await tap(page, "[data-template=CheckTouchSensor]");
-  await becomes(studio, /supervise checkTouchSensor: CheckTouchSensor/);
+  await studio.becomes("plan.afp", /supervise checkTouchSensor: CheckTouchSensor/);
   await page.locator('.node [data-item="P.go"] text.open').waitFor();
   await tap(page, '.node [data-item="P.go"] text.open');
   await page.locator(".chooser li", { hasText: "new: Turn" }).first().waitFor();
   const height = (await page.locator(".chooser li").first().boundingBox())!.height;
   assert.ok(height >= 44, `a row is ${height} px high`);
   await page.locator(".choice-label", { hasText: /^new: Turn$/ }).tap();
-  await becomes(studio, /TouchSensorPressed -> turn/);
+  await studio.becomes("plan.afp", /TouchSensorPressed -> turn/);
   await page.locator('.node [data-item="P.turn"]').waitFor();
   await page.locator(".inspector .row", { hasText: "angle" }).tap();
   await page.locator(".inspector .value").getByRole("button", { name: "other sign" }).tap();
   await page.locator(".inspector .value").getByRole("button", { name: "Set" }).tap();
-  await becomes(studio, /Turn\(angle = -90 deg\)/);
+  await studio.becomes("plan.afp", /Turn\(angle = -90 deg\)/);
   assert.equal(await read("plan.afp.layout"), "");
 }, fingers);
 

@@ -2,10 +2,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { extended, frame, middle, placed, placeOf, points, scaleIn, viewBox, type Path, type Point, type World } from "../page/world/geometry";
+import { dragged, nudged } from "../page/world/grab";
+import { poseOf, put, seen } from "../page/world/hand";
 import { between, shown, towards } from "../page/world/motion";
 
 const BODY: Point[] = [[0.2, 0.1], [-0.2, 0.1], [-0.2, -0.1], [0.2, -0.1]];
-const thing = (outline: Point[], path: Point[] = []) => ({ name: "box", outline, low: false, labelled: true, path });
+const thing = (outline: Point[], path: Point[] = []) => ({ id: "0 box", name: "box", outline, low: false, movable: false, labelled: true, path });
 const world = (change: Partial<World>): World => ({ start: [0, 0, 0], body: BODY, things: [], patches: [], lights: [], ...change });
 const near = (found: number, wanted: number): void => assert.ok(Math.abs(found - wanted) < 1e-9, `${found} is not ${wanted}`);
 
@@ -83,4 +85,32 @@ test("a motion goes on from what is shown, as long as poses take to come, and en
   assert.deepEqual(shown(third, 1100), [1, 1, 0]);
   assert.equal(towards(third, [0, 0, 0], 9000, false).end, 9120);
   assert.deepEqual(shown(towards(second, [5, 5, 0], 1060, true), 1060), [5, 5, 0]);
+});
+
+test("what is dragged goes with the pointer, or turns around itself", () => {
+  assert.deepEqual(dragged([1, 2, 0.5], [1, 2], [1.5, 1], false), [1.5, 1, 0.5]);
+  const [x, y, heading] = dragged([1, 2, 0], [2, 2], [1, 3], true);
+  assert.deepEqual([x, y], [1, 2]);
+  near(heading, Math.PI / 2);
+  assert.deepEqual(nudged([1, 2, 0], "ArrowUp", false), [1, 2.05, 0]);
+  near(nudged([1, 2, 0], "ArrowLeft", true)![2], Math.PI / 12);
+  assert.equal(nudged([1, 2, 0], "a", false), null);
+});
+
+test("a thing is put with its middle at a pose, and its pose is found again", () => {
+  const square: Point[] = [[1, 0], [2, 0], [2, 1], [1, 1]];
+  const [x, y, turn] = poseOf(put(square, [5, 6, 0.7]), square);
+  near(x, 5);
+  near(y, 6);
+  near(turn, 0.7);
+});
+
+test("before a run things stand where the hand has put them, during one where it says", () => {
+  const one = world({ things: [thing([[1, 0], [2, 0], [2, 1], [1, 1]])] });
+  const shapes = [{ shape: "can", outline: BODY }];
+  const before = seen(one, null, { "0 box": [0, 0, 0] }, [{ shape: "can", at: [3, 3, 0] }], shapes);
+  assert.deepEqual(before[0]!.outline, [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]]);
+  assert.deepEqual(before.map(({ id, movable }) => [id, movable]), [["0 box", false], ["drop 0", true]]);
+  const during = seen(one, [{ id: "0 box", outline: BODY }, { id: "1 can 1", outline: BODY }], {}, [], shapes);
+  assert.deepEqual(during.map(({ id, outline }) => [id, outline === BODY]), [["0 box", true], ["1 can 1", true]]);
 });

@@ -18,6 +18,9 @@ struct Lines<N> {
 impl<N: Names> Sink for Lines<N> {
     fn record(&mut self, at: Instant, record: &Record<'_>) {
         self.log.note(Line { at, record, names: &self.names }.to_string());
+        if let Record::Faulted { fault, detail: detail @ Some(_), .. } = *record {
+            self.log.note(format!("[{}]", fault.explained(detail, &self.names)));
+        }
     }
 }
 

@@ -40,8 +40,14 @@ fn component(names: &impl Names, id: ComponentId) -> String {
         (!name.is_empty()).then(|| format!(" {name} -> {target}"))
     });
     let outcomes: String = outcomes.collect();
+    let reactions = (0..MANY).map_while(|n| names.reaction(id, n)).map(|each| {
+        let watcher = names.component(each.supervisor).path;
+        let event = names.outcome(each.supervisor, each.outcome);
+        format!(" {watcher}.{event} -> {}", each.target)
+    });
+    let reactions: String = reactions.collect();
     let inputs = (0..MANY).map(|port| names.input(id, port)).filter(|name| !name.is_empty());
     let inputs: Vec<&str> = inputs.collect();
     let (kind, path, template) = (component.kind, component.path, component.template);
-    format!("[{kind:?} {path}: {template} ({}){outcomes}]", inputs.join(" "))
+    format!("[{kind:?} {path}: {template} ({}){outcomes}{reactions}]", inputs.join(" "))
 }

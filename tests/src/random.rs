@@ -13,11 +13,14 @@ mod entries;
 mod formula;
 #[path = "random/plan.rs"]
 mod plan;
+#[path = "random/table.rs"]
+mod table;
 
 use std::fmt::Write;
 
 use dice::Dice;
 use plan::Shape;
+use table::Table;
 
 /// A random plan and what a script needs to know of it.
 #[derive(Clone, Debug)]
@@ -45,13 +48,18 @@ pub struct Channel {
 pub fn plan(seed: u64) -> RandomPlan {
     let mut dice = Dice::new(seed);
     let mut channels = Vec::new();
+    let tables: Vec<Table> =
+        (0..dice.between(0, 3)).map(|number| Table::new(number, &mut dice)).collect();
     // Inner plans first: whoever uses one must know its ports.
     let mut shapes: Vec<Shape> = Vec::new();
     for number in (0..dice.between(1, 4)).rev() {
-        let shape = Shape::new(number, &shapes, &mut dice, &mut channels);
+        let shape = Shape::new(number, (&shapes, &tables), &mut dice, &mut channels);
         shapes.push(shape);
     }
     let mut text = "use std\nuse testing\n".to_owned();
+    for table in &tables {
+        let _ = write!(text, "\n{}", table.text);
+    }
     for shape in shapes.iter().rev() {
         let _ = write!(text, "\n{}", shape.text);
     }

@@ -1,7 +1,7 @@
 //! A copy of a running plan goes on as the plan does, and neither disturbs the other.
 
 use afp::load::{ActorSlot, LoadedPlan, Registry, See};
-use afp_core::rt::{Args, Outputs};
+use afp_core::rt::{Args, BadValue, Outputs};
 use afp_core::trace::{Line, Record, Sink};
 use afp_core::{Fault, Instant, NamedPlan, PlanState, Scheduler, Wake};
 use afp_tests::case::Case;
@@ -110,7 +110,7 @@ impl ActorSlot<Platform> for Foreign {
         _: See<'_>,
         _: &mut Platform,
         _: Instant,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), BadValue> {
         Ok(())
     }
 
@@ -120,7 +120,7 @@ impl ActorSlot<Platform> for Foreign {
         _: &mut dyn Outputs,
         _: &mut Platform,
         _: Instant,
-    ) -> Result<Option<u16>, Fault> {
+    ) -> Result<Option<u16>, BadValue> {
         Ok(None)
     }
 

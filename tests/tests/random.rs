@@ -25,7 +25,8 @@ fn interpreter_and_generated_code_agree() {
     let mut exercised = Exercised::default();
     for (seed, generated) in (0..).zip(plans::PLANS) {
         let plan = random::plan(seed);
-        let graph = graph("random", &plan.text).unwrap_or_else(|errors| panic!("{errors}"));
+        let graph =
+            graph(&format!("seed{seed}"), &plan.text).unwrap_or_else(|errors| panic!("{errors}"));
         for script_seed in 0..SCRIPTS {
             let text = script(&plan, script_seed);
             let script: Script = text.parse().expect("a script that can be read");

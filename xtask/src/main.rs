@@ -1,13 +1,15 @@
-//! Chores of the project: `cargo xtask test`, `bench`, `book`, `fuzz`, `gate`, `nightly`, `lint`.
+//! Chores of the project: `cargo xtask test`, `bench`, `book`, `editors`, `fuzz`, `gallery`, `gate`, `nightly`, `lint`.
 //!
 //! Each says what it runs, how long it took, and how to run just what failed.
 
 mod arm;
 mod book;
 mod dap;
+mod editors;
 mod emulated;
 mod engine;
 mod fuzz;
+mod gallery;
 mod gate;
 mod image;
 mod install;
@@ -70,6 +72,13 @@ enum Chore {
     Lint,
     /// Renders the book of docs/ with mdBook.
     Book,
+    /// Packs the extension for Visual Studio Code and the grammar for tree-sitter.
+    Editors,
+    /// Draws, runs and sweeps the shipped plans for the gallery of the book.
+    Gallery {
+        /// Plans by name; all without any.
+        plans: Vec<String>,
+    },
     /// Makes the studio's page and opens the studio; arguments go on to 'afpc studio'.
     Studio {
         /// Makes the page, nothing else.
@@ -90,6 +99,8 @@ fn main() -> ExitCode {
         Chore::Nightly { suites } => suites::run(suites::NIGHTLY, &suites),
         Chore::Lint => suites::run(suites::LINT, &[]),
         Chore::Book => book::run(),
+        Chore::Editors => editors::pack(),
+        Chore::Gallery { plans } => gallery::run(&plans),
         Chore::Studio { page: true, .. } => studio::page(),
         Chore::Studio { arguments, .. } => studio::open(&arguments),
     };

@@ -1,32 +1,48 @@
-//! Programs in JavaScript under `tests/`, with the public packages that they are written against.
+//! Programs in JavaScript, with the public packages that they are written against.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use crate::shell::{Failure, program, root, run, target};
 
 /// What says which packages those are.
 const PROJECT: [&str; 3] = ["package.json", "package-lock.json", ".npmrc"];
 
-/// The folder of a project of `tests/`, installed once under target/, with its program as it is now.
+/// npm.
+pub fn npm() -> Command {
+    program(if cfg!(windows) { "npm.cmd" } else { "npm" })
+}
+
+/// Installs in a folder what its lock names, once; nothing of a package runs.
 ///
 /// # Errors
 /// No npm, no network for the packages.
+pub fn ci(folder: &Path) -> Result<(), Failure> {
+    let wanted = fs::read_to_string(folder.join("package-lock.json"))?;
+    let done = folder.join("node_modules/.installed");
+    if fs::read_to_string(&done).is_ok_and(|installed| installed == wanted) {
+        return Ok(());
+    }
+    let install = ["ci", "--ignore-scripts", "--no-audit", "--no-fund"];
+    run(npm().args(install).current_dir(folder)).map_err(|why| {
+        Failure(format!("{}\nhelp: install Node.js 20 or later with npm (nodejs, npm)", why.0))
+    })?;
+    fs::write(done, wanted)?;
+    Ok(())
+}
+
+/// The folder of a project of `tests/`, installed once under target/, with its program as it is now.
+///
+/// # Errors
+/// As [`ci`].
 pub fn installed(name: &str, file: &str) -> Result<PathBuf, Failure> {
     let (project, folder) = (root().join("tests").join(name), target().join("xtask").join(name));
     fs::create_dir_all(&folder)?;
-    let done = folder.join("installed.json");
-    let wanted = fs::read_to_string(project.join("package-lock.json"))?;
-    if !fs::read_to_string(&done).is_ok_and(|installed| installed == wanted) {
-        for file in PROJECT {
-            fs::copy(project.join(file), folder.join(file))?;
-        }
-        let npm = if cfg!(windows) { "npm.cmd" } else { "npm" };
-        run(program(npm).arg("ci").current_dir(&folder)).map_err(|why| {
-            Failure(format!("{}\nhelp: install Node.js with npm (nodejs, npm)", why.0))
-        })?;
-        fs::write(done, wanted)?;
+    for file in PROJECT {
+        fs::copy(project.join(file), folder.join(file))?;
     }
+    ci(&folder)?;
     fs::copy(project.join(file), folder.join(file))?;
     Ok(folder)
 }

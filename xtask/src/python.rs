@@ -32,6 +32,9 @@ const LONG: [&str; 3] = ["ipykernel==7.4.0", "nbclient==0.11.0", "ray==2.60.0"];
 /// Seconds that the nightly run looks for what breaks the package.
 const STRESSED: &str = "600";
 
+/// Random steps that the nightly run makes in rooms and with faults that are made up.
+const RANDOM_STEPS: &str = "1000000";
+
 /// Simulations after which its memory must be what it was.
 const SIMULATIONS: &str = "10000";
 
@@ -47,8 +50,10 @@ pub fn run() -> Result<(), Failure> {
     read_a_log(&python, &afpc)?;
     read_a_sweep(&python, &afpc)?;
     install(&python, "dev")?;
-    let tests = ["-m", "pytest", "--quiet", "--doctest-modules", "--pyargs", "tests", "afp"];
+    // On all cores, a file by one of them.
+    let tests = ["-m", "pytest", "--quiet", "-n", "auto", "--dist", "loadfile", "--durations=5"];
     let mut tests = at_package(&python, &tests);
+    tests.args(["--doctest-modules", "--pyargs", "tests", "afp"]);
     // The extension and the runner of a project are built where other slow tests build.
     run_command(quickly_built(&mut tests).env("AFPC", afpc))?;
     run_command(&mut at_package(&python, &["-m", "mypy"]))?;
@@ -57,7 +62,8 @@ pub fn run() -> Result<(), Failure> {
     run_command(at_package(&python, &sdist).arg(wheels("sdist")?))
 }
 
-/// What takes longer: the bars of the optimised package, the search for what breaks it, the notebooks, a sweep on a cluster, and a build from the source
+/// What takes longer: the bars of the optimised package, the search for what breaks it, a million random steps in its
+/// environments, the notebooks, a sweep on a cluster, and a build from the source
 /// distribution alone.
 ///
 /// # Errors
@@ -72,6 +78,8 @@ pub fn long() -> Result<(), Failure> {
     let stress = ["-m", "pytest", "--quiet", "-s", "tests/test_stress.py"];
     let mut stress = at_package(&python, &stress);
     run_command(stress.env("AFP_STRESS", STRESSED).env("AFP_SIMULATIONS", SIMULATIONS))?;
+    let random = ["-m", "pytest", "--quiet", "tests/test_gym.py", "-k", "nothing_raises"];
+    run_command(at_package(&python, &random).env("AFP_GYM_STEPS", RANDOM_STEPS))?;
     run_command(&mut at_package(&python, &["notebooks/execute.py"]))?;
     let cluster = ["-m", "pytest", "--quiet", "tests/test_cluster.py"];
     run_command(at_package(&python, &cluster).env("AFP_RAY", "1"))?;

@@ -1,9 +1,9 @@
 //! The studio's page, made from `studio/` with npm, and its tests in a real browser.
 
-use std::path::PathBuf;
+use std::env;
 use std::process::Command;
-use std::{env, fs};
 
+use crate::npm;
 use crate::shell::{Failure, cargo, program, root, run as run_command, target};
 
 /// Builds the page, and the command line with it inside, and opens it.
@@ -25,7 +25,7 @@ pub fn open(arguments: &[String]) -> Result<(), Failure> {
 /// # Errors
 /// As [`open`].
 pub fn page() -> Result<(), Failure> {
-    installed()?;
+    npm::ci(&root().join("studio"))?;
     run_command(at_page("node").arg("build.mjs"))
 }
 
@@ -34,33 +34,30 @@ pub fn page() -> Result<(), Failure> {
 /// # Errors
 /// As [`open`]; no browser; a test that fails.
 pub fn test() -> Result<(), Failure> {
+    tested(&[])
+}
+
+/// The same with many random gestures.
+///
+/// # Errors
+/// As [`test`].
+pub fn long() -> Result<(), Failure> {
+    tested(&[("AFP_GESTURES", "2000")])
+}
+
+fn tested(settings: &[(&str, &str)]) -> Result<(), Failure> {
     page()?;
     run_command(npm().args(["run", "--silent", "check"]))?;
     let features = ["build", "--quiet", "--package", "afpc", "--features", "full,studio"];
     run_command(cargo().args(features))?;
     let afpc = target().join("debug").join(format!("afpc{}", env::consts::EXE_SUFFIX));
-    run_command(npm().args(["test"]).env("AFPC", afpc))
-}
-
-/// The packages that the lock names, installed once.
-fn installed() -> Result<(), Failure> {
-    let (lock, done) = (root().join("studio/package-lock.json"), installed_mark());
-    let wanted = fs::read_to_string(lock)?;
-    if fs::read_to_string(&done).is_ok_and(|installed| installed == wanted) {
-        return Ok(());
-    }
-    run_command(npm().args(["ci", "--ignore-scripts", "--no-audit", "--no-fund"]))
-        .map_err(|why| Failure(format!("{}\nhelp: install Node.js 20 or later with npm", why.0)))?;
-    fs::write(done, wanted)?;
-    Ok(())
-}
-
-fn installed_mark() -> PathBuf {
-    root().join("studio/node_modules/.installed")
+    run_command(npm().args(["test"]).env("AFPC", afpc).envs(settings.iter().copied()))
 }
 
 fn npm() -> Command {
-    at_page(if cfg!(windows) { "npm.cmd" } else { "npm" })
+    let mut command = npm::npm();
+    command.current_dir(root().join("studio"));
+    command
 }
 
 fn at_page(name: &str) -> Command {

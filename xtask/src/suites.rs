@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 use crate::install::Profile;
 use crate::shell::{Failure, cargo, run as run_command};
 use crate::{
-    arm, bench, dap, engine, fuzz, gate, install, live, opencv, pi, python, scxml, studio, vacuum,
-    wasm,
+    arm, bench, dap, editors, engine, fuzz, gate, install, live, opencv, pi, python, scxml, studio,
+    vacuum, wasm,
 };
 
 /// A suite by its name.
@@ -19,6 +19,7 @@ pub const TEST: &[Suite] = &[
     ("python", python::run),
     ("scxml", || scxml::run(50)),
     ("dap", dap::run),
+    ("vscode", editors::extension),
     ("studio", studio::test),
     ("live", live::run),
     ("gate", gate::run),
@@ -34,6 +35,10 @@ pub const NIGHTLY: &[Suite] = &[
     ("random plans", random_plans),
     ("random worlds", random_worlds),
     ("single faults", single_faults),
+    ("every event", every_event),
+    ("slips", slips),
+    ("goals", goals),
+    ("objects", objects),
     ("arm", arm::run),
     ("pi", pi::run),
     ("engine", engine::run),
@@ -41,7 +46,9 @@ pub const NIGHTLY: &[Suite] = &[
     ("python long", python::long),
     ("scxml", || scxml::run(2000)),
     ("dap", dap::run),
-    ("studio", studio::test),
+    ("vscode", editors::extension),
+    ("tree-sitter", editors::grammar),
+    ("studio", studio::long),
     ("live", live::run),
     ("gate", gate::run),
     ("web", wasm::run),
@@ -66,6 +73,10 @@ const RANDOM_PLANS: &str = "400";
 /// Random worlds that the nightly run drives through.
 const RANDOM_WORLDS: &str = "10000";
 
+/// The first room and how many in which the nightly run counts who reaches the goal.
+const GOALS: &str = "1000..100";
+/// Views in which the nightly run looks for objects.
+const VIEWS: &str = "1000";
 /// Rooms in which the nightly run breaks each device in each way.
 const FAULTY_ROOMS: &str = "20";
 
@@ -136,6 +147,8 @@ fn again(name: &str) -> String {
         "single faults" => format!(
             "    AFP_ROOMS={FAULTY_ROOMS} cargo test --release -p afp-worlds --test single_faults"
         ),
+        "goals" => format!("    AFP_GOALS={GOALS} cargo test --release -p afp-worlds --test goals"),
+        "objects" => format!("    AFP_VIEWS={VIEWS} cargo test --release -p afp-sim objects"),
         "python long" => "    cargo xtask nightly 'python long'".to_owned(),
         "arm" | "pi" | "engine" | "opencv" => format!("    cargo xtask nightly {name}"),
         "long run" => {
@@ -157,6 +170,26 @@ fn workspace() -> Result<(), Failure> {
     run_command(cargo().args(all).args(but.as_flattened()).env("PROPTEST_RNG_SEED", "20"))
 }
 
+/// Every event at five points of each element's run, for every plan that is shipped.
+fn every_event() -> Result<(), Failure> {
+    by_night("afp-test", "generated")
+}
+
+/// Many slips in plans, each one error and mended by its fix; every prefix of every plan outlined, drawn and asked about
+/// everything.
+fn slips() -> Result<(), Failure> {
+    by_night("afp-dsl", "language")?;
+    by_night("afp-ide", "features")?;
+    let drawn = ["test", "--release", "--package", "afp-draw", "--lib", "scene"];
+    run_command(cargo().args(drawn).env("AFP_BY_NIGHT", "1"))
+}
+
+/// A test that takes more cases when nobody waits for it.
+fn by_night(package: &str, test: &str) -> Result<(), Failure> {
+    let test = ["test", "--release", "--package", package, "--test", test];
+    run_command(cargo().args(test).env("AFP_BY_NIGHT", "1"))
+}
+
 /// The interpreter against generated code on many random plans.
 fn random_plans() -> Result<(), Failure> {
     let test = ["test", "--package", "afp-tests", "random", "--", "--nocapture"];
@@ -173,6 +206,18 @@ fn random_worlds() -> Result<(), Failure> {
 fn single_faults() -> Result<(), Failure> {
     let test = ["test", "--release", "--package", "afp-worlds", "--test", "single_faults"];
     run_command(cargo().args(test).args(["--", "--nocapture"]).env("AFP_ROOMS", FAULTY_ROOMS))
+}
+
+/// How often plans reach their goal in rooms made up.
+fn goals() -> Result<(), Failure> {
+    let test = ["test", "--release", "--package", "afp-worlds", "--test", "goals"];
+    run_command(cargo().args(test).args(["--", "--nocapture"]).env("AFP_GOALS", GOALS))
+}
+
+/// Objects found in many views of rooms made up.
+fn objects() -> Result<(), Failure> {
+    let test = ["test", "--release", "--package", "afp-sim", "--test", "sim", "objects"];
+    run_command(cargo().args(test).args(["--", "--nocapture"]).env("AFP_VIEWS", VIEWS))
 }
 
 /// Ten million steps of a plan, without an allocation, equal in both back ends.

@@ -40,16 +40,19 @@ fn main() {
 fn renamed(text: &str) -> String {
     let item = Item::inner("WallFollowing", "followWall");
     let change = Change::Rename { item, to: "alongTheWall".to_owned() };
-    let edits = edit(&[Source::new("plan.afp", text)], 0, &change);
+    let edits = edit(&[Source::new("plan.afp", text)], &toolboxes(), 0, &change);
     let edits = edits.unwrap_or_else(|why| panic!("{why}"));
     assert!(!edits.is_empty(), "the actor is named");
     apply(text, &edits)
 }
 
+fn toolboxes() -> Toolboxes {
+    afp_toolboxes::sources().collect()
+}
+
 fn compiled(text: &str) -> Compiled {
-    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     let source = Source::new("plan.afp", text);
-    compile(&source, &toolboxes, &Texts::default())
+    compile(&source, &toolboxes(), &Texts::default())
 }
 
 fn drive(graph: &Graph) {

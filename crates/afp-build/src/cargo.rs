@@ -9,6 +9,7 @@ use std::io::{BufRead, BufReader, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use afp_excerpt::{Report, Severity};
 use afp_run::{RunError, say};
 use serde_json::Value;
 
@@ -31,7 +32,12 @@ pub struct Job<'a> {
     pub blame: Blame<'a>,
     /// What to say when there is no cargo.
     pub no_cargo: RunError,
+    /// Takes what is wrong as objects; without it, it goes to standard error as people read it.
+    pub tools: Option<Tools<'a>>,
 }
+
+/// Takes an object.
+pub type Tools<'a> = &'a dyn Fn(&Value) -> Result<(), RunError>;
 
 /// How cargo builds for another machine.
 #[derive(Debug)]
@@ -58,7 +64,7 @@ const FOR_ANY_PYTHON: [(&str, &str); 2] =
 /// Builds a crate and gives the path of the artifact that is wanted.
 ///
 /// # Errors
-/// There is no cargo, or it fails; standard error has been told why.
+/// There is no cargo, or it fails; why has been told.
 pub fn build(job: Job<'_>) -> Result<Option<PathBuf>, NotBuilt> {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(&cargo);
@@ -89,14 +95,41 @@ pub fn build(job: Job<'_>) -> Result<Option<PathBuf>, NotBuilt> {
     }
     let status = child.wait().map_err(RunError::file("cannot wait for", cargo.as_ref()))?;
     // Only now, so that cargo's progress and the errors do not run into one another.
-    messages.iter().for_each(|message| job.blame.tell(message));
-    match status.success() {
-        true => Ok(built),
-        false => {
-            let folder = job.folder.display();
-            say(format_args!("error: cargo could not build the crate in '{folder}'"));
-            Err(NotBuilt::Told)
+    messages.retain(|message| job.blame.concerns(message));
+    let reader = Reader { blame: &job.blame, tools: job.tools };
+    reader.tell(job.folder, &messages, status.success())?;
+    if status.success() { Ok(built) } else { Err(NotBuilt::Told) }
+}
+
+/// Who reads what the compiler has said.
+struct Reader<'a> {
+    blame: &'a Blame<'a>,
+    tools: Option<Tools<'a>>,
+}
+
+impl Reader<'_> {
+    /// Tells what the compiler has said about a crate, and that it was not built, if it was not.
+    fn tell(&self, folder: &Path, messages: &[Message], is_built: bool) -> Result<(), RunError> {
+        let failed = format!("cargo could not build the crate in '{}'", folder.display());
+        let Some(tools) = self.tools else {
+            messages.iter().for_each(|message| self.blame.tell(message));
+            if !is_built {
+                say(format_args!("error: {failed}"));
+            }
+            return Ok(());
+        };
+        for message in messages {
+            tools(&self.blame.json(message))?;
+            // Its excerpts are worth reading, too.
+            say(&message.rendered);
         }
+        // Otherwise cargo has told standard error why.
+        if !is_built && !messages.iter().any(|message| message.is_error) {
+            let (severity, help) = (Severity::Error, "standard error has what cargo says");
+            let report = Report { severity, code: "", message: &failed, help, marks: Vec::new() };
+            tools(&report.json())?;
+        }
+        Ok(())
     }
 }
 

@@ -11,7 +11,7 @@ use afp_run::{RunError, write_whole};
 /// removes sources of an earlier plan.
 ///
 /// # Errors
-/// The folder holds a crate that somebody else made, or cannot be written.
+/// The folder holds a crate that somebody else made, or other files of the same names, or cannot be written.
 pub fn write(folder: &Path, files: &[(&str, &str)], origin: &Origin) -> Result<(), RunError> {
     let manifest = folder.join("Cargo.toml");
     match fs::read_to_string(&manifest) {
@@ -22,7 +22,7 @@ pub fn write(folder: &Path, files: &[(&str, &str)], origin: &Origin) -> Result<(
             ));
         }
         Ok(_) => remove_old(folder, files)?,
-        Err(error) if error.kind() == ErrorKind::NotFound => {}
+        Err(error) if error.kind() == ErrorKind::NotFound => leave_alone(folder, files)?,
         Err(error) => return Err(RunError::file("cannot read", &manifest)(error)),
     }
     for (name, text) in files {
@@ -48,6 +48,21 @@ pub fn pin(folder: &Path, origin: &Origin) -> Result<(), RunError> {
         Ok(text) if !lock.exists() => write_whole("cannot write", &lock, &text),
         // Without it cargo chooses versions by the manifests.
         _ => Ok(()),
+    }
+}
+
+/// Refuses a folder without a manifest in which others keep something under a name that the crate would take.
+fn leave_alone(folder: &Path, files: &[(&str, &str)]) -> Result<(), RunError> {
+    let others = |(name, text): &&(&str, &str)| {
+        let path = folder.join(name);
+        path.exists() && fs::read_to_string(path).ok().as_deref() != Some(*text)
+    };
+    match files.iter().find(others) {
+        None => Ok(()),
+        Some((name, _)) => Err(RunError::usage(
+            format!("'{}' is there, and 'afpc' did not make it", folder.join(name).display()),
+            "give an empty folder with '-o DIR'",
+        )),
     }
 }
 

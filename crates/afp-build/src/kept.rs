@@ -124,6 +124,7 @@ impl Kept {
             },
             blame: Blame { generated: None, toolboxes: &parts.toolboxes },
             no_cargo,
+            tools: None,
         })?;
         let built = built.ok_or(NotBuilt::Told)?;
         fresh::done(&self.folder, &built, begun)?;

@@ -25,7 +25,7 @@ pub use toolboxes::{OwnToolbox, OwnToolboxes};
 pub enum NotBuilt {
     /// This is why.
     Why(RunError),
-    /// The compiler has told standard error.
+    /// It has been told, to people or to tools.
     Told,
 }
 

@@ -1,51 +1,17 @@
 //! Drive towards infrared light.
 
-use crate::devices::{InfraredSensor, Navigator, Odometry};
-use crate::guard::{Guard, NO_INFRARED, NO_ODOMETRY, PATIENCE};
-use crate::history::{History, Pose};
-use crate::motion::{Ramp, wrap};
+use crate::approaching::{Approached, Approaching, Sight};
+use crate::devices::{Glow, InfraredSensor, Navigator, Odometry, Reading};
+use crate::guard::NO_INFRARED;
 use crate::templates;
 use crate::templates::approach_infrared::{Inputs, Live, State};
-use crate::tracking::Tracking;
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// Speed is gained and lost at this many metres a second squared.
-const ACCELERATION: f64 = 0.5;
-/// The light counts as bright enough when the way left is less than this, metres.
-const CLOSE: f64 = 0.005;
-/// How sharply to steer: turn rate per radian off.
-const STEER: f64 = 1.5;
-/// The share of a new reading in what is steered by.
-const NEWS: f64 = 0.4;
-
-/// Steers by the light's direction and brightness, smoothed, and stops where the light is as bright as wanted.
-///
-/// What a reading says holds for where the robot was when it was measured; from there the odometry goes on.
+/// Steers by the light's direction and brightness, and stops where the light is as bright as wanted.
 #[derive(Clone, Debug)]
 pub struct ApproachInfrared {
     strength: f64,
-    speed: f64,
-    ramp: Ramp,
-    tracking: Tracking,
-    infrared: Guard,
-    odometry: Guard,
-    history: History,
-    /// When the latest reading was measured.
-    last_look: Instant,
-    /// When the light was seen last; the beginning counts as seen.
-    seen: Instant,
-    /// Smoothed; none before the first light.
-    light: Option<Light>,
-    /// What the robot comes to a standstill for.
-    ending: Option<State>,
-}
-
-/// What is steered by: the heading towards the light, radians, and the way left from a place, metres.
-#[derive(Clone, Copy, Debug)]
-struct Light {
-    heading: f64,
-    way: f64,
-    from: Pose,
+    approaching: Approaching,
 }
 
 impl<E> Actor<templates::ApproachInfrared, E> for ApproachInfrared
@@ -53,48 +19,19 @@ where
     E: Navigator + Odometry + InfraredSensor + ?Sized,
 {
     fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
-        env.halt(now);
-        let mut history = History::new();
-        history.note(env.motion());
-        Ok(ApproachInfrared {
-            strength: inputs.strength,
-            speed: inputs.speed.si(),
-            ramp: Ramp::new(ACCELERATION, now),
-            tracking: Tracking::new(now),
-            infrared: Guard::new(NO_INFRARED, now),
-            odometry: Guard::new(NO_ODOMETRY, now),
-            history,
-            last_look: now,
-            seen: now,
-            light: None,
-            ending: None,
-        })
+        let approaching = Approaching::new(inputs.speed, NO_INFRARED, env, now);
+        Ok(ApproachInfrared { strength: inputs.strength, approaching })
     }
 
     fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
-        let counted = env.motion();
-        self.history.note(counted);
-        let motion = self.odometry.current(counted, now)?;
-        self.look(env, now)?;
-        let light = self.light.zip(motion).map(|(light, motion)| (light, Pose::from(motion)));
-        self.ending = self.ending.or_else(|| self.end(light));
-        if let Some(state) = self.ending {
-            self.tracking.halt(env, now);
-            let stands = motion.is_some_and(|motion| motion.stands());
-            return Ok(if stands { Poll::Ready(state) } else { Poll::Pending });
-        }
-        // In the dark it waits: what was ahead may have gone anywhere.
-        let lit = light.filter(|_| self.seen == self.last_look).zip(motion);
-        let Some(((light, here), motion)) = lit else {
-            self.tracking.halt(env, now);
-            self.ramp = Ramp::new(ACCELERATION, now);
-            return Ok(Poll::Pending);
-        };
-        let bearing = wrap(light.heading - here.heading);
-        let cruise = self.speed * libm::cos(bearing).max(0.0);
-        let speed = self.ramp.rate(light.way_from(here), cruise, now);
-        self.tracking.drive(env, &motion, (speed, STEER * bearing), now)?;
-        Ok(Poll::Pending)
+        let Reading { time, value } = env.glow();
+        let sight = |glow: Glow| Sight { bearing: glow.bearing.si(), way: self.way(glow.strength) };
+        let light = Reading { time, value: value.map(|glow| glow.map(sight)) };
+        Ok(match self.approaching.poll(light, env, now)? {
+            Some(Approached::Reached) => Poll::Ready(State::InfraredReached),
+            Some(Approached::Lost) => Poll::Ready(State::InfraredLost),
+            None => Poll::Pending,
+        })
     }
 
     fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
@@ -104,58 +41,11 @@ where
 }
 
 impl ApproachInfrared {
-    /// Takes in a new reading of the sensor, if there is one.
-    fn look<E>(&mut self, env: &E, now: Instant) -> Result<(), Fault>
-    where
-        E: InfraredSensor + ?Sized,
-    {
-        let reading = self.history.placed(env.glow());
-        let Some((glow, then)) = self.infrared.next(reading, self.last_look, now)? else {
-            return Ok(());
-        };
-        self.last_look = reading.time;
-        let Some(glow) = glow else { return Ok(()) };
-        self.seen = reading.time;
-        let new = Light {
-            heading: then.heading + glow.bearing.si(),
-            way: self.way(glow.strength),
-            from: then,
-        };
-        self.light = Some(self.light.map_or(new, |old| old.mixed(new)));
-        Ok(())
-    }
-
-    /// What ends the approach, if something does.
-    fn end(&self, light: Option<(Light, Pose)>) -> Option<State> {
-        if light.is_some_and(|(light, here)| light.way_from(here) < CLOSE) {
-            return Some(State::InfraredReached);
-        }
-        (self.last_look.since(self.seen) > PATIENCE).then_some(State::InfraredLost)
-    }
-
     /// The way left, metres, were the source of strength 1: brightness falls with the square of the
     /// distance.
     fn way(&self, strength: f64) -> f64 {
         let distance = |strength: f64| 1.0 / libm::sqrt(strength.max(1e-6));
         distance(strength) - distance(self.strength)
-    }
-}
-
-impl Light {
-    /// The way left from another place.
-    fn way_from(&self, place: Pose) -> f64 {
-        let (sin, cos) = libm::sincos(self.heading);
-        self.way - (place.x - self.from.x) * cos - (place.y - self.from.y) * sin
-    }
-
-    /// With a share of something newer.
-    fn mixed(&self, new: Light) -> Light {
-        let way = self.way_from(new.from);
-        Light {
-            heading: self.heading + NEWS * wrap(new.heading - self.heading),
-            way: way + NEWS * (new.way - way),
-            from: new.from,
-        }
     }
 }
 

@@ -1,18 +1,22 @@
 //! A robot for tests: it moves exactly as commanded among plane walls, and its devices can fail.
 
 use crate::devices::{
-    Battery, Beam, Body, Button, Buttons, Charge, Color, ColorSensor, Echo, Glow, InfraredSensor,
-    Invalid, Motion, Navigator, Odometry, Reading, RotatingTelemetry, Rotator, TouchSensor,
-    Ultrasonic,
+    Battery, Beam, Body, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo, Frame, Glow,
+    InfraredSensor, Invalid, Lens, Motion, Navigator, Odometry, Reading, RotatingTelemetry,
+    Rotator, TouchSensor, Trip, Ultrasonic,
 };
 use crate::motion::wrap;
-use afp_core::quantity::{Angle, AngularSpeed, Length, Speed, Voltage};
+use afp_core::quantity::{Angle, AngularSpeed, Frequency, Length, Speed, Voltage};
 use afp_core::{
     Actor, ActorTemplate, Duration, Environment, Events, Fault, Instant, Poll, Supervisor,
     SupervisorTemplate,
 };
+use picture::Picture;
 use std::collections::VecDeque;
 use std::vec::Vec;
+
+mod picture;
+mod place;
 
 /// A plane wall: the direction of its normal, away from the origin, and its distance from there.
 #[derive(Clone, Copy)]
@@ -46,6 +50,13 @@ pub(crate) struct Fake {
     /// From this many milliseconds on it is dark.
     pub(crate) light_goes_out: u64,
     pub(crate) dead_infrared: bool,
+    /// A red post of 30 cm by 30 cm on a grey floor, and where it is.
+    pub(crate) post: Option<(f64, f64)>,
+    /// From this many milliseconds on the post is gone.
+    pub(crate) post_goes: u64,
+    /// From this many milliseconds on the camera says the same picture.
+    pub(crate) camera_freezes: u64,
+    pub(crate) dead_camera: bool,
     pub(crate) floor: Color,
     pub(crate) dead_color: bool,
     /// The share of the charge that is left.
@@ -62,12 +73,25 @@ pub(crate) struct Fake {
     /// It turns by so much more than commanded, radians a second.
     pub(crate) drifts: f64,
     pub(crate) top_speed: f64,
+    /// Where it began, on its map.
+    pub(crate) map_offset: [f64; 2],
+    /// How far from where it takes itself to be it may be, metres.
+    pub(crate) spread: f64,
+    pub(crate) dead_localisation: bool,
+    /// No way leads anywhere.
+    pub(crate) no_way: bool,
+    /// The search that is under way, and how many have been begun.
+    pub(crate) search: Option<(Instant, Trip)>,
+    pub(crate) searches: u16,
+    /// What it has shown and let sound, in turn.
+    pub(crate) signals: Vec<(bool, Option<Frequency>)>,
     target: f64,
     pub(crate) command: (f64, f64),
     commanded: Instant,
     echo: Reading<Echo>,
     /// Those that are not told yet.
     heard: VecDeque<Reading<Echo>>,
+    picture: Picture,
 }
 
 const FORWARD: f64 = 0.1;
@@ -89,6 +113,10 @@ impl Fake {
             light: None,
             light_goes_out: u64::MAX,
             dead_infrared: false,
+            post: None,
+            post_goes: u64::MAX,
+            camera_freezes: u64::MAX,
+            dead_camera: false,
             floor: Color { red: 0.5, green: 0.5, blue: 0.5 },
             dead_color: false,
             charge: 1.0,
@@ -99,11 +127,19 @@ impl Fake {
             follows: (1.0, 1.0),
             drifts: 0.0,
             top_speed: f64::INFINITY,
+            map_offset: [0.0, 0.0],
+            spread: 0.05,
+            dead_localisation: false,
+            no_way: false,
+            search: None,
+            searches: 0,
+            signals: Vec::new(),
             target: 0.0,
             command: (0.0, 0.0),
             commanded: Instant::ZERO,
             echo: Reading::invalid(Invalid::NotYet, Instant::ZERO),
             heard: VecDeque::new(),
+            picture: Picture::default(),
         }
     }
 
@@ -144,6 +180,10 @@ impl Fake {
             let frozen = self.echo.value.ok().filter(|_| self.millis() >= self.range_freezes);
             let echo = frozen.unwrap_or(now);
             self.heard.push_back(Reading::valid(echo, self.now));
+        }
+        if self.millis().is_multiple_of(50) && self.millis() < self.camera_freezes {
+            let post = self.post.filter(|_| self.millis() < self.post_goes);
+            self.picture.take(post, &self.motion);
         }
         let late = Duration::from_millis(self.late_echoes);
         while let Some(echo) = self.heard.pop_front_if(|echo| self.now.since(echo.time) >= late) {
@@ -212,6 +252,27 @@ impl Fake {
         }
         Ok(None)
     }
+
+    /// Polls a supervisor once for each of `polls`, every ten milliseconds, each time after `set` has held or let go what
+    /// it watches; whether it reports then, where the second value is what is wanted.
+    pub(crate) fn clicks<'a, T: SupervisorTemplate, S: Supervisor<T, Fake>>(
+        &mut self,
+        inputs: T::Inputs<'_>,
+        live: impl Fn() -> T::Live<'a>,
+        set: fn(&mut Fake, bool),
+        polls: &[(bool, u64)],
+    ) -> Result<Vec<bool>, Fault> {
+        let now = self.now;
+        let mut supervisor = S::start(inputs, self, now)?;
+        let poll = |(held, wanted): &(bool, u64)| {
+            set(self, *held);
+            self.tick();
+            let now = self.now;
+            let event = supervisor.poll(live(), Events::from_bits(*wanted), self, now)?;
+            Ok(event.is_some())
+        };
+        polls.iter().map(poll).collect()
+    }
 }
 
 impl Environment for Fake {
@@ -246,6 +307,16 @@ impl Navigator for Fake {
 /// A reading of a device that may be dead.
 fn reading<T: Copy>(dead: bool, value: T, now: Instant) -> Reading<T> {
     if dead { Reading::invalid(Invalid::NoAnswer, now) } else { Reading::valid(value, now) }
+}
+
+impl Camera for Fake {
+    fn frame(&self) -> Reading<Frame<'_>> {
+        reading(self.dead_camera, self.picture.frame(), self.now)
+    }
+
+    fn lens(&self) -> Lens {
+        picture::lens()
+    }
 }
 
 impl Odometry for Fake {

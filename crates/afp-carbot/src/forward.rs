@@ -48,7 +48,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Forward, E> for Forward 
             return Ok(Poll::Pending);
         };
         let from = *self.from.get_or_insert(motion);
-        let driven = along(&from, &motion);
+        let driven = motion.seen_from(&from).0.si();
         let ahead = if self.distance < 0.0 { -1.0 } else { 1.0 };
         let rest = ahead * (self.distance - driven);
         if rest < CLOSE {
@@ -69,12 +69,6 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Forward, E> for Forward 
         env.halt(now);
         Ok(())
     }
-}
-
-/// The way from `from` to `to` along the heading at `from`, in metres.
-fn along(from: &Motion, to: &Motion) -> f64 {
-    let (sin, cos) = libm::sincos(from.heading.si());
-    (to.x - from.x).si() * cos + (to.y - from.y).si() * sin
 }
 
 #[cfg(test)]

@@ -44,6 +44,14 @@ pub const NO_FLOW: Fault = Fault::new(&Reason {
     code: "no-flow",
     text: "the camera gave no new picture in which motion could be seen for 500 ms",
 });
+/// The camera delivers nothing usable, or the same picture again and again.
+pub const NO_PICTURE: Fault =
+    Fault::new(&Reason { code: "no-picture", text: "the camera gave no new picture for 500 ms" });
+/// Nothing tells where the robot is.
+pub const NO_POSITION: Fault = Fault::new(&Reason {
+    code: "no-position",
+    text: "the localisation gave no valid position for 500 ms",
+});
 /// The range sensor repeats itself.
 pub const FROZEN_RANGE: Fault = Fault::new(&Reason {
     code: "frozen-range",

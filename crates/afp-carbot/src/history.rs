@@ -15,10 +15,13 @@ const GUESSED: Duration = Duration::from_millis(100);
 
 /// A place and a heading in the frame of the odometry, metres and radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Pose {
-    pub(crate) x: f64,
-    pub(crate) y: f64,
-    pub(crate) heading: f64,
+pub struct Pose {
+    /// Metres, along the heading at the start.
+    pub x: f64,
+    /// Metres, to the left of it.
+    pub y: f64,
+    /// Radians.
+    pub heading: f64,
 }
 
 impl From<Motion> for Pose {
@@ -29,20 +32,26 @@ impl From<Motion> for Pose {
 
 /// The latest of what the odometry said.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct History {
+pub struct History {
     /// The oldest is at `next`.
     poses: [Option<(Instant, Pose)>; KEPT],
     next: usize,
 }
 
+impl Default for History {
+    fn default() -> Self {
+        History::new()
+    }
+}
+
 impl History {
     /// Nothing is known yet.
-    pub(crate) fn new() -> Self {
+    pub const fn new() -> Self {
         History { poses: [None; KEPT], next: 0 }
     }
 
     /// Remembers what the odometry says, if it is valid and new. To be called at every poll.
-    pub(crate) fn note(&mut self, reading: Reading<Motion>) {
+    pub fn note(&mut self, reading: Reading<Motion>) {
         let Ok(motion) = reading.value else { return };
         let last = self.latest(1).map(|(time, _)| time);
         if last.is_some_and(|last| last >= reading.time) {
@@ -58,7 +67,7 @@ impl History {
     }
 
     /// Where the robot was, between what is known before and after an instant.
-    pub(crate) fn at(&self, when: Instant) -> Option<Pose> {
+    pub fn at(&self, when: Instant) -> Option<Pose> {
         let (mut before, mut after) = (None, None);
         for ago in 1..=KEPT {
             let Some((time, pose)) = self.latest(ago) else { break };
@@ -94,7 +103,7 @@ impl History {
     }
 
     /// A reading with where the robot was when it was measured; there is no answer if that is unknown.
-    pub(crate) fn placed<T: Copy>(&self, reading: Reading<T>) -> Reading<(T, Pose)> {
+    pub fn placed<T: Copy>(&self, reading: Reading<T>) -> Reading<(T, Pose)> {
         let pose = self.at(reading.time).ok_or(Invalid::NoAnswer);
         let value = reading.value.and_then(|value| pose.map(|pose| (value, pose)));
         Reading { time: reading.time, value }

@@ -9,6 +9,7 @@
 //! The search is exhaustive over the bearing and so has no bad start; echoes that belong to
 //! something else are outliers and do not pull.
 
+use crate::devices::Echo;
 use crate::motion::wrap;
 use heapless::Vec;
 
@@ -19,6 +20,14 @@ pub(crate) struct Return {
     pub(crate) bearing: f64,
     /// How far away the echo was, metres.
     pub(crate) range: f64,
+}
+
+impl Return {
+    /// Of a ping; infinitely far away where nothing was heard.
+    pub(crate) fn of(echo: &Echo) -> Self {
+        let range = echo.distance.map_or(f64::INFINITY, |distance| distance.si());
+        Return { bearing: echo.bearing.si(), range }
+    }
 }
 
 /// A wall as the sensor's place sees it.

@@ -1,38 +1,22 @@
 //! Look around, standing still, and find the wall.
 
 use crate::devices::{Navigator, Odometry, RotatingTelemetry, Rotator, Ultrasonic};
-use crate::guard::{Arrival, Guard, NO_ODOMETRY, NO_RANGE};
 use crate::line_fit::{MOST, Return, fit};
+use crate::sweep::Sweep;
 use crate::templates;
 use crate::templates::search_wall::{Inputs, Live, State};
 use afp_core::quantity::Angle;
 use afp_core::{Actor, Fault, Instant, Poll};
 use heapless::Vec;
 
-/// The sensor pings once at every so many radians.
-const STEP: f64 = 5.0 / 180.0 * core::f64::consts::PI;
-/// The rotator has arrived when it is nearer than this to where it should be, radians.
-const ARRIVED: f64 = 2.0 / 180.0 * core::f64::consts::PI;
 /// A wall ahead is put on the right side by this much more than its bearing.
 const QUARTER: f64 = core::f64::consts::FRAC_PI_2;
 
 /// Sweeps the range sensor from one side to the other and fits one wall to the echoes.
-///
-/// Moves on to the next bearing when a ping has been completed there, so a slow sensor makes it
-/// slower but not worse.
 #[derive(Clone, Debug)]
 pub struct SearchWall {
-    sweep: f64,
+    sweep: Sweep,
     range: f64,
-    /// Where the rotator should be, radians.
-    target: f64,
-    /// Towards which side the sweep goes: 1 left, -1 right.
-    way: f64,
-    sweeping: bool,
-    last_ping: Instant,
-    odometry: Guard,
-    range_guard: Guard,
-    arrival: Arrival,
     returns: Vec<Return, MOST>,
 }
 
@@ -41,53 +25,21 @@ where
     E: Navigator + Odometry + Ultrasonic + Rotator + RotatingTelemetry + ?Sized,
 {
     fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
-        env.halt(now);
-        let sweep = inputs.sweep.si();
-        // Begin on the side that the rotator is nearer to.
-        let bearing = env.bearing().value.map_or(0.0, |bearing| bearing.si());
-        let side = if bearing < 0.0 { -1.0 } else { 1.0 };
-        env.point(Angle::from_si(side * sweep), now);
-        Ok(SearchWall {
-            sweep,
-            range: inputs.range.si(),
-            target: side * sweep,
-            way: -side,
-            sweeping: false,
-            last_ping: now,
-            odometry: Guard::new(NO_ODOMETRY, now),
-            range_guard: Guard::new(NO_RANGE, now),
-            arrival: Arrival::new(now),
-            returns: Vec::new(),
-        })
+        let sweep = Sweep::new(inputs.sweep, env, now);
+        Ok(SearchWall { sweep, range: inputs.range.si(), returns: Vec::new() })
     }
 
     fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
-        env.halt(now);
-        if !self.sweeping && !self.begin(env, now)? {
-            return Ok(Poll::Pending);
-        }
-        let reading = env.echo();
-        let Some(echo) = self.range_guard.next(reading, self.last_ping, now)? else {
-            return Ok(Poll::Pending);
-        };
-        self.last_ping = reading.time;
-        if (echo.bearing.si() - self.target).abs() > ARRIVED {
-            self.arrival.elsewhere(&echo, now)?;
-            return Ok(Poll::Pending);
-        }
-        let range = echo.distance.map_or(f64::INFINITY, |distance| distance.si());
-        if range <= self.range {
+        let Some(heard) = self.sweep.poll(env, now)? else { return Ok(Poll::Pending) };
+        let heard_at = Return::of(&heard.echo);
+        if heard_at.range <= self.range {
             // A sweep has fewer steps than there is room for; what is too much does not count.
-            let _ = self.returns.push(Return { bearing: echo.bearing.si(), range });
+            let _ = self.returns.push(heard_at);
         }
-        if self.way * self.target >= self.sweep - STEP / 2.0 {
-            env.point(Angle::from_si(0.0), now);
-            return Ok(Poll::Ready(self.result(env.beam().opening.si() / 2.0)));
+        if !heard.last {
+            return Ok(Poll::Pending);
         }
-        self.target = (self.target + self.way * STEP).max(-self.sweep).min(self.sweep);
-        env.point(Angle::from_si(self.target), now);
-        self.arrival = Arrival::new(now);
-        Ok(Poll::Pending)
+        Ok(Poll::Ready(self.result(env.beam().opening.si() / 2.0)))
     }
 
     fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
@@ -97,19 +49,6 @@ where
 }
 
 impl SearchWall {
-    /// Whether the robot stands, so that the sweep can begin.
-    fn begin<E: Odometry + ?Sized>(&mut self, env: &mut E, now: Instant) -> Result<bool, Fault> {
-        let motion = self.odometry.current(env.motion(), now)?;
-        if motion.is_some_and(|motion| motion.stands()) {
-            self.sweeping = true;
-            // Only what is sent from now on counts.
-            self.last_ping = now;
-            self.range_guard = Guard::new(NO_RANGE, now);
-            self.arrival = Arrival::new(now);
-        }
-        Ok(self.sweeping)
-    }
-
     fn result(&self, half_beam: f64) -> State {
         match fit(&self.returns, half_beam) {
             Some(wall) => State::WallFound { angle: Angle::from_si(wall.bearing + QUARTER) },
@@ -122,7 +61,7 @@ impl SearchWall {
 mod tests {
     use super::*;
     use crate::fake::{Fake, Plane, plane};
-    use crate::guard::STUCK_ROTATOR;
+    use crate::guard::{NO_RANGE, STUCK_ROTATOR};
     use afp_core::Duration;
     use afp_core::quantity::{AngularSpeed, Length, Speed};
 

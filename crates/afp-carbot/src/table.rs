@@ -80,6 +80,12 @@ mod tests {
             ("robot", "collision"),
             ("robot", "contact"),
             ("world", "outline"),
+            ("localisation", "pose"),
+            ("localisation", "belief"),
+            ("localisation", "off"),
+            ("localisation", "heading_off"),
+            ("signals", "light"),
+            ("signals", "tone"),
         ];
         assert_eq!(names.collect::<Vec<_>>(), expected);
         assert_eq!((signal::POSE.0, signal::WORLD_OUTLINE.0), (16, 21));

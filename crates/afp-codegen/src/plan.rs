@@ -15,6 +15,7 @@ mod rules;
 mod shared;
 mod state;
 mod supervisors;
+mod tables;
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -58,10 +59,12 @@ pub struct Module {
 /// The Rust code of all plans of a graph.
 pub fn plan(graph: &Graph, options: &Options) -> Generated {
     let enums = shared::enums_of(graph);
+    let tables = tables::tables_of(graph);
     let mut modules = shared::modules(graph, &enums, options);
+    modules.extend(tables::module(graph, (&tables, &enums), options));
     let ids = (0..=u16::MAX).map(PlanId).take(graph.plans.len());
     for id in ids.clone() {
-        modules.push(module(&Context::new(graph, &enums, id), options, id));
+        modules.push(module(&Context::new(graph, (&enums, &tables), id), options, id));
     }
     let plans = ids.map(|id| home(graph, id));
     let (main, plan) = home(graph, graph.main);

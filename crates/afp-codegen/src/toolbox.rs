@@ -30,7 +30,7 @@ pub fn toolbox(toolbox: &Toolbox, options: &Options) -> TokenStream {
     let rust_name = |choices: &Enum| ident(&camel(&choices.name));
     let enums = toolbox.enums.iter();
     let enums = enums.map(|choices| enums::choices(core, choices, &rust_name(choices)));
-    let templates = toolbox.templates.iter().map(|t| template(core, t));
+    let templates = implemented(toolbox).map(|t| template(core, t));
     let register = register::register(core, toolbox);
     let devices = devices::devices(core, toolbox);
     quote! {
@@ -42,6 +42,11 @@ pub fn toolbox(toolbox: &Toolbox, options: &Options) -> TokenStream {
         #(#templates)*
         #register
     }
+}
+
+/// The templates that Rust types implement: what reads a table has the ports of a plan's own.
+fn implemented(toolbox: &Toolbox) -> impl Iterator<Item = &Template> {
+    toolbox.templates.iter().filter(|template| template.reads_table.is_none())
 }
 
 /// What templates of one kind are called in Rust.
@@ -75,9 +80,16 @@ fn home(core: &TokenStream) -> TypePaths<'_> {
     TypePaths { core: quote!(#core::), quantity: quote!(#core::quantity::), choice, object }
 }
 
+/// The module of a template's types. A template that is called as the modules of the devices are gives way.
+fn module(template: &Template) -> Ident {
+    let name = snake(&template.name);
+    let taken = devices::MODULES.contains(&&*name);
+    if taken { ident(&format!("{name}_")) } else { ident(&name) }
+}
+
 fn template(core: &TokenStream, template: &Template) -> TokenStream {
     let words = words(template.kind);
-    let module = ident(&snake(&template.name));
+    let module = module(template);
     let about = doc("", &format!("Ports and {} of [`{}`].", words.outcomes, camel(&template.name)));
     let inputs = ports::inputs(core, template);
     let live = has_live(template).then(|| ports::live(core, template));
@@ -118,7 +130,7 @@ fn marker(template: &Template) -> TokenStream {
 
 fn implement(core: &TokenStream, template: &Template) -> TokenStream {
     let Words { template: trait_name, outcome, .. } = words(template.kind);
-    let (name, module) = (ident(&camel(&template.name)), ident(&snake(&template.name)));
+    let (name, module) = (ident(&camel(&template.name)), module(template));
     let (parameters, arguments) = match bound(template) {
         Some(bound) => (quote!(<V: #core::rt::#bound>), quote!(<V>)),
         None => Default::default(),
@@ -200,5 +212,21 @@ impl Parameters {
     /// `<V>` for something that owns.
     fn owned_arguments(self) -> TokenStream {
         if self.generic { quote!(<V>) } else { TokenStream::new() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use afp_syntax::source::Source;
+
+    #[test]
+    fn templates_called_as_the_modules_of_devices_give_way() {
+        let text = "toolbox lamps\ndevice lamp { signal on: bool }\nactor Signal { state Shown }\n\
+                    actor Devices { state Done }\nactor Blink { state Done }";
+        let (lamps, _) = Toolbox::parse(&Source::new("lamps.afp", text), 0, "lamps");
+        let lamps = lamps.expect("it is sound");
+        let names: Vec<_> = lamps.templates.iter().map(|it| module(it).to_string()).collect();
+        assert_eq!(names, ["signal_", "devices_", "blink"]);
     }
 }

@@ -1,8 +1,13 @@
 //! Why something cannot go on.
 
+mod detail;
+
 use core::fmt;
 
 use crate::trace::{ComponentId, Names};
+
+pub(crate) use detail::Port;
+pub use detail::{BadValue, Detail, Subject};
 
 /// A reason why a component failed. One pointer, so that results of polls stay in registers.
 #[derive(Clone, Copy)]
@@ -24,12 +29,14 @@ pub struct Reason {
 }
 
 /// Which component of a plan failed, and why.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Failure {
     /// The component; 0 is the plan itself.
     pub component: ComponentId,
     /// Why.
     pub fault: Fault,
+    /// The value that it is about, where it is about one.
+    pub detail: Option<Detail>,
 }
 
 macro_rules! faults {
@@ -80,6 +87,16 @@ impl Fault {
     pub const fn text(self) -> &'static str {
         self.0.text
     }
+
+    /// What happened, for people, with the value that it is about, if it is about one:
+    /// `'speed' of 'go' is 2 m/s, at most 1 m/s; formula at plan.afp:12:30`.
+    pub fn explained<'n, N: Names + ?Sized>(
+        self,
+        detail: Option<Detail>,
+        names: &'n N,
+    ) -> impl fmt::Display + use<'n, N> {
+        detail::Explained { fault: self, detail, names }
+    }
 }
 
 impl Failure {
@@ -93,8 +110,9 @@ struct NamedFailure<'a, N>(Failure, &'a N);
 
 impl<N: Names> fmt::Display for NamedFailure<'_, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Failure { component, fault } = self.0;
+        let Failure { component, fault, detail } = self.0;
         let name = self.1.component(component);
+        let fault = fault.explained(detail, self.1);
         match name.template {
             "" => write!(f, "{}: {fault}", name.path),
             template => write!(f, "{} ({template}): {fault}", name.path),

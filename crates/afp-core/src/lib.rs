@@ -27,7 +27,7 @@ pub use component::{
     Actor, ActorTemplate, Computation, ComputationTemplate, Environment, Events, Poll, Supervisor,
     SupervisorTemplate,
 };
-pub use fault::{Failure, Fault, Reason};
+pub use fault::{Detail, Failure, Fault, Reason, Subject};
 pub use job::{Job, Ticket, Worker};
 pub use machine::MAX_TRANSITIONS_PER_STEP;
 pub use platform::Platform;

@@ -182,11 +182,14 @@ impl<P: PlanState> Level<P> {
     {
         self.active = None;
         self.due = Instant::MAX;
-        if let Err(fault) = self.plan.initialise() {
+        if let Err(why) = self.plan.initialise() {
+            // The values are the plan's own, whoever was called before.
+            cx.step.called = cx.place.plan;
+            let fault = cx.note(why);
             // A sub-plan's fault is traced by the plan that uses it, as any that ends it.
             match cx.place.plan {
                 plan @ ComponentId(0) => cx.failed(plan, fault),
-                sub_plan => cx.note_failure(sub_plan, fault),
+                sub_plan => drop(cx.note_failure(sub_plan, fault)),
             }
             return self.end(Ending::Error(fault), cx);
         }

@@ -9,6 +9,7 @@ mod native;
 mod plan;
 mod ports;
 mod probe;
+mod row;
 mod state;
 mod store;
 mod table;
@@ -19,18 +20,21 @@ pub use formula::{
     max, min, parse_bool, parse_choice, parse_float, parse_int, parse_quantity, print_quantity,
     rem, sin, sqrt,
 };
-pub use names::{ComponentRow, EntryRow, NameTable, NamedPlan};
+pub use names::{ComponentRow, EntryRow, NameTable, NamedPlan, PortRow};
 pub use native::{
-    finite, limited, print_choice, read_choice, set_input, stage_outside, store_text, within,
-    within_int, within_value,
+    finite, initial, input, limited, output, print_choice, read_choice, set_input, stage_outside,
+    store_text, within, within_int, within_value,
 };
 pub use plan::{Committer, Cx, Fired, Polled, Slot, Started};
 pub(crate) use plan::{Place, StepState};
 pub use ports::{Args, FromArgs, Outcome, Outputs, Ports, Registry};
 pub use probe::{ActorSupported, Probe, SupervisorSupported, Unsupported};
+pub use row::{RowInputs, row};
 pub use state::{AtElement, Plan, PlanState, WriteError};
 pub use store::{Any, Choice, Discrete, Entry, Number, Object, Stored, Writable};
 pub use table::{Child, ElementKind, ElementRow, PlanTable, Range, SupervisorRow, Tables, Target};
+
+pub use crate::fault::BadValue;
 
 pub use crate::component::{
     Actor, ActorTemplate, Computation, ComputationTemplate, Environment, Events, Poll, Supervisor,

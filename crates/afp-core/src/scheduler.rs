@@ -333,9 +333,9 @@ impl<P: PlanState> Scheduler<P> {
         let (plan, ending) = (ComponentId(0), Ending::Error(fault));
         // An actor that could not be interrupted has been noted already.
         if self.step.failure.is_none_or(|known| known.fault != fault) {
-            self.step.failure = Some(Failure { component, fault });
+            self.step.failure = Some(Failure { component, fault, detail: None });
         }
-        sink.record(self.last, &Record::Faulted { component, fault });
+        sink.record(self.last, &Record::Faulted { component, fault, detail: None });
         sink.record(self.last, &Record::Ended { plan, ending });
         self.state = State::Ended(ending);
         Wake::Ended(ending)

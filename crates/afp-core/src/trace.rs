@@ -6,7 +6,7 @@
 mod display;
 mod hash;
 
-use crate::fault::Fault;
+use crate::fault::{Detail, Fault};
 use crate::time::{Duration, Instant};
 use crate::value::ValueRef;
 
@@ -112,6 +112,8 @@ pub enum Record<'a> {
         supervisor: ComponentId,
         /// The event, or [`DEADLINE_MISSED`].
         event: u16,
+        /// The element of the same plan that is active or being entered, which decides where the event leads.
+        element: ComponentId,
     },
     /// An event was not taken, because it leads to the element that is already active or being
     /// entered.
@@ -120,6 +122,8 @@ pub enum Record<'a> {
         supervisor: ComponentId,
         /// The event, or [`DEADLINE_MISSED`].
         event: u16,
+        /// That element.
+        element: ComponentId,
     },
     /// An actor or sub-plan was interrupted.
     Interrupted {
@@ -180,6 +184,8 @@ pub enum Record<'a> {
         component: ComponentId,
         /// Why.
         fault: Fault,
+        /// The value that it is about, where it is about one.
+        detail: Option<Detail>,
     },
     /// A plan ended; a sub-plan goes by the id of its element.
     Ended {
@@ -293,6 +299,43 @@ pub struct EntryName<'a> {
     pub range: Option<(f64, f64)>,
 }
 
+/// A port of a component as people know it, with what is bound to it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PortName<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// The SI unit of its values, empty for plain numbers and everything else.
+    pub unit: &'a str,
+    /// Least and greatest value in SI units, where it has a range; of an output that of its entry.
+    pub range: Option<(f64, f64)>,
+    /// The entry that an output is bound to, by its dotted path.
+    pub entry: Option<&'a str>,
+    /// Where what is bound stands in the text; `None` where nothing is written.
+    pub place: Option<TextPlace<'a>>,
+}
+
+/// A place in a text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TextPlace<'a> {
+    /// The file, seen from the folder of the main plan's file.
+    pub file: &'a str,
+    /// The line, from 1.
+    pub line: u32,
+    /// The column in characters, from 1.
+    pub column: u32,
+}
+
+/// An edge of an element that holds, while that is active or being entered, instead of one of a global supervisor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Reaction<'a> {
+    /// The supervisor.
+    pub supervisor: ComponentId,
+    /// The event, or [`DEADLINE_MISSED`].
+    pub outcome: u16,
+    /// Where it leads, as [`Names::target`] says it.
+    pub target: &'a str,
+}
+
 impl ComponentName<'_> {
     /// What an unknown id is called.
     pub const NONE: ComponentName<'static> =
@@ -335,9 +378,34 @@ pub trait Names {
     /// go by their own numbers.
     fn outcome(&self, id: ComponentId, outcome: u16) -> &str;
     /// Where an outcome leads: an element's name, `terminate`, `fail`, `ignore`, `resume`; empty where unconnected.
+    /// Elements may lead events of global supervisors elsewhere, see [`Names::target_at`].
     fn target(&self, id: ComponentId, outcome: u16) -> &str;
+    /// The `n`-th edge of an element that holds instead of one of a global supervisor; `None` behind the last.
+    fn reaction(&self, element: ComponentId, n: u16) -> Option<Reaction<'_>>;
+    /// Where an outcome leads while an element of the same plan is active or being entered.
+    fn target_at(&self, id: ComponentId, outcome: u16, element: ComponentId) -> &str {
+        let mut reactions = (0..u16::MAX).map_while(|n| self.reaction(element, n));
+        let here = reactions.find(|each| (each.supervisor, each.outcome) == (id, outcome));
+        here.map_or_else(|| self.target(id, outcome), |reaction| reaction.target)
+    }
     /// An input port of a component.
     fn input(&self, id: ComponentId, port: u16) -> &str;
+    /// An input port of a component with its bounds; without them where nobody knows.
+    fn input_port(&self, id: ComponentId, port: u16) -> PortName<'_> {
+        PortName { name: self.input(id, port), ..PortName::default() }
+    }
+    /// An output port of a component, with the bounds of the entry that it is bound to.
+    fn output_port(&self, _: ComponentId, _: u16) -> PortName<'_> {
+        PortName::default()
+    }
+    /// One more than the position of the last output port that is bound.
+    fn outputs(&self, _: ComponentId) -> u16 {
+        0
+    }
+    /// Where the initial value of an entry stands in the text.
+    fn initial(&self, _: TraceEntryId) -> Option<TextPlace<'_>> {
+        None
+    }
     /// How many entries there are.
     fn entries(&self) -> u32;
     /// An entry.

@@ -8,13 +8,14 @@ mod places;
 mod steer;
 mod stop;
 mod time;
+mod trace;
 mod why;
 mod world;
 
 use std::time::Duration as Wall;
 
 use afp_core::Instant;
-use afp_session::Drawing;
+use afp_session::{Drawing, Droppable};
 use afp_token::Token;
 use dapts::{IEvent, IRequest, event, request};
 use serde::de::DeserializeOwned;
@@ -53,6 +54,10 @@ pub struct Surroundings {
     pub drawing: Drawing,
     /// Other worlds that a run may take place in, as `launch` takes them, each with where it comes from.
     pub worlds: Vec<(String, &'static str)>,
+    /// The shapes that can be dropped into it while a plan runs.
+    pub drops: &'static [Droppable],
+    /// Whether the robot has a camera.
+    pub camera: bool,
 }
 
 /// A debug adapter for one client.
@@ -91,6 +96,8 @@ struct Run<'h> {
     exception: Option<(&'static str, String)>,
     /// Whether the client wants to be told what is the case.
     told: bool,
+    /// What happened and was not told yet, where the client wants to be told.
+    traced: Option<Vec<Value>>,
     /// When it was told so last.
     told_at: Wall,
     /// When the plan is stopped at the latest.

@@ -149,26 +149,29 @@ impl Filters {
 /// Where an event happens.
 fn spots(event: &RunEvent, program: &Program) -> impl Iterator<Item = Spot> {
     let (id, outcome) = (event.component_id, event.outcome_id);
-    let both = match event.kind {
-        EventKind::Started => [Some(Spot::Start(id)), None],
-        EventKind::Finished | EventKind::Event => {
-            [Some(Spot::Reports(id)), Some(Spot::Outcome(id, outcome))]
+    let all = match event.kind {
+        EventKind::Started => [Some(Spot::Start(id)), None, None],
+        EventKind::Finished => [Some(Spot::Reports(id)), Some(Spot::Outcome(id, outcome)), None],
+        EventKind::Event => {
+            let reaction = Spot::Reaction(event.element_id, id, outcome);
+            [Some(Spot::Reports(id)), Some(Spot::Outcome(id, outcome)), Some(reaction)]
         }
         EventKind::Diverted => {
-            let id = event.supervisor_id;
-            [Some(Spot::Reports(id)), Some(Spot::Outcome(id, outcome))]
+            let by = event.supervisor_id;
+            let reaction = Spot::Reaction(id, by, outcome);
+            [Some(Spot::Reports(by)), Some(Spot::Outcome(by, outcome)), Some(reaction)]
         }
-        EventKind::Faulted => [Some(Spot::Outcome(id, ERROR)), None],
-        EventKind::Missed => [Some(Spot::Outcome(id, DEADLINE_MISSED)), None],
+        EventKind::Faulted => [Some(Spot::Outcome(id, ERROR)), None, None],
+        EventKind::Missed => [Some(Spot::Outcome(id, DEADLINE_MISSED)), None, None],
         // That a plan begins with its initial values is no writing.
         EventKind::Committed => {
             let entry = program.entries.get(event.entry_id.0 as usize);
             let written = entry.is_some_and(|entry| entry.plan != id);
-            [written.then_some(Spot::Commit(event.entry_id)), None]
+            [written.then_some(Spot::Commit(event.entry_id)), None, None]
         }
-        _ => [None, None],
+        _ => [None; 3],
     };
-    both.into_iter().flatten()
+    all.into_iter().flatten()
 }
 
 /// A text in which formulas in braces are their values; one that is none stays as it is.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use afp_core::devices::DeviceRow;
 use afp_core::trace::ComponentId;
 use afp_core::{Duration, Instant};
-use afp_session::{Request, RunEvent};
+use afp_session::{Pose2, Request, RunEvent};
 
 use crate::program::Program;
 use crate::state::State;
@@ -27,6 +27,8 @@ pub struct LogTarget {
     keyframes: Vec<State>,
     /// How many moments are over.
     passed: usize,
+    /// Where the robot was, by time.
+    poses: Vec<(Instant, Pose2)>,
     now: Instant,
     state: State,
 }
@@ -55,7 +57,13 @@ impl LogTarget {
         moments.extend((!events.is_empty()).then_some(events.len()));
         let (now, state) = (Instant::ZERO, State::default());
         let keyframes = vec![state.clone()];
-        Ok(LogTarget { program, events, moments, keyframes, passed: 0, now, state })
+        let poses = Vec::new();
+        Ok(LogTarget { program, events, moments, keyframes, passed: 0, poses, now, state })
+    }
+
+    /// The same with where the robot was, by time.
+    pub fn with_poses(self, poses: Vec<(Instant, Pose2)>) -> LogTarget {
+        LogTarget { poses, ..self }
     }
 
     /// The events of the next moment.
@@ -149,6 +157,11 @@ impl Target for LogTarget {
             }
         }
         Ok(())
+    }
+
+    fn pose(&self) -> Option<Pose2> {
+        let later = self.poses.partition_point(|(at, _)| *at <= self.now);
+        self.poses.get(later.saturating_sub(1)).map(|(_, pose)| *pose)
     }
 
     fn set(&mut self, _: &str, _: &str) -> Result<String, String> {

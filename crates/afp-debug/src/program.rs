@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR, TraceEntryId};
 use afp_dsl::graph::{EntryKind, Graph};
 use afp_dsl::types::Type;
-use afp_dsl::unfold::{Kind, places, unfold};
+use afp_dsl::unfold::{Kind, Reaction, places, unfold};
 use afp_syntax::source::{Encoding, Lines, Sources, Span};
 
 /// A plan with the places of everything in it.
@@ -44,6 +44,8 @@ pub struct Unit {
     pub inputs: Vec<(String, String)>,
     /// States or events: name and target.
     pub outcomes: Vec<(String, String)>,
+    /// Its edges that hold instead of those of supervisors of its plan: supervisor, event and target.
+    pub reactions: Vec<(ComponentId, u16, String)>,
     /// Where it stands.
     pub at: Place,
 }
@@ -87,6 +89,8 @@ pub enum Spot {
     Outcome(ComponentId, u16),
     /// Any event of a supervisor is taken, a computation is done.
     Reports(ComponentId),
+    /// An event of a supervisor is taken while the first one is active, which reacts to it by itself.
+    Reaction(ComponentId, ComponentId, u16),
     /// An entry is written.
     Commit(TraceEntryId),
 }
@@ -104,8 +108,11 @@ impl Program {
             kind: names.kind,
             plan: ComponentId(place.plan),
             owner: place.owner.map(ComponentId),
-            inputs: names.inputs.into_iter().zip(place.inputs.iter().map(unit)).collect(),
+            inputs: (names.inputs.into_iter().map(|port| port.name))
+                .zip(place.inputs.iter().map(unit))
+                .collect(),
             outcomes: names.outcomes,
+            reactions: names.reactions.into_iter().map(reaction).collect(),
             at: texts.place(place.span),
         });
         let entries = unfolded.entries.into_iter().map(|entry| Entry {
@@ -136,6 +143,11 @@ impl Program {
                 let at = span.map(|span| texts.place(span));
                 at.into_iter().for_each(|at| program.add(at, Spot::Outcome(id, outcome)));
             }
+            for (edge, _, span) in &place.reactions {
+                let (supervisor, event) = (ComponentId(edge.supervisor), edge.event);
+                let spot = Spot::Reaction(id, supervisor, event.unwrap_or(DEADLINE_MISSED));
+                program.add(texts.place(*span), spot);
+            }
         }
         for number in 0..program.entries.len() {
             let entry = &program.entries[number];
@@ -162,7 +174,7 @@ impl Program {
     /// Something can happen at a line. Where a component is declared in one line, that line stands for its start.
     fn add(&mut self, at: Place, spot: Spot) {
         let spots = self.lines.entry((at.file, at.line)).or_default();
-        let edge = |spot: &Spot| matches!(spot, Spot::Outcome(..));
+        let edge = |spot: &Spot| matches!(spot, Spot::Outcome(..) | Spot::Reaction(..));
         if spots.iter().all(edge) || !edge(&spot) {
             spots.retain(|known| edge(known) == edge(&spot));
             spots.push(spot);
@@ -193,7 +205,7 @@ impl Program {
     /// The plan that something at a spot belongs to.
     pub fn plan_at(&self, spot: Spot) -> ComponentId {
         let plan = match spot {
-            Spot::Start(id) | Spot::Outcome(id, _) | Spot::Reports(id) => {
+            Spot::Start(id) | Spot::Outcome(id, _) | Spot::Reports(id) | Spot::Reaction(id, ..) => {
                 self.unit(id).map(|it| it.plan)
             }
             Spot::Commit(id) => self.entries.get(id.0 as usize).map(|it| it.plan),
@@ -226,6 +238,10 @@ impl Program {
         let found = inside.or_else(|| self.entries.iter().position(|it| it.path == name))?;
         Some(TraceEntryId(found as u32))
     }
+}
+
+fn reaction((edge, target): (Reaction, String)) -> (ComponentId, u16, String) {
+    (ComponentId(edge.supervisor), edge.event.unwrap_or(DEADLINE_MISSED), target)
 }
 
 /// What happens at the line where a component is declared.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use afp_core::devices::{DeviceRow, find_signal};
+use afp_core::devices::{DeviceRow, SignalType, find_signal, signals};
 use afp_core::trace::{ComponentId, EntryName, TraceEntryId};
 use afp_core::{Duration, Instant, StartError};
 use afp_session::{
@@ -186,6 +186,33 @@ impl Target for SessionTarget<'_> {
             }
         });
         pose
+    }
+
+    fn moving(&self) -> Vec<(String, Vec<[f64; 2]>)> {
+        let session = &self.run.session;
+        let mut all = Vec::new();
+        let outlines = signals(session.devices()).filter(|(.., row)| row.ty == SignalType::Outline);
+        for (signal, ..) in outlines {
+            session.read(signal, &mut |sample| {
+                if let SampleRef::Outline(shape) = sample {
+                    all.push((shape.id.clone(), shape.outline.clone()));
+                }
+            });
+        }
+        all
+    }
+
+    fn picture(&self) -> Option<(u32, u32, Vec<u8>)> {
+        let session = &self.run.session;
+        let (signal, ..) =
+            signals(session.devices()).find(|(.., row)| row.ty == SignalType::Image)?;
+        let mut picture = None;
+        session.read(signal, &mut |sample| {
+            if let SampleRef::Image(image) = sample {
+                picture = Some((image.width, image.height, image.rgb.to_vec()));
+            }
+        });
+        picture
     }
 
     fn set(&mut self, entry: &str, text: &str) -> Result<String, String> {

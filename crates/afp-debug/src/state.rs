@@ -25,8 +25,10 @@ pub struct State {
     reports: BTreeMap<ComponentId, (Instant, String)>,
     /// Deadlines that a supervisor missed, and the last of them.
     misses: BTreeMap<ComponentId, (u64, Miss)>,
-    /// When each state was reached, and each event taken, last.
+    /// When each state was reached, and each event taken by its own edge, last.
     reached: BTreeMap<(ComponentId, u16), Instant>,
+    /// When each event was taken last to which an element reacts by itself: element, supervisor, event.
+    reacted: BTreeMap<(ComponentId, ComponentId, u16), Instant>,
     /// The last edge that was taken in each plan.
     taken: BTreeMap<ComponentId, Taken>,
     /// The edge by which each element became active last; none where its plan began with it.
@@ -96,7 +98,13 @@ impl State {
             // It is done at once, without a start.
             self.begin(by, event.at, program);
         }
-        self.reached.insert((by, event.outcome_id), event.at);
+        let (element, outcome) = (event.element_id, event.outcome_id);
+        let reactions = program.unit(element).map_or(&[][..], |unit| &unit.reactions);
+        let reacts = |(of, to, _): &(ComponentId, u16, String)| (*of, *to) == (by, outcome);
+        match event.kind == EventKind::Event && reactions.iter().any(reacts) {
+            true => self.reacted.insert((element, by, outcome), event.at),
+            false => self.reached.insert((by, outcome), event.at),
+        };
         let (target, text) = (event.target.clone(), Line(event).to_string());
         if let Some(unit) = program.unit(by) {
             self.taken.insert(unit.plan, Taken { by, target, text, at: event.at });
@@ -193,7 +201,17 @@ impl State {
         self.misses.get(&id).copied()
     }
 
-    /// When a state was reached, or an event taken, last.
+    /// When an event was taken last to which an element reacts by itself.
+    pub fn reacted(
+        &self,
+        element: ComponentId,
+        supervisor: ComponentId,
+        event: u16,
+    ) -> Option<Instant> {
+        self.reacted.get(&(element, supervisor, event)).copied()
+    }
+
+    /// When a state was reached, or an event taken by its own edge, last.
     pub fn reached(&self, id: ComponentId, outcome: u16) -> Option<Instant> {
         self.reached.get(&(id, outcome)).copied()
     }

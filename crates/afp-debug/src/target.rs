@@ -52,6 +52,16 @@ pub trait Target {
         None
     }
 
+    /// Outlines of what moves in the robot's world, by the ids of a scene; none where the robot does not signal that.
+    fn moving(&self) -> Vec<(String, Vec<[f64; 2]>)> {
+        Vec::new()
+    }
+
+    /// The last picture of the robot's camera, where it has one: width, height, and a byte for each of red, green and blue.
+    fn picture(&self) -> Option<(u32, u32, Vec<u8>)> {
+        None
+    }
+
     /// Writes an entry of the outermost plan as people write it; gives the value.
     ///
     /// # Errors

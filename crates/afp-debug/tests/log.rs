@@ -121,7 +121,7 @@ fn a_log_is_sought_through_and_cannot_be_changed() {
     let mut past = Client::new(Box::new(Recorded(SHIPPED.to_owned(), log)));
     past.say(r#"initialize {"adapterID":"afp"}"#);
     past.say(r#"launch {"log":"plan.afp","until":3}"#);
-    assert!(past.told.contains("leave 'world', 'set' and 'until' out"), "{}", past.told);
+    assert!(past.told.contains("leave 'world', 'start', 'set' and 'until' out"), "{}", past.told);
     past.say(r#"launch {"log":"plan.afp"}"#);
     assert!(past.told.contains(r#""supportsSetVariable":false"#), "{}", past.told);
     past.say(r#"setFunctionBreakpoints {"breakpoints":[{"name":"backupCollision"}]}"#);

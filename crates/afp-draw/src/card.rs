@@ -2,8 +2,9 @@
 //!
 //! An element's card is its box with name, template and icon, the data on its left, its states as
 //! exits on its lower border, and its supervisors leaning on its right side with their events as
-//! exits. The start tag carries the global supervisors in the same way. Edges to `terminate`, `fail`,
-//! `ignore` and `resume` end in tags of their own on the card, so that only flow between elements is routed.
+//! exits. The start tag carries the global supervisors in the same way. Edges to `terminate`, `fail`
+//! and `ignore` end in tags of their own on the card, those to `resume` are hollow arrows back to it, so that only flow
+//! between elements is routed.
 
 mod parts;
 mod start;
@@ -13,11 +14,11 @@ use super::layout;
 use super::metrics::width;
 use super::sketch::{Anchor, Frame, Glyph, Label, Picture, Piece, Rect, Shape, Sketch};
 use super::usage::{Class, Use, times};
-use super::view::{Exit, Input, View, name};
+use super::view::{Input, View, name};
 use afp_dsl::outline::{Component, ComponentKind, Part};
 use afp_syntax::diagnostics::Severity;
 use afp_syntax::item::Item;
-use parts::{ROW, Tag, chip_width, exit_below, inflow, outflow, pill_width, tag_width};
+use parts::{ROW, exit_below, exit_width, inflow, outflow, pill_width};
 
 pub(super) use start::start;
 
@@ -74,7 +75,7 @@ pub(super) fn element<'a>(view: &View<'a>, element: &'a Component) -> Card<'a> {
     let exits = states.iter().map(|exit| exit_width(exit) + EXIT_GAP).sum::<f64>() + 16.0;
     let rows = (inputs.len() + outputs.len()) as f64;
     let own = HEAD + rows * ROW + 16.0;
-    let stack = supervisors::Stack::new(view, &element.supervisors);
+    let stack = supervisors::Stack::new(view, element.inner());
     let rect = Rect { x: left, y: 0.0, width: head.max(exits), height: own.max(stack.first) };
     let (shape, class) = look(view, element);
     card.sketch.frames.push(Frame { rect, shape, class, title: title(element, template) });
@@ -125,16 +126,13 @@ fn shown(inputs: Vec<Input>) -> Vec<Input> {
     inputs.into_iter().filter(|input| input.bound || input.missing).collect()
 }
 
-/// The room that an exit needs below a box: its own or that of the tag it leads to.
-fn exit_width(exit: &Exit) -> f64 {
-    chip_width(&exit.text()).max(Tag::of(exit.to).map_or(0.0, tag_width))
-}
-
 fn look(view: &View, element: &Component) -> (Shape, Class) {
     let (shape, name) = match element.kind {
         ComponentKind::Computation => (Shape::Cut(12.0), "computation"),
         ComponentKind::SubPlan => (Shape::Double(9.0), "subplan"),
-        ComponentKind::Actor | ComponentKind::Supervisor => (Shape::Round(9.0), "actor"),
+        ComponentKind::Actor | ComponentKind::Supervisor | ComponentKind::Reactions => {
+            (Shape::Round(9.0), "actor")
+        }
     };
     let usage = view.count(element).map(|count| {
         let states = view.exits(element);
@@ -167,7 +165,7 @@ fn heading<'a>(
     let fallback = match element.kind {
         ComponentKind::Computation => Glyph::Computation,
         ComponentKind::SubPlan => Glyph::SubPlan,
-        ComponentKind::Actor | ComponentKind::Supervisor => Glyph::Actor,
+        ComponentKind::Actor | ComponentKind::Supervisor | ComponentKind::Reactions => Glyph::Actor,
     };
     let icon = view.icon(element);
     let (_, class) = look(view, element);

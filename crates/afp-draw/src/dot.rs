@@ -7,7 +7,8 @@ use super::view::{Exit, To, View, name};
 use afp_dsl::outline::{Component, ComponentKind, ExitKind, Outline};
 
 /// The plan in the DOT language: a cluster for each plan, solid edges for states, dashed ones for
-/// events, named after what takes them. Ignored events are left out, what resumes, and what leads nowhere.
+/// events, named after what takes them. What resumes has a hollow arrow back to where it comes from. Ignored events are left
+/// out, and what leads nowhere.
 pub fn dot(outline: &Outline, options: &Options) -> String {
     let views = View::all(outline, options);
     let title = views.first().map_or("", View::name);
@@ -66,6 +67,7 @@ impl<'a> Cluster<'a, '_> {
                 self.edge(text, &from, &exit, exit.name);
             }
             self.events(text, &from, &element.supervisors);
+            self.events(text, &from, &element.reactions);
         }
     }
 
@@ -74,7 +76,9 @@ impl<'a> Cluster<'a, '_> {
         let shape = match element.kind {
             ComponentKind::Computation => "shape=hexagon, style=solid",
             ComponentKind::SubPlan => "shape=box, peripheries=2",
-            ComponentKind::Actor | ComponentKind::Supervisor => "shape=box",
+            ComponentKind::Actor | ComponentKind::Supervisor | ComponentKind::Reactions => {
+                "shape=box"
+            }
         };
         let mut label = format!("{}\n{}", name(element), view.template_name(element));
         for input in view.inputs(element).iter().filter(|input| input.bound) {
@@ -96,7 +100,7 @@ impl<'a> Cluster<'a, '_> {
     }
 
     fn edge(&self, text: &mut String, from: &str, exit: &Exit<'a>, label: &str) {
-        if matches!(exit.to, To::Ignore | To::Resume | To::Nowhere) {
+        if matches!(exit.to, To::Ignore | To::Nowhere) {
             return;
         }
         let style = match exit.kind {
@@ -104,6 +108,11 @@ impl<'a> Cluster<'a, '_> {
             ExitKind::Error => "dotted",
             ExitKind::Event | ExitKind::Missed => "dashed",
         };
+        if exit.to == To::Resume {
+            let (from, label) = (quoted(from), quoted(&format!("{label}\nresume")));
+            let look = format!("label={label}, style={style}, arrowhead=empty");
+            return line(text, 1, &format!("{from} -> {from} [{look}];"));
+        }
         let (from, to) = (quoted(from), quoted(&self.node_name(exit.to)));
         line(text, 1, &format!("{from} -> {to} [label={}, style={style}];", quoted(label)));
     }

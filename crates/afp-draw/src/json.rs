@@ -60,6 +60,11 @@ fn element_object<'a>(drawn: &DrawnPlan<'a>, element: &'a Component) -> Value {
     put_data(&mut object, &inputs, &outputs);
     put(&mut object, "states", targets(view, &view.exits(element)));
     put(&mut object, "supervisors", supervisor_objects(view, &element.supervisors));
+    let reactions = element
+        .reactions
+        .iter()
+        .map(|table| json!({ "to": name(table), "events": targets(view, &view.exits(table)) }));
+    put(&mut object, "reactions", reactions.collect());
     put(&mut object, "ports", ports(&inputs, &outputs));
     Value::Object(object)
 }

@@ -81,9 +81,6 @@ pub(super) struct LaidOut {
 /// How often boxes give way to edges.
 const ROUNDS: usize = 4;
 
-/// What routing may take before boxes stop giving way, in states of the search: about a second.
-const BUDGET: u64 = 20_000_000;
-
 /// Lays out the nodes; `links` out of a node count in their order, and node 0 comes first.
 pub(super) fn layout(nodes: &[Node], links: &[Link]) -> LaidOut {
     if nodes.is_empty() {
@@ -103,7 +100,7 @@ pub(super) fn layout(nodes: &[Node], links: &[Link]) -> LaidOut {
         effort += found.effort;
         // A box at which too many edges arrive cannot give way.
         let mut narrow = found.crowded.iter().filter(|narrow| !narrow.arrives).peekable();
-        if narrow.peek().is_none() || round == ROUNDS || effort > BUDGET {
+        if narrow.peek().is_none() || round == ROUNDS || effort > router::BUDGET {
             return LaidOut::new(nodes, corners, found.corners);
         }
         for narrow in narrow {
@@ -148,5 +145,33 @@ impl LaidOut {
         let (x, y) = (left.unwrap_or(0.0), top.unwrap_or(0.0));
         let (width, height) = (right.unwrap_or(x) - x, bottom.unwrap_or(y) - y);
         LaidOut { corners, routes, bounds: Rect { x, y, width, height } }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::{Duration, Instant};
+
+    use super::{Exit, Link, Node, layout};
+
+    /// The least time of two for boxes one below the other.
+    fn chain(count: usize) -> Duration {
+        let nodes = vec![Node { width: 100.0, height: 60.0, entry: (20.0, 80.0) }; count];
+        let link = |to: usize| Link { from: to - 1, to, exit: Exit::Below(50.0, 60.0) };
+        let links: Vec<_> = (1..count).map(link).collect();
+        let run = || {
+            let begin = Instant::now();
+            assert_eq!(layout(&nodes, &links).routes.len(), count - 1);
+            begin.elapsed()
+        };
+        (0..2).map(|_| run()).min().unwrap_or(Duration::ZERO)
+    }
+
+    /// Each layer took as long as all items, and each line as all boxes.
+    #[test]
+    fn many_layers_take_about_as_long_as_they_are_many() {
+        let (short, long) = (chain(150), chain(4800));
+        // 32 times as many took over 200 times as long; the machine may be busy.
+        assert!(long < short * 110, "{short:?} for 150 boxes, {long:?} for 4800");
     }
 }

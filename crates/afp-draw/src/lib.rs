@@ -4,6 +4,7 @@
 //! Drawings read the outline, so that plans with errors are drawn too, with what is wrong marked
 //! where it is. A state chart is for other engines to run, so it reads the graph.
 
+mod arrange;
 mod card;
 mod dot;
 pub mod formula;
@@ -38,13 +39,13 @@ pub use scene::{EdgeScene, ElementScene, PieceScene, PlanScene, Point, Scene, Sy
 pub use scxml::scxml;
 pub use sketch::Rect;
 pub use svg::{picture, sheet, svg};
-pub use usage::{Count, PlanUsage, Usage};
+pub use usage::{Count, PlanUsage, Reaction, Usage};
 
 /// Finds the SVG text of an icon that a template of a toolbox names.
 pub type Icons<'a> = &'a dyn Fn(&Toolbox, &str) -> Option<String>;
 
 /// What a drawing can use besides the outline. The default draws the main plan for light and dark
-/// pages, with its sub-plans below.
+/// pages, with its sub-plans after it.
 #[derive(Clone, Copy)]
 pub struct Options<'a> {
     /// The plan to be drawn; without one the main plan.

@@ -28,6 +28,9 @@ const LEAST: f64 = 6.0;
 /// How often edges are led elsewhere because they are too near to others.
 const DETOURS: usize = 5;
 
+/// What routing may take before no edge is led elsewhere any more, in states of the search: about a second.
+pub(super) const BUDGET: u64 = 20_000_000;
+
 /// A place in pixels, y downwards.
 pub(super) type Point = (f64, f64);
 
@@ -199,7 +202,7 @@ pub(super) fn route(boxes: &[Bounds], wires: &[Wire], kept: &[Option<Vec<Point>>
     let mut tried = vec![false; wires.len()];
     for _ in 0..DETOURS {
         let detours = detours(&best.crowded, &mut tried);
-        if detours.is_empty() {
+        if detours.is_empty() || search.effort() > BUDGET {
             break;
         }
         for narrow in &detours {

@@ -5,7 +5,10 @@
 //! before: boxes stay where they were, and edges whose ends and surroundings are the same keep
 //! their routes to the last digit.
 
+use std::collections::BTreeMap;
+
 use super::Options;
+use super::arrange::arrange;
 use super::card::{self, Card, Leaving};
 use super::layout::{self, Link, Node, Placement};
 use super::legend::legend;
@@ -22,9 +25,6 @@ pub type Point = (f64, f64);
 
 /// Space around everything, in pixels.
 const MARGIN: f64 = 24.0;
-
-/// Distance between the drawings of two plans.
-const BETWEEN: f64 = 64.0;
 
 /// Distance between the drawings and the legend.
 const LEGEND: f64 = 32.0;
@@ -177,16 +177,24 @@ impl<'a> Drawn<'a> {
         options: &'a Options<'a>,
         before: Option<&Scene>,
     ) -> Drawn<'a> {
-        let mut size = (0.0_f64, 0.0);
         let mut plans = Vec::new();
+        // Which plans began a row, if all of them were there.
+        let mut starts = before.map(|_| Vec::new());
+        let mut row = f64::NEG_INFINITY;
         for view in View::all(outline, options) {
             let known = before.and_then(|before| before.plan(&view.plan.item, view.plan.file()));
-            let mut plan = DrawnPlan::new(view, known);
-            let top = if size.1 > 0.0 { size.1 + BETWEEN } else { MARGIN };
-            plan.offset = (MARGIN - plan.bounds.x, top - plan.bounds.y);
-            size = (size.0.max(plan.bounds.width), top + plan.bounds.height);
-            plans.push(plan);
+            let top = known.map(|known| known.offset.1 + known.bounds.y);
+            starts = starts.zip(top).map(|(starts, top)| [starts, vec![top > row + 0.5]].concat());
+            row = top.unwrap_or(row);
+            plans.push(DrawnPlan::new(view, known));
         }
+        let sizes: Vec<Point> =
+            plans.iter().map(|plan| (plan.bounds.width, plan.bounds.height)).collect();
+        let arranged = arrange(&sizes, starts.as_deref());
+        for (plan, (x, y)) in plans.iter_mut().zip(arranged.corners) {
+            plan.offset = (MARGIN + x - plan.bounds.x, MARGIN + y - plan.bounds.y);
+        }
+        let mut size = (arranged.size.0, MARGIN + arranged.size.1);
         let legend = options.usage.map(|_| {
             let (legend, width, height) = legend();
             let top = size.1 + LEGEND;
@@ -238,11 +246,8 @@ impl<'a> DrawnPlan<'a> {
     pub(super) fn sketch(self) -> Sketch<'a> {
         let mut all = Sketch::default();
         let mut arrows = Sketch::default();
-        arrows.arrows.extend(self.edges.into_iter().map(|edge| Arrow {
-            points: edge.points,
-            class: edge.class,
-            thick: true,
-        }));
+        let edges = self.edges.into_iter().map(|edge| Arrow::flow(edge.points, edge.class));
+        arrows.arrows.extend(edges);
         all.add(arrows, self.offset);
         for (card, at) in self.cards {
             all.add(card.sketch, (at.0 + self.offset.0, at.1 + self.offset.1));
@@ -252,7 +257,7 @@ impl<'a> DrawnPlan<'a> {
 
     fn scene(&self, painter: &mut Painter) -> PlanScene {
         let edges = self.edges.iter().filter_map(|edge| {
-            let arrow = Arrow { points: edge.points.clone(), class: edge.class, thick: true };
+            let arrow = Arrow::flow(edge.points.clone(), edge.class);
             Some(EdgeScene {
                 item: edge.item.clone(),
                 part: edge.part.clone(),
@@ -306,14 +311,16 @@ fn placement(
         let position = view.position(&card.item)?;
         Some(corner(card, (position.x.into(), position.y.into())))
     });
-    let stood = cards.iter().map(|card| {
-        let known = before?.elements.iter().find(|element| element.item == card.item)?;
-        Some(corner(card, (known.rect.x, known.rect.y)))
-    });
-    let routes = exits.iter().map(|(_, exit)| {
-        let known = |edge: &&EdgeScene| edge.item == exit.item && edge.part == exit.part;
-        before?.edges.iter().find(known).map(|edge| edge.points.clone())
-    });
+    let elements = before.iter().flat_map(|before| &before.elements);
+    let elements: BTreeMap<_, _> =
+        elements.map(|known| (&known.item, (known.rect.x, known.rect.y))).collect();
+    let stood = cards.iter().map(|card| Some(corner(card, *elements.get(&card.item)?)));
+    let edges = before.iter().flat_map(|before| &before.edges);
+    let edges: BTreeMap<_, _> =
+        edges.map(|known| ((&known.item, &known.part), &known.points)).collect();
+    let routes = exits
+        .iter()
+        .map(|(_, exit)| edges.get(&(&exit.item, &exit.part)).map(|points| points.to_vec()));
     Placement { fixed: fixed.collect(), before: stood.collect(), routes: routes.collect() }
 }
 

@@ -109,8 +109,30 @@ pub(super) struct Piece {
 pub(super) struct Arrow {
     pub(super) points: Vec<(f64, f64)>,
     pub(super) class: Class,
-    /// Flow of action is thick, flow of data is thin.
-    pub(super) thick: bool,
+    pub(super) tip: Tip,
+}
+
+/// How an arrow is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Tip {
+    /// A thick one: flow of action.
+    Thick,
+    /// A thick one with an outlined tip: what is active goes on.
+    Hollow,
+    /// A thin one: flow of data.
+    Thin,
+}
+
+impl Arrow {
+    /// Flow of action.
+    pub(super) fn flow(points: Vec<(f64, f64)>, class: Class) -> Arrow {
+        Arrow { points, class, tip: Tip::Thick }
+    }
+
+    /// Whether it is flow of action.
+    pub(super) fn is_flow(&self) -> bool {
+        self.tip != Tip::Thin
+    }
 }
 
 /// A drawing or a part of it.

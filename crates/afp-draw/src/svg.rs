@@ -14,7 +14,7 @@ use paint::{escaped, line, number};
 
 pub use style::sheet;
 
-/// The main plan as an SVG picture, its sub-plans below it unless the options say otherwise.
+/// The main plan as an SVG picture, its sub-plans behind it unless the options say otherwise.
 ///
 /// Texts come from the plan and are escaped. The picture's size is in pixels and given by the
 /// plan. The same outline and options give the same text.

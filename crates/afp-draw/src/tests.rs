@@ -4,7 +4,7 @@ use super::sample::{
     EVERY_PART, WALL_FOLLOWING, afp_files, compiled, compiled_with, generated, is_toolbox,
 };
 use super::scene::Drawn;
-use super::sketch::{Arrow, Rect, Shape, Sketch};
+use super::sketch::{Arrow, Frame, Rect, Shape, Sketch, Tip};
 use super::{Count, Options, PlanUsage, Theme, Usage, svg};
 use crate::layout_file::Layout;
 use afp_dsl::Compiled;
@@ -111,7 +111,7 @@ fn what_was_used_is_told_by_classes_and_numbers() {
     let count = |outcomes: usize, times: u64| Count {
         starts: times,
         outcomes: (0..outcomes as u64).map(|place| times.min(place * 12)).collect(),
-        special: 0,
+        ..Count::default()
     };
     let plans = graph.plans.iter().map(|plan| PlanUsage {
         plan: plan.span,
@@ -216,7 +216,7 @@ fn parts(arrow: &Arrow) -> Vec<Rect> {
 
 /// Thick arrows touch boxes with their ends only; horizontal starts lie under their exit.
 fn arrows_keep_away_from_boxes(sketch: &Sketch) {
-    for arrow in sketch.arrows.iter().filter(|arrow| arrow.thick) {
+    for arrow in sketch.arrows.iter().filter(|arrow| arrow.is_flow()) {
         for part in parts(arrow) {
             for frame in &sketch.frames {
                 let rect = Rect {
@@ -235,7 +235,7 @@ fn arrows_keep_away_from_boxes(sketch: &Sketch) {
 }
 
 fn arrows_do_not_run_on_each_other(sketch: &Sketch) {
-    let thick: Vec<_> = sketch.arrows.iter().filter(|arrow| arrow.thick).collect();
+    let thick: Vec<_> = sketch.arrows.iter().filter(|arrow| arrow.is_flow()).collect();
     for (place, one) in thick.iter().enumerate() {
         for two in &thick[..place] {
             for (a, b) in
@@ -301,6 +301,47 @@ fn every_kind_of_part_has_its_symbol() {
         assert!(sketch.labels.iter().any(|label| label.text == text), "no label '{text}'");
     }
 }
+
+/// It was a tag as that of `terminate`, which ends what goes on.
+#[test]
+fn what_resumes_is_a_hollow_arrow_back_to_its_own_box() {
+    let compiled = compiled(RESUMING);
+    check_all(&compiled);
+    let options = Options::default();
+    let (sketch, _) = sketch(&compiled.outline, &options);
+    let back: Vec<_> = sketch.arrows.iter().filter(|arrow| arrow.tip == Tip::Hollow).collect();
+    assert_eq!(back.len(), 5);
+    for arrow in back {
+        let (start, tip) = (arrow.points[0], *arrow.points.last().unwrap());
+        let is_exit = |frame: &&Frame| frame.class.name == arrow.class.name;
+        let near = |frame: &&Frame, (x, y): (f64, f64), by: f64| {
+            let Rect { x: left, y: top, .. } = frame.rect;
+            let (right, bottom) = (frame.rect.right(), frame.rect.bottom());
+            left - by < x && x < right + by && top - by < y && y < bottom + by
+        };
+        let exit = sketch.frames.iter().filter(is_exit).find(|frame| near(frame, start, 0.1));
+        let exit = exit.unwrap_or_else(|| panic!("{arrow:?} leaves no exit"));
+        let own = sketch.frames.iter().find(|frame| {
+            ["supervisor", "computation", "reactions"].contains(&frame.class.name)
+                && near(frame, tip, 0.1)
+                && overlap(&frame.rect, &exit.rect)
+        });
+        assert!(own.is_some(), "{arrow:?} does not lead back");
+    }
+    assert!(sketch.frames.iter().all(|frame| frame.class.name != "resume"));
+    let words = sketch.labels.iter().filter(|label| label.class.name == "resume");
+    assert_eq!(words.filter(|label| label.text == "Resume").count(), 5);
+    let picture = svg(&compiled.outline, &options);
+    assert_eq!(picture.matches("class=\"flow hollow ").count(), 5);
+}
+
+const RESUMING: &str = "use std\nuse carbot\nplan P {\nvar n: int = 0\nin far: length = 1 m\nstart go\n\
+    supervise touch: CheckTouchSensor { TouchSensorPressed -> resume }\n\
+    actor go: Forward(distance = far) {\n\
+    supervise near: CheckValue(value = far, limit = 1 m) { Above -> resume Below -> again DeadlineMissed -> resume }\n\
+    supervise flag: CheckEscapeButton { EscapeButtonPressed -> resume }\n\
+    ForwardSuccessful -> go }\n\
+    computation again: Count(value = n, limit = 3, next => n) { Again -> resume Done -> terminate }\n}\n";
 
 #[test]
 fn sub_plans_are_left_out_when_not_wanted() {

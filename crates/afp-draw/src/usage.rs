@@ -31,6 +31,19 @@ pub struct Count {
     pub outcomes: Vec<u64>,
     /// How often its `Error` or `DeadlineMissed` was taken.
     pub special: u64,
+    /// How often an element's own edges for events of global supervisors were taken.
+    pub reactions: Vec<Reaction>,
+}
+
+/// An edge of an element for an event of a global supervisor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Reaction {
+    /// The supervisor, by its place.
+    pub supervisor: usize,
+    /// The event, by position; `None` for `DeadlineMissed`.
+    pub event: Option<u16>,
+    /// How often it was taken.
+    pub count: u64,
 }
 
 /// Whether a part was used.

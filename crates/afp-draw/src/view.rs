@@ -5,12 +5,12 @@
 
 use std::borrow::Cow;
 
-use super::usage::{Count, PlanUsage, times};
+use super::usage::{Count, PlanUsage, Reaction, times};
 use super::{Options, formula};
 use crate::layout_file::Position;
 use afp_dsl::graph::EntryKind;
 use afp_dsl::outline::{
-    Component, ComponentKind, Destination, ElementId, Entry, ExitKind, Outline, Plan, PlanId,
+    self, Component, ComponentKind, Destination, ElementId, Entry, ExitKind, Outline, Plan, PlanId,
     Target,
 };
 use afp_dsl::toolbox::Toolbox;
@@ -205,6 +205,7 @@ impl<'a> View<'a> {
     /// The ways out that are connected or must be.
     pub(super) fn exits(&self, component: &'a Component) -> Vec<Exit<'a>> {
         let counts = self.count(component);
+        let reactions = self.reactions(component);
         let exits = component.exits.iter().enumerate().filter_map(|(index, exit)| {
             if exit.edge.is_none() && !exit.required {
                 return None;
@@ -214,12 +215,49 @@ impl<'a> View<'a> {
                 ExitKind::State | ExitKind::Event => counts.outcomes.get(index).copied(),
                 ExitKind::Error | ExitKind::Missed => Some(counts.special),
             });
+            let count = count.or_else(|| self.reacted(reactions?, component, exit));
             // What is ignored is never taken, so that counting it would say nothing.
             let count = count.filter(|_| to != To::Ignore);
             let severity = self.severity(exit.findings.worst());
             Some(Exit { name: &exit.name, nth: exit.nth, kind: exit.kind, to, count, severity })
         });
         exits.collect()
+    }
+
+    /// The global supervisor that reactions are to; any other component itself.
+    pub(super) fn watcher(&self, component: &'a Component) -> &'a Component {
+        self.watcher_place(component).map_or(component, |place| &self.plan.supervisors[place])
+    }
+
+    fn watcher_place(&self, component: &Component) -> Option<usize> {
+        let to = component.item.reacts_to()?;
+        self.plan.supervisors.iter().position(|each| name(each) == to)
+    }
+
+    /// How often the edges of the element were taken that reactions belong to, where that is shown.
+    fn reactions(&self, component: &Component) -> Option<&'a [Reaction]> {
+        let usage = self.usage?;
+        let is_it = |each: &Component| each.item == component.item;
+        let mut elements = self.plan.elements.iter();
+        let owner = elements.position(|element| element.reactions.iter().any(is_it))?;
+        usage.elements.get(owner).map(|count| &count.reactions[..])
+    }
+
+    fn reacted(
+        &self,
+        reactions: &[Reaction],
+        component: &Component,
+        exit: &outline::Exit,
+    ) -> Option<u64> {
+        let place = self.watcher_place(component)?;
+        let exits = &self.plan.supervisors[place].exits;
+        let event = match exit.kind {
+            ExitKind::Missed => None,
+            _ => Some(u16::try_from(exits.iter().position(|each| each.name == exit.name)?).ok()?),
+        };
+        let mut edges = reactions.iter();
+        let edge = edges.find(|each| (each.supervisor, each.event) == (place, event));
+        edge.map(|edge| edge.count)
     }
 
     /// How often an element or supervisor of the plan was used, where that is shown.

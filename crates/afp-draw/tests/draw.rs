@@ -106,6 +106,19 @@ fn dot_names_every_element_and_every_edge_but_ignored_ones() {
 }
 
 #[test]
+fn dot_leads_what_resumes_back() {
+    let plan = "use std plan P { start go var n: int = 0
+        actor go: Wait(duration = 3 s) {
+            supervise tick: Every(period = 1 s) { Due -> count }  Elapsed -> terminate
+        }
+        computation count: Count(value = n, limit = 3, next => n) { Again -> resume Done -> terminate } }";
+    let text = dot(&compiled(plan).outline, &Options::default());
+    let back = r#""P:count" -> "P:count" [label="Again\nresume", style=solid, arrowhead=empty];"#;
+    assert!(text.contains(back), "{text}");
+    assert!(!text.contains("!resume"), "{text}");
+}
+
+#[test]
 fn live_entries_and_ranges_are_shown() {
     let plan = "use std plan P { in live far: duration = 1 s from 0 s to 2 * 5 s start go
         actor go: Wait(duration = far) { Elapsed -> terminate } }";

@@ -4,7 +4,7 @@
 //! all files come at once; the graph comes only when there are none.
 
 mod assemble;
-mod bindings;
+pub(crate) mod bindings;
 mod callee;
 mod choices;
 mod consequences;
@@ -18,8 +18,10 @@ mod formula;
 mod imports;
 mod meant;
 mod names;
+mod places;
 mod plan;
 mod range;
+mod reactions;
 mod recursion;
 mod resources;
 mod resume;
@@ -27,6 +29,7 @@ pub(crate) mod scenario;
 mod scope;
 pub(crate) mod signature;
 mod size;
+mod tables;
 pub(crate) mod timing;
 pub(crate) mod toolbox;
 mod types;

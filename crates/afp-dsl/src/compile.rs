@@ -85,15 +85,15 @@ pub fn compile_unchecked(source: &Source, toolboxes: &Toolboxes, files: &dyn Fil
     compile_with(source, toolboxes, files, None, Flow::Unchecked)
 }
 
-/// What the names in plan files mean to one another; [`Span::file`] is a file's place among them.
-/// What toolboxes declare stays unknown.
+/// What the names in plan files mean to one another and in toolboxes. Behind [`Toolboxes::sources`],
+/// [`Span::file`] is a file's place among them.
 ///
 /// [`Span::file`]: afp_syntax::source::Span::file
-pub fn index_files(files: &[Source]) -> Index {
-    let (toolboxes, mut sources) = (Toolboxes::default(), Sources::default());
+pub fn index_files(files: &[Source], toolboxes: &Toolboxes) -> Index {
+    let mut sources = toolboxes.sources().clone();
     let mut diags = Diagnostics::default();
-    let gathered = gather::gather_all(files, &toolboxes, &mut sources, &mut diags);
-    check::check(&gathered, &toolboxes, None, Flow::Unchecked, &mut diags).index
+    let gathered = gather::gather_all(files, toolboxes, &mut sources, &mut diags);
+    check::check(&gathered, toolboxes, None, Flow::Unchecked, &mut diags).index
 }
 
 fn compile_with(

@@ -1,9 +1,12 @@
 //! The plan files that plan files use: where their texts come from, and what their paths mean.
 //!
-//! The compiler reads nothing itself. Whoever calls it hands over [`Files`]: the disk, texts that
+//! The compiler reads nothing itself. Whoever calls it hands over [`Files`]: the [`Disk`], texts that
 //! an editor has not saved yet, or texts that a program carries along.
 
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{Error, ErrorKind, Read};
+use std::path::{Path, PathBuf};
 
 /// Where the texts of used plan files come from.
 pub trait Files {
@@ -20,6 +23,37 @@ impl<F: Fn(&str) -> Result<String, String>> Files for F {
     fn read(&self, path: &str) -> Result<String, String> {
         self(path)
     }
+}
+
+/// The files of the disk, seen from a folder; that of the process where it is empty.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Disk(pub PathBuf);
+
+impl Files for Disk {
+    fn read(&self, path: &str) -> Result<String, String> {
+        read_text(&self.0.join(path)).map_err(|error| match error.kind() {
+            ErrorKind::NotFound => "there is no such file".to_owned(),
+            ErrorKind::InvalidData | ErrorKind::FileTooLarge => error.to_string(),
+            _ => error.to_string().to_lowercase(),
+        })
+    }
+}
+
+/// The greatest length of a file that is read, in bytes: what is longer is no plan, or has no end.
+const MOST: u64 = 64 << 20;
+
+/// The text of a file.
+///
+/// # Errors
+/// It cannot be read, is no text in UTF-8, or longer than 64 MiB.
+pub fn read_text(path: &Path) -> Result<String, Error> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(MOST + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MOST {
+        return Err(Error::new(ErrorKind::FileTooLarge, "it is longer than 64 MiB"));
+    }
+    String::from_utf8(bytes)
+        .map_err(|_| Error::new(ErrorKind::InvalidData, "it is no text in UTF-8"))
 }
 
 /// Texts by path; without any, a plan file has only itself.
@@ -128,7 +162,23 @@ pub(crate) fn below_all(paths: &[String]) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Files, Texts, below_all, joined, normalised, relative};
+    use super::{Disk, Files, Texts, below_all, joined, normalised, relative};
+
+    #[test]
+    fn what_is_no_text_is_not_read() {
+        let folder = std::env::temp_dir().join(format!("afp-files-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::write(folder.join("bytes.afp"), [0xff, 0xfe]).unwrap();
+        std::fs::write(folder.join("text.afp"), "plan \u{e4}").unwrap();
+        let disk = Disk(folder.clone());
+        assert_eq!(disk.read("text.afp").unwrap(), "plan \u{e4}");
+        assert_eq!(disk.read("bytes.afp").unwrap_err(), "it is no text in UTF-8");
+        assert_eq!(disk.read("none.afp").unwrap_err(), "there is no such file");
+        if cfg!(target_os = "linux") {
+            assert_eq!(disk.read("/dev/zero").unwrap_err(), "it is longer than 64 MiB");
+        }
+        std::fs::remove_dir_all(folder).unwrap();
+    }
 
     #[test]
     fn paths_of_one_file_become_equal() {

@@ -5,6 +5,7 @@
 //! filled in, polling order is fixed. A plan with errors has no graph.
 
 mod dump;
+mod reactions;
 mod resume;
 
 use std::sync::Arc;
@@ -12,10 +13,11 @@ use std::sync::Arc;
 use crate::rows::Rows;
 use crate::toolbox::{Template, Toolbox};
 use crate::types::{Conversion, Type};
-use afp_syntax::source::Span;
+use afp_syntax::source::{Source, Span};
 
 pub use afp_number::Function;
 pub use afp_syntax::ast::Operator;
+pub use reactions::Reactions;
 pub(crate) use resume::{chain, resuming};
 
 macro_rules! index {
@@ -59,6 +61,8 @@ pub struct Graph {
     pub toolboxes: Vec<Arc<Toolbox>>,
     /// The tables that the scheduler reads, one for each of [`Graph::plans`].
     pub rows: Vec<Rows>,
+    /// The plan files, each with the number by which spans name it.
+    pub sources: Vec<(u16, Arc<Source>)>,
 }
 
 /// One plan: elements, supervisors, entries.
@@ -154,6 +158,8 @@ pub struct Element {
     pub on_error: Option<Target>,
     /// Its local supervisors, as written.
     pub supervisors: Vec<SupervisorId>,
+    /// Its reactions to global supervisors, as written; at most one set for each.
+    pub reactions: Vec<Reactions>,
     /// The name in the text.
     pub span: Span,
     /// Where its edges stand in the text.
@@ -250,6 +256,8 @@ pub struct Output {
     pub entry: EntryId,
     /// How the port's value becomes the entry's.
     pub conversion: Option<Conversion>,
+    /// Where the entry is named.
+    pub span: Span,
 }
 
 /// A typed formula.

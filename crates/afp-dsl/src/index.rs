@@ -59,6 +59,13 @@ pub enum Meaning {
     Declares(DefinitionId),
     /// It refers to that definition.
     Refers(DefinitionId),
+    /// It is a binding by itself, `goal` for `goal = goal`: the entry and the port of that name.
+    Both {
+        /// The entry that is read or written.
+        entry: DefinitionId,
+        /// The port that it is bound to.
+        port: DefinitionId,
+    },
     /// It may mean any of several definitions, see [`Index::candidates`].
     Ambiguous(Candidates),
     /// A file that is used.
@@ -85,7 +92,7 @@ pub struct Definition {
     /// The whole of it, without comments around it.
     pub span: Span,
     /// What it is declared in: the plan of an element, the element of a local supervisor, the enum of
-    /// a value, the template of a port, the toolbox of a template. `None` for what stands in a plan
+    /// a value, the table of a column, the template of a port, the toolbox of a template. `None` for what stands in a plan
     /// file itself.
     pub owner: Option<DefinitionId>,
     /// What it is made from: the template or plan of an element or supervisor, the toolbox behind a
@@ -128,6 +135,10 @@ pub enum DefinitionKind {
     Enum,
     /// A value of an enum.
     Value,
+    /// A table.
+    Table,
+    /// A column of a table, which is an output of what reads it.
+    Column,
     /// A plan.
     Plan,
     /// An entry of a plan; `in` and `out` entries are the ports of its uses as a sub-plan.
@@ -187,12 +198,24 @@ impl DefinitionId {
 }
 
 impl Meaning {
-    /// The definition that is declared or referred to.
+    /// The definition that is declared or referred to; of a binding that is a name alone the entry.
     pub fn definition(self) -> Option<DefinitionId> {
         match self {
-            Meaning::Declares(id) | Meaning::Refers(id) => Some(id),
+            Meaning::Declares(id) | Meaning::Refers(id) | Meaning::Both { entry: id, .. } => {
+                Some(id)
+            }
             _ => None,
         }
+    }
+
+    /// All definitions that are referred to.
+    fn referred(self) -> impl Iterator<Item = DefinitionId> {
+        let (first, second) = match self {
+            Meaning::Refers(id) => (Some(id), None),
+            Meaning::Both { entry, port } => (Some(entry), Some(port)),
+            _ => (None, None),
+        };
+        first.into_iter().chain(second)
     }
 }
 
@@ -268,8 +291,8 @@ impl Index {
         self.uses[first..end].iter().map(|name| self.names[*name as usize].span)
     }
 
-    /// What can be named at a place of a plan file, in the order of the definitions: plans and enums
-    /// of the file and of those that it uses, what its toolboxes declare, and in a plan or its
+    /// What can be named at a place of a plan file, in the order of the definitions: plans, enums and
+    /// tables of the file and of those that it uses, what its toolboxes declare, and in a plan or its
     /// scenario the entries, elements and global supervisors.
     pub fn visible(&self, file: u16, offset: u32) -> Vec<DefinitionId> {
         let mut visible = Vec::new();
@@ -283,7 +306,9 @@ impl Index {
                 _ => {}
             }
         }
-        let is_outer = |kind| matches!(kind, DefinitionKind::Plan | DefinitionKind::Enum);
+        let is_outer = |kind| {
+            matches!(kind, DefinitionKind::Plan | DefinitionKind::Enum | DefinitionKind::Table)
+        };
         for (id, known) in files.iter().flat_map(|seen| self.definitions_in(*seen)) {
             if known.owner.is_none() && is_outer(known.kind) {
                 visible.push(id);

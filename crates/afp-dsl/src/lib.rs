@@ -12,6 +12,7 @@ pub mod index;
 pub mod outline;
 pub mod rows;
 pub mod scenario;
+pub mod table;
 pub mod timing;
 pub mod toolbox;
 pub mod types;

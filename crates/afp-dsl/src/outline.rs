@@ -81,6 +81,8 @@ pub struct File {
     pub uses: Vec<Use>,
     /// Its enums as written.
     pub enums: Vec<Enum>,
+    /// Its tables as written.
+    pub tables: Vec<Table>,
     /// Its plans as written.
     pub plans: Vec<PlanId>,
     /// Its scenarios as written.
@@ -121,6 +123,38 @@ pub struct Enum {
     pub variants: Vec<Name>,
     /// What there is to say about it.
     pub findings: Findings,
+}
+
+/// A table of a file, without its rows.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// Which item it is.
+    pub item: Item,
+    /// Its name.
+    pub name: Option<Name>,
+    /// Its `///` lines.
+    pub doc: String,
+    /// The comment above it.
+    pub note: String,
+    /// The whole of it, without comments around it.
+    pub span: Span,
+    /// Its columns.
+    pub columns: Vec<Column>,
+    /// What there is to say about it.
+    pub findings: Findings,
+}
+
+/// A column of a table.
+#[derive(Clone, Debug)]
+pub struct Column {
+    /// Its name.
+    pub name: Name,
+    /// Its `///` lines.
+    pub doc: String,
+    /// The whole of it.
+    pub span: Span,
+    /// Its type, where that is known.
+    pub ty: Option<Type>,
 }
 
 /// The head of a scenario.

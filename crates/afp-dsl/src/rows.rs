@@ -89,7 +89,8 @@ pub struct ElementRow {
 }
 
 /// One supervisor. The global ones come first, then the local ones, element by element. Behind them
-/// stand rows for global ones of which an element wants other events than most do.
+/// stand rows for global ones of which an element wants other events than most do, or whose events
+/// lead elsewhere while it is active.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SupervisorRow {
     /// Which supervisor it is.

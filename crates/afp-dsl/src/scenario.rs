@@ -5,6 +5,8 @@
 //! [`crate::unfold`], values are in SI units, times in nanoseconds. What is pressed, fails or signals is the
 //! robot's: it goes by the names that toolboxes declare.
 
+mod comparison;
+
 use std::fmt;
 use std::sync::Arc;
 
@@ -12,6 +14,8 @@ use crate::graph::Graph;
 use crate::toolbox::{Constant, SignalType};
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::Span;
+
+pub use comparison::Comparison;
 
 /// How long a scenario lasts unless it says otherwise, nanoseconds.
 pub const DEFAULT_UNTIL: u64 = 60_000_000_000;
@@ -35,7 +39,9 @@ pub struct Scenario {
     pub seed: u64,
     /// Values of `in` entries, by position.
     pub set: Vec<(u16, Constant)>,
-    /// What happens, in order of time; at one instant as written.
+    /// Instants that are known once they have come, those that others count from before them.
+    pub moments: Vec<Moment>,
+    /// What happens, in order of time from the start or from one moment; at one instant as written.
     pub stimuli: Vec<Stimulus>,
     /// What is expected, as written.
     pub expectations: Vec<Expectation>,
@@ -61,6 +67,7 @@ impl Scenario {
             robot: None,
             seed: 0,
             set: Vec::new(),
+            moments: Vec::new(),
             stimuli: Vec::new(),
             expectations: Vec::new(),
             until,
@@ -92,9 +99,30 @@ pub struct Start {
     pub heading: f64,
 }
 
+/// An instant of a run by what holds or happens then for the first time.
+#[derive(Clone, Debug)]
+pub struct Moment {
+    /// What.
+    pub claim: Claim,
+    /// From when on: the start of the run, or another moment.
+    pub from: Option<MomentId>,
+    /// How long after it the run ends at the latest, nanoseconds.
+    pub until: Option<u64>,
+    /// The line as written, without those that count from it.
+    pub text: String,
+    /// The claim in the text.
+    pub span: Span,
+}
+
+/// A moment by its position in its scenario.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MomentId(pub u16);
+
 /// Something that happens.
 #[derive(Clone, Debug)]
 pub struct Stimulus {
+    /// What its time counts from; the start of the run without one.
+    pub from: Option<MomentId>,
     /// When, nanoseconds.
     pub at: u64,
     /// What.
@@ -172,6 +200,8 @@ pub struct Expectation {
     pub claim: Claim,
     /// How often it has to hold.
     pub wanted: Wanted,
+    /// What its window counts from; the start of the run without one.
+    pub from: Option<MomentId>,
     /// Where.
     pub window: Window,
     /// The line as written.
@@ -305,23 +335,6 @@ pub enum EndCause {
     Error,
 }
 
-/// How two values compare.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Comparison {
-    /// `==`
-    Equal,
-    /// `!=`
-    NotEqual,
-    /// `<`
-    Less,
-    /// `<=`
-    LessEqual,
-    /// `>`
-    Greater,
-    /// `>=`
-    GreaterEqual,
-}
-
 impl Part {
     /// Something of a device.
     pub(crate) fn new(device: &str, name: &str) -> Part {
@@ -357,45 +370,20 @@ impl Field {
     }
 }
 
-impl Comparison {
-    /// The comparison that is written so.
-    pub fn parse(text: &str) -> Option<Comparison> {
-        Some(match text {
-            "==" => Comparison::Equal,
-            "!=" => Comparison::NotEqual,
-            "<" => Comparison::Less,
-            "<=" => Comparison::LessEqual,
-            ">" => Comparison::Greater,
-            ">=" => Comparison::GreaterEqual,
-            _ => return None,
-        })
-    }
-
-    /// Whether it needs an order.
-    pub fn is_order(self) -> bool {
-        !matches!(self, Comparison::Equal | Comparison::NotEqual)
-    }
-
-    /// Whether two values compare so; an order is known of numbers of one kind alone.
-    pub fn holds(self, left: &Constant, right: &Constant) -> bool {
-        let order = match (left, right) {
-            (Constant::Int(left), Constant::Int(right)) => left.partial_cmp(right),
-            (Constant::Float(left), Constant::Float(right)) => left.partial_cmp(right),
-            _ if left == right => Some(std::cmp::Ordering::Equal),
-            _ => None,
-        };
-        match self {
-            Comparison::Equal => order.is_some_and(|order| order.is_eq()),
-            Comparison::NotEqual => !order.is_some_and(|order| order.is_eq()),
-            Comparison::Less => order.is_some_and(|order| order.is_lt()),
-            Comparison::LessEqual => order.is_some_and(|order| order.is_le()),
-            Comparison::Greater => order.is_some_and(|order| order.is_gt()),
-            Comparison::GreaterEqual => order.is_some_and(|order| order.is_ge()),
-        }
+impl MomentId {
+    /// Its position.
+    pub fn index(self) -> usize {
+        usize::from(self.0)
     }
 }
 
 impl Window {
+    /// The same so much later.
+    #[must_use]
+    pub fn behind(self, by: u64) -> Window {
+        Window { from: self.from.saturating_add(by), to: self.to.saturating_add(by) }
+    }
+
     /// Whether an instant lies in it.
     pub fn contains(self, at: u64) -> bool {
         (self.from..=self.to).contains(&at)

@@ -3,6 +3,7 @@
 pub mod device;
 mod set;
 
+use crate::table::Table;
 use crate::types::{Enum, Object, Type};
 use afp_syntax::source::Span;
 use std::sync::Arc;
@@ -63,6 +64,9 @@ pub struct Template {
     /// The port whose values are the states; [`Template::outcomes`] is empty until an enum is bound
     /// there.
     pub states_of: Option<StatesOf>,
+    /// The port that takes a table, whose columns are the outputs; there are none until a table is
+    /// bound there. No Rust type implements such a template: each back end reads its tables itself.
+    pub reads_table: Option<ReadsTable>,
     /// Poll period in nanoseconds (10 ms where none is written).
     pub every: u64,
     /// Deadline in nanoseconds, where written.
@@ -86,6 +90,15 @@ pub struct StatesOf {
     pub span: Span,
     /// The enum, in the template as a component of a plan has it.
     pub home: Option<Arc<Enum>>,
+}
+
+/// What a template that reads a table knows of it.
+#[derive(Clone, Debug)]
+pub struct ReadsTable {
+    /// The input port that takes it.
+    pub port: InPort,
+    /// The table, in the template as a component of a plan has it; that one has no such port.
+    pub table: Option<Arc<Table>>,
 }
 
 /// An input port.
@@ -129,6 +142,8 @@ pub struct Outcome {
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
+    /// Whether it is an event that happens and does not last, `once`.
+    pub once: bool,
     /// The name in the text.
     pub span: Span,
 }

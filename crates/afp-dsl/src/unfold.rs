@@ -5,9 +5,16 @@
 //! cannot disagree: 0 is the outermost plan; then come its elements and its supervisors, then, element
 //! by element, the blocks of its sub-plans, laid out alike. Entries are numbered the same way.
 
-use crate::graph::{Component, EdgeSpans, Entry, EntryKind, Graph, Plan, PlanId, Target, resuming};
+mod ports;
+mod texts;
+
+use crate::graph::{
+    Component, EdgeSpans, Element, Entry, EntryKind, Graph, Plan, PlanId, Target, resuming,
+};
 use crate::types::Type;
 use afp_syntax::source::Span;
+use ports::Ports;
+pub use texts::{PlanTexts, TextPlace};
 
 /// What a component is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,7 +46,35 @@ pub struct ComponentNames {
     /// unconnected.
     pub special: String,
     /// Input ports, by position.
-    pub inputs: Vec<String>,
+    pub inputs: Vec<PortNames>,
+    /// The output ports that are bound, each with its position.
+    pub outputs: Vec<(u16, PortNames)>,
+    /// Its edges that hold instead of those of global supervisors, each with where it leads.
+    pub reactions: Vec<(Reaction, String)>,
+}
+
+/// A port with the names that a trace needs.
+#[derive(Clone, Debug)]
+pub struct PortNames {
+    /// Its name.
+    pub name: String,
+    /// The type of its values.
+    pub ty: Type,
+    /// Least and greatest value, in SI units; of an output, those of its entry.
+    pub range: Option<(f64, f64)>,
+    /// The entry that an output is bound to, as a dotted path; empty for an input.
+    pub entry: String,
+    /// Where what is bound stands in the text; a default has a place in its toolbox.
+    pub span: Span,
+}
+
+/// An edge of an element that holds instead of one of a global supervisor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Reaction {
+    /// The number of the supervisor.
+    pub supervisor: u32,
+    /// The event; `None` for `DeadlineMissed`.
+    pub event: Option<u16>,
 }
 
 /// An entry with the names that a trace needs.
@@ -57,6 +92,8 @@ pub struct EntryNames {
     pub plan: u32,
     /// The name in the text.
     pub span: Span,
+    /// Where its initial value stands in the text.
+    pub initial: Option<Span>,
 }
 
 /// All components and entries of a running plan, by number.
@@ -66,6 +103,8 @@ pub struct Unfolded {
     pub components: Vec<ComponentNames>,
     /// The entries.
     pub entries: Vec<EntryNames>,
+    /// The texts of the plans.
+    pub texts: PlanTexts,
 }
 
 /// How a component hangs together with the others, by their numbers.
@@ -88,6 +127,17 @@ pub struct Place {
     pub edges: EdgeSpans,
     /// The types of its inputs, by port.
     pub inputs: Vec<Type>,
+    /// Its edges that hold instead of those of global supervisors, and where they stand in the text.
+    pub reactions: Vec<(Reaction, Goal, Span)>,
+}
+
+impl Place {
+    /// Where an event of a supervisor, or its `DeadlineMissed`, leads where this element does not keep
+    /// the supervisor's own edge.
+    pub fn reaction(&self, supervisor: u32, event: Option<u16>) -> Option<Goal> {
+        let wanted = Reaction { supervisor, event };
+        self.reactions.iter().find(|(each, ..)| *each == wanted).map(|(_, goal, _)| *goal)
+    }
 }
 
 /// Where an edge leads.
@@ -122,16 +172,22 @@ fn add_places(graph: &Graph, id: PlanId, number: u32, all: &mut Vec<Place>) {
         Target::Ignore => Goal::Ignore,
         Target::Resume => Goal::Resume,
     };
+    let supervisors = first + plan.elements.len() as u32;
     let resuming = resuming(plan.elements.iter().map(Some));
-    all.extend(plan.elements.iter().zip(resuming).map(|(element, resumes)| Place {
-        plan: number,
-        owner: None,
-        resumes,
-        outcomes: element.states.iter().map(|state| state.map(goal)).collect(),
-        special: element.on_error.map(goal),
-        span: element.span,
-        edges: element.edges.clone(),
-        inputs: element.inputs.iter().map(|input| input.ty.clone()).collect(),
+    all.extend(plan.elements.iter().zip(resuming).map(|(element, resumes)| {
+        Place {
+            plan: number,
+            owner: None,
+            resumes,
+            outcomes: element.states.iter().map(|state| state.map(goal)).collect(),
+            special: element.on_error.map(goal),
+            span: element.span,
+            edges: element.edges.clone(),
+            inputs: element.inputs.iter().map(|input| input.ty.clone()).collect(),
+            reactions: reactions(element, supervisors)
+                .map(|(each, target, span)| (each, goal(target), span))
+                .collect(),
+        }
     }));
     all.extend(plan.supervisors.iter().map(|supervisor| Place {
         plan: number,
@@ -142,6 +198,7 @@ fn add_places(graph: &Graph, id: PlanId, number: u32, all: &mut Vec<Place>) {
         span: supervisor.span,
         edges: supervisor.edges.clone(),
         inputs: supervisor.inputs.iter().map(|input| input.ty.clone()).collect(),
+        reactions: Vec::new(),
     }));
     for (element, number) in plan.elements.iter().zip(first..) {
         if let Component::SubPlan(child) = element.component {
@@ -150,10 +207,30 @@ fn add_places(graph: &Graph, id: PlanId, number: u32, all: &mut Vec<Place>) {
     }
 }
 
+/// The edges of an element that hold instead of those of global supervisors; `supervisors` is the number
+/// of the plan's first one.
+fn reactions(
+    element: &Element,
+    supervisors: u32,
+) -> impl Iterator<Item = (Reaction, Target, Span)> {
+    element.reactions.iter().flat_map(move |table| {
+        let number = supervisors + u32::from(table.supervisor.0);
+        let events = (0..).map(Some).take(table.events.len()).chain([None]);
+        events.filter_map(move |event| {
+            let span = match event {
+                Some(event) => table.edges.outcomes.get(usize::from(event)).copied().flatten(),
+                None => table.edges.extra,
+            };
+            let reaction = Reaction { supervisor: number, event };
+            Some((reaction, table.target(event)?, span.unwrap_or(table.span)))
+        })
+    })
+}
+
 /// Names for all numbers of the plan that runs.
 pub fn unfold(graph: &Graph) -> Unfolded {
     let main = graph.main();
-    let mut all = Unfolded::default();
+    let mut all = Unfolded { texts: PlanTexts::new(graph), ..Unfolded::default() };
     all.components.push(ComponentNames {
         path: main.name.clone(),
         kind: Kind::Plan,
@@ -161,6 +238,8 @@ pub fn unfold(graph: &Graph) -> Unfolded {
         outcomes: Vec::new(),
         special: String::new(),
         inputs: Vec::new(),
+        outputs: Vec::new(),
+        reactions: Vec::new(),
     });
     add(graph, graph.main, 0, "", &mut all);
     all
@@ -173,10 +252,11 @@ fn add(graph: &Graph, id: PlanId, number: u32, prefix: &str, all: &mut Unfolded)
         let path = format!("{prefix}{}", entry.name);
         let &Entry { kind, range, span, .. } = entry;
         let ty = entry.ty.clone();
-        all.entries.push(EntryNames { path, kind, ty, range, plan: number, span });
+        let initial = entry.init.as_ref().map(|init| init.span);
+        all.entries.push(EntryNames { path, kind, ty, range, plan: number, span, initial });
     }
     for index in 0..plan.elements.len() {
-        all.components.push(element(graph, plan, index, prefix));
+        all.components.push(element(graph, plan, index, (prefix, first)));
     }
     for index in 0..plan.supervisors.len() {
         all.components.push(supervisor(graph, plan, index, prefix));
@@ -188,9 +268,14 @@ fn add(graph: &Graph, id: PlanId, number: u32, prefix: &str, all: &mut Unfolded)
     }
 }
 
-fn element(graph: &Graph, plan: &Plan, index: usize, prefix: &str) -> ComponentNames {
+fn element(
+    graph: &Graph,
+    plan: &Plan,
+    index: usize,
+    (prefix, first): (&str, u32),
+) -> ComponentNames {
     let element = &plan.elements[index];
-    let (kind, template, states, inputs) = match element.component {
+    let (kind, template, states) = match element.component {
         Component::Actor(id) | Component::Computation(id) => {
             let template = graph.template(id);
             let kind = match element.component {
@@ -198,25 +283,27 @@ fn element(graph: &Graph, plan: &Plan, index: usize, prefix: &str) -> ComponentN
                 _ => Kind::Computation,
             };
             let states = template.outcomes.iter().map(|state| state.name.clone()).collect();
-            let inputs = template.inputs.iter().map(|port| port.name.clone()).collect();
-            (kind, template.name.clone(), states, inputs)
+            (kind, template.name.clone(), states)
         }
         Component::SubPlan(id) => {
             let child = graph.plan(id);
-            let inputs = child.entries.iter().filter(|entry| entry.kind == EntryKind::In);
-            let inputs = inputs.map(|entry| entry.name.clone()).collect();
             let states = vec!["OK".to_owned(), "Interrupted".to_owned()];
-            (Kind::SubPlan, child.name.clone(), states, inputs)
+            (Kind::SubPlan, child.name.clone(), states)
         }
     };
     let targets = element.states.iter().map(|state| target(plan, *state));
+    let ports = Ports::of_element(graph, plan, element);
     ComponentNames {
         path: format!("{prefix}{}", element.name),
         kind,
         template,
         outcomes: states.into_iter().zip(targets).collect(),
         special: target(plan, element.on_error),
-        inputs,
+        inputs: ports.inputs(&element.inputs),
+        outputs: ports.outputs(&element.outputs, prefix),
+        reactions: reactions(element, first + plan.elements.len() as u32)
+            .map(|(each, to, _)| (each, target(plan, Some(to))))
+            .collect(),
     }
 }
 
@@ -225,13 +312,16 @@ fn supervisor(graph: &Graph, plan: &Plan, index: usize, prefix: &str) -> Compone
     let template = graph.template(supervisor.template);
     let owner = supervisor.owner.map(|id| format!("{}.", plan.elements[id.index()].name));
     let targets = supervisor.events.iter().map(|event| target(plan, Some(*event)));
+    let ports = Ports::of_template(plan, template);
     ComponentNames {
         path: format!("{prefix}{}{}", owner.unwrap_or_default(), supervisor.name),
         kind: Kind::Supervisor,
         template: template.name.clone(),
         outcomes: template.outcomes.iter().map(|event| event.name.clone()).zip(targets).collect(),
         special: target(plan, supervisor.on_miss),
-        inputs: template.inputs.iter().map(|port| port.name.clone()).collect(),
+        inputs: ports.inputs(&supervisor.inputs),
+        outputs: ports.outputs(&supervisor.outputs, prefix),
+        reactions: Vec::new(),
     }
 }
 

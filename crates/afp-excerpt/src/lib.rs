@@ -1,12 +1,20 @@
 //! Mistakes in texts, shown as compilers show them: what is wrong, where, the line and a mark.
 //!
 //! Plans, worlds and project files have different readers but one reader of their errors, so all
-//! of them are drawn here. Nothing is known of what a text means.
+//! of them are drawn here, and written for tools in one form. Nothing is known of what a text means.
+
+mod json;
+
+mod table;
 
 use std::ops::Range;
 
+pub use table::LineTable;
+
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+
+pub use json::place;
 
 /// How bad it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -39,7 +47,9 @@ pub struct Report<'a> {
     pub code: &'a str,
     /// What is wrong.
     pub message: &'a str,
-    /// Where, the place to mend first. Those of one file are shown together.
+    /// What to do; empty for nothing. It is shown at the first mark, whose label is then of no use.
+    pub help: &'a str,
+    /// Where, the place to mend first. Those of one file are shown together unless they are far from each other.
     pub marks: Vec<Mark<'a>>,
 }
 
@@ -50,6 +60,8 @@ pub struct Mark<'a> {
     pub path: &'a str,
     /// The file's text.
     pub text: &'a str,
+    /// Its lines, where they have been found for many reports; without them each one counts them anew.
+    pub lines: Option<&'a LineTable<'a>>,
     /// The bytes; `None` for the file as a whole. What lies beyond the text or cuts a character
     /// stands for the nearest place.
     pub span: Option<Range<usize>>,
@@ -65,25 +77,28 @@ impl Report<'_> {
             title = title.id(self.code);
         }
         let mut group = Group::with_title(title);
+        let help = format!("help: {}", self.help);
+        let mut shown = vec![false; self.marks.len()];
         for (index, mark) in self.marks.iter().enumerate() {
-            let is_here =
-                |other: &Mark<'_>| other.path == mark.path && std::ptr::eq(other.text, mark.text);
-            if self.marks[..index].iter().any(is_here) {
+            if shown[index] {
                 continue;
             }
-            let spans = self.marks.iter().enumerate().filter(|(_, other)| is_here(other));
-            let ranges = spans.clone().filter_map(|(_, other)| other.span.as_ref());
-            let (lines, first) = lines(mark.text, ranges.map(|span| range(mark.text, span)));
-            let mut annotations = spans
-                .filter_map(|(index, other)| {
-                    let kind = match index {
-                        0 => AnnotationKind::Primary,
-                        _ => AnnotationKind::Context,
+            let together = self.near(index, &shown);
+            together.iter().for_each(|place| shown[*place] = true);
+            let marks =
+                || together.iter().filter_map(|place| Some((*place, self.marks.get(*place)?)));
+            let ranges = marks().filter_map(|(_, other)| other.span.as_ref());
+            let (lines, first) = lines(mark, ranges.map(|span| range(mark.text, span)));
+            let mut annotations = marks()
+                .filter_map(|(place, other)| {
+                    let (kind, label) = match place {
+                        0 if !self.help.is_empty() => (AnnotationKind::Primary, help.clone()),
+                        0 => (AnnotationKind::Primary, other.label.clone()),
+                        _ => (AnnotationKind::Context, other.label.clone()),
                     };
                     let span = range(other.text, other.span.as_ref()?);
                     let span = span.start - lines.start..span.end - lines.start;
-                    let label = (!other.label.is_empty()).then_some(other.label.as_str());
-                    Some(kind.span(span).label(label))
+                    Some(kind.span(span).label((!label.is_empty()).then_some(label)))
                 })
                 .peekable();
             group = match annotations.peek() {
@@ -95,9 +110,31 @@ impl Report<'_> {
             };
         }
         let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
-        renderer.decor_style(DecorStyle::Ascii).render(&[group]).to_string()
+        let text = renderer.decor_style(DecorStyle::Ascii).render(&[group]).to_string();
+        let is_shown = self.marks.first().is_some_and(|mark| mark.span.is_some());
+        match is_shown || self.help.is_empty() {
+            true => text,
+            false => format!("{text}\n  {help}"),
+        }
+    }
+
+    /// The marks that are shown in one piece with one of them: those of its file that are not too far away.
+    fn near(&self, first: usize, shown: &[bool]) -> Vec<usize> {
+        let mark = &self.marks[first];
+        let start = |mark: &Mark<'_>| mark.span.as_ref().map(|span| span.start);
+        let fits = |(_, other): &(usize, &Mark<'_>)| {
+            let is_here = other.path == mark.path && std::ptr::eq(other.text, mark.text);
+            let distance = start(mark).zip(start(other)).map(|(one, two)| one.abs_diff(two));
+            is_here && distance.is_none_or(|distance| distance <= FAR)
+        };
+        let marks = self.marks.iter().enumerate().skip(first);
+        marks.filter(|(place, _)| !shown[*place]).filter(fits).map(|(place, _)| place).collect()
     }
 }
+
+/// Marks farther from each other than so many bytes are shown one after the other: what lies between them is read for
+/// each report, only to be left out.
+const FAR: usize = 16 << 10;
 
 /// Line and column of a byte, both counted from 1; columns count characters.
 ///
@@ -125,11 +162,16 @@ fn range(text: &str, span: &Range<usize>) -> Range<usize> {
 
 /// The lines that ranges of a text reach over, and the number of the first. To show a mark takes
 /// as long as these lines are, not the text.
-fn lines(text: &str, ranges: impl Iterator<Item = Range<usize>>) -> (Range<usize>, usize) {
+fn lines(mark: &Mark<'_>, ranges: impl Iterator<Item = Range<usize>>) -> (Range<usize>, usize) {
+    let text = mark.text;
     let all = ranges.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or(0..0);
     let start = text[..all.start].rfind('\n').map_or(0, |at| at + 1);
     let end = text[all.end..].find('\n').map_or(text.len(), |at| all.end + at + 1);
-    (start..end, text[..start].bytes().filter(|byte| *byte == b'\n').count() + 1)
+    let first = match mark.lines {
+        Some(table) => table.line_column(start).0,
+        None => text[..start].bytes().filter(|byte| *byte == b'\n').count() + 1,
+    };
+    (start..end, first)
 }
 
 #[cfg(test)]
@@ -137,16 +179,17 @@ mod tests {
     use super::*;
 
     fn report<'a>(marks: Vec<Mark<'a>>) -> Report<'a> {
-        Report { severity: Severity::Error, code: "", message: "it is wrong", marks }
+        Report { severity: Severity::Error, code: "", message: "it is wrong", help: "", marks }
     }
 
     fn mark<'a>(text: &'a str, span: Option<Range<usize>>) -> Mark<'a> {
-        Mark { path: "a.toml", text, span, label: "help: write 'b'".to_owned() }
+        Mark { path: "a.toml", text, lines: None, span, label: "it is 'a'".to_owned() }
     }
 
     #[test]
     fn the_mark_stands_under_the_text() {
-        let shown = report(vec![mark("x = 1\nä = 'cd'\n", Some(11..15))]).render(false);
+        let marks = vec![mark("x = 1\nä = 'cd'\n", Some(11..15))];
+        let shown = Report { help: "write 'b'", ..report(marks) }.render(false);
         let wanted = "error: it is wrong
  --> a.toml:2:5
   |
@@ -157,8 +200,12 @@ mod tests {
 
     #[test]
     fn without_a_place_the_file_is_named() {
-        let shown = report(vec![mark("x", None)]).render(false);
-        assert_eq!(shown, "error: it is wrong\n--> a.toml");
+        let shown = report(vec![mark("x", None)]);
+        assert_eq!(shown.render(false), "error: it is wrong\n--> a.toml");
+        let shown = Report { help: "write 'b'", ..shown };
+        assert_eq!(shown.render(false), "error: it is wrong\n--> a.toml\n  help: write 'b'");
+        let shown = Report { marks: Vec::new(), ..shown };
+        assert_eq!(shown.render(false), "error: it is wrong\n  help: write 'b'");
     }
 
     #[test]
@@ -171,15 +218,36 @@ mod tests {
  --> a.toml:1:1
   |
 1 | a = 1
-  | ^ help: write 'b'
+  | ^ it is 'a'
 2 | b = 2
-  | - help: write 'b'
+  | - it is 'a'
   |
  ::: b.toml:1:1
   |
 1 | c
-  | - help: write 'b'";
+  | - it is 'a'";
         assert_eq!(report.render(false), wanted);
+    }
+
+    /// Once for each error of a long file, what lay between was read all the same.
+    #[test]
+    fn marks_far_from_each_other_are_shown_one_after_the_other() {
+        let text = format!("a = 1\n{}b = 2\n", "\n".repeat(FAR));
+        let table = LineTable::new(&text);
+        let far = text.len() - 6;
+        let marks = [far..far + 1, 0..1]
+            .map(|span| Mark { lines: Some(&table), ..mark(&text, Some(span)) });
+        let wanted = "error: it is wrong
+     --> a.toml:16386:1
+      |
+16386 | b = 2
+      | ^ it is 'a'
+      |
+     ::: a.toml:1:1
+      |
+    1 | a = 1
+      | - it is 'a'";
+        assert_eq!(report(marks.to_vec()).render(false), wanted);
     }
 
     #[test]

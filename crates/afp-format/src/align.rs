@@ -1,8 +1,8 @@
 //! From lines to text: columns of neighbouring lines are made equally wide.
 //!
 //! A run of entries shares the width of its keywords, also across comments; names are padded among
-//! directly adjacent lines only. So are the names of edges and the times of scenarios, and comments
-//! behind the code.
+//! directly adjacent lines only. So are the names of edges, the times of scenarios and the values of
+//! tables, and comments behind the code.
 
 /// One line of the result.
 #[derive(Debug, Default)]
@@ -33,6 +33,8 @@ pub(super) enum Columns {
     Edge,
     /// Time and action of a scenario's line.
     Stimulus,
+    /// The values of a table's row.
+    Row,
 }
 
 /// The text of all lines, each ended by a line break.
@@ -45,6 +47,8 @@ pub(super) fn text(mut lines: Vec<Line>) -> String {
         let follows = |line: &Line| line.columns == columns && !line.blank;
         for_runs(&mut lines, follows, |run| pad(run, cell, &[columns], least));
     }
+    let follows = |line: &Line| line.columns == Columns::Row && !line.blank;
+    for_runs(&mut lines, follows, pad_rows);
     let code_of = |line: &Line| {
         let blanks = if line.cells.is_empty() { 0 } else { 4 * line.indent };
         format!("{}{}", " ".repeat(blanks), line.cells.join(" "))
@@ -85,6 +89,14 @@ fn pad(run: &mut [Line], cell: usize, columns: &[Columns], least: usize) {
     for line in run.iter_mut().filter(|line| takes_part(line)) {
         let missing = widest - width(&line.cells[cell]);
         line.cells[cell] += &" ".repeat(missing);
+    }
+}
+
+/// Makes the values of each column equally wide; the last ones have nothing behind them.
+fn pad_rows(run: &mut [Line]) {
+    let most = run.iter().map(|line| line.cells.len()).max().unwrap_or(0);
+    for cell in 0..most.saturating_sub(1) {
+        pad(run, cell, &[Columns::Row], cell + 1);
     }
 }
 

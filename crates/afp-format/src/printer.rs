@@ -108,6 +108,7 @@ impl Printer {
                 }
                 (rowan::NodeOrToken::Node(child), Some(body)) if inside => {
                     self.gap = Some(self.before_item(body, last, &child));
+                    self.cell |= child.kind() == Kind::Cell && last.is_some();
                     last = Some(child.kind());
                     self.node(&child);
                     printed += 1;
@@ -258,14 +259,17 @@ impl Printer {
 impl Body {
     fn of(node: &Node) -> Option<Body> {
         let (open, close) = match node.kind() {
-            Kind::Args => (Kind::OpenParen, Kind::CloseParen),
+            Kind::Args | Kind::Columns | Kind::Row => (Kind::OpenParen, Kind::CloseParen),
             Kind::Plan
             | Kind::Scenario
+            | Kind::Moment
             | Kind::Template
             | Kind::Element
             | Kind::Guard
+            | Kind::Reactions
             | Kind::Device
-            | Kind::Enum => (Kind::OpenBrace, Kind::CloseBrace),
+            | Kind::Enum
+            | Kind::Table => (Kind::OpenBrace, Kind::CloseBrace),
             _ => return None,
         };
         let opening = node.children_with_tokens().find(|each| each.kind() == open)?.into_token()?;
@@ -281,11 +285,11 @@ impl Body {
         let items = node.children().filter(|child| child.text_range().start() >= from).count();
         let commented = inner().any(|each| is_comment(each.kind()));
         let wide = matches!(node.kind(), Kind::Plan | Kind::Scenario | Kind::Template)
-            || node.children().any(|child| child.kind() == Kind::Guard);
+            || node.children().any(|child| matches!(child.kind(), Kind::Guard | Kind::Reactions));
         let broken = commented || (items > 0 && (wide || inner().any(|t| t.text().contains('\n'))));
         let comma = match node.kind() {
-            Kind::Args if broken => Comma::Always,
-            Kind::Enum => Comma::Never,
+            Kind::Args | Kind::Columns | Kind::Row if broken => Comma::Always,
+            Kind::Enum | Kind::Table => Comma::Never,
             _ if broken => Comma::Never,
             _ => Comma::Between,
         };
@@ -307,7 +311,7 @@ fn is_comment(kind: Kind) -> bool {
 fn is_large(node: &Node) -> bool {
     match node.kind() {
         Kind::Plan | Kind::Scenario | Kind::Template | Kind::Toolbox => true,
-        Kind::Device => Body::of(node).is_some_and(|body| body.broken),
+        Kind::Device | Kind::Table => Body::of(node).is_some_and(|body| body.broken),
         _ => false,
     }
 }
@@ -320,6 +324,7 @@ fn columns(item: &Node) -> Columns {
         Kind::Entry | Kind::InPort | Kind::OutPort | Kind::Signal => Columns::Entry,
         Kind::Edge => Columns::Edge,
         Kind::Stimulus => Columns::Stimulus,
+        Kind::Row => Columns::Row,
         _ => Columns::None,
     }
 }

@@ -10,7 +10,7 @@ pub(super) fn is_apart(before: &Token, next: &Token) -> bool {
         (Kind::OpenParen | Kind::Dot | Kind::Caret, _) => false,
         (_, Kind::CloseParen | Kind::Dot | Kind::Comma | Kind::Colon | Kind::Caret) => false,
         (_, Kind::OpenParen) => match parent(next) {
-            Kind::Args | Kind::Call | Kind::Fault => false,
+            Kind::Args | Kind::Call | Kind::Columns | Kind::Fault => false,
             _ => !is_sign(before),
         },
         (Kind::Star | Kind::Slash | Kind::Minus, _) if of_type(before) => false,

@@ -34,6 +34,22 @@ fn becomes(text: &str, expected: &str) {
 }
 
 #[test]
+fn lines_that_count_from_a_moment_stand_deeper() {
+    becomes(
+        "scenario \"s\" for P{from  go active{at 1 s:press touch,until 2 s}from go->back{expect end within 1 s // soon
+        from end{until 1 s}}}",
+        "scenario \"s\" for P {
+    from go active { at 1 s: press touch, until 2 s }
+    from go -> back {
+        expect end within 1 s // soon
+        from end { until 1 s }
+    }
+}
+",
+    );
+}
+
+#[test]
 fn the_plan_of_the_paper_and_a_scenario_are_canonical() {
     becomes(WALL_FOLLOWING, WALL_FOLLOWING);
     becomes(SCENARIO, SCENARIO);
@@ -88,6 +104,30 @@ sensor bumper {
 }
 
 device x {}
+",
+    );
+}
+
+#[test]
+fn reactions_are_as_short_as_their_author_wrote_them() {
+    becomes(
+        "plan P { start a supervise k:K{E->b} actor a:A{on k{E->terminate}F->b}\
+         actor b:B{on k{E,G->ignore\nH->a}}}",
+        "\
+plan P {
+    start a
+    supervise k: K { E -> b }
+    actor a: A {
+        on k { E -> terminate }
+        F -> b
+    }
+    actor b: B {
+        on k {
+            E, G -> ignore
+            H    -> a
+        }
+    }
+}
 ",
     );
 }
@@ -183,4 +223,37 @@ fn a_text_with_syntax_errors_is_left_alone() {
     assert_eq!(formatted(""), "");
     assert_eq!(formatted("\u{feff}\r\n"), "");
     assert_eq!(formatted("// a\r\nuse std\r\n"), "// a\nuse std\n");
+}
+
+#[test]
+fn values_of_a_table_stand_below_each_other() {
+    becomes(
+        "table route ( x:length,y : length name:string, ){(1m,-2 m,\"door\"),( 10 m+5 cm , 3 m,\"\",)
+        // the last one
+        (7 m, 8 m, \"end\")}
+        table t(a:int){(1)(2),}
+        table broken(a:int // here
+        , b:int){(1
+        ,2)}",
+        "\
+table route(x: length, y: length, name: string) {
+    (1 m,         -2 m, \"door\")
+    (10 m + 5 cm, 3 m,  \"\")
+    // the last one
+    (7 m, 8 m, \"end\")
+}
+
+table t(a: int) { (1) (2) }
+
+table broken(
+    a: int, // here
+    b: int,
+) {
+    (
+        1,
+        2,
+    )
+}
+",
+    );
 }

@@ -58,6 +58,7 @@ const CASES: &[&str] = &[
     include_str!("../../../plans/wall_following.afp"),
     include_str!("../../afp-dsl/tests/graph/sub_plans.afp"),
     include_str!("../../afp-dsl/tests/graph/conversions.afp"),
+    include_str!("../../afp-dsl/tests/graph/on.afp"),
     SCENARIO,
     afp_toolboxes::ALL[0].text,
     afp_toolboxes::ALL[1].text,

@@ -134,7 +134,7 @@ fn made(view: &View, changes: &[Change]) -> Option<Vec<TextEdit>> {
     let first = view.compiled.plan_files.start;
     let home = usize::from(view.file).checked_sub(first)?;
     let files: Vec<Source> = view.compiled.plan_sources().cloned().collect();
-    let mut edits = edit_all(&files, home, changes).ok()?.edits;
+    let mut edits = edit_all(&files, view.toolboxes, home, changes).ok()?.edits;
     let offset = u16::try_from(first).ok()?;
     edits.iter_mut().for_each(|edit| edit.span.file += offset);
     (!edits.is_empty()).then_some(edits)

@@ -6,6 +6,7 @@
 pub(crate) mod bodies;
 mod context;
 mod plans;
+mod reactions;
 mod scenarios;
 mod toolboxes;
 mod values;
@@ -69,8 +70,13 @@ pub fn completions(view: &View, offset: u32) -> Vec<Completion> {
         },
         Place::Uses => plans::uses(&mut list),
         Place::Plan(node) => plans::items(&mut list, view.plan(node), node),
-        Place::Element(node) => plans::of_component(&mut list, view.component(node), true),
+        Place::Element(node) => {
+            plans::of_component(&mut list, view.component(node), true);
+            reactions::whole(&mut list, view.component(node), offset);
+        }
         Place::Supervisor(node) => plans::of_component(&mut list, view.component(node), false),
+        Place::Watchers(node) => reactions::watchers(&mut list, view.component(node), offset),
+        Place::Reactions(node) => reactions::events(&mut list, view.component(node), offset),
         Place::Made(node, home) => plans::templates(&mut list, node, *home),
         Place::Times => plans::times(&mut list),
         Place::Ports(node) => values::ports(&mut list, view.component(node)),
@@ -79,6 +85,9 @@ pub fn completions(view: &View, offset: u32) -> Vec<Completion> {
         Place::Type => values::types(&mut list, offset),
         Place::Output { component, port } => {
             values::outputs(&mut list, view.component(component), port, offset)
+        }
+        Place::Value(wanted) if values::takes_table(view, wanted) => {
+            plans::tables(&mut list, offset);
         }
         Place::Value(wanted) => {
             let wanted = values::wanted(view, wanted, offset);
@@ -89,7 +98,8 @@ pub fn completions(view: &View, offset: u32) -> Vec<Completion> {
             values::units(&mut list, wanted.as_ref());
         }
         Place::Member(home) => scenarios::members(&mut list, *home),
-        Place::Scenario => scenarios::lines(&mut list),
+        Place::Scenario => scenarios::lines(&mut list, true),
+        Place::Moment => scenarios::lines(&mut list, false),
         Place::Path(word) => scenarios::paths(&mut list, word, offset),
         Place::PlanName => plans::plan_names(&mut list),
         Place::Toolbox(kind) => toolboxes::parts(&mut list, *kind),

@@ -18,7 +18,7 @@ pub struct Target {
 pub struct Definitions {
     /// The name that was asked about.
     pub origin: Span,
-    /// Where it is declared; several places where it is ambiguous.
+    /// Where it is declared; several places where it is ambiguous, or stands for an entry and its port.
     pub targets: Vec<Target>,
 }
 
@@ -29,6 +29,7 @@ pub fn definition(view: &View, offset: u32) -> Option<Definitions> {
         Meaning::Ambiguous(several) => {
             view.index().candidates(several).iter().map(|id| target(view, *id)).collect()
         }
+        Meaning::Both { entry, port } => vec![target(view, entry), target(view, port)],
         Meaning::File(file) => {
             let first = Span { file, start: 0, end: 0 };
             vec![Target { name: first, span: first }]

@@ -32,6 +32,10 @@ pub(crate) fn declaration(view: &View, id: DefinitionId) -> String {
             let made = definition.made_from.map_or("", |id| view.name_of(id));
             format!("use {made} as {name}")
         }
+        DefinitionKind::Table => table(view, definition, name),
+        DefinitionKind::Column => {
+            one_line(view.text_of(definition.span)).trim_end_matches(',').to_owned()
+        }
         _ => head(&one_line(view.text_of(definition.span))),
     }
 }
@@ -48,6 +52,16 @@ pub(crate) fn component<'a>(view: &View<'a>, definition: &Definition) -> Option<
     let plans = view.outline().plans.iter();
     let mut all = plans.flat_map(|plan| plan.components());
     all.find(|component| component.span == definition.span)
+}
+
+fn table(view: &View, definition: &Definition, name: &str) -> String {
+    let mut tables = view.outline().files.iter().flat_map(|file| &file.tables);
+    let table = tables.find(|table| table.span == definition.span);
+    let columns = table.map_or(&[][..], |table| &table.columns).iter().map(|column| {
+        let ty = column.ty.as_ref().map_or("?".to_owned(), ToString::to_string);
+        format!("{}: {ty}", column.name.text)
+    });
+    format!("table {name}({})", columns.collect::<Vec<_>>().join(", "))
 }
 
 fn entry_line(view: &View, entry: &Entry) -> String {

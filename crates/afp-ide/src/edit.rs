@@ -28,11 +28,14 @@ mod tree;
 mod wire;
 
 use std::fmt;
+use std::rc::Rc;
 
 use buffer::TextBuffer;
 use project::Workspace;
 
+use afp_dsl::toolbox::Toolboxes;
 use afp_syntax::item::Item;
+use afp_syntax::kind::Kind;
 use afp_syntax::source::Source;
 use serde::{Deserialize, Serialize};
 
@@ -93,6 +96,15 @@ pub enum Change {
         /// The item.
         #[serde(with = "wire")]
         item: Item,
+        /// Its new name.
+        to: String,
+    },
+    /// Gives a column of a table another name wherever the files bind it.
+    RenameColumn {
+        /// The table.
+        table: String,
+        /// The column.
+        column: String,
         /// Its new name.
         to: String,
     },
@@ -198,6 +210,14 @@ pub enum Change {
         /// Its lines, without the slashes; empty for none.
         text: String,
     },
+    /// Sets or removes the `//` lines above an item.
+    SetNote {
+        /// The item.
+        #[serde(with = "wire")]
+        item: Item,
+        /// Its lines, without the slashes; empty for none.
+        text: String,
+    },
     /// Moves an entry, element or supervisor to another plan, or a supervisor to another owner.
     ///
     /// Edges whose target is not in the new plan, and edges of the old plan to what has moved, are
@@ -258,24 +278,39 @@ impl std::error::Error for Refused {}
 /// The edits that make a change of the file `home`, file by file, in order and without overlaps.
 ///
 /// `files` are the files of the project, with paths under which they find each other; spans carry a
-/// file's place among them. A rename edits every file that refers to the item, inlining takes plans
-/// of other files; other changes edit their own file alone, and are refused where another file names
-/// what they take away. A change that is already made needs no edits.
+/// file's place among them. `toolboxes` tell which ports are outputs. A rename edits every file that
+/// refers to the item, inlining takes plans of other files; other changes edit their own file alone,
+/// and are refused where another file names what they take away. A change that is already made needs
+/// no edits.
 ///
 /// # Errors
 /// The change names what is not there, a fragment of text cannot be read, a name cannot be used, or
 /// the change would alter more than it says; the reason tells which. So does a `home` that is none of
 /// the files.
-pub fn edit(files: &[Source], home: usize, change: &Change) -> Result<Vec<TextEdit>, Refused> {
-    let mut workspace = begin(files, home)?;
+pub fn edit(
+    files: &[Source],
+    toolboxes: &Toolboxes,
+    home: usize,
+    change: &Change,
+) -> Result<Vec<TextEdit>, Refused> {
+    edit_with(files, Rc::new(toolboxes.clone()), home, change)
+}
+
+fn edit_with(
+    files: &[Source],
+    toolboxes: Rc<Toolboxes>,
+    home: usize,
+    change: &Change,
+) -> Result<Vec<TextEdit>, Refused> {
+    let mut workspace = begin(files, toolboxes, home)?;
     let errors = workspace.syntax_errors();
     make(&mut workspace, change)?;
     end(workspace, files, errors)
 }
 
-fn begin(files: &[Source], home: usize) -> Result<Workspace, Refused> {
+fn begin(files: &[Source], toolboxes: Rc<Toolboxes>, home: usize) -> Result<Workspace, Refused> {
     match home < files.len() {
-        true => Ok(Workspace::new(files, home)),
+        true => Ok(Workspace::new(files, &toolboxes, home)),
         false => Err(Refused::new("there is no such file")),
     }
 }
@@ -317,6 +352,9 @@ pub fn apply(text: &str, edits: &[TextEdit]) -> String {
 fn make(workspace: &mut Workspace, change: &Change) -> Result<(), Refused> {
     match change {
         Change::Rename { item, to } => return rename::item(workspace, item, to),
+        Change::RenameColumn { table, column, to } => {
+            return rename::column(workspace, table, column, to);
+        }
         Change::Inline { plan, element } => return inline::run(workspace, plan, element),
         Change::Remove { item } | Change::Move { item, .. } => workspace.check_inside(item)?,
         Change::Extract { plan, elements, .. } => {
@@ -353,12 +391,13 @@ fn inside(buffer: &mut TextBuffer, change: &Change) -> Result<(), Refused> {
         Change::SetEntryKind { entry, keyword } => entry::set_kind(buffer, entry, keyword),
         Change::SetEntryType { entry, ty } => entry::set_type(buffer, entry, ty.as_deref()),
         Change::SetEntryValue { entry, value } => entry::set_value(buffer, entry, value.as_deref()),
-        Change::SetDoc { item, text } => doc::set(buffer, item, text),
+        Change::SetDoc { item, text } => doc::set(buffer, item, text, Kind::Doc),
+        Change::SetNote { item, text } => doc::set(buffer, item, text, Kind::Comment),
         Change::Move { item, plan, owner } => relocate::shift(buffer, item, plan, owner.as_deref()),
         Change::Extract { plan, elements, new_plan, element } => {
             extract::run(buffer, plan, elements, new_plan, element)
         }
-        Change::Rename { .. } | Change::Inline { .. } => Ok(()),
+        Change::Rename { .. } | Change::RenameColumn { .. } | Change::Inline { .. } => Ok(()),
     }
 }
 

@@ -49,7 +49,11 @@ pub fn hover(view: &View, offset: u32) -> Option<Hover> {
 
 fn of_name(view: &View, span: Span, meaning: Meaning) -> Option<Hover> {
     if let Some(id) = meaning.definition() {
-        return Some(of_definition(view, span, id));
+        let mut hover = of_definition(view, span, id);
+        if let Meaning::Both { port, .. } = meaning {
+            hover.facts.push(format!("for the port `{}`", declaration(view, port)));
+        }
+        return Some(hover);
     }
     let plain =
         |doc: String| Some(Hover { span, declaration: String::new(), doc, facts: Vec::new() });
@@ -92,7 +96,10 @@ fn of_definition(view: &View, span: Span, id: DefinitionId) -> Hover {
             }
             facts.extend(bounds(view, definition));
         }
-        DefinitionKind::Input | DefinitionKind::Output | DefinitionKind::Entry(_) => {
+        DefinitionKind::Input
+        | DefinitionKind::Output
+        | DefinitionKind::Column
+        | DefinitionKind::Entry(_) => {
             facts.extend(ty(view, definition).and_then(|ty| units(&ty)));
         }
         _ => {}
@@ -118,10 +125,16 @@ fn members(view: &View, id: DefinitionId) -> Vec<String> {
     members.map(line).collect()
 }
 
-/// The type of a port or entry.
+/// The type of a port, a column or an entry.
 fn ty(view: &View, definition: &Definition) -> Option<Type> {
     if let Some(entry) = entry(view, definition) {
         return entry.ty.clone();
+    }
+    let mut tables = view.outline().files.iter().flat_map(|file| &file.tables);
+    let column = tables
+        .find_map(|table| table.columns.iter().find(|column| column.name.span == definition.name));
+    if let Some(column) = column {
+        return column.ty.clone();
     }
     let owner = view.index().definition(definition.owner?);
     let (_, template) = view.template(owner)?;

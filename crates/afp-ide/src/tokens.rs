@@ -115,7 +115,8 @@ fn name(view: &View, span: Span) -> Option<Colour> {
         }
         _ => of_definition(definition?),
     };
-    let constant = matches!(definition, Some(DefinitionKind::Entry(EntryKind::Const)));
+    let constant =
+        matches!(definition, Some(DefinitionKind::Entry(EntryKind::Const) | DefinitionKind::Table));
     let declares = matches!(meaning, Meaning::Declares(_));
     Some(Colour { span, kind, declares, constant })
 }
@@ -134,12 +135,12 @@ fn of_definition(kind: DefinitionKind) -> ColourKind {
     match kind {
         Is::Toolbox | Is::Alias => ColourKind::Toolbox,
         Is::Template(_) | Is::Plan => ColourKind::Template,
-        Is::Input | Is::Output => ColourKind::Port,
+        Is::Input | Is::Output | Is::Column => ColourKind::Port,
         Is::State | Is::Event => ColourKind::Outcome,
         Is::Object => ColourKind::Type,
         Is::Enum => ColourKind::Enum,
         Is::Value => ColourKind::Value,
-        Is::Entry(_) => ColourKind::Entry,
+        Is::Entry(_) | Is::Table => ColourKind::Entry,
         Is::Component(_) => ColourKind::Component,
         Is::Scenario => ColourKind::Text,
         _ => ColourKind::Device,

@@ -4,12 +4,14 @@ use afp_core::trace::{
     self, Cause, ComponentId, ComponentName, ERROR, EntryName, Names, TraceEntryId,
 };
 use afp_core::{Duration, Instant, ValueRef};
-use afp_session::{Datum, Done, EndingKind, EventKind, Miss, Requested, RunEvent, Stimulus};
+use afp_session::{
+    Datum, Done, EndingKind, EventKind, Miss, Pose2, Put, Requested, RunEvent, Stimulus,
+};
 use prost::Message;
 use prost_types::Timestamp;
 
 use crate::proto::afp::plan_event::{self, Kind};
-use crate::proto::afp::plan_table::{Component, Outcome};
+use crate::proto::afp::plan_table::{Component, Outcome, Reaction};
 use crate::proto::afp::request::{self, Became, Output};
 use crate::proto::afp::{Entry, PlanEvent, PlanTable, Request, Value, plan_table, value};
 use crate::read::instant;
@@ -40,6 +42,9 @@ pub(crate) fn encode(event: RunEvent) -> PlanEvent {
         old: event.old.map(encode_value),
         value: event.value.map(encode_value),
         supervisor: event.supervisor,
+        element: event.element,
+        element_id: event.element_id.0,
+        on: event.on,
         fault: event.fault,
         fault_text: event.fault_text,
         lateness_ns: missed.map_or(0, |miss| miss.lateness.as_nanos()),
@@ -100,6 +105,9 @@ pub(crate) fn decode(message: PlanEvent) -> RunEvent {
         outcome_id: u16::try_from(message.outcome_id).unwrap_or(u16::MAX),
         target: message.target,
         supervisor: message.supervisor,
+        element: message.element,
+        element_id: ComponentId(message.element_id),
+        on: message.on,
         supervisor_id: ComponentId(message.supervisor_id),
         entry: message.entry,
         entry_id: TraceEntryId(message.entry_id),
@@ -214,6 +222,14 @@ fn encode_request(request: Requested) -> Request {
             Request { outcome, outputs, ..about(request::Kind::Fire, component) }
         }
         Stimulus::Idle { element } => about(request::Kind::Idle, element.unwrap_or_default()),
+        Stimulus::Put { what, at } => {
+            let (kind, name) = match what {
+                Put::Robot => (request::Kind::Move, String::new()),
+                Put::Thing(name) => (request::Kind::Move, name),
+                Put::New(shape) => (request::Kind::Drop, shape),
+            };
+            Request { pose: vec![at.x, at.y, at.heading], ..about(kind, name) }
+        }
         Stimulus::Stop => about(request::Kind::Stop, String::new()),
     };
     let (became, why) = match done {
@@ -255,9 +271,21 @@ fn decode_request(message: Request) -> Option<Requested> {
         request::Kind::Idle => {
             Stimulus::Idle { element: Some(name).filter(|name| !name.is_empty()) }
         }
+        request::Kind::Move => {
+            let what = if name.is_empty() { Put::Robot } else { Put::Thing(name) };
+            Stimulus::Put { what, at: decode_pose(&message.pose) }
+        }
+        request::Kind::Drop => {
+            Stimulus::Put { what: Put::New(name), at: decode_pose(&message.pose) }
+        }
         request::Kind::Stop => Stimulus::Stop,
     };
     Some(Requested { at, what, done })
+}
+
+fn decode_pose(numbers: &[f64]) -> Pose2 {
+    let number = |at: usize| numbers.get(at).copied().unwrap_or_default();
+    Pose2 { x: number(0), y: number(1), heading: number(2) }
 }
 
 /// A value of an entry as a message.
@@ -280,6 +308,15 @@ pub(crate) fn table(names: &(impl Names + ?Sized)) -> PlanTable {
         };
         (0..ERROR).map(named).take_while(|outcome| !outcome.name.is_empty()).collect()
     };
+    let reactions = |id| {
+        let edges = (0..u16::MAX).map_while(|n| names.reaction(id, n));
+        let edges = edges.map(|edge| Reaction {
+            supervisor_id: edge.supervisor.0,
+            outcome_id: edge.outcome.into(),
+            target: edge.target.to_owned(),
+        });
+        edges.collect()
+    };
     let component = |id| {
         let ComponentName { path, kind, template } = names.component(id);
         let inputs = (0..u16::MAX).map(|port| names.input(id, port).to_owned());
@@ -295,6 +332,7 @@ pub(crate) fn table(names: &(impl Names + ?Sized)) -> PlanTable {
             .into(),
             template: template.to_owned(),
             outcomes: outcomes(id),
+            reactions: reactions(id),
             inputs: inputs.take_while(|name| !name.is_empty()).collect(),
         }
     };

@@ -2,7 +2,7 @@
 
 use afp_core::trace::{
     ComponentId, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Kind, Names,
-    TraceEntryId,
+    PortName, Reaction, TextPlace, TraceEntryId,
 };
 
 use crate::proto::afp::{PlanTable, plan_table};
@@ -23,8 +23,23 @@ struct Component {
     outcomes: Vec<(String, String)>,
     missed: (String, String),
     error: (String, String),
-    inputs: Vec<String>,
+    inputs: Vec<Port>,
+    outputs: Vec<Port>,
+    /// Supervisor and event of each edge that holds instead of theirs, and its target.
+    reactions: Vec<(ComponentId, u16, String)>,
 }
+
+#[derive(Clone, Debug, Default)]
+struct Port {
+    name: String,
+    unit: String,
+    range: Option<(f64, f64)>,
+    entry: Option<String>,
+    place: Option<Place>,
+}
+
+/// File, line and column.
+type Place = (String, u32, u32);
 
 #[derive(Clone, Debug)]
 struct Entry {
@@ -34,6 +49,7 @@ struct Entry {
     unit: String,
     range: Option<(f64, f64)>,
     choices: Vec<String>,
+    initial: Option<Place>,
 }
 
 impl OwnedNames {
@@ -61,7 +77,9 @@ impl OwnedNames {
             outcomes: row.outcomes.iter().map(outcome).collect(),
             missed: ("DeadlineMissed".to_owned(), String::new()),
             error: ("Error".to_owned(), String::new()),
-            inputs: row.inputs.clone(),
+            inputs: row.inputs.iter().cloned().map(Port::named).collect(),
+            outputs: Vec::new(),
+            reactions: row.reactions.iter().map(reaction).collect(),
         };
         OwnedNames { components: table.components.iter().map(component).collect(), entries: vec![] }
     }
@@ -91,7 +109,17 @@ impl Component {
             outcomes: (0..ERROR).map(both).take_while(|(name, _)| !name.is_empty()).collect(),
             missed: both(DEADLINE_MISSED),
             error: both(ERROR),
-            inputs: until_empty(|port| names.input(id, port)),
+            inputs: (0..u16::MAX)
+                .map(|port| Port::copy(&names.input_port(id, port)))
+                .take_while(|port| !port.name.is_empty())
+                .collect(),
+            outputs: (0..names.outputs(id))
+                .map(|port| Port::copy(&names.output_port(id, port)))
+                .collect(),
+            reactions: (0..u16::MAX)
+                .map_while(|n| names.reaction(id, n))
+                .map(|edge| (edge.supervisor, edge.outcome, edge.target.to_owned()))
+                .collect(),
         }
     }
 }
@@ -106,12 +134,53 @@ impl Entry {
             unit: unit.to_owned(),
             range,
             choices: until_empty(|value| names.choice(id, value)),
+            initial: names.initial(id).map(copied),
         }
     }
 }
 
+impl Port {
+    fn named(name: String) -> Self {
+        Port { name, ..Port::default() }
+    }
+
+    fn copy(port: &PortName<'_>) -> Self {
+        Port {
+            name: port.name.to_owned(),
+            unit: port.unit.to_owned(),
+            range: port.range,
+            entry: port.entry.map(str::to_owned),
+            place: port.place.map(copied),
+        }
+    }
+
+    fn get(&self) -> PortName<'_> {
+        PortName {
+            name: &self.name,
+            unit: &self.unit,
+            range: self.range,
+            entry: self.entry.as_deref(),
+            place: self.place.as_ref().map(place),
+        }
+    }
+}
+
+fn copied(place: TextPlace<'_>) -> Place {
+    (place.file.to_owned(), place.line, place.column)
+}
+
+fn place((file, line, column): &Place) -> TextPlace<'_> {
+    TextPlace { file, line: *line, column: *column }
+}
+
 fn until_empty<'a>(name: impl Fn(u16) -> &'a str) -> Vec<String> {
     (0..u16::MAX).map(name).take_while(|name| !name.is_empty()).map(str::to_owned).collect()
+}
+
+fn reaction(row: &plan_table::Reaction) -> (ComponentId, u16, String) {
+    // Positions are below this; a damaged one is that of nothing.
+    let outcome = u16::try_from(row.outcome_id).unwrap_or(u16::MAX);
+    (ComponentId(row.supervisor_id), outcome, row.target.clone())
 }
 
 fn text(found: Option<&String>) -> &str {
@@ -140,8 +209,31 @@ impl Names for OwnedNames {
         text(self.outcomes(id, outcome).map(|(_, target)| target))
     }
 
+    fn reaction(&self, element: ComponentId, n: u16) -> Option<Reaction<'_>> {
+        let (supervisor, outcome, target) = self.get(element)?.reactions.get(usize::from(n))?;
+        Some(Reaction { supervisor: *supervisor, outcome: *outcome, target })
+    }
+
     fn input(&self, id: ComponentId, port: u16) -> &str {
-        text(self.get(id).and_then(|component| component.inputs.get(usize::from(port))))
+        self.input_port(id, port).name
+    }
+
+    fn input_port(&self, id: ComponentId, port: u16) -> PortName<'_> {
+        let port = self.get(id).and_then(|component| component.inputs.get(usize::from(port)));
+        port.map_or(PortName::default(), Port::get)
+    }
+
+    fn output_port(&self, id: ComponentId, port: u16) -> PortName<'_> {
+        let port = self.get(id).and_then(|component| component.outputs.get(usize::from(port)));
+        port.map_or(PortName::default(), Port::get)
+    }
+
+    fn outputs(&self, id: ComponentId) -> u16 {
+        self.get(id).map_or(0, |component| component.outputs.len() as u16)
+    }
+
+    fn initial(&self, id: TraceEntryId) -> Option<TextPlace<'_>> {
+        self.entries.get(id.0 as usize)?.initial.as_ref().map(place)
     }
 
     fn entries(&self) -> u32 {

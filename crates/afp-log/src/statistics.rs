@@ -76,12 +76,26 @@ pub fn statistics(log: &LogData) -> Statistics {
     for (id, usage) in (0..).map(ComponentId).zip(&counts.components) {
         let row = names.component(id);
         let path = row.path.to_owned();
-        for (outcome, count) in (0..).zip(&usage.outcomes) {
-            match (count, names.target(id, outcome)) {
+        let own = (0..).take(usage.outcomes.len()).map(|outcome| {
+            let count = match row.kind {
+                Kind::Supervisor => counts.by_own_edge(id, outcome),
+                _ => usage.outcomes[usize::from(outcome)],
+            };
+            let outcome_name = format!("{path}.{}", names.outcome(id, outcome));
+            (count, names.target(id, outcome), outcome_name)
+        });
+        let reactions = (0..).zip(&usage.reactions).map(|(n, edge)| {
+            let target = names.reaction(id, n).map_or("", |edge| edge.target);
+            let watcher = names.component(edge.supervisor).path.rsplit('.').next().unwrap_or("");
+            let event = names.outcome(edge.supervisor, edge.outcome);
+            (edge.count, target, format!("{path}.on {watcher}.{event}"))
+        });
+        for (count, target, edge) in own.chain(reactions) {
+            match (count, target) {
                 (1.., _) => all.covered += 1,
                 // What leads nowhere cannot happen.
                 (0, "" | "ignore") => {}
-                (0, _) => all.uncovered.push(format!("{path}.{}", names.outcome(id, outcome))),
+                (0, _) => all.uncovered.push(edge),
             }
         }
         match row.kind {

@@ -6,8 +6,8 @@ use std::process::Command;
 use std::thread;
 
 use afp_core::trace::{
-    Author, Cause, ComponentId, ComponentName, Ending, EntryKind, EntryName, Kind, Names, Record,
-    Sink, TraceEntryId, Verdict,
+    Author, Cause, ComponentId, ComponentName, Ending, EntryKind, EntryName, Kind, Names, Reaction,
+    Record, Sink, TraceEntryId, Verdict,
 };
 use afp_core::{Duration, Instant, ValueRef};
 use afp_log::robot::{Level, Pose2, Ranging, Shape, Transform};
@@ -15,7 +15,9 @@ use afp_log::statistics::statistics;
 use afp_log::{
     About, LogError, OwnedNames, Recorder, Signal, WhenFull, doctor, read, recover, recovered_name,
 };
-use afp_session::{Build, Datum, Done, EventKind, Recipe, Requested, RunEvent, Stimulus, TextFile};
+use afp_session::{
+    Build, Datum, Done, EventKind, Put, Recipe, Requested, RunEvent, Stimulus, TextFile,
+};
 
 /// A plan of one actor with one supervisor and two entries.
 struct Names1;
@@ -49,6 +51,12 @@ impl Names for Names1 {
             (2, 0) => "go",
             _ => "",
         }
+    }
+
+    fn reaction(&self, element: ComponentId, n: u16) -> Option<Reaction<'_>> {
+        let (supervisor, outcome) = (ComponentId(2), 0);
+        let here = (element.0, n) == (1, 0);
+        here.then_some(Reaction { supervisor, outcome, target: "terminate" })
     }
 
     fn input(&self, id: ComponentId, port: u16) -> &str {
@@ -121,7 +129,7 @@ fn run(log: &mut Recorder) {
     }
     let (lateness, cause) = (Duration::from_millis(3), Cause::LongPoll);
     log.record(at(2001), &Record::Missed { supervisor: touch, lateness, cause, skipped: 2 });
-    log.record(at(2001), &Record::Event { supervisor: touch, event: 0 });
+    log.record(at(2001), &Record::Event { supervisor: touch, event: 0, element: ComponentId(1) });
     log.record(at(2001), &Record::Interrupted { element: go });
     let author = Author::Component(touch);
     let old = ValueRef::Unset;
@@ -159,13 +167,16 @@ fn what_is_written_is_read() {
     assert_eq!(log.topics["/tf"].schema, "foxglove.FrameTransforms");
     assert_eq!(log.topics["/robot/ultrasonic"].messages, 40);
     assert_eq!(log.names.target(ComponentId(1), 0), "terminate");
+    assert_eq!(log.names.target_at(ComponentId(2), 0, ComponentId(1)), "terminate");
+    assert_eq!(log.names.target_at(ComponentId(2), 0, ComponentId(3)), "go");
     assert_eq!(log.events.len(), 2009);
     let event = &log.events[2003];
     assert_eq!(event.kind, EventKind::Event);
     assert_eq!(
         (&*event.component, &*event.outcome, &*event.target),
-        ("go.touch", "TouchSensorPressed", "go")
+        ("go.touch", "TouchSensorPressed", "terminate")
     );
+    assert_eq!((&*event.element, event.on), ("go", true));
     let (time, pose) = log.poses[39];
     assert_eq!(time, at(2000));
     assert!((pose.x - 2.0).abs() < 1e-9 && (pose.heading - 0.25).abs() < 1e-9);
@@ -191,6 +202,9 @@ fn a_recipe_comes_back_as_it_was_written() {
         Stimulus::Inject { component, outcome, outputs },
         Stimulus::Idle { element: None },
         Stimulus::Idle { element: Some("go".to_owned()) },
+        Stimulus::Put { what: Put::Robot, at: Pose2 { x: 0.5, y: -1.0, heading: 0.1 } },
+        Stimulus::Put { what: Put::Thing("box 1".to_owned()), at: Pose2::default() },
+        Stimulus::Put { what: Put::New("crate".to_owned()), at: Pose2::default() },
         Stimulus::Stop,
     ];
     let recipe = Recipe {
@@ -223,7 +237,7 @@ fn a_recipe_comes_back_as_it_was_written() {
     log.finish().unwrap();
     let log = read(&path).unwrap();
     assert_eq!(log.recipe(), recipe);
-    assert_eq!(log.not_reached().count(), 3);
+    assert_eq!(log.not_reached().count(), 4);
     assert_eq!(log.events[1].request.as_ref().unwrap().done, become_[1]);
     assert_eq!(log.samples["battery/left"], [(at(3), Datum::Number(0.5))]);
     assert_eq!(log.topics["/robot/battery/left"].schema, "afp.Sample");
@@ -241,7 +255,7 @@ fn statistics_count_misses_interruptions_and_coverage() {
     let go = &found.elements[0];
     assert_eq!((go.activations, go.interruptions), (2, 1));
     assert_eq!(go.active, Duration::from_millis(3001));
-    assert_eq!((found.covered, found.uncovered.len()), (2, 0));
+    assert_eq!((found.covered, found.uncovered.len()), (2, 1));
 }
 
 #[test]

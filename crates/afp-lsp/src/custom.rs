@@ -2,6 +2,7 @@
 
 pub(crate) mod drawing;
 pub(crate) mod edit;
+pub(crate) mod explain;
 pub(crate) mod export;
 pub(crate) mod items;
 pub(crate) mod offers;
@@ -20,11 +21,13 @@ pub(crate) const METHODS: &[&str] = &[
     "afp/paste",
     "afp/itemAt",
     "afp/spanOf",
+    "afp/uses",
     "afp/palette",
     "afp/candidates",
     "afp/robot",
     "afp/timing",
     "afp/export",
+    "afp/explain",
 ];
 
 /// A document, by its address.

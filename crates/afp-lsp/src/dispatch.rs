@@ -4,7 +4,7 @@ use lsp_server::Request;
 use serde_json::Value;
 
 use crate::answer::{Answer, Failure, params};
-use crate::custom::{drawing, edit, export, items, offers, robot};
+use crate::custom::{drawing, edit, explain, export, items, offers, robot};
 use crate::server::Server;
 use crate::standard::{actions, completion, edits, hierarchy, looks, navigation, sync};
 
@@ -41,11 +41,13 @@ pub(crate) fn request(server: &mut Server, request: Request) -> Answer {
         "afp/paste" => call(server, value, edit::paste),
         "afp/itemAt" => call(server, value, items::item_at),
         "afp/spanOf" => call(server, value, items::span_of),
+        "afp/uses" => call(server, value, items::uses),
         "afp/palette" => call(server, value, offers::palette),
         "afp/candidates" => call(server, value, offers::candidates),
         "afp/robot" => call(server, value, robot::robot),
         "afp/timing" => call(server, value, export::timing),
         "afp/export" => call(server, value, export::export),
+        "afp/explain" => call(server, value, explain::explain),
         _ => Err(Failure::Unknown(method)),
     }
 }

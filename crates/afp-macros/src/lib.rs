@@ -111,7 +111,7 @@ fn read_toolbox(path: &str) -> Result<(Toolbox, TokenStream, sources::File), Tok
 fn plan_code(input: &Input) -> Result<TokenStream, TokenStream> {
     let file = sources::read(&input.path).map_err(|text| error(&text))?;
     let available = sources::toolboxes(&input.toolboxes).map_err(|text| error(&text))?;
-    let compiled = afp_dsl::compile(&file.source, &available.toolboxes, &sources::used);
+    let compiled = afp_dsl::compile(&file.source, &available.toolboxes, &sources::used());
     let plans = compiled.plan_sources().map(|source| sources::included(&source.name));
     let texts: Vec<_> = plans.chain(available.texts).collect();
     let graph = compiled.graph.ok_or_else(|| errors(&compiled.diags, &compiled.sources))?;

@@ -90,7 +90,7 @@ fn of_file(path: &str, input: &Input) -> Result<Option<TokenStream>, TokenStream
         return Ok(None);
     }
     let available = sources::toolboxes(&[]).map_err(|text| error(&text))?;
-    let compiled = afp_dsl::compile(&file.source, &available.toolboxes, &sources::used);
+    let compiled = afp_dsl::compile(&file.source, &available.toolboxes, &sources::used());
     if compiled.graph.is_none() && compiled.unsound.is_empty() {
         return Err(errors(&compiled.diags, &compiled.sources));
     }

@@ -1,9 +1,9 @@
 //! Files beside the manifest, and the toolboxes: built in, of the project, or named by the caller.
 
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
+use afp_dsl::files::Disk;
 use afp_dsl::toolbox::Toolboxes;
 use afp_project::{CrateLink, ProjectError, ProjectFile};
 use afp_syntax::source::Source;
@@ -44,15 +44,9 @@ pub fn read(path: &str) -> Result<File, String> {
     Ok(File { source: Source::new(path, text), text: include(&full) })
 }
 
-/// The text of a plan file that another one uses.
-///
-/// # Errors
-/// Why there is none.
-pub fn used(path: &str) -> Result<String, String> {
-    fs::read_to_string(root().join(path)).map_err(|error| match error.kind() {
-        ErrorKind::NotFound => "there is no such file".to_owned(),
-        _ => error.to_string().to_lowercase(),
-    })
+/// The plan files that others use, seen from the manifest.
+pub fn used() -> Disk {
+    Disk(root())
 }
 
 /// The expression of the text of a file beside the manifest.

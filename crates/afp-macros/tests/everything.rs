@@ -159,6 +159,7 @@ mod golden {
         live_inputs "../afp-codegen/tests/codegen/live_inputs.afp"
         names "../afp-codegen/tests/codegen/names.afp"
         objects "../afp-codegen/tests/codegen/objects.afp"
+        on "../afp-codegen/tests/codegen/on.afp"
         ranges "../afp-codegen/tests/codegen/ranges.afp"
         sub_plan "../afp-codegen/tests/codegen/sub_plan.afp"
         supervisors "../afp-codegen/tests/codegen/supervisors.afp"

@@ -12,6 +12,7 @@ mod arithmetic;
 mod decimal;
 mod exact;
 mod function;
+mod measured;
 mod read;
 mod text;
 
@@ -25,6 +26,7 @@ pub use function::{
     Function, abs, atan2, clamp, cos, hypot, int_abs, int_clamp, int_max, int_min, max, min, sin,
     sqrt,
 };
+pub use measured::Measured;
 pub use read::{Quantity, Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};
 pub use text::{Nanoseconds, Rounded};
 

@@ -146,29 +146,31 @@ impl ProjectFile {
 impl ProjectError {
     /// What is wrong, one blank line between each, with terminal colours when asked.
     pub fn render(&self, colour: bool) -> String {
+        self.reports(|report| report.render(colour)).join("\n\n")
+    }
+
+    /// What is made of each thing that is wrong.
+    pub fn reports<T>(&self, make: impl Fn(&Report<'_>) -> T) -> Vec<T> {
+        let report = |message: &str, help: &str, marks: Vec<Mark<'_>>| {
+            make(&Report { severity: Severity::Error, code: "", message, help, marks })
+        };
         match self {
             ProjectError::Unreadable { path, error } => {
                 let path = shown(path);
                 let message = format!("cannot read the project file '{}': {error}", path.display());
-                report(&message, Vec::new(), colour)
+                vec![report(&message, "", Vec::new())]
             }
             ProjectError::Wrong { path, text, mistakes } => {
                 let path = shown(path).display().to_string();
-                let texts = mistakes.iter().map(|mistake| {
-                    let help = if mistake.help.is_empty() { "" } else { "help: " };
-                    let label = format!("{help}{}", mistake.help);
-                    let span = Some(mistake.span.clone());
-                    let mark = Mark { path: &path, text, span, label };
-                    report(&mistake.message, vec![mark], colour)
+                let reports = mistakes.iter().map(|mistake| {
+                    let (span, label) = (Some(mistake.span.clone()), String::new());
+                    let mark = Mark { path: &path, text, lines: None, span, label };
+                    report(&mistake.message, &mistake.help, vec![mark])
                 });
-                texts.collect::<Vec<_>>().join("\n\n")
+                reports.collect()
             }
         }
     }
-}
-
-fn report(message: &str, marks: Vec<Mark<'_>>, colour: bool) -> String {
-    Report { severity: Severity::Error, code: "", message, marks }.render(colour)
 }
 
 impl fmt::Display for ProjectError {

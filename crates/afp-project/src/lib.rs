@@ -35,4 +35,4 @@ pub use krate::{CrateLink, RobotLink};
 pub use project::{Crate, Mistake, Origin, Project, Robot, Target, Toolbox};
 pub use read::read;
 pub use time::duration;
-pub use tree::files;
+pub use tree::{files, logs};

@@ -11,13 +11,25 @@ const DEPTH: usize = 12;
 /// The plans, toolboxes and scenarios below a folder, and project files, by path. Hidden folders and those that builds
 /// fill are left out, and so are links to folders, so that no circle is walked.
 pub fn files(folder: &Path) -> Vec<PathBuf> {
+    walk(folder, &|name| name.ends_with(".afp") || name == NAME)
+}
+
+/// The logs of runs below a folder, and those that tools have put where builds go.
+pub fn logs(folder: &Path) -> Vec<PathBuf> {
+    let is_log = |name: &str| name.ends_with(".mcap");
+    let mut found = walk(folder, &is_log);
+    found.extend(walk(&folder.join("target/afp"), &is_log));
+    found
+}
+
+fn walk(folder: &Path, wanted: &dyn Fn(&str) -> bool) -> Vec<PathBuf> {
     let mut found = Vec::new();
-    collect(folder, DEPTH, &mut found);
+    collect(folder, DEPTH, wanted, &mut found);
     found.sort();
     found
 }
 
-fn collect(folder: &Path, depth: usize, found: &mut Vec<PathBuf>) {
+fn collect(folder: &Path, depth: usize, wanted: &dyn Fn(&str) -> bool, found: &mut Vec<PathBuf>) {
     // What cannot be read has no files.
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.flatten() {
@@ -27,9 +39,9 @@ fn collect(folder: &Path, depth: usize, found: &mut Vec<PathBuf>) {
         if kind.is_dir() {
             let built = matches!(&*name, "target" | "node_modules") || name.starts_with('.');
             if depth > 0 && !built {
-                collect(&path, depth - 1, found);
+                collect(&path, depth - 1, wanted, found);
             }
-        } else if (name.ends_with(".afp") || name == NAME) && path.is_file() {
+        } else if wanted(&name) && path.is_file() {
             // No pipe, which would keep its reader waiting.
             found.push(path);
         }

@@ -1,12 +1,14 @@
 //! The Carbot: the robot of the wheel. What is said of it here nobody else in this crate knows.
 
 mod alone;
+mod learn;
 mod robot;
 mod sense;
 
 use afp::load::Registry;
 use afp_sim::Simulation;
 use pyo3::prelude::*;
+use pyo3::wrap_pyfunction;
 
 use crate::link::Link;
 pub use alone::Carbot;
@@ -39,5 +41,8 @@ pub fn carbot(
 /// Python has no memory.
 pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<Carbot>()?;
+    module.add_class::<learn::Courses>()?;
+    module.add_class::<learn::Judge>()?;
+    module.add_function(wrap_pyfunction!(learn::target, module)?)?;
     module.add_class::<CarbotRobot>()
 }

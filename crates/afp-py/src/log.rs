@@ -2,11 +2,16 @@
 
 use std::path::PathBuf;
 
+use afp_log::LogData;
 use afp_log::robot::Pose2;
+use afp_run::RunError;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-use crate::errors::log_error;
+use crate::errors::{log_error, run_error};
+use crate::link::link;
+use crate::pause::in_background;
 use crate::simulation::{Event, value};
 use crate::world::table;
 
@@ -41,4 +46,20 @@ pub fn read_log<'py>(py: Python<'py>, path: PathBuf) -> PyResult<Bound<'py, PyDi
     dict.set_item("events", events)?;
     dict.set_item("cut_short", log.cut_short)?;
     Ok(dict)
+}
+
+/// A picture of a log, as SVG: `path`, `sonar` or `film`.
+#[pyfunction]
+pub fn draw_log(py: Python<'_>, path: PathBuf, what: &str) -> PyResult<String> {
+    let draw = match what {
+        "path" => |log: &LogData| afp_run::draw_log(log, link().kind()),
+        "sonar" => |log: &LogData| afp_run::draw_sonar(log, link().kind()),
+        "film" => afp_run::draw_film,
+        other => return Err(PyValueError::new_err(format!("no picture '{other}' of a log"))),
+    };
+    let drawn = in_background(py, move || {
+        let log = afp_log::read(&path).map_err(RunError::from)?;
+        draw(&log)
+    })?;
+    drawn.map_err(|why| run_error(&why))
 }

@@ -22,6 +22,8 @@ pub struct Pause {
     stop: Arc<AtomicBool>,
     next: Instant,
     turns: u32,
+    /// Whether the last look took its time.
+    pub is_long: bool,
 }
 
 /// Why a run does not go on.
@@ -42,11 +44,12 @@ impl Pause {
 
     /// For a plan: with its components, and what asks it to stop.
     pub fn new(host: Option<Arc<Host>>, stop: Arc<AtomicBool>) -> Self {
-        Pause { host, stop, next: Instant::now() + EVERY, turns: 0 }
+        Pause { host, stop, next: Instant::now() + EVERY, turns: 0, is_long: false }
     }
 
     /// Looks whether the run goes on; at signals from time to time.
     pub fn look(&mut self) -> Option<Halt> {
+        self.is_long = false;
         if self.stop.load(Ordering::Relaxed) && self.stop.swap(false, Ordering::Relaxed) {
             return Some(Halt::Asked);
         }
@@ -64,8 +67,18 @@ impl Pause {
             return None;
         }
         self.next = now + EVERY;
-        Python::attach(|py| py.check_signals()).err().map(Halt::Raised)
+        self.is_long = true;
+        attached(|py| py.check_signals()).err().map(Halt::Raised)
     }
+}
+
+/// Calls Python. A thread that comes after the end of the interpreter rests for good: the program is about to end.
+pub fn attached<T>(call: impl FnOnce(Python<'_>) -> T) -> T {
+    Python::try_attach(call).unwrap_or_else(|| {
+        loop {
+            thread::park();
+        }
+    })
 }
 
 /// Computes something in a thread of its own, so that other threads of Python run and Ctrl-C is seen meanwhile; it is
@@ -86,7 +99,7 @@ pub fn in_background<T: Send + 'static>(
         loop {
             match done.recv_timeout(EVERY) {
                 Ok(computed) => return Ok(computed),
-                Err(RecvTimeoutError::Timeout) => Python::attach(|py| py.check_signals())?,
+                Err(RecvTimeoutError::Timeout) => attached(|py| py.check_signals())?,
                 Err(RecvTimeoutError::Disconnected) => {
                     return Err(PyRuntimeError::new_err("the computation broke"));
                 }

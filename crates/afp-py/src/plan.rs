@@ -10,9 +10,11 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use afp_draw::{Options, Theme};
 use afp_dsl::Compiled;
+use afp_dsl::outline::PlanId;
 use afp_dsl::toolbox::Toolbox as Declared;
 use afp_ide::edit::{self, Change};
 use afp_syntax::source::Source;
+use afp_test::Coverage;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::{PyTraverseError, PyVisit};
@@ -144,6 +146,30 @@ impl Plan {
         })
     }
 
+    /// The drawing with what the run of a log made use of, as SVG.
+    fn _coverage(&self, py: Python<'_>, log: PathBuf) -> PyResult<String> {
+        let compiled = self.sound(py)?;
+        let read = in_background(py, move || afp_log::read(&log))?;
+        let log = read.map_err(|why| crate::errors::log_error(&why))?;
+        let graph = compiled.graph.as_ref().ok_or_else(|| plan_error(py, &compiled))?;
+        let texts = compiled.plan_texts();
+        let known = |text: &str| texts.iter().any(|(_, known)| known == text);
+        // The numbers of another plan may happen to fit.
+        let same = log.recipe().texts.iter().all(|text| known(&text.text));
+        let used = Some(graph).filter(|_| same).and_then(|graph| Coverage::of_log(graph, &log));
+        let used =
+            used.ok_or_else(|| error("the log is not of this plan as it is now; run it again"))?;
+        let plans = (0..).map(PlanId).zip(&compiled.outline.plans);
+        let main = graph.main().span;
+        let own = plans.into_iter().find(|(_, plan)| plan.span.contains(main)).map(|(id, _)| id);
+        let outline = Arc::clone(&compiled);
+        in_background(py, move || {
+            let usage = Some(&used.usage);
+            let options = Options { plan: own, usage, icons: Some(&icon), ..Options::default() };
+            afp_draw::svg(&outline.outline, &options)
+        })
+    }
+
     /// The drawing for GraphViz.
     fn dot(&self, py: Python<'_>) -> PyResult<String> {
         let compiled = self.sound(py)?;
@@ -263,7 +289,7 @@ impl Plan {
     fn change(&self, change: &Change) -> PyResult<()> {
         let mut desk = self.lock();
         let files: Vec<Source> = desk.compiled().plan_sources().cloned().collect();
-        let edits = edit::edit(&files, 0, change).map_err(error)?;
+        let edits = edit::edit(&files, desk.known(), 0, change).map_err(error)?;
         for (number, source) in (0..=u16::MAX).zip(&files) {
             let own: Vec<_> =
                 edits.iter().filter(|edit| edit.span.file == number).cloned().collect();

@@ -137,6 +137,13 @@ impl Robot {
         self.sensed(py, signal)
     }
 
+    fn __repr__(&self) -> String {
+        match self.time() {
+            Ok(time) => format!("<Robot, {time:.3} s>"),
+            Err(_) => "<Robot, outside of a call>".to_owned(),
+        }
+    }
+
     fn __reduce__(&self) -> PyResult<()> {
         Err(no_pickle("Robot", "it lives as long as its simulation"))
     }

@@ -1,12 +1,14 @@
 //! `Scenario`: a test of a plan, run by the engine of `afpc test`.
 
+mod verdict;
+
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use afp_dsl::Compiled;
 use afp_dsl::scenario::Scenario as Checked;
 use afp_syntax::source::Span;
-use afp_test::{Setting, Verdict as Came};
+use afp_test::Setting;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -20,6 +22,9 @@ use crate::plan::Plan;
 use crate::toolbox::Toolbox;
 use crate::value::Pickled;
 
+use verdict::verdict;
+pub use verdict::{Broken, Verdict};
+
 /// A scenario of a file: a world, what happens, what is expected.
 #[pyclass(module = "afp", frozen)]
 pub struct Scenario {
@@ -29,43 +34,6 @@ pub struct Scenario {
     toolboxes: Vec<Py<Toolbox>>,
     /// What the plan is pickled as, with the text that this is a scenario of.
     source: Py<PyAny>,
-}
-
-/// An expectation that was not met.
-#[pyclass(module = "afp", frozen, get_all)]
-#[derive(Clone)]
-pub struct Broken {
-    /// The line of the scenario.
-    text: String,
-    /// Its file.
-    file: String,
-    /// Its line, from 1.
-    line: usize,
-    /// Its column, from 1.
-    column: usize,
-    /// When it became clear, seconds.
-    time: f64,
-    /// What happened instead.
-    why: String,
-}
-
-/// What a scenario came to.
-#[pyclass(module = "afp", frozen, get_all)]
-pub struct Verdict {
-    /// Whether everything was as expected.
-    passed: bool,
-    /// What was not as expected, in order of time.
-    broken: Vec<Broken>,
-    /// What broke, and the timeline around the first of it, as `afpc test` prints it.
-    report: String,
-    /// How long it ran, seconds.
-    time: f64,
-    /// How the plan ended: `ok`, `interrupted`, `error`; `running` if it did not.
-    ending: &'static str,
-    /// The hash of the trace, as `afpc test --json` tells it.
-    trace_hash: String,
-    /// The timeline.
-    timeline: Vec<String>,
 }
 
 #[pymethods]
@@ -171,35 +139,8 @@ pub fn scenarios(py: Python<'_>, plan: &Plan) -> PyResult<Vec<Scenario>> {
     Ok((0..compiled.scenarios.len()).map(one).collect())
 }
 
-fn verdict(compiled: &Compiled, came: Came) -> Verdict {
-    let broken = came.broken.iter().map(|broken| {
-        let (file, line, column) = place(compiled, broken.span);
-        let (text, why) = (broken.text.clone(), broken.why.clone());
-        Broken { text, file, line, column, time: broken.at.as_secs_f64(), why }
-    });
-    Verdict {
-        passed: came.passed(),
-        broken: broken.collect(),
-        report: plain(&came.report()),
-        time: came.length().as_secs_f64(),
-        ending: match came.ending {
-            None => "running",
-            Some(afp_core::Ending::Ok) => "ok",
-            Some(afp_core::Ending::Interrupted) => "interrupted",
-            Some(afp_core::Ending::Error(_)) => "error",
-        },
-        trace_hash: format!("{:016x}", came.trace),
-        timeline: came.timeline.iter().map(|(_, line)| plain(line)).collect(),
-    }
-}
-
 fn place(compiled: &Compiled, span: Span) -> (String, usize, usize) {
     let source = compiled.sources.get(span.file);
     let (line, column) = source.map_or((1, 1), |source| source.line_column(span.start));
     (source.map_or(String::new(), |source| source.name.clone()), line, column)
-}
-
-/// A text without colours.
-fn plain(text: &str) -> String {
-    anstream::adapter::strip_str(text).to_string()
 }

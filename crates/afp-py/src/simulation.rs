@@ -1,6 +1,8 @@
 //! `Runner`: a plan in a simulated world, driven from Python.
 
+mod access;
 mod event;
+mod glance;
 mod keeper;
 mod session;
 mod stimuli;
@@ -8,7 +10,7 @@ mod time;
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use afp_core::devices::faults as faults_of;
 use afp_core::trace::{Names, TraceEntryId};
@@ -24,16 +26,19 @@ use pyo3::{PyTraverseError, PyVisit};
 use crate::component::{AnyRegistry, Components, Host, may_run};
 use crate::errors::{error, plan_error};
 use crate::link::{devices, fits, link};
-use crate::pause::Pause;
 use crate::plan::Plan;
 use crate::value::{Given, no_pickle, to_python};
 use crate::world::{World, table};
 
 use event::line;
 pub use event::{Event, value};
-use session::{Run, Setting};
-use stimuli::{control, fault};
-use time::{duration, instant};
+use glance::Seen;
+pub use keeper::Keeper;
+pub use session::Run;
+use session::{Setting, no_pose};
+use stimuli::control;
+pub use stimuli::fault;
+pub use time::{duration, instant};
 
 /// A plan in a simulated world. `afp.Simulation` is made of it.
 #[pyclass(module = "afp", frozen)]
@@ -41,6 +46,7 @@ pub struct Runner {
     session: Mutex<Run>,
     host: Option<Arc<Host>>,
     stop: Arc<AtomicBool>,
+    seen: Arc<Seen>,
     process: u32,
     compiled: Arc<Compiled>,
 }
@@ -48,14 +54,15 @@ pub struct Runner {
 #[pymethods]
 impl Runner {
     #[new]
-    #[pyo3(signature = (plan, world, seed, set, log))]
-    fn new(
+    #[pyo3(signature = (plan, world, seed, set, log, camera=false))]
+    fn of_plan(
         py: Python<'_>,
         plan: &Plan,
         world: &World,
         seed: u64,
         set: &Bound<'_, PyDict>,
         log: Option<PathBuf>,
+        camera: bool,
     ) -> PyResult<Self> {
         let compiled = plan.compiled(py);
         let graph = compiled.graph.as_ref().ok_or_else(|| plan_error(py, &compiled))?;
@@ -73,18 +80,15 @@ impl Runner {
             inputs.push((Given::new(&value)?, name));
         }
         let texts = compiled.plan_texts();
-        let setting = Setting { graph, world, seed, file: &file, texts, log: log.as_deref() };
-        let stop = Arc::new(AtomicBool::new(false));
-        let pause = Pause::new(host.clone(), Arc::clone(&stop));
-        let mut run = Run::new(session, &setting, pause)?;
+        let log = log.as_deref();
+        let setting = Setting { graph, world, seed, file: &file, texts, log, camera };
+        let mut run = Run::logged(session, &setting)?;
         for (given, name) in inputs {
             let entry = run.entry(&name)?;
             let value = given.for_entry(&*run.session, entry)?;
             run.write(entry, value).map_err(|why| error(format!("'{name}': {why}")))?;
         }
-        let session = Mutex::new(run);
-        let process = std::process::id();
-        Ok(Runner { session, host, stop, process, compiled })
+        Ok(Runner::new(run, host, &compiled))
     }
 
     /// Runs the plan until it ends or until a time, when it is stopped if `stop` is set; whether it still runs.
@@ -102,6 +106,7 @@ impl Runner {
             None => session.step(),
             Some(_) => {
                 let session = &mut *session;
+                session.show();
                 py.detach(|| session.step())
             }
         };
@@ -120,22 +125,38 @@ impl Runner {
         self.stop.store(true, Ordering::Relaxed);
     }
 
+    /// The same run at this moment, which goes on by itself; it writes no log.
+    fn keyframe(&self) -> PyResult<Runner> {
+        let copied = self.lock()?.keyframe().ok_or_else(|| {
+            error(
+                "the plan has a component that cannot be copied, as those written in Python cannot",
+            )
+        });
+        Ok(Runner::new(copied?, None, &self.compiled))
+    }
+
+    /// Goes on from the moment of another run of the same plan.
+    fn restore(&self, moment: &Runner) -> PyResult<()> {
+        let run = moment.keyframe()?.session.into_inner();
+        self.lock()?.restore(run.unwrap_or_else(PoisonError::into_inner))
+    }
+
     /// The time, seconds.
     #[getter]
     fn time(&self) -> PyResult<f64> {
-        Ok(self.lock()?.session.now().as_secs_f64())
+        self.see(|run| Ok(run.session.now().as_secs_f64()), |glance| Ok(glance.time))
     }
 
     /// How the plan ended: `ok`, `interrupted`, `error`; `running` before.
     #[getter]
     fn ending(&self) -> PyResult<&'static str> {
-        Ok(self.lock()?.ending())
+        self.see(|run| Ok(run.ending()), |glance| Ok(glance.ending))
     }
 
     /// The code and the text of the fault that ended the plan.
     #[getter]
     fn fault(&self) -> PyResult<Option<(&'static str, String)>> {
-        Ok(self.lock()?.fault().map(|fault| (fault.code(), fault.to_string())))
+        Ok(self.lock()?.fault())
     }
 
     /// Why the plan stopped though it did not end by itself: `until` or `stop`.
@@ -159,7 +180,7 @@ impl Runner {
     /// The path of the active element, sub-plans left out.
     #[getter]
     fn active(&self) -> PyResult<Option<String>> {
-        Ok(self.lock()?.active())
+        self.see(|run| Ok(run.active()), |glance| Ok(glance.active))
     }
 
     /// How many events there are.
@@ -197,7 +218,7 @@ impl Runner {
     /// Where the robot is: x, y, heading.
     #[getter]
     fn pose(&self) -> PyResult<(f64, f64, f64)> {
-        let pose = self.lock()?.pose()?;
+        let pose = self.see(Run::pose, |glance| glance.pose.ok_or_else(no_pose))?;
         Ok((pose.x, pose.y, pose.heading))
     }
 
@@ -347,47 +368,6 @@ impl Runner {
 
     fn __reduce__(&self) -> PyResult<()> {
         Err(no_pickle("Simulation", "make it anew from its plan, world and seed"))
-    }
-}
-
-impl Runner {
-    /// The session, unless it is in use.
-    fn lock(&self) -> PyResult<MutexGuard<'_, Run>> {
-        if self.process != std::process::id() {
-            let text =
-                "this simulation belongs to the process that was forked; make a new one here";
-            return Err(PyRuntimeError::new_err(text));
-        }
-        match self.session.try_lock() {
-            Ok(session) => Ok(session),
-            Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(
-                "the simulation is running: another thread drives it, or one of its own components called",
-            )),
-            Err(TryLockError::Poisoned(_)) => Err(PyRuntimeError::new_err(
-                "the simulation broke in an earlier call; make a new one",
-            )),
-        }
-    }
-
-    /// Drives the session with the interpreter free for others.
-    fn drive(
-        &self,
-        py: Python<'_>,
-        drive: impl FnOnce(&mut Run) -> PyResult<bool> + Send,
-    ) -> PyResult<bool> {
-        may_run()?;
-        let mut session = self.lock()?;
-        let session = &mut *session;
-        let driven = py.detach(|| drive(session));
-        self.after(py, driven)
-    }
-
-    /// What a component raised to end everything counts more than how the run went.
-    fn after(&self, py: Python<'_>, driven: PyResult<bool>) -> PyResult<bool> {
-        match self.host.as_ref().and_then(|host| host.aborted(py)) {
-            Some(raised) => Err(raised),
-            None => driven,
-        }
     }
 }
 

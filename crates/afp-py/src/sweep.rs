@@ -4,6 +4,9 @@
 //! turn. The calling thread looks at signals and tells how it goes. Outcomes travel as lines of JSON, those of the
 //! journal, so that runs may be done by other processes.
 
+mod given;
+mod rows;
+mod watch;
 mod work;
 
 use std::num::NonZero;
@@ -13,15 +16,11 @@ use std::thread;
 
 use afp::load::PlanNames;
 use afp_core::Duration;
-use afp_core::trace::{Names, TraceEntryId};
 use afp_dsl::Compiled;
 use afp_dsl::graph::Graph;
 use afp_run::hash;
 use afp_session::Loader;
-use afp_sweep::{
-    Axis, Cells, Findings, Header, Journal, Outcome, Place, Point, Seeds, Setting, Sweep, columns,
-};
-use pyo3::IntoPyObjectExt;
+use afp_sweep::{Header, Journal, Outcome, Place, Row, Setting, Sweep};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -31,8 +30,13 @@ use crate::component::{AnyRegistry, Components};
 use crate::errors::{error, plan_error, run_error};
 use crate::link::{fits, link};
 use crate::plan::Plan;
+use crate::simulation::{Run, Runner};
 use crate::toolbox::Toolbox;
 use crate::value::no_pickle;
+use crate::world::World;
+
+use given::{GivenSeeds, GivenValues, GivenWorld};
+pub use rows::alike;
 
 /// A sweep: its grid, and the outcomes so far.
 #[pyclass(module = "afp", frozen)]
@@ -44,9 +48,6 @@ pub struct Sweeper {
     header: Header,
     done: Mutex<Done>,
 }
-
-/// Runs that ended alike: ending, where, why, how many, the first.
-type Alike = (&'static str, String, String, u64, u64);
 
 /// What has been done.
 #[derive(Default)]
@@ -63,9 +64,9 @@ impl Sweeper {
     fn new(
         py: Python<'_>,
         plan: &Plan,
-        worlds: Vec<Option<String>>,
-        seeds: (u64, u64),
-        vary: Vec<(String, Vec<(String, bool)>)>,
+        worlds: Vec<GivenWorld>,
+        seeds: GivenSeeds,
+        vary: Vec<(String, GivenValues)>,
         until: f64,
         mark: &str,
     ) -> PyResult<Self> {
@@ -83,15 +84,15 @@ impl Sweeper {
             presses: Vec::new(),
             failures: Vec::new(),
             plan: file.display().to_string(),
-            worlds,
+            worlds: given::rooms(worlds),
             axes: Vec::new(),
-            seeds: Seeds::new(seeds.0..seeds.1),
+            seeds: seeds.seeds()?,
             until: Duration::from_secs_f64(until),
         };
         let header = with_setting(py, &toolboxes, |robot, _| {
             let graph = graph(&compiled)?;
             let names = PlanNames::new(graph);
-            let axes = vary.into_iter().map(|(name, values)| axis(&names, name, values));
+            let axes = vary.into_iter().map(|(name, values)| values.axis(&names, name));
             sweep.axes = axes.collect::<PyResult<_>>()?;
             if sweep.is_empty() {
                 let text = "there is nothing to run: no worlds, seeds or values";
@@ -136,35 +137,42 @@ impl Sweeper {
         Ok((0..self.sweep.len()).filter(|run| there.binary_search(run).is_err()).collect())
     }
 
-    /// Does runs and keeps their outcomes; tells `progress` how many of this call are done.
-    #[pyo3(signature = (runs, jobs=None, progress=None))]
+    /// Does runs and keeps their outcomes; tells `progress` how many of this call are done, and `on_run` the row of
+    /// each. `judge` gives further figures of a run: its number, its end, its world and its seed go in, numbers by name
+    /// come out.
+    #[pyo3(signature = (runs, jobs=None, progress=None, on_run=None, judge=None))]
     fn run(
         &self,
         py: Python<'_>,
         runs: Vec<u64>,
         jobs: Option<NonZero<usize>>,
         progress: Option<Py<PyAny>>,
+        on_run: Option<Py<PyAny>>,
+        judge: Option<Py<PyAny>>,
     ) -> PyResult<()> {
         let mut done = self.lock()?;
         let done = &mut *done;
         let mut told = 0_usize;
-        self.work(py, &runs, cores(jobs), |py, news| {
+        self.work(py, &runs, cores(jobs), judge.as_ref(), |py, news| {
             told += news.len();
+            let rows = self.rows(py, &news, on_run.as_ref())?;
             done.keep(news)?;
+            tell(py, on_run.as_ref(), rows)?;
             progress.as_ref().map_or(Ok(()), |tell| tell.call1(py, (told,)).map(drop))
         })
     }
 
     /// Does runs for another process; their outcomes as lines of JSON.
-    #[pyo3(signature = (runs, jobs=None))]
+    #[pyo3(signature = (runs, jobs=None, judge=None))]
     fn lines(
         &self,
         py: Python<'_>,
         runs: Vec<u64>,
         jobs: Option<NonZero<usize>>,
+        judge: Option<Py<PyAny>>,
     ) -> PyResult<Vec<String>> {
         let mut lines = Vec::with_capacity(runs.len());
-        self.work(py, &runs, cores(jobs), |_, news| {
+        self.work(py, &runs, cores(jobs), judge.as_ref(), |_, news| {
             for outcome in &news {
                 lines.push(serde_json::to_string(outcome).map_err(error)?);
             }
@@ -173,8 +181,15 @@ impl Sweeper {
         Ok(lines)
     }
 
-    /// Keeps outcomes of another process; those of runs that are done are dropped. How many were new.
-    fn accept(&self, lines: Vec<String>) -> PyResult<usize> {
+    /// Keeps outcomes of another process, and tells `on_run` their rows; those of runs that are done are dropped. How many
+    /// were new.
+    #[pyo3(signature = (lines, on_run=None))]
+    fn accept(
+        &self,
+        py: Python<'_>,
+        lines: Vec<String>,
+        on_run: Option<Py<PyAny>>,
+    ) -> PyResult<usize> {
         let mut done = self.lock()?;
         let mut news: Vec<Outcome> = Vec::new();
         for line in &lines {
@@ -185,13 +200,35 @@ impl Sweeper {
             }
         }
         let count = news.len();
+        let rows = self.rows(py, &news, on_run.as_ref())?;
         done.keep(news)?;
+        tell(py, on_run.as_ref(), rows)?;
         Ok(count)
     }
 
-    /// Writes the table, if it has a place; its paths.
+    /// A run about to begin again, and its world.
+    fn runner(&self, py: Python<'_>, run: u64) -> PyResult<(Runner, World)> {
+        let row = self.row(run)?;
+        let graph = graph(&self.compiled)?;
+        let components = Components::new(py, &self.toolboxes)?;
+        let (session, loaded) = {
+            let more = |registry: &mut dyn AnyRegistry| components.register(registry);
+            let loader = link().loader(&more);
+            let mut sweep = self.sweep.clone();
+            let setting = Setting::new(&mut sweep, graph, &self.file, &*loader);
+            let setting = setting.map_err(|why| run_error(&why))?;
+            let made = setting.world(&row).and_then(|world| Ok((setting.make(&row)?, world)));
+            made.map_err(|why| run_error(&why))?
+        };
+        let host = components.host(py)?;
+        let runner = Runner::new(Run::new(session, graph), host, &self.compiled);
+        Ok((runner, World { loaded }))
+    }
+
+    /// Writes the table, if it has a place, and lets go of the journal; its paths.
     fn write(&self) -> PyResult<Vec<PathBuf>> {
-        let done = self.lock()?;
+        let mut done = self.lock()?;
+        done.journal = None;
         let Some(place) = &done.place else { return Ok(Vec::new()) };
         place.write(&self.sweep, &done.sorted()).map_err(|why| run_error(&why))?;
         Ok(place.tables.iter().map(|(path, _)| path.clone()).collect())
@@ -199,24 +236,7 @@ impl Sweeper {
 
     /// The outcomes so far by column, in the order of the runs; the second of a pair is the type.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let outcomes = self.lock()?.sorted();
-        let dict = PyDict::new(py);
-        for column in columns(&self.sweep, &outcomes) {
-            let (cells, kind) = match column.cells {
-                Cells::Counts(all) => (all.into_bound_py_any(py)?, "count"),
-                Cells::Numbers(all) => (all.into_bound_py_any(py)?, "number"),
-                Cells::Texts(all) => (all.into_bound_py_any(py)?, "text"),
-            };
-            dict.set_item(column.name, (cells, kind))?;
-        }
-        Ok(dict)
-    }
-
-    /// Runs that ended alike: ending, where, why, how many, the first; failures last.
-    fn groups(&self) -> PyResult<Vec<Alike>> {
-        let findings = Findings::new(&self.lock()?.outcomes);
-        let told = findings.groups.into_iter();
-        Ok(told.map(|it| (it.ending.name(), it.place, it.why, it.count, it.run)).collect())
+        rows::columns(py, &self.sweep, &self.lock()?.sorted())
     }
 
     fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
@@ -229,6 +249,26 @@ impl Sweeper {
 }
 
 impl Sweeper {
+    /// A run by its number.
+    fn row(&self, run: u64) -> PyResult<Row<'_>> {
+        if run >= self.sweep.len() {
+            let text = format!("there is no run {run}; the sweep has {}", self.sweep.len());
+            return Err(PyValueError::new_err(text));
+        }
+        Ok(self.sweep.row(run))
+    }
+
+    /// The rows of outcomes, where somebody wants them.
+    fn rows<'py>(
+        &self,
+        py: Python<'py>,
+        outcomes: &[Outcome],
+        wanted: Option<&Py<PyAny>>,
+    ) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let outcomes = wanted.map_or(&[][..], |_| outcomes);
+        outcomes.iter().map(|outcome| rows::row(py, &self.sweep, outcome)).collect()
+    }
+
     fn lock(&self) -> PyResult<MutexGuard<'_, Done>> {
         match self.done.try_lock() {
             Ok(done) => Ok(done),
@@ -259,17 +299,6 @@ impl Done {
     }
 }
 
-/// What is varied: a single text has the ways of a range (`20cm..60cm:5cm`); a bare number is in SI units.
-fn axis(names: &PlanNames, name: String, values: Vec<(String, bool)>) -> PyResult<Axis> {
-    if let [(range, false)] = values.as_slice() {
-        return afp_sweep::axis(&format!("{name}={range}")).map_err(PyValueError::new_err);
-    }
-    let mut ids = (0..names.entries()).map(TraceEntryId);
-    let unit = ids.find(|id| names.entry(*id).path == name).map_or("", |id| names.entry(id).unit);
-    let point = |(text, bare)| Point { text: if bare { text + unit } else { text }, si: None };
-    Ok(Axis { name, points: values.into_iter().map(point).collect() })
-}
-
 /// Lets something be done with what registers the components in Python.
 fn with_setting<T>(
     py: Python<'_>,
@@ -295,6 +324,12 @@ fn program(mark: &str) -> String {
         "" => version.to_owned(),
         mark => format!("{version} python {}", hash(mark)),
     }
+}
+
+/// Tells of rows, one after the other.
+fn tell(py: Python<'_>, to: Option<&Py<PyAny>>, rows: Vec<Bound<'_, PyDict>>) -> PyResult<()> {
+    let Some(to) = to else { return Ok(()) };
+    rows.into_iter().try_for_each(|row| to.call1(py, (row,)).map(drop))
 }
 
 fn cores(jobs: Option<NonZero<usize>>) -> usize {

@@ -108,7 +108,11 @@ fn truth(value: &Bound<'_, PyAny>) -> Option<bool> {
 
 /// Whether a value is an integer, of Python or numpy.
 fn is_integer(value: &Bound<'_, PyAny>) -> PyResult<bool> {
-    Ok(value.is_instance_of::<PyInt>() || value.hasattr("__index__")?)
+    // Arrays have the method, and only those of one integer use it.
+    let is_index = value.hasattr("__index__")?;
+    let is_array = is_index && value.hasattr("__array_interface__")?;
+    let is_none = is_array && value.call_method0("__index__").is_err();
+    Ok(value.is_instance_of::<PyInt>() || is_index && !is_none)
 }
 
 fn integer(value: &Bound<'_, PyAny>) -> PyResult<i64> {

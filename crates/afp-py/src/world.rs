@@ -1,5 +1,6 @@
 //! `World`: a room with its robot's start.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use afp_run::world::{LoadedWorld, find};
@@ -89,6 +90,17 @@ impl World {
     fn outlines<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
         let things = self.loaded.world.drawing().things;
         things.iter().map(|thing| table(py, &thing.outline)).collect()
+    }
+
+    /// Whether their files say the same.
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other.cast::<World>().is_ok_and(|other| other.get().text() == self.text())
+    }
+
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.text().hash(&mut hasher);
+        hasher.finish()
     }
 
     fn __repr__(&self) -> String {

@@ -108,27 +108,37 @@ impl RunError {
         self.render(true)
     }
 
+    /// The text for tools: an object on a line for each thing that is wrong, as diagnostics of plans are.
+    pub fn json_lines(&self) -> String {
+        self.reports(|report| format!("{}\n", report.json())).concat()
+    }
+
     fn render(&self, colour: bool) -> String {
-        let report = |message: &str, marks: Vec<Mark<'_>>| {
-            Report { severity: Severity::Error, code: "", message, marks }.render(colour)
+        self.reports(|report| report.render(colour)).join("\n\n")
+    }
+
+    /// What is made of each thing that is wrong.
+    fn reports<T>(&self, make: impl Fn(&Report<'_>) -> T) -> Vec<T> {
+        let report = |message: &str, help: &str, marks: Vec<Mark<'_>>| {
+            vec![make(&Report { severity: Severity::Error, code: "", message, help, marks })]
         };
         match self {
-            RunError::Usage { message, help: None } => report(message, Vec::new()),
-            RunError::Usage { message, help: Some(help) }
-            | RunError::Missing { message, help }
-            | RunError::Differs { message, help } => {
-                format!("{}\n  help: {help}", report(message, Vec::new()))
+            RunError::Usage { message, help } => {
+                report(message, help.as_deref().unwrap_or_default(), Vec::new())
+            }
+            RunError::Missing { message, help } | RunError::Differs { message, help } => {
+                report(message, help, Vec::new())
             }
             RunError::File { what, path, error } => {
-                report(&format!("{what} '{}': {error}", path.display()), Vec::new())
+                report(&format!("{what} '{}': {error}", path.display()), "", Vec::new())
             }
             RunError::Content { path, span, text, message } => {
                 let path = shown(path).display().to_string();
-                let label = String::new();
-                report(message, vec![Mark { path: &path, text, span: span.clone(), label }])
+                let (span, label) = (span.clone(), String::new());
+                report(message, "", vec![Mark { path: &path, text, lines: None, span, label }])
             }
-            RunError::Project(error) => error.render(colour),
-            RunError::Log(error) => report(&error.to_string(), Vec::new()),
+            RunError::Project(error) => error.reports(make),
+            RunError::Log(error) => report(&error.to_string(), "", Vec::new()),
         }
     }
 }

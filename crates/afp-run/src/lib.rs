@@ -31,7 +31,7 @@ use crate::options::RunOptions;
 
 pub use error::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, EXIT_USAGE, RunError};
 pub use hash::hash;
-pub use output::{check_writable, write_whole};
+pub use output::{check_apart, check_writable, is_same_file, write_whole};
 pub use picture::{PictureFormat, Rasterizer};
 pub use report::{event_line, line, timeline};
 pub use run::{MakeSession, run};

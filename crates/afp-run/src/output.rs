@@ -1,6 +1,6 @@
 //! Outputs of a run, with errors that say what could not be written.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::error::RunError;
 
@@ -22,4 +22,67 @@ pub fn write_whole(
 /// As of [`afp_output::check_writable`].
 pub fn check_writable(what: &'static str, path: &Path) -> Result<(), RunError> {
     afp_output::check_writable(path).map_err(RunError::file(what, path))
+}
+
+/// Refuses an output that would take the place of a file that is read, or of another output.
+///
+/// # Errors
+/// There is one.
+pub fn check_apart<'a>(
+    outputs: impl IntoIterator<Item = &'a Path>,
+    inputs: impl IntoIterator<Item = &'a Path>,
+) -> Result<(), RunError> {
+    let help = "give the output another name";
+    let inputs: Vec<_> = inputs.into_iter().filter_map(place).collect();
+    let mut known = Vec::new();
+    for output in outputs {
+        let (Some(place), shown) = (place(output), output.display()) else { continue };
+        if inputs.contains(&place) {
+            let message = format!("'{shown}' is read, so nothing can be written there");
+            return Err(RunError::usage(message, help));
+        }
+        if known.contains(&place) {
+            return Err(RunError::usage(format!("'{shown}' is named for two outputs"), help));
+        }
+        known.push(place);
+    }
+    Ok(())
+}
+
+/// Whether two paths are of one file, which may yet have to be made.
+pub fn is_same_file(one: &Path, other: &Path) -> bool {
+    place(one).is_some_and(|one| place(other) == Some(one))
+}
+
+/// The one path of a file; none of a device or a pipe, which are no worse for being written.
+fn place(path: &Path) -> Option<PathBuf> {
+    if let Ok(real) = path.canonicalize() {
+        return real.is_file().then_some(real);
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    Some(folder.unwrap_or(Path::new(".")).canonicalize().ok()?.join(path.file_name()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn outputs_are_apart_from_inputs_and_from_one_another() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        fs::create_dir(path("d")).unwrap();
+        fs::write(path("a"), "").unwrap();
+        let check = |outputs: &[&str]| {
+            let outputs: Vec<_> = outputs.iter().map(|name| path(name)).collect();
+            let checked = check_apart(outputs.iter().map(PathBuf::as_path), [&*path("a")]);
+            checked.map_err(|error| error.code())
+        };
+        let refused = Err(crate::EXIT_USAGE);
+        assert_eq!((check(&["b", "c"]), check(&["d", "/dev/null", "/dev/null"])), (Ok(()), Ok(())));
+        assert_eq!((check(&["b", "a"]), check(&["d/../a"])), (refused, refused));
+        assert_eq!((check(&["b", "d/../b"]), check(&["b", "d/b"])), (refused, Ok(())));
+        assert!(is_same_file(&path("b"), &path("d/../b")) && !is_same_file(&path("a"), &path("b")));
+    }
 }

@@ -152,7 +152,7 @@ struct Setting<'a> {
 fn drive(session: &mut dyn AnySession, setting: &Setting<'_>) -> Result<u8, RunError> {
     let Setting { program, options, world, rasterizer, .. } = *setting;
     let end = setting.recipe.until.unwrap_or(Instant::MAX);
-    let paths = Paths::new(program, options)?;
+    let paths = Paths::new(program, options, world.path.as_deref())?;
     let raster = paths.raster(rasterizer)?;
     let mut log = match &paths.log {
         None => None,

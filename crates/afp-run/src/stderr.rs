@@ -13,6 +13,7 @@ pub fn say(text: impl Display) {
 
 /// Writes a warning to standard error.
 pub fn warn(message: &str) {
-    let report = Report { severity: Severity::Warning, code: "", message, marks: Vec::new() };
+    let (severity, marks) = (Severity::Warning, Vec::new());
+    let report = Report { severity, code: "", message, help: "", marks };
     say(report.render(true));
 }

@@ -1,7 +1,9 @@
 //! How often a run used each part of its plan, and where it ended: the one place that counts.
 
-use afp_core::trace::{Cause, ComponentId, DEADLINE_MISSED, ERROR, Ending, Kind, Names, Record};
-use afp_core::{Duration, Fault, Instant};
+use afp_core::trace::{
+    self, Cause, ComponentId, DEADLINE_MISSED, ERROR, Ending, Kind, Names, Record,
+};
+use afp_core::{Duration, Failure, Fault, Instant};
 
 use crate::observer::{NamedRecord, Observer};
 
@@ -21,6 +23,8 @@ pub struct Counts {
     left: Option<ComponentId>,
     /// What it was left for.
     cause: Option<LeftFor>,
+    /// What failed last.
+    failure: Option<Failure>,
 }
 
 /// How often a component was used.
@@ -34,6 +38,9 @@ pub struct Usage {
     pub deadline_events: u64,
     /// How often it failed.
     pub faults: u64,
+    /// How often events, and missed deadlines, led where the element's own edge (`on`) leads, in the order of
+    /// [`Names::reaction`].
+    pub reactions: Vec<Reaction>,
     /// How often it was interrupted.
     pub interruptions: u64,
     /// How often a supervisor was polled, where polls that saw nothing are told.
@@ -50,6 +57,17 @@ pub struct Usage {
     pub active: Duration,
     /// Since when it is.
     since: Option<Instant>,
+}
+
+/// An edge of an element that holds instead of one of a global supervisor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Reaction {
+    /// The supervisor.
+    pub supervisor: ComponentId,
+    /// The event, or [`DEADLINE_MISSED`].
+    pub outcome: u16,
+    /// How often it was taken.
+    pub count: u64,
 }
 
 /// What ends an activity.
@@ -75,7 +93,20 @@ impl Counts {
     pub fn new(names: &dyn Names) -> Self {
         let ids = || (0..names.components()).map(ComponentId);
         let known = |id| (0..ERROR).take_while(|n| !names.outcome(id, *n).is_empty()).count();
-        let usage = |id| Usage { outcomes: vec![0; known(id)], ..Usage::default() };
+        let reactions = |id| {
+            let edges = (0..u16::MAX).map_while(move |n| names.reaction(id, n));
+            let none = |edge: trace::Reaction<'_>| Reaction {
+                supervisor: edge.supervisor,
+                outcome: edge.outcome,
+                count: 0,
+            };
+            edges.map(none).collect()
+        };
+        let usage = |id| Usage {
+            outcomes: vec![0; known(id)],
+            reactions: reactions(id),
+            ..Usage::default()
+        };
         Counts {
             components: ids().map(usage).collect(),
             interruptions: 0,
@@ -84,6 +115,7 @@ impl Counts {
             kinds: ids().map(|id| names.component(id).kind).collect(),
             left: None,
             cause: None,
+            failure: None,
         }
     }
 
@@ -110,15 +142,17 @@ impl Counts {
                     self.cause = Some(LeftFor::Outcome(element, state));
                 }
             }
-            Record::Faulted { component, fault } => {
+            Record::Faulted { component, fault, detail } => {
+                self.failure = Some(Failure { component, fault, detail });
                 self.with(component, |usage| usage.faults += 1);
                 let active = self.actor;
                 self.leave(component);
                 let failed = if component == ComponentId(0) { active } else { Some(component) };
                 self.cause = Some(LeftFor::Fault(failed.unwrap_or(component), fault));
             }
-            Record::Event { supervisor, event } => {
+            Record::Event { supervisor, event, element } => {
                 self.reached(supervisor, event);
+                self.reacted(supervisor, event, element);
                 self.cause = Some(LeftFor::Outcome(supervisor, event));
             }
             Record::Polled { supervisor, .. } => self.with(supervisor, |usage| usage.polls += 1),
@@ -157,6 +191,9 @@ impl Counts {
             for (mine, other) in mine.outcomes.iter_mut().zip(&other.outcomes) {
                 *mine += other;
             }
+            for (mine, other) in mine.reactions.iter_mut().zip(&other.reactions) {
+                mine.count += other.count;
+            }
         }
         self.interruptions += other.interruptions;
     }
@@ -176,6 +213,14 @@ impl Counts {
             _ => None,
         };
         failed.or(self.left).map_or("", |id| names.component(id).path)
+    }
+
+    /// What people are told of the fault that ended the plan; `None` where none did.
+    pub fn why(&self, names: &dyn Names) -> Option<String> {
+        let Some(Ending::Error(fault)) = self.ending else { return None };
+        let failure = self.failure.filter(|failure| failure.fault == fault);
+        let detail = failure.and_then(|failure| failure.detail);
+        Some(fault.explained(detail, names).to_string())
     }
 
     /// What ended the run: a state or an event with its component, a fault by its code, or `stop`.
@@ -237,6 +282,32 @@ impl Counts {
                 if let Some(count) = usage.outcomes.get_mut(usize::from(outcome)) {
                     *count += 1;
                 }
+            }
+        });
+    }
+}
+
+impl Counts {
+    /// How often an event, or a missed deadline, of a supervisor led where its own edge leads, which no element
+    /// replaced.
+    pub fn by_own_edge(&self, supervisor: ComponentId, outcome: u16) -> u64 {
+        let Some(usage) = self.components.get(supervisor.0 as usize) else { return 0 };
+        let all = match outcome {
+            DEADLINE_MISSED => usage.deadline_events,
+            outcome => usage.outcomes.get(usize::from(outcome)).copied().unwrap_or(0),
+        };
+        let edges = self.components.iter().flat_map(|usage| &usage.reactions);
+        let replaced =
+            edges.filter(|edge| (edge.supervisor, edge.outcome) == (supervisor, outcome));
+        all - replaced.map(|edge| edge.count).sum::<u64>().min(all)
+    }
+
+    fn reacted(&mut self, supervisor: ComponentId, outcome: u16, element: ComponentId) {
+        self.with(element, |usage| {
+            let mut edges = usage.reactions.iter_mut();
+            let edge = edges.find(|each| (each.supervisor, each.outcome) == (supervisor, outcome));
+            if let Some(edge) = edge {
+                edge.count += 1;
             }
         });
     }

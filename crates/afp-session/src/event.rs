@@ -3,7 +3,6 @@
 //! Timelines, lines of JSON, Python and logs read this; a log's file alone has another form of it.
 
 mod named;
-mod shown;
 
 use afp_core::trace::{Author, Cause, ComponentId, Ending, Names, Record, TraceEntryId, Verdict};
 use afp_core::{Duration, Fault, Instant, Value, ValueRef};
@@ -11,8 +10,6 @@ use afp_core::{Duration, Fault, Instant, Value, ValueRef};
 use crate::stimulus::Stimulus;
 
 use named::Namer;
-
-pub use shown::quantity;
 
 /// One thing that happened in a run. What does not apply to its kind is empty.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,6 +32,12 @@ pub struct RunEvent {
     pub supervisor: String,
     /// Its number.
     pub supervisor_id: ComponentId,
+    /// The element that was active or being entered when an event was taken, or was not.
+    pub element: String,
+    /// Its number.
+    pub element_id: ComponentId,
+    /// Whether that element answered: the target is one of its `on`, not the supervisor's.
+    pub on: bool,
     /// The entry that was written.
     pub entry: String,
     /// Its number.
@@ -292,6 +295,9 @@ impl Default for RunEvent {
             target: text(),
             supervisor: text(),
             supervisor_id: none,
+            element: text(),
+            element_id: none,
+            on: false,
             entry: text(),
             entry_id: TraceEntryId(0),
             port: text(),
@@ -328,8 +334,13 @@ impl RunEvent {
             EventKind::Started => Record::Started { component },
             EventKind::Finished => Record::Finished { element: component, state: outcome },
             EventKind::Interrupted => Record::Interrupted { element: component },
-            EventKind::Event => Record::Event { supervisor: component, event: outcome },
-            EventKind::Faulted => Record::Faulted { component, fault: Fault::INTERNAL },
+            EventKind::Event => {
+                let element = self.element_id;
+                Record::Event { supervisor: component, event: outcome, element }
+            }
+            EventKind::Faulted => {
+                Record::Faulted { component, fault: Fault::INTERNAL, detail: None }
+            }
             EventKind::Polled => Record::Polled { supervisor: component, verdict: Verdict::Clear },
             EventKind::Missed => {
                 let Miss { lateness, cause, skipped } = self.missed?;

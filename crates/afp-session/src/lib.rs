@@ -41,16 +41,14 @@ mod world;
 
 pub use any::{AnySession, SetError, refusal};
 pub use counts::{Counts, Usage};
-pub use event::{
-    Datum, Done, EndingKind, EventKind, Miss, OUTSIDE, Requested, RunEvent, author, quantity,
-};
+pub use event::{Datum, Done, EndingKind, EventKind, Miss, OUTSIDE, Requested, RunEvent, author};
 pub use faults::{Active, Faults};
 pub use figures::{Figure, FigureValue, Figures, Span};
 pub use observer::{Applied, Gate, Go, NamedRecord, Observer, Open, Sampling, View};
 pub use recipe::{Build, Recipe, RecipeError, TextFile};
 pub use record::{Keep, Kept, OwnedRecord};
-pub use request::{HOLD, Request, RequestError, RequestId};
-pub use robot::{ControlOf, FaultOf, Measure, Refused, Robot, Simulated};
+pub use request::{HOLD, Put, Request, RequestError, RequestId};
+pub use robot::{ControlOf, Droppable, FaultOf, Measure, Refused, Robot, Simulated};
 pub use robots::{AnyRobot, Kind, SessionError, kind};
 #[cfg(feature = "load")]
 pub use robots::{Loader, simulated};

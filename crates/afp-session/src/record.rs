@@ -36,11 +36,11 @@ impl OwnedRecord {
             Record::Missed { supervisor, lateness, cause, skipped } => {
                 (Record::Missed { supervisor, lateness, cause, skipped }, none, none)
             }
-            Record::Event { supervisor, event } => {
-                (Record::Event { supervisor, event }, none, none)
+            Record::Event { supervisor, event, element } => {
+                (Record::Event { supervisor, event, element }, none, none)
             }
-            Record::AlreadyThere { supervisor, event } => {
-                (Record::AlreadyThere { supervisor, event }, none, none)
+            Record::AlreadyThere { supervisor, event, element } => {
+                (Record::AlreadyThere { supervisor, event, element }, none, none)
             }
             Record::Interrupted { element } => (Record::Interrupted { element }, none, none),
             Record::Finished { element, state } => {
@@ -53,8 +53,8 @@ impl OwnedRecord {
             Record::Resumed { element, supervisor } => {
                 (Record::Resumed { element, supervisor }, none, none)
             }
-            Record::Faulted { component, fault } => {
-                (Record::Faulted { component, fault }, none, none)
+            Record::Faulted { component, fault, detail } => {
+                (Record::Faulted { component, fault, detail }, none, none)
             }
             Record::Ended { plan, ending } => (Record::Ended { plan, ending }, none, none),
         };

@@ -9,6 +9,8 @@ use afp_core::devices::{ControlId, FaultId};
 use afp_core::trace::ComponentId;
 use afp_core::{Duration, Instant, Value, WriteError};
 
+use crate::sample::Pose2;
+
 /// How long something is held down unless anybody says otherwise.
 pub const HOLD: Duration = Duration::from_millis(200);
 
@@ -26,8 +28,21 @@ pub enum Request {
     Inject(Injection),
     /// An actor, those of a sub-plan, or all of them do nothing from their next start on.
     Idle(Option<ComponentId>),
+    /// Something of a simulated world is put somewhere by hand.
+    Put(Put, Pose2),
     /// The plan ends as interrupted.
     Stop,
+}
+
+/// What is put somewhere by hand.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Put {
+    /// The robot.
+    Robot,
+    /// A thing of the world, by its name.
+    Thing(String),
+    /// Something that was not there: its shape, of those that the robot's kind knows.
+    New(String),
 }
 
 /// The number of a request of a session, in the order in which they were made.
@@ -56,6 +71,14 @@ pub enum RequestError {
     Lacks(&'static str),
     /// The robot does not do that.
     Refused,
+    /// There is no thing of that name in the world, or it cannot be moved.
+    NoThing(String),
+    /// There is nothing of that shape to put somewhere.
+    NoShape(String),
+    /// There is no room at that place: what stands there.
+    Occupied(String),
+    /// That place is none.
+    Nowhere,
     /// The entry does not take the value.
     Write(WriteError),
     /// A component of that path is not being polled, so it cannot report anything.
@@ -141,6 +164,10 @@ impl fmt::Display for RequestError {
             RequestError::Amount(amount) => write!(f, "{amount} is out of range"),
             RequestError::Lacks(what) => write!(f, "this robot has no '{what}'"),
             RequestError::Refused => f.write_str("the robot does not do that"),
+            RequestError::NoThing(name) => write!(f, "nothing called '{name}' can be moved"),
+            RequestError::NoShape(shape) => write!(f, "nothing has the shape '{shape}'"),
+            RequestError::Occupied(by) => write!(f, "'{by}' stands there"),
+            RequestError::Nowhere => f.write_str("that place is not in the world"),
             RequestError::Write(why) => why.fmt(f),
             RequestError::NotActive(path) => write!(f, "'{path}' is not active"),
             RequestError::NoElement => f.write_str("there is no such actor"),

@@ -8,7 +8,8 @@ use afp_core::{Instant, Platform};
 use crate::faults::Active;
 use crate::figures::Figure;
 use crate::observer::NamedRecord;
-use crate::sample::Samples;
+use crate::request::{Put, RequestError};
+use crate::sample::{Pose2, Samples};
 use crate::world::World;
 
 /// What can be held down on a robot.
@@ -46,6 +47,15 @@ pub trait Robot: Platform {
         Err(Refused)
     }
 
+    /// Puts something of its world somewhere, as a hand would: what it touches there is not pushed, and no wheel turns.
+    ///
+    /// # Errors
+    /// There is no hand here, no such thing, or no room.
+    fn put(&mut self, what: &Put, at: Pose2) -> Result<(), RequestError> {
+        let _ = (what, at);
+        Err(RequestError::Refused)
+    }
+
     /// Says what its signals are now. What is dear to compute is asked for with [`Samples::wants`].
     fn sample(&self, to: &mut Samples<'_, '_>);
 
@@ -63,6 +73,15 @@ pub trait Robot: Platform {
     }
 }
 
+/// Something that can be put into a world while a plan runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Droppable {
+    /// What it is called in [`Put::New`].
+    pub shape: &'static str,
+    /// Its outline around its middle, metres, counter-clockwise.
+    pub outline: &'static [[f64; 2]],
+}
+
 /// A robot in a world, in virtual time.
 pub trait Simulated:
     Robot<Devices: Devices<Fault: Send>> + Platform<Clock: Send> + Sized + Send + 'static
@@ -75,6 +94,9 @@ pub trait Simulated:
     /// # Errors
     /// Why the world cannot be built.
     fn new(world: &Self::World, seed: u64) -> Result<Self, String>;
+
+    /// The shapes that can be put into its world while a plan runs.
+    const DROPS: &'static [Droppable] = &[];
 
     /// What logs say of it beyond that it is simulated: name and value.
     const FACTS: &'static [(&'static str, &'static str)] = &[];

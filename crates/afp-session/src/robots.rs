@@ -12,7 +12,7 @@ use afp_core::rt::{NamedPlan, Plan};
 #[cfg(feature = "load")]
 use crate::any::AnySession;
 use crate::record::Kept;
-use crate::robot::Simulated;
+use crate::robot::{Droppable, Simulated};
 use crate::session::Session;
 use crate::world::{AnyWorld, World, WorldError};
 
@@ -26,6 +26,9 @@ pub trait AnyRobot: Sync {
 
     /// The names of its measures.
     fn measures(&self) -> &'static [&'static str];
+
+    /// The shapes that can be put into its world while a plan runs.
+    fn drops(&self) -> &'static [Droppable];
 
     /// The text of the world for plans that come without one.
     fn default_world(&self) -> &'static str;
@@ -85,6 +88,10 @@ impl<R: Simulated> AnyRobot for Kind<R> {
 
     fn measures(&self) -> &'static [&'static str] {
         R::MEASURES
+    }
+
+    fn drops(&self) -> &'static [Droppable] {
+        R::DROPS
     }
 
     fn default_world(&self) -> &'static str {

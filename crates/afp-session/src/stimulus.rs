@@ -9,9 +9,11 @@ use afp_core::devices::{DeviceRow, controls, faults, find_control, find_fault};
 use afp_core::trace::{ComponentId, Names, TraceEntryId};
 #[cfg(feature = "load")]
 use afp_core::trace::{DEADLINE_MISSED, ERROR};
+use afp_number::Measured;
 
 use crate::event::Datum;
-use crate::request::{Request, RequestError};
+use crate::request::{Put, Request, RequestError};
+use crate::sample::Pose2;
 
 /// Something that comes from outside, by names.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,6 +56,13 @@ pub enum Stimulus {
     Idle {
         /// The path.
         element: Option<String>,
+    },
+    /// Something of a simulated world is put somewhere by hand: metres, radians.
+    Put {
+        /// What.
+        what: Put,
+        /// Where.
+        at: Pose2,
     },
     /// The plan ends as interrupted.
     Stop,
@@ -100,6 +109,7 @@ impl Stimulus {
                 let path = |id: &ComponentId| names.component(*id).path.to_owned();
                 Stimulus::Idle { element: element.as_ref().map(path) }
             }
+            Request::Put(what, at) => Stimulus::Put { what: what.clone(), at: *at },
             Request::Stop => Stimulus::Stop,
         }
     }
@@ -137,6 +147,7 @@ impl Stimulus {
             Stimulus::Idle { element: Some(path) } => {
                 Request::Idle(Some(find(names, path).ok_or(RequestError::NoElement)?))
             }
+            Stimulus::Put { what, at } => Request::Put(what.clone(), *at),
             Stimulus::Stop => Request::Stop,
         })
     }
@@ -173,6 +184,16 @@ fn injection(
     _: &[(u16, Datum)],
 ) -> Result<Request, RequestError> {
     Err(RequestError::Compiled)
+}
+
+impl Datum {
+    /// The value as people write it; the number of a quantity is in that SI unit.
+    pub fn in_unit(&self, unit: &str) -> String {
+        match self {
+            Datum::Number(number) => Measured::new(*number, unit).to_string(),
+            other => other.to_string(),
+        }
+    }
 }
 
 impl fmt::Display for Datum {
@@ -212,6 +233,14 @@ impl fmt::Display for Stimulus {
             Stimulus::Inject { component, outcome, .. } => write!(f, "fire {component}.{outcome}"),
             Stimulus::Idle { element: Some(path) } => write!(f, "idle {path}"),
             Stimulus::Idle { element: None } => f.write_str("idle all"),
+            Stimulus::Put { what, at: Pose2 { x, y, heading } } => {
+                match what {
+                    Put::Robot => f.write_str("move the robot")?,
+                    Put::Thing(name) => write!(f, "move {name}")?,
+                    Put::New(shape) => write!(f, "drop {shape}")?,
+                }
+                write!(f, " to {x:.2} m, {y:.2} m, {:.0}°", heading.to_degrees())
+            }
             Stimulus::Stop => f.write_str("stop"),
         }
     }

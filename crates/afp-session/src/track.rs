@@ -76,7 +76,7 @@ impl Observer for Track {
             {
                 self.actor = None;
             }
-            Record::Event { supervisor, event } => {
+            Record::Event { supervisor, event, .. } => {
                 let pose = Pose2::default();
                 self.marks.push(Mark { at: named.at, pose, supervisor, event });
             }

@@ -97,12 +97,16 @@ pub struct Drawing {
 /// Something that stands or moves on the floor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Thing {
+    /// What scenes know it by.
+    pub id: String,
     /// Its name.
     pub name: String,
     /// Its outline at the start, counter-clockwise.
     pub outline: Vec<[f64; 2]>,
     /// Whether sensors look over it.
     pub low: bool,
+    /// Whether a hand can put it elsewhere.
+    pub movable: bool,
     /// Whether there is room for its name.
     pub labelled: bool,
     /// Where its middle goes; empty for what does not go its own way.

@@ -21,6 +21,8 @@ pub(crate) enum Source {
     Rooms = 8,
     /// The grain of pictures.
     Camera = 7,
+    /// Places made up.
+    Places = 9,
 }
 
 impl Source {

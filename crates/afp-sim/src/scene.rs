@@ -62,6 +62,11 @@ impl Scene {
         }
     }
 
+    /// Adds a solid that can move, behind all others.
+    pub(crate) fn add(&mut self, obstacle: &Obstacle) {
+        self.moving.push(Solid::new(obstacle));
+    }
+
     /// Every solid that a ray meets, with where; those that stand still first.
     pub(crate) fn cross(
         &self,

@@ -5,7 +5,9 @@ mod build;
 mod bumper;
 mod devices;
 mod faults;
+mod hand;
 mod keyframe;
+mod locate;
 mod movers;
 mod ping;
 mod robot;
@@ -31,6 +33,7 @@ use crate::vehicle::drive::Drive;
 use crate::world::{Light, Obstacle, World, WorldError};
 use afp_carbot::devices::{Color, Echo, Glow, Invalid, Reading};
 use afp_carbot::table::Fault;
+use afp_core::quantity::Frequency;
 use afp_core::{Duration, Instant};
 use afp_flow::{FlowJob, FlowSensor, LucasKanade};
 use afp_session::Faults;
@@ -38,6 +41,7 @@ use afp_session::parts::VirtualClock;
 use afp_worker::VirtualWorker;
 use build::{Built, build};
 use faults::Lines;
+use locate::{Located, SimulatedLocator, SimulatedPlanner};
 use movers::Mover;
 use rapier2d::math::{Pose as Isometry, Vector};
 use rapier2d::parry::shape::SharedShape;
@@ -87,6 +91,14 @@ pub struct Simulation {
     exposed_before: Option<Arc<Exposure>>,
     /// Made for whoever asks for the flow first.
     flow: Option<Box<SimulatedFlow>>,
+    /// Made for whoever asks first where the robot is.
+    locator: Option<Box<SimulatedLocator>>,
+    /// How far off it was.
+    located: Located,
+    /// Made for whoever asks first for a way.
+    planner: Option<Box<SimulatedPlanner>>,
+    /// Whether the lamp is on, and what sounds.
+    shown: (bool, Option<Frequency>),
     seed: u64,
     /// Whether somebody holds the bumper in.
     held: bool,
@@ -142,6 +154,10 @@ impl Simulation {
             exposure: Reading { time: Instant::ZERO, value: Err(Invalid::NotYet) },
             exposed_before: None,
             flow: None,
+            locator: None,
+            located: Located::default(),
+            planner: None,
+            shown: (false, None),
             seed,
             held: false,
             escape: false,
@@ -262,6 +278,7 @@ impl Simulation {
         self.look_for_edge(now);
         if self.steps.is_multiple_of(PING_STEPS) {
             self.receive();
+            self.locate();
             self.ping(now);
         }
         self.see(now);

@@ -9,6 +9,7 @@ mod look;
 mod map;
 mod outline;
 mod path;
+mod place;
 mod random;
 mod session;
 
@@ -29,7 +30,7 @@ use rapier2d::parry::query;
 use rapier2d::parry::shape::Cuboid;
 
 /// Nothing lies farther from the origin than this, metres: beyond it single precision is coarse.
-const FARTHEST: f64 = 1000.0;
+pub(crate) const FARTHEST: f64 = 1000.0;
 
 /// A world as read from its file.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,6 +69,8 @@ pub struct Obstacle {
     pub look: Look,
     /// How much of the sound that hits it is sent back, above 0 up to 1.
     pub echo: f64,
+    /// Whether the robot's map shows it; never so for what moves.
+    pub mapped: bool,
 }
 
 /// Whether and how an obstacle moves.

@@ -85,10 +85,14 @@ impl Folder {
         if real.starts_with(&self.root) { Ok(real) } else { Err(outside()) }
     }
 
-    /// The files that are opened, by path, with their stamps.
+    /// The files that are opened, and the logs of runs, by path, with their stamps.
     pub(crate) fn files(&self) -> BTreeMap<String, Stamp> {
         let files = afp_project::files(&self.root).into_iter();
-        files.filter_map(|path| Some((path.to_str()?.to_owned(), stamp(&path)?))).collect()
+        let files = files.filter_map(|path| Some((path.to_str()?.to_owned(), stamp(&path)?)));
+        // That a log grows concerns nobody.
+        let logs = afp_project::logs(&self.root).into_iter();
+        let logs = logs.filter_map(|path| Some((path.to_str()?.to_owned(), (None, 0))));
+        files.chain(logs).collect()
     }
 
     /// A path as people read it: from the root.

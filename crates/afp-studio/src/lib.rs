@@ -11,10 +11,12 @@
 mod debugging;
 mod doors;
 mod files;
+mod jobs;
 mod page;
 mod room;
 mod server;
 mod sockets;
+mod trust;
 
 use std::io;
 use std::net::{Ipv4Addr, TcpListener};
@@ -42,6 +44,8 @@ pub struct Options {
     /// Addresses of pages beside our own that may talk with it, such as `http://localhost:8080` at the near end of
     /// a tunnel.
     pub origins: Vec<String>,
+    /// The command line that does jobs: this program.
+    pub program: PathBuf,
     /// Plans that people can begin with: a name for the file, and the text.
     pub examples: Vec<(String, String)>,
 }
@@ -61,6 +65,7 @@ pub struct Studio {
     listener: TcpListener,
     secret: Secret,
     room: Room,
+    program: PathBuf,
 }
 
 impl Studio {
@@ -73,7 +78,7 @@ impl Studio {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, options.port))?;
         let secret = Secret::new(listener.local_addr()?.port(), options.origins.clone())?;
         let room = Room::new(folder, options.open.as_deref(), options.examples.clone(), host);
-        Ok(Studio { listener, secret, room })
+        Ok(Studio { listener, secret, room, program: options.program.clone() })
     }
 
     /// What a browser opens: works once, for a minute.
@@ -92,6 +97,11 @@ impl Studio {
     /// The socket breaks.
     pub fn serve(self, debuggers: Sender<Debugging>) -> io::Result<()> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
-        runtime.block_on(server::serve(self.listener, self.secret, self.room, debuggers))
+        runtime.block_on(server::serve(
+            self.listener,
+            self.secret,
+            (self.room, self.program),
+            debuggers,
+        ))
     }
 }

@@ -3,6 +3,7 @@
 //! A value without thread and clock: messages of clients go in, with the time, and messages to clients come out.
 
 mod document;
+mod jobs;
 mod requests;
 mod saving;
 
@@ -16,7 +17,10 @@ use serde_json::{Value, json};
 
 use crate::MakeHost;
 use crate::files::{Folder, Stamp};
+use crate::trust::Trust;
 use document::Document;
+use jobs::Jobs;
+pub(crate) use jobs::{JobId, Order};
 
 /// Tells clients apart.
 pub type ClientId = u32;
@@ -40,6 +44,8 @@ pub struct Room {
     pen: Option<ClientId>,
     files: BTreeMap<String, Stamp>,
     looked: Duration,
+    trust: Trust,
+    jobs: Jobs,
 }
 
 impl std::fmt::Debug for Room {
@@ -68,7 +74,9 @@ impl Room {
         let files = folder.files();
         let (clients, documents) = (BTreeMap::new(), BTreeMap::new());
         let looked = Duration::ZERO;
-        Room { folder, open, examples, host, clients, documents, pen: None, files, looked }
+        let (trust, jobs) = (Trust::of(folder.root()), Jobs::default());
+        let pen = None;
+        Room { folder, open, examples, host, clients, documents, pen, files, looked, trust, jobs }
     }
 
     /// The folder.

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 use std::net::TcpListener;
+use std::path::PathBuf;
 use std::sync::mpsc::Sender;
 use std::{io, thread};
 
@@ -33,11 +34,12 @@ struct Shared {
 pub(crate) async fn serve(
     listener: TcpListener,
     secret: Secret,
-    room: Room,
+    (room, program): (Room, PathBuf),
     debuggers: Sender<Debugging>,
 ) -> io::Result<()> {
     let (sockets, end) = Sockets::new();
-    let worker = thread::spawn(move || sockets::run(room, end));
+    let jobs = sockets.jobs(program, room.folder().root().to_owned());
+    let worker = thread::spawn(move || sockets::run(room, end, jobs));
     let shared = Shared { secret, sockets: sockets.clone(), debuggers };
     let routes = Router::new()
         .route("/", get(index))

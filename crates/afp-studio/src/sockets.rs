@@ -1,6 +1,7 @@
 //! Clients over sockets, and the thread that the room lives on.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError, channel};
@@ -10,7 +11,8 @@ use afp_lsp::Message;
 use axum::extract::ws::{self, WebSocket};
 use tokio::sync::mpsc;
 
-use crate::room::{ClientId, Out, Room};
+use crate::jobs::Runner;
+use crate::room::{ClientId, JobId, Out, Room};
 
 /// More clients than this are turned away.
 const MOST_CLIENTS: usize = 8;
@@ -29,6 +31,10 @@ pub(crate) enum Event {
     Joined(ClientId, mpsc::Sender<String>),
     Said(ClientId, Message),
     Left(ClientId),
+    /// A job has printed a line.
+    JobSaid(JobId, String),
+    /// A job has closed its streams.
+    JobEnded(JobId),
     End,
 }
 
@@ -36,6 +42,11 @@ impl Sockets {
     pub fn new() -> (Sockets, Receiver<Event>) {
         let (events, arrived) = channel();
         (Sockets { events, next: Arc::new(AtomicU32::new(1)) }, arrived)
+    }
+
+    /// Who runs the jobs of the room.
+    pub fn jobs(&self, program: PathBuf, folder: PathBuf) -> Runner {
+        Runner::new(program, folder, self.events.clone())
     }
 
     /// Lets the room save everything and end.
@@ -79,7 +90,7 @@ pub(crate) async fn talk(mut socket: WebSocket, sockets: Sockets) {
 }
 
 /// The thread of the room: one message after the other, and what is due between.
-pub(crate) fn run(mut room: Room, arrived: Receiver<Event>) {
+pub(crate) fn run(mut room: Room, arrived: Receiver<Event>, mut jobs: Runner) {
     let begin = Instant::now();
     let mut clients = BTreeMap::new();
     loop {
@@ -109,10 +120,19 @@ pub(crate) fn run(mut room: Room, arrived: Receiver<Event>) {
                 clients.remove(&id);
                 room.leave(id)
             }
+            Some(Event::JobSaid(id, line)) => room.job_said(id, &line),
+            Some(Event::JobEnded(id)) => room.job_done(id, jobs.ended(id)),
             Some(Event::End) => break,
             None => Vec::new(),
         };
         send(&mut clients, out);
+        let orders = room.orders();
+        if !orders.is_empty() {
+            // Jobs read what lies on the disk.
+            let out = room.save_all(begin.elapsed());
+            send(&mut clients, out);
+        }
+        orders.into_iter().for_each(|order| jobs.take(order));
         let out = room.tick(begin.elapsed());
         send(&mut clients, out);
     }

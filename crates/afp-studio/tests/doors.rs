@@ -12,7 +12,8 @@ use afp_studio::{Options, Studio};
 fn serve() -> (u16, String) {
     let folder = std::env::temp_dir();
     let (port, origins, examples) = (0, Vec::new(), Vec::new());
-    let options = Options { folder, open: None, port, origins, examples };
+    let program = "afpc".into();
+    let options = Options { folder, open: None, port, origins, program, examples };
     let studio = Studio::new(&options, || Box::new(NoFiles)).unwrap();
     let address = studio.address();
     let rest = address.strip_prefix("http://127.0.0.1:").unwrap();

@@ -269,3 +269,28 @@ fn everything_is_saved_at_the_end() {
     place.room.save_all(place.now);
     assert_eq!(place.on_disk(), next);
 }
+
+#[test]
+fn jobs_that_run_code_of_the_folder_wait_for_trust_and_files_are_those_of_the_folder() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    let file = place.uri("p.afp");
+    let refused = place.ask(1, "afp/job", json!({ "kind": "build", "file": file }));
+    assert!(refused.unwrap_err().contains("trust"));
+    let told = place.ask(1, "afp/trust", json!({})).unwrap();
+    assert_eq!(told["code"], json!([]));
+    assert_eq!(place.ask(1, "afp/job", json!({ "kind": "test", "file": file })).unwrap()["id"], 1);
+    for (wrong, why) in [
+        (json!({ "kind": "generate", "file": "file:///etc/passwd.afp" }), "outside"),
+        (json!({ "kind": "sweep", "file": file, "seeds": "--world" }), "seeds"),
+        (json!({ "kind": "new", "name": "../up" }), "name"),
+        (json!({ "kind": "format c:" }), "no job"),
+    ] {
+        let refused = place.ask(1, "afp/job", wrong).unwrap_err();
+        assert!(refused.contains(why), "{refused}");
+    }
+    assert!(place.ask(1, "afp/endJob", json!({ "id": 7 })).is_err());
+    fs::write(place.path("afp.toml"), "[robot]\ncrate = \"x\"\n").unwrap();
+    let refused = place.ask(1, "afp/job", json!({ "kind": "test" }));
+    assert!(refused.unwrap_err().contains("trust"));
+}

@@ -13,10 +13,14 @@ pub(crate) fn drive(
     session: &mut dyn AnySession,
     until: Instant,
     stop: &AtomicBool,
+    more: &mut [&mut dyn Observer],
 ) -> Option<Outcome> {
     let mut counts = Counts::new(session.names());
     let mut track = Track::new(session.devices());
-    let mut observers: [&mut dyn Observer; 2] = [&mut counts, &mut track];
+    let mut observers: Vec<&mut dyn Observer> = vec![&mut counts, &mut track];
+    for observer in more.iter_mut() {
+        observers.push(&mut **observer);
+    }
     let mut gate =
         |_: Instant, _: Instant| if stop.load(Ordering::Relaxed) { Go::Stop } else { Go::On };
     match session.run(until, &mut gate, &mut observers) {

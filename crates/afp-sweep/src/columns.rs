@@ -49,7 +49,7 @@ pub fn columns(sweep: &Sweep, outcomes: &[Outcome]) -> Vec<Column> {
     };
     let mut all = vec![
         counts("run", |it| it.run),
-        column("world", of_rows(&rows, |row| row.world.unwrap_or_default().to_owned())),
+        column("world", of_rows(&rows, |row| row.world.name().unwrap_or_default().to_owned())),
         column("seed", Cells::Counts(rows.iter().map(|row| row.seed).collect())),
     ];
     for (number, axis) in sweep.axes.iter().enumerate() {

@@ -8,7 +8,7 @@ use std::time::Instant as Wall;
 
 use afp_core::{Fault, Instant};
 use afp_run::RunError;
-use afp_session::AnySession;
+use afp_session::{AnySession, Observer};
 
 use crate::grid::{Row, Sweep};
 use crate::outcome::{Ending, Outcome};
@@ -19,6 +19,18 @@ const WAITING: usize = 64;
 
 /// Makes the session of a run, its inputs set; the same for the same row. An error ends the run, not the sweep.
 pub type Maker<'a> = &'a (dyn Fn(&Row<'_>) -> Result<Box<dyn AnySession>, RunError> + Sync);
+
+/// Drives a session to the end of its run, with more observers; none when the run was called off.
+pub type Drive<'a> =
+    &'a mut dyn FnMut(&mut dyn AnySession, &mut [&mut dyn Observer]) -> Option<Outcome>;
+
+/// Hears of runs what their outcomes do not tell.
+pub trait Watch: Sync {
+    /// Lets a run be driven with observers of its own, and keeps of it and of its session what it wants. It is called in the threads
+    /// of the engine.
+    fn run(&self, row: &Row<'_>, session: Box<dyn AnySession>, drive: Drive<'_>)
+    -> Option<Outcome>;
+}
 
 /// Does runs of a sweep.
 #[derive(Clone, Copy)]
@@ -31,6 +43,8 @@ pub struct Engine<'a> {
     pub jobs: usize,
     /// Calls everything off once it is true: runs that have not ended leave no outcome.
     pub stop: &'a AtomicBool,
+    /// Hears of each run, where somebody wants to.
+    pub watch: Option<&'a dyn Watch>,
 }
 
 impl Engine<'_> {
@@ -95,7 +109,14 @@ impl Engine<'_> {
                 return Some(Outcome::failed(row.run, Ending::NotStarted, first_line(&error)));
             }
         };
-        attend::drive(row.run, &mut *session, Instant::ZERO + self.sweep.until, self.stop)
+        let until = Instant::ZERO + self.sweep.until;
+        let mut drive = |session: &mut dyn AnySession, more: &mut [&mut dyn Observer]| {
+            attend::drive(row.run, session, until, self.stop, more)
+        };
+        match self.watch {
+            Some(watch) => watch.run(row, session, &mut drive),
+            None => drive(&mut *session, &mut []),
+        }
     }
 }
 

@@ -139,7 +139,7 @@ impl Findings {
         let all = Measure::ALL.into_iter().chain(Measure::of_figures(outcomes));
         Findings {
             endings: endings.filter(|(_, count)| *count > 0).collect(),
-            groups: groups(outcomes),
+            groups: groups(outcomes.iter().map(|it| (it.ending, &*it.place, &*it.why, it.run))),
             touched: touched(outcomes),
             measures: all.filter_map(spread).collect(),
         }
@@ -151,12 +151,14 @@ impl Findings {
     }
 }
 
-fn groups(outcomes: &[Outcome]) -> Vec<Group> {
+/// Runs that ended in the same way at the same place for the same reason, of their ending, place, reason and number:
+/// failures last, the most frequent first.
+pub fn groups<'a>(runs: impl Iterator<Item = (Ending, &'a str, &'a str, u64)>) -> Vec<Group> {
     let mut alike: BTreeMap<(Ending, &str, &str), (u64, u64)> = BTreeMap::new();
-    for Outcome { ending, place, why, run, .. } in outcomes {
-        let (count, first) = alike.entry((*ending, place, why)).or_insert((0, *run));
+    for (ending, place, why, run) in runs {
+        let (count, first) = alike.entry((ending, place, why)).or_insert((0, run));
         *count += 1;
-        *first = (*first).min(*run);
+        *first = (*first).min(run);
     }
     let group = |((ending, place, why), (count, run)): ((Ending, &str, &str), _)| {
         let (place, why) = (place.to_owned(), why.to_owned());

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use afp_core::Duration;
 use afp_dsl::types::text::duration;
 use afp_run::options::{Failure, Press};
+use afp_run::world::LoadedWorld;
 
 use crate::ranges::Seeds;
 
@@ -13,8 +14,8 @@ use crate::ranges::Seeds;
 pub struct Sweep {
     /// The plan as it is named on the command line.
     pub plan: String,
-    /// The worlds, as `--world` names them; `None` stands for the plan's own. Never empty.
-    pub worlds: Vec<Option<String>>,
+    /// The worlds. Never empty.
+    pub worlds: Vec<Room>,
     /// What is varied.
     pub axes: Vec<Axis>,
     /// The seeds.
@@ -27,6 +28,17 @@ pub struct Sweep {
     pub until: Duration,
     /// Why the command of a run does something else than the run did; none where it does the same.
     pub caveat: Option<&'static str>,
+}
+
+/// A world of a sweep.
+#[derive(Clone, Debug)]
+pub enum Room {
+    /// The one that a run of the plan takes without a word.
+    OfPlan,
+    /// As `--world` names it.
+    Named(String),
+    /// One that no file has, and what tables call it.
+    Made(String, LoadedWorld),
 }
 
 /// Something that is varied.
@@ -48,18 +60,33 @@ pub struct Point {
 }
 
 /// A run of the grid.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Row<'a> {
     /// Its number, from 0.
     pub run: u64,
     /// The place of its world among those of the sweep.
     pub world_number: usize,
     /// Its world.
-    pub world: Option<&'a str>,
+    pub world: &'a Room,
     /// Its seed.
     pub seed: u64,
     /// The value of each axis.
     pub values: Vec<(&'a str, &'a Point)>,
+}
+
+impl Room {
+    /// What tables call it; none for that of the plan.
+    pub fn name(&self) -> Option<&str> {
+        match self {
+            Room::OfPlan => None,
+            Room::Named(name) | Room::Made(name, _) => Some(name),
+        }
+    }
+
+    /// Why no command takes it; none where one does.
+    fn caveat(&self) -> Option<&'static str> {
+        matches!(self, Room::Made(..)).then_some("the world has no file")
+    }
 }
 
 impl Sweep {
@@ -90,7 +117,7 @@ impl Sweep {
         }
         values.reverse();
         let world_number = (rest as usize).min(self.worlds.len().saturating_sub(1));
-        let world = self.worlds.get(world_number).and_then(Option::as_deref);
+        let world = self.worlds.get(world_number).unwrap_or(&Room::OfPlan);
         Row { run, world_number, world, seed, values }
     }
 
@@ -98,7 +125,7 @@ impl Sweep {
     pub fn command(&self, row: &Row<'_>) -> String {
         let mut command = format!("afpc run {}", quoted(&self.plan));
         // Writing to a string cannot fail.
-        if let Some(world) = row.world {
+        if let Some(world) = row.world.name() {
             let _ = write!(command, " --world {}", quoted(world));
         }
         let _ = write!(command, " --seed {}", row.seed);
@@ -112,8 +139,9 @@ impl Sweep {
             let _ = write!(command, " --fail {}", quoted(&failure.to_string()));
         }
         let _ = write!(command, " --until {}", spelled(self.until));
-        if let Some(caveat) = self.caveat {
-            let _ = write!(command, "  # {caveat}");
+        let caveats = [self.caveat, row.world.caveat()].into_iter().flatten();
+        for (number, caveat) in caveats.enumerate() {
+            let _ = write!(command, "{}{caveat}", if number == 0 { "  # " } else { "; " });
         }
         command
     }
@@ -122,7 +150,7 @@ impl Sweep {
     pub fn signature(&self) -> String {
         let mut text = format!("seeds {}, until {}", self.seeds, spelled(self.until));
         for world in &self.worlds {
-            let _ = write!(text, ", world {}", world.as_deref().unwrap_or("of the plan"));
+            let _ = write!(text, ", world {}", world.name().unwrap_or("of the plan"));
         }
         for axis in &self.axes {
             let points = axis.points.iter().map(|point| point.text.as_str());
@@ -165,7 +193,7 @@ mod tests {
         Sweep {
             caveat: None,
             plan: "my plan.afp".to_owned(),
-            worlds: vec![None, Some("random:7".to_owned())],
+            worlds: vec![Room::OfPlan, Room::Named("random:7".to_owned())],
             axes: vec![axis("a=1,2,3").unwrap(), axis("b=20cm..30cm:5cm").unwrap()],
             seeds: seeds("5..9").unwrap(),
             presses: vec![press("touch@2s").unwrap()],
@@ -182,7 +210,7 @@ mod tests {
         assert_eq!(all.len() as u64, sweep.len());
         assert_eq!(sweep.row(1).seed, 6);
         assert_eq!(sweep.row(4).values[1].1.text, "25cm");
-        assert_eq!(sweep.row(36).world, Some("random:7"));
+        assert_eq!(sweep.row(36).world.name(), Some("random:7"));
     }
 
     #[test]

@@ -23,9 +23,9 @@ mod setting;
 mod table;
 
 pub use columns::{Cells, Column, columns};
-pub use engine::{Engine, Maker};
-pub use findings::{Findings, Group, Measure, Spread, Touched};
-pub use grid::{Axis, Point, Row, Sweep};
+pub use engine::{Drive, Engine, Maker, Watch};
+pub use findings::{Findings, Group, Measure, Spread, Touched, groups};
+pub use grid::{Axis, Point, Room, Row, Sweep};
 pub use journal::{Header, Journal};
 pub use outcome::{Ending, Outcome};
 pub use place::{Make, Place};

@@ -1,5 +1,6 @@
 //! Seeds, worlds and values as people write them: `0..1000`, `random:7..99`, `distance=20cm..60cm:5cm`.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::ops::Range;
 
@@ -10,19 +11,47 @@ const POINTS: u64 = 5;
 /// More values than this are a mistake.
 const MOST: f64 = 1e6;
 
-/// Seeds one after the other.
+/// The seeds of a sweep, each once.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Seeds(Range<u64>);
+pub struct Seeds(Kind);
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Kind {
+    /// One after the other.
+    Range(Range<u64>),
+    /// Any others, in their order.
+    List(Vec<u64>),
+}
 
 impl Seeds {
     /// Seeds from the first up to, and without, the second.
     pub fn new(range: Range<u64>) -> Self {
-        Seeds(range)
+        Seeds(Kind::Range(range))
+    }
+
+    /// Seeds in that order; those that follow one another are the same as their range.
+    ///
+    /// # Errors
+    /// A seed that stands there twice: its run would be there twice.
+    pub fn list(seeds: Vec<u64>) -> Result<Self, String> {
+        let mut known = BTreeSet::new();
+        if let Some(twice) = seeds.iter().find(|seed| !known.insert(**seed)) {
+            return Err(format!("the seed {twice} is there twice"));
+        }
+        let follow =
+            seeds.windows(2).all(|pair| matches!(pair, [a, b] if a.checked_add(1) == Some(*b)));
+        Ok(match (seeds.first(), seeds.last().and_then(|last| last.checked_add(1))) {
+            (Some(first), Some(end)) if follow => Seeds::new(*first..end),
+            _ => Seeds(Kind::List(seeds)),
+        })
     }
 
     /// How many there are.
     pub fn len(&self) -> u64 {
-        self.0.end.saturating_sub(self.0.start)
+        match &self.0 {
+            Kind::Range(range) => range.end.saturating_sub(range.start),
+            Kind::List(seeds) => seeds.len() as u64,
+        }
     }
 
     /// Whether there is none.
@@ -32,21 +61,45 @@ impl Seeds {
 
     /// One of them, from 0.
     pub fn nth(&self, number: u64) -> u64 {
-        self.0.start.saturating_add(number)
+        match &self.0 {
+            Kind::Range(range) => range.start.saturating_add(number),
+            Kind::List(seeds) => seeds.get(number as usize).copied().unwrap_or_default(),
+        }
     }
 }
 
 impl fmt::Display for Seeds {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}..{}", self.0.start, self.0.end)
+        match &self.0 {
+            Kind::Range(range) => write!(f, "{}..{}", range.start, range.end),
+            Kind::List(seeds) => {
+                let seeds: Vec<_> = seeds.iter().map(u64::to_string).collect();
+                f.write_str(&seeds.join(","))
+            }
+        }
     }
 }
 
-/// `0..1000` (the last is 999), `0..=999`, or one seed.
+/// `0..1000` (the last is 999), `0..=999`, one seed, or several of these with commas between them.
 ///
 /// # Errors
 /// Says what was expected.
 pub fn seeds(text: &str) -> Result<Seeds, String> {
+    if !text.contains(',') {
+        return one_after_the_other(text);
+    }
+    let mut all = Vec::new();
+    for part in text.split(',') {
+        let part = one_after_the_other(part)?;
+        if (all.len() as u64).saturating_add(part.len()) as f64 > MOST {
+            return Err(format!("'{text}' are more than {MOST} seeds; give one range of them"));
+        }
+        all.extend((0..part.len()).map(|number| part.nth(number)));
+    }
+    Seeds::list(all)
+}
+
+fn one_after_the_other(text: &str) -> Result<Seeds, String> {
     let wrong = || "expected seeds such as 0..1000 (the last is 999)".to_owned();
     let number = |text: &str| text.trim().parse::<u64>().map_err(|_| wrong());
     let range = match text.split_once("..") {
@@ -59,7 +112,7 @@ pub fn seeds(text: &str) -> Result<Seeds, String> {
     if range.is_empty() {
         return Err(format!("there are no seeds in '{text}'"));
     }
-    Ok(Seeds(range))
+    Ok(Seeds::new(range))
 }
 
 /// A world as `--world` takes it, or several: `random:7..99` stands for `random:7` to `random:98`.
@@ -196,6 +249,12 @@ mod tests {
         assert_eq!(seeds("3..=5").unwrap(), all);
         assert_eq!(seeds("7").unwrap().len(), 1);
         assert!(worlds("random:0..99999999").unwrap_err().contains("more than 1000000 worlds"));
+        let several = seeds("7,1..3,9").unwrap();
+        assert_eq!((several.len(), several.nth(2), several.nth(3)), (4, 2, 9));
+        assert_eq!(several.to_string(), "7,1,2,9");
+        assert_eq!(seeds("3,4,5").unwrap(), all);
+        assert_eq!(seeds("1,0..2").unwrap_err(), "the seed 1 is there twice");
+        assert!(seeds("1,0..99999999").unwrap_err().contains("more than 1000000 seeds"));
         assert!(seeds("3..3").is_err() && seeds("-1..2").is_err() && seeds("x").is_err());
         assert_eq!(worlds("random:7..9").unwrap(), ["random:7", "random:8"]);
         assert_eq!(worlds("random:7").unwrap(), ["random:7"]);

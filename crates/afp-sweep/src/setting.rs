@@ -9,7 +9,7 @@ use afp_run::world::{self, LoadedWorld, change};
 use afp_run::{RunError, hash, inputs, requests};
 use afp_session::{AnySession, Loader};
 
-use crate::grid::{Axis, Point, Row, Sweep};
+use crate::grid::{Axis, Point, Room, Row, Sweep};
 
 /// More runs than this are a mistake, and no list could hold them.
 const MOST: u64 = 10_000_000;
@@ -45,9 +45,10 @@ impl<'a> Setting<'a> {
                 "give a part of the seeds or of the values at a time",
             ));
         }
-        let worlds = sweep.worlds.iter();
-        let worlds =
-            worlds.map(|asked| world::find(asked.as_deref().map(Path::new), file, robot.kind()));
+        let worlds = sweep.worlds.iter().map(|room| match room {
+            Room::Made(_, world) => Ok(world.clone()),
+            room => world::find(room.name().map(Path::new), file, robot.kind()),
+        });
         let worlds = worlds.collect::<Result<Vec<_>, _>>()?;
         let (presses, failures) = (sweep.presses.clone(), sweep.failures.clone());
         let setting = Setting { graph, robot, worlds, presses, failures };
@@ -124,11 +125,11 @@ impl<'a> Setting<'a> {
         Ok(())
     }
 
-    /// The session of a run, judged by all measures of the robot.
+    /// The world of a run, with the values of its row.
     ///
     /// # Errors
-    /// The world makes no sense with the values of the row.
-    pub fn make(&self, row: &Row<'_>) -> Result<Box<dyn AnySession>, RunError> {
+    /// The world makes no sense with them.
+    pub fn world(&self, row: &Row<'_>) -> Result<LoadedWorld, RunError> {
         let world = self.worlds.get(row.world_number);
         let world = world.ok_or_else(|| RunError::usage("there is no such world", "name one"))?;
         let changes = row
@@ -136,13 +137,20 @@ impl<'a> Setting<'a> {
             .iter()
             .filter_map(|(name, point)| Some((change::key(name)?, point.text.as_str())));
         let changes: Vec<_> = changes.collect();
-        let changed = match changes.is_empty() {
-            true => None,
-            false => Some(world.with(&changes, self.robot.kind())?),
-        };
-        let world = &changed.as_ref().unwrap_or(world).world;
+        match changes.is_empty() {
+            true => Ok(world.clone()),
+            false => world.with(&changes, self.robot.kind()),
+        }
+    }
+
+    /// The session of a run, judged by all measures of the robot.
+    ///
+    /// # Errors
+    /// The world makes no sense with the values of the row.
+    pub fn make(&self, row: &Row<'_>) -> Result<Box<dyn AnySession>, RunError> {
+        let world = self.world(row)?.world;
         let measures = self.robot.kind().measures();
-        let mut session = self.robot.session(self.graph, &**world, row.seed, measures)?;
+        let mut session = self.robot.session(self.graph, &*world, row.seed, measures)?;
         for (name, point) in row.values.iter().filter(|(name, _)| change::key(name).is_none()) {
             inputs::set(&mut *session, name, &point.text)?;
         }

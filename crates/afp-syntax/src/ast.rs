@@ -5,8 +5,10 @@
 
 mod device;
 mod formula;
+mod one_line;
 mod plan;
 mod scenario;
+mod table;
 mod toolbox;
 
 use rowan::{Language, NodeOrToken};
@@ -18,8 +20,9 @@ use crate::{Node, node_span};
 
 pub use device::{Amount, Control, Device, DeviceKind, DevicePart, Fault, Press, Signal};
 pub use formula::{Formula, FormulaKind, Operator, Sign};
-pub use plan::{Bind, Edge, Element, ElementKind, Entry, Frame, Guard, Plan, Start};
+pub use plan::{Bind, Edge, Element, ElementKind, Entry, Frame, Guard, Plan, Reactions, Start};
 pub use scenario::{Action, Bound, Claim, ClaimKind, ClaimTarget, Line, LineKind, Path, Scenario};
+pub use table::{Column, Row, Table};
 pub use toolbox::{InPort, OutPort, Outcome, Part, Template, TemplateKind, Timing, Toolbox};
 
 /// A name and its place.
@@ -52,7 +55,7 @@ macro_rules! views {
 
             /// Its text as written, in one line and without comments.
             pub fn in_one_line(&self) -> String {
-                crate::ast::in_one_line(&self.node)
+                crate::ast::one_line::in_one_line(&self.node)
             }
         }
     )*};
@@ -105,6 +108,8 @@ pub enum Item {
     Scenario(Scenario),
     /// An enum.
     Enum(Enum),
+    /// A table.
+    Table(Table),
     /// The head of a toolbox.
     Toolbox(Toolbox),
     /// An object type of a toolbox.
@@ -121,7 +126,7 @@ impl File {
         &self.node
     }
 
-    /// The items in order.
+    /// The items in order; those that stand in the braces of a plan, where they have no place, behind it.
     pub fn items(&self) -> Vec<Item> {
         let file = self.file;
         let item = |node: Node| {
@@ -130,6 +135,7 @@ impl File {
                 Kind::Plan => Item::Plan(Plan::new(node, file)),
                 Kind::Scenario => Item::Scenario(Scenario::new(node, file)),
                 Kind::Enum => Item::Enum(Enum::new(node, file)),
+                Kind::Table => Item::Table(Table::new(node, file)),
                 Kind::Toolbox => Item::Toolbox(Toolbox::new(node, file)),
                 Kind::Object => Item::Object(Object::new(node, file)),
                 Kind::Template => Item::Template(Template::new(node, file)),
@@ -137,7 +143,11 @@ impl File {
                 _ => return None,
             })
         };
-        self.node.children().filter_map(item).collect()
+        let nodes = self.node.children().flat_map(|node| {
+            let inside = inside_of_plan(&node);
+            std::iter::once(node).chain(inside)
+        });
+        nodes.filter_map(item).collect()
     }
 
     /// The number of `afp 1`.
@@ -147,7 +157,21 @@ impl File {
     }
 }
 
+/// What belongs into a file and stands in the braces of a plan.
+fn inside_of_plan(plan: &Node) -> Vec<Node> {
+    if plan.kind() != Kind::Plan {
+        return Vec::new();
+    }
+    let errors = plan.children().filter(|node| node.kind() == Kind::Error);
+    errors.flat_map(|error| error.children()).collect()
+}
+
 impl Use {
+    /// Whether it stands where items of a file belong.
+    pub fn is_in_place(&self) -> bool {
+        self.node.parent().is_some_and(|parent| parent.kind() == Kind::File)
+    }
+
     /// The toolbox's name.
     pub fn toolbox(&self) -> Option<Name> {
         token(&self.node, Kind::Name, self.file)
@@ -355,28 +379,6 @@ fn keyword(node: &Node) -> String {
 fn keyword_as<R>(node: &Node, read: impl Fn(&str) -> R) -> R {
     let word = find_token(node, 0, |kind, text, _| (kind == Kind::Keyword).then(|| read(text)));
     word.unwrap_or_else(|| read(""))
-}
-
-/// The text of a node in one line: what separates its tokens becomes a blank.
-fn in_one_line(node: &Node) -> String {
-    let all = node.text().to_string();
-    let trimmed = all.trim();
-    if !["\n", "\t", "  ", "//", "/*"].iter().any(|gap| trimmed.contains(gap)) {
-        return trimmed.to_owned();
-    }
-    let mut text = String::new();
-    let mut apart = false;
-    for token in node.descendants_with_tokens().filter_map(|each| each.into_token()) {
-        if token.kind().is_trivia() {
-            apart = !text.is_empty();
-            continue;
-        }
-        if std::mem::take(&mut apart) {
-            text.push(' ');
-        }
-        text += token.text();
-    }
-    text
 }
 
 /// Whether nothing stands before a node on its line.

@@ -6,7 +6,10 @@
 mod codes;
 mod json;
 mod render;
+mod tables;
 pub mod words;
+
+use std::collections::BTreeSet;
 
 use crate::source::Span;
 
@@ -93,32 +96,58 @@ impl Diagnostic {
 #[derive(Clone, Debug, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
+    /// Where the errors are, since each item asks for its own.
+    errors: BTreeSet<Span>,
+    /// Where the text could not be read.
+    unread: BTreeSet<Span>,
 }
 
 impl Diagnostics {
     /// Appends one.
     pub fn push(&mut self, diagnostic: Diagnostic) {
+        self.note(&diagnostic);
         self.list.push(diagnostic);
     }
 
     /// Appends all of `other`.
     pub fn extend(&mut self, other: Diagnostics) {
         self.list.extend(other.list);
+        self.errors.extend(other.errors);
+        self.unread.extend(other.unread);
     }
 
     /// Drops those for which `keep` does not hold.
     pub fn retain(&mut self, keep: impl FnMut(&Diagnostic) -> bool) {
         self.list.retain(keep);
+        self.note_all();
     }
 
     /// Changes each of them.
     pub fn change(&mut self, change: impl FnMut(&mut Diagnostic)) {
         self.list.iter_mut().for_each(change);
+        self.note_all();
+    }
+
+    fn note(&mut self, diagnostic: &Diagnostic) {
+        if diagnostic.severity == Severity::Error {
+            self.errors.insert(diagnostic.span);
+            if diagnostic.code < Code::E0201 {
+                self.unread.insert(diagnostic.span);
+            }
+        }
+    }
+
+    fn note_all(&mut self) {
+        self.errors.clear();
+        self.unread.clear();
+        let list = std::mem::take(&mut self.list);
+        list.iter().for_each(|diagnostic| self.note(diagnostic));
+        self.list = list;
     }
 
     /// Whether one of them is an error.
     pub fn has_errors(&self) -> bool {
-        self.list.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
+        !self.errors.is_empty()
     }
 
     /// Whether there are none.
@@ -149,16 +178,21 @@ impl Diagnostics {
 
     /// The places in `span` at which the text could not be read.
     pub fn syntax_errors_within(&self, span: Span) -> impl Iterator<Item = Span> {
-        let errors = self.list.iter().filter(|diagnostic| {
-            diagnostic.code < Code::E0201 && diagnostic.severity == Severity::Error
-        });
-        errors.map(|diagnostic| diagnostic.span).filter(move |place| span.contains(*place))
+        within(&self.unread, span)
     }
 
     /// Whether an error lies in `span`.
     pub fn error_within(&self, span: Span) -> bool {
-        self.list.iter().any(|diagnostic| {
-            diagnostic.severity == Severity::Error && span.contains(diagnostic.span)
-        })
+        within(&self.errors, span).next().is_some()
     }
 }
+
+/// The places that lie in `span`.
+fn within(places: &BTreeSet<Span>, span: Span) -> impl Iterator<Item = Span> {
+    let first = Span { end: 0, ..span };
+    let last = Span { start: span.end.max(span.start), end: u32::MAX, ..span };
+    places.range(first..=last).copied().filter(move |place| span.contains(*place))
+}
+
+#[cfg(test)]
+mod tests;

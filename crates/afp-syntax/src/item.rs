@@ -1,4 +1,4 @@
-//! Paths of items: names that lead to a plan, an enum, or something in a plan.
+//! Paths of items: names that lead to a plan, an enum, a table, or something in a plan.
 
 use std::fmt;
 
@@ -15,6 +15,11 @@ pub enum Item {
         /// Its name.
         name: String,
     },
+    /// A table.
+    Table {
+        /// Its name.
+        name: String,
+    },
     /// An entry, an element or a global supervisor, which share one scope.
     Inner {
         /// The plan that it is in.
@@ -22,16 +27,19 @@ pub enum Item {
         /// Its name.
         name: String,
     },
-    /// A local supervisor.
+    /// A local supervisor, or the reactions to a supervisor of the plan.
     Local {
         /// The plan that it is in.
         plan: String,
         /// The element that it belongs to.
         owner: String,
-        /// Its name.
+        /// Its name; `on NAME` for reactions, which no supervisor is called.
         name: String,
     },
 }
+
+/// What the names of reactions begin with.
+const ON: &str = "on ";
 
 impl Item {
     /// A plan.
@@ -42,6 +50,11 @@ impl Item {
     /// An enum.
     pub fn enumeration(name: impl Into<String>) -> Item {
         Item::Enum { name: name.into() }
+    }
+
+    /// A table.
+    pub fn table(name: impl Into<String>) -> Item {
+        Item::Table { name: name.into() }
     }
 
     /// An entry, an element or a global supervisor of a plan.
@@ -58,21 +71,35 @@ impl Item {
         Item::Local { plan: plan.into(), owner: owner.into(), name: name.into() }
     }
 
+    /// The reactions of an element to a supervisor of the plan.
+    pub fn reactions(plan: impl Into<String>, owner: impl Into<String>, supervisor: &str) -> Item {
+        Item::local(plan, owner, format!("{ON}{supervisor}"))
+    }
+
+    /// The supervisor that it is the reactions to, if it is.
+    pub fn reacts_to(&self) -> Option<&str> {
+        match self {
+            Item::Local { name, .. } => name.strip_prefix(ON),
+            _ => None,
+        }
+    }
+
     /// Its own name.
     pub fn name(&self) -> &str {
         match self {
             Item::Plan { name }
             | Item::Enum { name }
+            | Item::Table { name }
             | Item::Inner { name, .. }
             | Item::Local { name, .. } => name,
         }
     }
 
-    /// The plan that it is in; its own name when it is one; empty for an enum.
+    /// The plan that it is in; its own name when it is one; empty for an enum or a table.
     pub fn plan_name(&self) -> &str {
         match self {
             Item::Plan { name } => name,
-            Item::Enum { .. } => "",
+            Item::Enum { .. } | Item::Table { .. } => "",
             Item::Inner { plan, .. } | Item::Local { plan, .. } => plan,
         }
     }
@@ -105,11 +132,11 @@ impl Item {
     }
 }
 
-/// `Plan`, `Enum`, `Plan.element` or `Plan.element.supervisor`
+/// `Plan`, `Enum`, `table`, `Plan.element`, `Plan.element.supervisor` or `Plan.element.on supervisor`
 impl fmt::Display for Item {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Item::Plan { name } | Item::Enum { name } => write!(f, "{name}"),
+            Item::Plan { name } | Item::Enum { name } | Item::Table { name } => write!(f, "{name}"),
             Item::Inner { plan, name } => write!(f, "{plan}.{name}"),
             Item::Local { plan, owner, name } => write!(f, "{plan}.{owner}.{name}"),
         }

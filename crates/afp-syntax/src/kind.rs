@@ -113,6 +113,8 @@ kinds! {
     Element
     /// A supervisor of a plan.
     Guard
+    /// `on keys { Start -> drive }`
+    Reactions
     /// `every 10 ms` or another time.
     Timing
     /// `State -> target`
@@ -125,6 +127,8 @@ kinds! {
     BindIn
     /// `port => entry`
     BindOut
+    /// `goal`, which is `goal = goal`, or `goal => goal` for an output
+    BindSame
     /// The head and the tools of a toolbox.
     Toolbox
     /// `object Map`
@@ -133,6 +137,16 @@ kinds! {
     Enum
     /// A value of an enum.
     Variant
+    /// A table of constants.
+    Table
+    /// The columns of a table in their brackets.
+    Columns
+    /// `name: type`
+    Column
+    /// A row of a table in its brackets.
+    Row
+    /// A value of a row.
+    Cell
     /// A template.
     Template
     /// `icon "name"`
@@ -187,6 +201,8 @@ kinds! {
     Bound
     /// `until 60 s`
     Until
+    /// `from go active { ... }`: lines of a scenario whose times count from there.
+    Moment
     /// `a.b.c`
     Path
     /// A type.

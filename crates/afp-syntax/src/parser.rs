@@ -4,15 +4,21 @@
 //! meets what it does not expect reports it once, skips to where an item of some level can begin
 //! again, and goes on.
 
+mod bind;
 mod braces;
 mod device;
 mod file;
 mod formula;
 mod habits;
+mod marks;
 mod plan;
+mod reactions;
 mod recovery;
 mod scenario;
+mod table;
 mod toolbox;
+
+use std::collections::{BTreeMap, BTreeSet};
 
 use rowan::{Checkpoint, GreenNode, GreenNodeBuilder, Language};
 
@@ -20,6 +26,7 @@ use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::kind::{Afp, Kind};
 use crate::lexer::Token;
 use crate::source::Span;
+use marks::Marks;
 
 /// Greatest depth of brackets and signs in formulas and skipped text.
 const MAX_DEPTH: usize = 64;
@@ -28,7 +35,7 @@ const MAX_DEPTH: usize = 64;
 pub(super) fn parse(mut tokens: Vec<Token<'_>>, file: u16, diags: &mut Diagnostics) -> GreenNode {
     let mended = braces::mend(&mut tokens, file, diags);
     let mut parser = Parser::new(&tokens, file, diags);
-    parser.told = mended.told;
+    parser.tell(&mended.told);
     parser.balanced = mended.balanced;
     parser.file();
     parser.withdraw_fixes();
@@ -50,12 +57,15 @@ struct Parser<'t, 'd> {
     misplaced: bool,
     /// Whether every brace has its other one, so that none is missed.
     balanced: bool,
-    /// Places on lines of which something is said that comes before the grammar, each with the place of that.
-    told: Vec<(u32, u32)>,
+    marks: Marks,
+    /// Lines of which something is said that comes before the grammar, by where they end, each with the place of that.
+    told: BTreeMap<u32, u32>,
     /// Where the lines end on which something is wrong that is not said.
-    hidden: Vec<u32>,
+    hidden: BTreeSet<u32>,
     /// Where the line behind the last error begins: what is wrong before it comes of that.
     quiet: u32,
+    /// The same for a wrong arrow, behind which only others are said.
+    behind_arrow: u32,
     builder: GreenNodeBuilder<'static>,
     diags: &'d mut Diagnostics,
 }
@@ -65,7 +75,7 @@ impl<'t, 'd> Parser<'t, 'd> {
         let mut solid = Vec::with_capacity(tokens.len());
         let places = (0..).zip(tokens).filter(|(_, token)| !token.kind.is_passed_over());
         solid.extend(places.map(|(place, _)| place));
-        let builder = GreenNodeBuilder::new();
+        let (marks, builder) = (Marks::new(tokens, &solid), GreenNodeBuilder::new());
         Parser {
             tokens,
             solid,
@@ -75,9 +85,11 @@ impl<'t, 'd> Parser<'t, 'd> {
             depth: 0,
             misplaced: false,
             balanced: false,
-            told: Vec::new(),
-            hidden: Vec::new(),
+            marks,
+            told: BTreeMap::new(),
+            hidden: BTreeSet::new(),
             quiet: 0,
+            behind_arrow: 0,
             builder,
             diags,
         }
@@ -142,11 +154,19 @@ impl<'t, 'd> Parser<'t, 'd> {
         self.tokens[from..self.place(ahead)].iter().any(|token| token.text.contains('\n'))
     }
 
-    /// How many tokens stand before a kind of token on this line.
+    /// How many tokens stand before a brace of a kind on this line.
     fn ahead_on_line(&self, kind: Kind) -> Option<usize> {
-        let on_line = |ahead: &usize| !self.begins_line(*ahead);
-        let mut ahead = (0..self.solid.len() - self.at).take_while(on_line);
-        ahead.find(|ahead| self.nth(*ahead) == kind)
+        self.on_line_from(0, kind)
+    }
+
+    /// How many tokens stand before a brace of a kind, if no line begins from the token so many ahead on.
+    fn on_line_from(&self, ahead: usize, kind: Kind) -> Option<usize> {
+        let from = self.at + ahead;
+        let found = self.marks.brace(kind, from)?;
+        let before = from.checked_sub(1).and_then(|before| self.solid.get(before));
+        let end = before.map_or(0, |before| self.span_of(self.tokens[*before as usize]).end);
+        let start = self.token(found - self.at)?.start;
+        self.marks.newline(end).is_none_or(|newline| newline >= start).then_some(found - self.at)
     }
 
     /// Whether no white space stands before the next token.

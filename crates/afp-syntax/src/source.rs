@@ -4,6 +4,7 @@ mod lines;
 
 use std::sync::Arc;
 
+pub use afp_excerpt::LineTable;
 pub use lines::{Encoding, LineColumn, Lines};
 
 /// A range of bytes in one file of a compilation.

@@ -119,7 +119,7 @@ const WORDS: &[(&str, &str)] = &[
 
 impl Unit {
     /// The unit that was meant by a word that is none: `degrees`, `CM`.
-    pub(crate) fn meant(word: &str) -> Option<&'static str> {
+    pub fn meant(word: &str) -> Option<&'static str> {
         let small = word.to_ascii_lowercase();
         let one = small.strip_suffix('s').unwrap_or(&small);
         let spelled = WORDS.iter().find(|(word, _)| *word == one || *word == small);

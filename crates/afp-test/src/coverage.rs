@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use afp_draw::Usage;
 use afp_dsl::graph::{EntryKind, Graph};
-use afp_dsl::unfold::{ComponentNames, EntryNames, Goal, Kind, Place, places, unfold};
+use afp_dsl::unfold::{ComponentNames, EntryNames, Goal, Kind, Place, Reaction, places, unfold};
 use afp_log::LogData;
 
 use crate::parts::Parts;
@@ -76,14 +76,19 @@ impl PartKind {
 impl Coverage {
     /// What was used of a plan, over all runs whose `hits` were added up.
     pub fn new(graph: &Graph, hits: &Hits) -> Coverage {
-        let names = unfold(graph);
+        let all = unfold(graph);
         let mut parts = Vec::new();
         let places = places(graph);
-        let components = names.components.iter().zip(&places).zip(hits.components());
+        let components = all.components.iter().zip(&places).zip(hits.components());
         for ((names, place), touched) in components.skip(1) {
             add(names, place, &touched, &mut parts);
+            let reactions = place.reactions.iter().zip(&touched.reactions);
+            parts.extend(reactions.filter_map(|((reaction, goal, _), count)| {
+                let edge = own_edge(&names.path, reaction, &all.components)?;
+                (*goal != Goal::Ignore).then_some(Part { count: *count, ..edge })
+            }));
         }
-        let entries = names.entries.iter().zip(&hits.entries);
+        let entries = all.entries.iter().zip(&hits.entries);
         parts.extend(entries.filter_map(|(entry, count)| of_entry(entry, *count)));
         Coverage { plan: graph.main().name.clone(), parts, usage: Parts::new(graph).usage(hits) }
     }
@@ -144,6 +149,17 @@ fn add(names: &ComponentNames, place: &Place, touched: &Touched, parts: &mut Vec
         };
         part(kind, format!("{path}.{name}"), touched.special);
     }
+}
+
+/// An edge of the element at `path` for an event of a supervisor of its plan: `wait.on keys.Start`.
+fn own_edge(path: &str, reaction: &Reaction, components: &[ComponentNames]) -> Option<Part> {
+    let watcher = components.get(usize::try_from(reaction.supervisor).ok()?)?;
+    let name = watcher.path.rsplit('.').next()?;
+    let (kind, event) = match reaction.event {
+        Some(event) => (PartKind::Event, watcher.outcomes.get(usize::from(event))?.0.as_str()),
+        None => (PartKind::Deadline, "DeadlineMissed"),
+    };
+    Some(Part { kind, name: format!("{path}.on {name}.{event}"), count: 0 })
 }
 
 /// An entry that can be written while the plan runs.

@@ -1,20 +1,22 @@
 //! One run of a scenario, in virtual time.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use afp::load::value_of;
 use afp_core::devices::SignalId;
 use afp_core::{Duration, Instant, StartError};
 use afp_dsl::scenario::Scenario;
 use afp_log::{About, OwnedNames, SessionLog};
 use afp_run::RunError;
 use afp_session::{
-    AnySession, Applied, Build, Go, Loader, NamedRecord, Observer, Recipe, RequestId, SampleRef,
-    Sampling, Stimulus, TextFile, View,
+    AnySession, Applied, Build, Go, Loader, NamedRecord, Observer, Recipe, RequestError, RequestId,
+    SampleRef, Sampling, Stimulus, TextFile, View,
 };
 
 use crate::setting::Setting;
-use crate::stimuli::{self, owned};
+use crate::stimuli;
 use crate::verdict::{Broken, Verdict};
 use crate::watch::Watch;
 use crate::watch::signals::Signals;
@@ -28,6 +30,8 @@ const LOOK: Duration = Duration::from_millis(5);
 struct Judge<'a> {
     scenario: &'a Scenario,
     watch: Watch<'a>,
+    /// Whether moments have come that nothing follows from yet.
+    news: &'a Cell<bool>,
     /// The line of the scenario that each request stands for.
     lines: BTreeMap<RequestId, usize>,
     broken: Vec<Broken>,
@@ -45,27 +49,36 @@ pub(crate) fn run(
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Option<Verdict>, RunError> {
     let mut session = session(scenario, setting, robot)?;
-    let lines = stimuli::request(&mut *session, scenario).map_err(|(line, why)| {
-        let line = scenario.stimuli.get(line).map_or("", |stimulus| &stimulus.text);
-        refused(scenario, &format!("the simulator cannot do '{line}': {why}"))
-    })?;
+    let lines = stimuli::request(&mut *session, scenario, None, Instant::ZERO)
+        .map_err(|(line, why)| cannot_do(scenario, line, &why))?;
     let mut log = log.map(|path| self::log(path, scenario, setting, &*session)).transpose()?;
     let signals = Signals::new(scenario, session.devices())
         .map_err(|signal| refused(scenario, &format!("the robot has no signal '{signal}'")))?;
+    let news = Cell::new(false);
     let mut judge = Judge {
         scenario,
+        news: &news,
         watch: Watch::new(scenario, session.names(), signals),
         lines,
         broken: Vec::new(),
         sound: true,
         timeline: Vec::new(),
     };
-    let mut observers: Vec<&mut dyn Observer> = vec![&mut judge];
-    observers.extend(log.as_mut().map(|log| log as &mut dyn Observer));
-    let mut gate = |_: Instant, _: Instant| if go_on() { Go::On } else { Go::Stop };
-    let until = Instant::from_nanos(scenario.until);
-    let went = session.run(until, &mut gate, &mut observers);
-    let went = went.map_err(|error| cannot_start(scenario, error))?;
+    let mut until = Instant::from_nanos(scenario.until);
+    let went = loop {
+        let mut observers: Vec<&mut dyn Observer> = vec![&mut judge];
+        observers.extend(log.as_mut().map(|log| log as &mut dyn Observer));
+        let mut gate = |_: Instant, _: Instant| match !news.get() && go_on() {
+            true => Go::On,
+            false => Go::Stop,
+        };
+        let went = session.run(until, &mut gate, &mut observers);
+        let went = went.map_err(|error| cannot_start(scenario, error))?;
+        if !news.take() {
+            break went;
+        }
+        until = until.min(judge.go_on_from_moments(&mut *session)?);
+    };
     session.end();
     log.map(|log| log.finish(&*session)).transpose()?;
     if went == Go::Stop {
@@ -96,11 +109,16 @@ fn session(
 ) -> Result<Box<dyn AnySession>, RunError> {
     let mut session = robot.session(&scenario.graph, &*setting.world.world, scenario.seed, &[])?;
     for (entry, value) in &scenario.set {
-        let set = session.write(*entry, owned(value));
+        let set = session.write(*entry, value_of(value));
         set.map_err(|why| refused(scenario, &why.to_string()))?;
     }
     session.set_rest(REST);
     Ok(session)
+}
+
+fn cannot_do(scenario: &Scenario, line: usize, why: &RequestError) -> RunError {
+    let line = scenario.stimuli.get(line).map_or("", |stimulus| &stimulus.text);
+    refused(scenario, &format!("the simulator cannot do '{line}': {why}"))
 }
 
 fn log(
@@ -116,14 +134,14 @@ fn log(
 
 impl Observer for Judge<'_> {
     fn on_record(&mut self, named: &NamedRecord<'_>) {
-        self.watch.hear(named.at, named.record);
+        self.watch.hear(named.at, named.record, named.names);
         if let Some(line) = afp_run::line(named.at, named.record, named.names) {
             self.timeline.push((named.at, line));
         }
     }
 
     fn after_step(&mut self, view: &View<'_>) {
-        self.watch.settle(view.now());
+        self.settle(view.now());
         self.compare(view);
     }
 
@@ -143,7 +161,7 @@ impl Observer for Judge<'_> {
     }
 
     fn after_samples(&mut self, at: Instant) {
-        self.watch.settle(at);
+        self.settle(at);
     }
 
     fn on_request(&mut self, applied: &Applied<'_>) {
@@ -159,6 +177,25 @@ impl Observer for Judge<'_> {
 }
 
 impl Judge<'_> {
+    fn settle(&mut self, at: Instant) {
+        self.watch.settle(at);
+        self.news.set(self.watch.moments.has_news());
+    }
+
+    /// Asks for what is to be done from the moments on that have come; gives when the run ends at the latest.
+    fn go_on_from_moments(&mut self, session: &mut dyn AnySession) -> Result<Instant, RunError> {
+        let mut until = Instant::MAX;
+        for (id, moment, at) in self.watch.moments.take() {
+            match stimuli::request(session, self.scenario, Some(id), at) {
+                Ok(lines) => self.lines.extend(lines),
+                Err((line, RequestError::Ended)) => self.note_not_done(line, session.now()),
+                Err((line, why)) => return Err(cannot_do(self.scenario, line, &why)),
+            }
+            until = moment.until.map_or(until, |after| until.min(at + Duration::from_nanos(after)));
+        }
+        Ok(until)
+    }
+
     /// What was to happen and did not: the run was over before.
     fn note_not_reached(&mut self, session: &dyn AnySession) {
         let end = session.now();
@@ -166,12 +203,17 @@ impl Judge<'_> {
         // What was begun in time is allowed to end later.
         pending.retain(|(_, _, what)| !matches!(what, Stimulus::Press { held: false, .. }));
         for (_, id, _) in pending {
-            let line = self.lines.get(&id).and_then(|line| self.scenario.stimuli.get(*line));
-            let Some(stimulus) = line else { continue };
-            let (text, span) = (stimulus.text.clone(), stimulus.span);
-            let why = format!("this was not done: the run was over at {:.3} s", end.as_secs_f64());
-            self.broken.push(Broken { text, span, at: end, why });
+            if let Some(line) = self.lines.get(&id).copied() {
+                self.note_not_done(line, end);
+            }
         }
+    }
+
+    fn note_not_done(&mut self, line: usize, end: Instant) {
+        let Some(stimulus) = self.scenario.stimuli.get(line) else { return };
+        let (text, span) = (stimulus.text.clone(), stimulus.span);
+        let why = format!("this was not done: the run was over at {:.3} s", end.as_secs_f64());
+        self.broken.push(Broken { text, span, at: end, why });
     }
 
     /// Whatever the plan holds has been committed: half a commit would be seen here.

@@ -1,9 +1,8 @@
 //! What the tests that `afp::scenarios!` makes call.
 
-use std::fs;
-use std::io::ErrorKind;
 use std::path::Path;
 
+use afp_dsl::files::{Disk, read_text};
 use afp_dsl::toolbox::Toolboxes;
 use afp_project::{ProjectError, ProjectFile};
 use afp_session::Loader;
@@ -19,10 +18,10 @@ pub fn check(file: &Path, name: &str, robot: &dyn Loader) {
     let failed = |text: String| -> ! {
         panic!("scenario \"{name}\" of {}\n{}", file.display(), anstream::adapter::strip_str(&text))
     };
-    let text = fs::read_to_string(file).unwrap_or_else(|error| failed(error.to_string()));
+    let text = read_text(file).unwrap_or_else(|error| failed(error.to_string()));
     let toolboxes = toolboxes(file).unwrap_or_else(|error| failed(error.to_string()));
     let source = Source::new(file.display().to_string(), text);
-    let compiled = afp_dsl::compile(&source, &toolboxes, &read);
+    let compiled = afp_dsl::compile(&source, &toolboxes, &Disk::default());
     let Some(scenario) = compiled.scenarios.iter().find(|each| each.name == name) else {
         failed(compiled.render(false))
     };
@@ -47,12 +46,4 @@ fn toolboxes(file: &Path) -> Result<Toolboxes, ProjectError> {
         toolboxes.set_robot(&name);
     }
     Ok(toolboxes)
-}
-
-/// The text of a file that another one uses.
-fn read(path: &str) -> Result<String, String> {
-    fs::read_to_string(path).map_err(|error| match error.kind() {
-        ErrorKind::NotFound => "there is no such file".to_owned(),
-        _ => error.to_string().to_lowercase(),
-    })
 }

@@ -1,6 +1,6 @@
 //! The components of a plan by their numbers, each with what the graph says of it.
 
-use afp_draw::{Count, PlanUsage, Usage};
+use afp_draw::{Count, PlanUsage, Reaction, Usage};
 use afp_dsl::graph::{
     Component, Element, ElementId, Graph, Output, Plan, PlanId, Supervisor, SupervisorId,
     TemplateId,
@@ -130,6 +130,12 @@ impl<'a> Parts<'a> {
         *self.place(number)?.outcomes.get(usize::from(outcome))?
     }
 
+    /// Where an event of a supervisor leads while an element of the same plan is active.
+    pub(crate) fn goal_at(&self, element: u32, supervisor: u32, event: u16) -> Option<Goal> {
+        let here = self.place(element)?.reaction(supervisor, Some(event));
+        here.or_else(|| self.goal(supervisor, event))
+    }
+
     /// The supervisors that can end an element, those of its own plan and its own.
     pub(crate) fn supervisors_over(&self, element: u32) -> Vec<u32> {
         let Some(home) = self.place(element).map(|place| place.plan) else { return Vec::new() };
@@ -164,7 +170,7 @@ impl<'a> Parts<'a> {
     pub(crate) fn usage(&self, hits: &Hits) -> Usage {
         let plans = self.graph.plans.iter().map(|plan| PlanUsage {
             plan: plan.span,
-            elements: plan.elements.iter().map(|each| none(each.states.len())).collect(),
+            elements: plan.elements.iter().map(none_of_element).collect(),
             supervisors: plan.supervisors.iter().map(|each| none(each.events.len())).collect(),
             entries: vec![0; plan.entries.len()],
         });
@@ -181,6 +187,8 @@ impl<'a> Parts<'a> {
                 count.special += touched.special;
                 let outcomes = count.outcomes.iter_mut().zip(&touched.outcomes);
                 outcomes.for_each(|(sum, count)| *sum += count);
+                let reactions = count.reactions.iter_mut().zip(&touched.reactions);
+                reactions.for_each(|(sum, count)| sum.count += count);
             }
         }
         for home in &self.homes {
@@ -246,7 +254,17 @@ impl<'a> Parts<'a> {
 }
 
 fn none(outcomes: usize) -> Count {
-    Count { starts: 0, outcomes: vec![0; outcomes], special: 0 }
+    Count { outcomes: vec![0; outcomes], ..Count::default() }
+}
+
+/// In the order in which a trace names the reactions.
+fn none_of_element(element: &Element) -> Count {
+    let tables = element.reactions.iter().flat_map(|table| {
+        let events = (0..).map(Some).take(table.events.len()).chain([None]);
+        let edges = events.filter(|event| table.target(*event).is_some());
+        edges.map(|event| Reaction { supervisor: table.supervisor.index(), event, count: 0 })
+    });
+    Count { reactions: tables.collect(), ..none(element.states.len()) }
 }
 
 fn add(graph: &Graph, home: Part, parts: &mut Vec<Part>, homes: &mut Vec<Part>) {

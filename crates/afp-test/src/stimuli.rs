@@ -2,25 +2,28 @@
 
 use std::collections::BTreeMap;
 
-use afp::load::Injection;
+use afp::load::{Injection, value_of};
 use afp_core::devices::{find_control, find_fault};
 use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR, Kind, Names};
-use afp_core::{Duration, Instant, Text, Value};
-use afp_dsl::scenario::{self, Action, Failure, Outcome, Part, Scenario};
-use afp_dsl::toolbox::Constant;
+use afp_core::{Duration, Instant};
+use afp_dsl::scenario::{self, Action, Failure, MomentId, Outcome, Part, Scenario};
 use afp_session::{AnySession, HOLD, Request, RequestError, RequestId};
 
-/// Asks for all that happens in a scenario; gives the line that each request stands for.
+/// Asks for all that happens in a scenario from one of its moments on, or from the start: `begin`; gives the line that each
+/// request stands for.
 ///
 /// # Errors
 /// A line that can never be done, and why.
 pub(crate) fn request(
     session: &mut dyn AnySession,
     scenario: &Scenario,
+    from: Option<MomentId>,
+    begin: Instant,
 ) -> Result<BTreeMap<RequestId, usize>, (usize, RequestError)> {
     let mut lines = BTreeMap::new();
-    for (line, stimulus) in scenario.stimuli.iter().enumerate() {
-        let at = Instant::from_nanos(stimulus.at);
+    let stimuli = scenario.stimuli.iter().enumerate();
+    for (line, stimulus) in stimuli.filter(|(_, stimulus)| stimulus.from == from) {
+        let at = begin + Duration::from_nanos(stimulus.at);
         let requests = requests(session, at, &stimulus.action).map_err(|why| (line, why))?;
         for (at, request) in requests {
             lines.insert(session.at(at, request).map_err(|why| (line, why))?, line);
@@ -41,7 +44,7 @@ fn requests(
         Ok((at, Request::Press(id, held)))
     };
     Ok(match action {
-        Action::Set(entry, value) => vec![(at, Request::Write(*entry, owned(value)))],
+        Action::Set(entry, value) => vec![(at, Request::Write(*entry, value_of(value)))],
         Action::Press(control, time) => {
             let end = at + time.map_or(HOLD, Duration::from_nanos);
             vec![press(at, control, true)?, press(end, control, false)?]
@@ -61,18 +64,6 @@ fn requests(
     })
 }
 
-/// A value as the run time has it.
-pub(crate) fn owned(value: &Constant) -> Value {
-    match value {
-        Constant::Bool(value) => Value::Bool(*value),
-        Constant::Int(value) => Value::Int(*value),
-        Constant::Float(value) => Value::Float(*value),
-        // The compiler lets no longer text through.
-        Constant::Text(text) => Value::Text(Text::try_from(text.as_str()).unwrap_or_default()),
-        Constant::Choice(value) => Value::Choice(*value),
-    }
-}
-
 fn injected(injection: &scenario::Injection, names: &dyn Names) -> Injection {
     let component = ComponentId(injection.component);
     Injection {
@@ -82,6 +73,6 @@ fn injected(injection: &scenario::Injection, names: &dyn Names) -> Injection {
             (Outcome::Special, Kind::Supervisor) => DEADLINE_MISSED,
             (Outcome::Special, _) => ERROR,
         },
-        outputs: injection.outputs.iter().map(|(port, value)| (*port, owned(value))).collect(),
+        outputs: injection.outputs.iter().map(|(port, value)| (*port, value_of(value))).collect(),
     }
 }

@@ -2,6 +2,7 @@
 
 pub(crate) mod hits;
 mod look;
+pub(crate) mod moments;
 pub(crate) mod signals;
 #[cfg(test)]
 mod tests;
@@ -17,11 +18,12 @@ use afp_dsl::scenario::{
 use afp_dsl::toolbox::Constant;
 use afp_dsl::unfold::{Goal, Place, places};
 
-use afp_session::{SampleRef, quantity};
+use afp_session::{Datum, SampleRef};
 
 use crate::verdict::Broken;
 use hits::Hits;
 use look::Look;
+use moments::Moments;
 use signals::Signals;
 
 /// Listens to the run of a scenario.
@@ -39,6 +41,7 @@ pub(crate) struct Watch<'a> {
     /// What the edge out of the outermost plan belongs to.
     last: Option<Cause>,
     looks: Vec<Look<'a>>,
+    pub(crate) moments: Moments<'a>,
     pub(crate) hits: Hits,
 }
 
@@ -63,6 +66,8 @@ pub(crate) struct State {
     units: Vec<String>,
     /// How the plan ended.
     pub(crate) ending: Option<Ending>,
+    /// What people are told of the last fault.
+    why: String,
     /// What the robot signals.
     pub(crate) signals: Signals,
 }
@@ -92,10 +97,12 @@ impl<'a> Watch<'a> {
                 entries: vec![Value::Unset; units.len()],
                 units,
                 ending: None,
+                why: String::new(),
                 signals,
             },
             hits: Hits::new(&scenario.graph),
             looks: scenario.expectations.iter().map(Look::new).collect(),
+            moments: Moments::new(&scenario.moments),
             scenario,
             since: vec![None; places.len()],
             places,
@@ -112,14 +119,14 @@ impl<'a> Watch<'a> {
     }
 
     /// Takes a record into account.
-    pub(crate) fn hear(&mut self, at: Instant, record: &Record<'_>) {
+    pub(crate) fn hear(&mut self, at: Instant, record: &Record<'_>, names: &dyn Names) {
         self.hits.hear(at, record);
         if !matches!(record, Record::Committed { .. }) {
             self.commit = None;
         }
         match *record {
             Record::Started { component } => self.set_active(at, component, true),
-            Record::Event { supervisor, event } => {
+            Record::Event { supervisor, event, .. } => {
                 let cause = cause(supervisor, event);
                 self.event = Some(cause);
                 self.happen(at, &Happening::Outcome(cause));
@@ -135,7 +142,10 @@ impl<'a> Watch<'a> {
                 self.set_active(at, element, false);
                 self.leave(at, element, cause(element, state));
             }
-            Record::Faulted { component, .. } => self.failed(at, component),
+            Record::Faulted { component, fault, detail } => {
+                self.state.why = fault.explained(detail, names).to_string();
+                self.failed(at, component);
+            }
             Record::Committed { author, entry, new, .. } => {
                 self.committed(at, author, entry, new);
             }
@@ -173,8 +183,9 @@ impl<'a> Watch<'a> {
 
     /// The step at this instant is over: what holds now holds until the next one.
     pub(crate) fn settle(&mut self, at: Instant) {
+        self.moments.settle(at.as_nanos(), &self.state);
         for look in &mut self.looks {
-            look.settle(at.as_nanos(), &self.state);
+            look.settle(at.as_nanos(), &self.state, &self.moments);
         }
     }
 
@@ -184,12 +195,11 @@ impl<'a> Watch<'a> {
             self.set_active(end, ComponentId(id), false);
         }
         let end = end.as_nanos();
-        let expectations = &self.scenario.expectations;
         let mut broken: Vec<_> = std::mem::take(&mut self.looks)
             .into_iter()
-            .zip(expectations)
-            .filter_map(|(look, expectation)| look.finish(end, &self.state, expectation))
+            .filter_map(|look| look.finish(end, &self.state, &self.moments))
             .collect();
+        broken.extend(self.moments.missed(end));
         broken.extend(self.unexpected_error(end));
         broken.sort_by_key(|broken| broken.at);
         broken
@@ -198,13 +208,13 @@ impl<'a> Watch<'a> {
     /// A plan that ends in `Error` without anybody expecting it to end.
     fn unexpected_error(&self, end: u64) -> Option<Broken> {
         let expected = |each: &Expectation| matches!(each.claim, Claim::End(_));
-        let Some(Ending::Error(fault)) = self.state.ending else { return None };
+        let Some(ending @ Ending::Error(_)) = self.state.ending else { return None };
         let told = self.scenario.expectations.iter().any(expected);
         (!told).then(|| Broken {
             text: "(a plan must not end in Error unless an end is expected)".to_owned(),
             span: self.scenario.span,
             at: Instant::from_nanos(self.hits.ended.unwrap_or(end)),
-            why: format!("the plan ended in Error: {fault}"),
+            why: format!("the plan ended in {}", self.state.word(ending)),
         })
     }
 
@@ -256,14 +266,14 @@ impl<'a> Watch<'a> {
     /// An element goes on: the edge that the event took leaves nothing.
     fn resumed(&mut self, at: Instant, element: ComponentId) {
         if let Some(by) = self.event.take() {
-            let to = self.goal(by);
+            let to = self.goal(by, element);
             self.happen(at, &Happening::Edge { from: element.0, to, by });
         }
     }
 
     /// An element is left.
     fn leave(&mut self, at: Instant, element: ComponentId, by: Cause) {
-        let to = self.goal(by);
+        let to = self.goal(by, element);
         let outermost = self.place(element).is_some_and(|place| place.plan == 0);
         if outermost && matches!(to, Some(Goal::Terminate | Goal::Fail)) {
             self.last = Some(by);
@@ -274,11 +284,16 @@ impl<'a> Watch<'a> {
         self.happen(at, &Happening::Edge { from: element.0, to, by });
     }
 
-    fn goal(&self, by: Cause) -> Option<Goal> {
+    /// Where an outcome leads while an element is active.
+    fn goal(&self, by: Cause, element: ComponentId) -> Option<Goal> {
         let place = self.places.get(by.component as usize)?;
+        let here = |event| self.place(element)?.reaction(by.component, event);
         match by.outcome? {
-            Outcome::Declared(outcome) => place.outcomes.get(usize::from(outcome)).copied()?,
-            Outcome::Special => place.special,
+            Outcome::Declared(outcome) => {
+                let own = place.outcomes.get(usize::from(outcome)).copied().flatten();
+                here(Some(outcome)).or(own)
+            }
+            Outcome::Special => here(None).or(place.special),
         }
     }
 
@@ -289,7 +304,7 @@ impl<'a> Watch<'a> {
         let by = Cause { component: element, outcome: Some(Outcome::Special) };
         let outermost = place.plan == 0;
         self.set_active(at, ComponentId(element), false);
-        match self.goal(by) {
+        match self.goal(by, ComponentId(element)) {
             Some(_) => self.leave(at, ComponentId(element), by),
             None if outermost => self.last = Some(by),
             None => {}
@@ -311,8 +326,9 @@ impl<'a> Watch<'a> {
     }
 
     fn happen(&mut self, at: Instant, happening: &Happening) {
+        self.moments.happen(at.as_nanos(), happening);
         for look in &mut self.looks {
-            look.happen(at.as_nanos(), happening);
+            look.happen(at.as_nanos(), happening, &self.moments);
         }
     }
 }
@@ -335,7 +351,7 @@ impl State {
                 let unit = self.units.get(*entry as usize).map_or("", String::as_str);
                 match self.entries.get(*entry as usize)? {
                     Value::Unset => None,
-                    Value::Float(number) => Some(quantity(*number, unit)),
+                    Value::Float(number) => Some(Datum::Number(*number).in_unit(unit)),
                     value => Some(value.borrow().to_string()),
                 }
             }

@@ -2,6 +2,8 @@
 
 #[path = "engine/edges.rs"]
 mod edges;
+#[path = "engine/moments.rs"]
+mod moments;
 
 use std::path::Path;
 

@@ -122,7 +122,7 @@ impl<N> Sink for Callbacks<'_, N> {
                 Call::Start(id, call) if *id == component => call(at),
                 _ => {}
             }),
-            Record::Event { supervisor: component, event: outcome }
+            Record::Event { supervisor: component, event: outcome, .. }
             | Record::Finished { element: component, state: outcome } => {
                 self.each(|call| match call {
                     Call::Outcome(id, number, call) if (*id, *number) == (component, outcome) => {

@@ -23,10 +23,10 @@
 
 pub use afp_core as core;
 pub use afp_core::{
-    Actor, Clock, Computation, Duration, Ending, Environment, Events, Failure, Fault, Instant, Job,
-    NamedPlan, Plan, PlanState, Platform, Poll, Reading, Reason, Scheduler, SetError, StartError,
-    StillClock, Supervisor, Text, Ticket, TypedEntry, Value, ValueRef, Wake, Worker, WriteError,
-    quantity, trace,
+    Actor, Clock, Computation, Detail, Duration, Ending, Environment, Events, Failure, Fault,
+    Instant, Job, NamedPlan, Plan, PlanState, Platform, Poll, Reading, Reason, Scheduler, SetError,
+    StartError, StillClock, Subject, Supervisor, Text, Ticket, TypedEntry, Value, ValueRef, Wake,
+    Worker, WriteError, quantity, trace,
 };
 
 mod callbacks;

@@ -4,6 +4,7 @@
 //! instance of a checked graph. Everything is allocated then; a step allocates nothing.
 
 mod config;
+mod constant;
 mod element;
 mod error;
 mod formula;
@@ -13,11 +14,13 @@ mod names;
 mod outputs;
 mod plan;
 mod registry;
+mod row;
 mod slots;
 mod tables;
 
-pub use afp_core::rt::{Args, Outputs};
+pub use afp_core::rt::{Args, BadValue, Outputs};
 pub use afp_dsl::graph::Graph;
+pub use constant::value_of;
 pub use error::{InputError, LoadError};
 pub use inject::{Injection, NotActive};
 pub use library::load;

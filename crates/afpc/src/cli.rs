@@ -107,6 +107,10 @@ pub fn parse(linked: &Linked<'_>) -> Command {
         Some(devices) => for_devices(run, devices),
         None => for_robot(run, linked.robot.kind()),
     });
+    let command = match helps.then(|| declared::inputs(&arguments)).flatten() {
+        Some(inputs) => command.mut_subcommand("run", |run| taking(run, &inputs)),
+        None => command,
+    };
     let matches = match command.try_get_matches() {
         Ok(matches) => matches,
         Err(error) => match without_command(&error) {
@@ -124,6 +128,15 @@ pub fn parse(linked: &Linked<'_>) -> Command {
         Ok(cli) => cli.command,
         Err(error) => error.exit(),
     }
+}
+
+/// The command with what a plan takes in the help of `--set`.
+fn taking(run: clap::Command, inputs: &str) -> clap::Command {
+    run.mut_arg("set", |argument| {
+        let known = argument.get_long_help().or(argument.get_help());
+        let known = known.map(ToString::to_string).unwrap_or_default();
+        argument.long_help(format!("{known}\n\n{inputs}"))
+    })
 }
 
 /// Prints help where results go, and ends.

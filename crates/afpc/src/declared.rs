@@ -1,23 +1,59 @@
-//! The robot of a project as its toolbox file declares it, for help: nothing need be built to show its words.
+//! What a command line is about, for help: the robot of a project as its toolbox file declares it, so that nothing need
+//! be built to show its words, and what a plan takes.
 
 use std::ffi::OsString;
 use std::path::Path;
 
 use afp_build::OwnToolboxes;
 use afp_core::devices::{AmountRow, ControlRow, DeviceRow, FaultRow};
+use afp_dsl::Compiled;
+use afp_dsl::graph::EntryKind;
 use afp_dsl::toolbox::{Amount, Control, Device, Fault};
 use afp_project::{ProjectError, ProjectFile};
+
+use crate::plan_file::PlanFile;
 
 /// The devices of the robot of the project that a command line is about, if that has one.
 ///
 /// The project is that of the first plan among the arguments, else that of the current folder.
 pub fn devices(arguments: &[OsString]) -> Option<&'static [DeviceRow]> {
-    let plan = arguments.iter().map(Path::new).find(|path| {
+    // A project that is wrong is no reason to show no help.
+    read(plan(arguments).unwrap_or(Path::new("plan.afp"))).ok().flatten()
+}
+
+/// The first plan among the arguments.
+fn plan(arguments: &[OsString]) -> Option<&Path> {
+    arguments.iter().map(Path::new).find(|path| {
         let name = path.to_string_lossy();
         name.ends_with(".afp") || name.contains(".afp:")
+    })
+}
+
+/// The inputs of the plan that a command line is about, a line each as they are declared; `None` where there is no plan
+/// or nothing that it takes.
+pub fn inputs(arguments: &[OsString]) -> Option<String> {
+    let argument = plan(arguments)?.to_str()?;
+    // A plan that cannot be read is no reason to show no help.
+    let Compiled { outline, sources, .. } = PlanFile::read(argument).ok()?.compiled;
+    let plan = outline.plan(outline.main?);
+    let inputs = plan.entries.iter().filter(|entry| entry.kind == EntryKind::In);
+    let lines: Vec<_> = inputs
+        .filter_map(|entry| {
+            let declared = entry.name.as_ref()?.span.to(entry.span);
+            Some((one_line(sources.text(declared)), &entry.doc))
+        })
+        .collect();
+    let width = lines.iter().map(|(line, _)| line.chars().count()).max()?;
+    let lines = lines.iter().map(|(line, help)| {
+        format!("  {}", format!("{line:width$}  {}", one_line(help)).trim_end())
     });
-    // A project that is wrong is no reason to show no help.
-    read(plan.unwrap_or(Path::new("plan.afp"))).ok().flatten()
+    let name = plan.name.as_ref().map_or("The plan", |name| name.text.as_str());
+    Some(format!("{name} takes:\n{}", lines.collect::<Vec<_>>().join("\n")))
+}
+
+/// A text on one line, single blanks only.
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 fn read(plan: &Path) -> Result<Option<&'static [DeviceRow]>, ProjectError> {

@@ -8,6 +8,7 @@ mod commands;
 mod declared;
 mod picture;
 mod plan_file;
+mod reader;
 mod runner;
 mod targets;
 mod toolchain;

@@ -1,19 +1,19 @@
 //! From a file's name to a checked plan.
 
 use std::fmt;
-use std::fs;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use afp_build::{NotBuilt, OwnToolboxes};
-use afp_dsl::files::Files;
+use afp_dsl::files::{Disk, Files, read_text};
 use afp_dsl::graph::Graph;
 use afp_dsl::{Compiled, compile_plan};
 use afp_log::LogData;
 use afp_project::{ProjectError, ProjectFile};
-use afp_run::{RunError, say};
+use afp_run::RunError;
 use afp_session::Recipe;
 use afp_syntax::source::Source;
+
+use crate::reader::Reader;
 
 /// A plan that was read and compiled.
 pub struct PlanFile {
@@ -70,10 +70,9 @@ impl PlanFile {
     /// A file cannot be read.
     pub fn read(argument: &str) -> Result<PlanFile, RunError> {
         let (path, plan) = split(argument);
-        let text =
-            fs::read_to_string(&path).map_err(RunError::file("cannot read the plan", &path))?;
+        let text = read_text(&path).map_err(RunError::file("cannot read the plan", &path))?;
         let source = Source::new(path.display().to_string(), text);
-        PlanFile::compile(path, &source, &read_used, plan)
+        PlanFile::compile(path, &source, &Disk::default(), plan)
     }
 
     /// The plan of a log, from the texts that the log holds, or else from its file.
@@ -108,38 +107,31 @@ impl PlanFile {
         Ok(PlanFile { path, compiled, own })
     }
 
-    /// Reads and compiles, tells standard error what is wrong, and gives the graph.
+    /// Tells what is wrong.
     ///
     /// # Errors
-    /// A file cannot be read, or the plan has errors.
-    pub fn graph(argument: &str) -> Result<(PlanFile, Graph), NoPlan> {
-        PlanFile::read(argument)?.checked()
+    /// What tools read cannot be written.
+    pub fn report(&self, reader: Reader) -> Result<(), NoPlan> {
+        reader.tell(&self.compiled.diags, &self.compiled.sources)
     }
 
-    /// Tells standard error what is wrong.
-    pub fn report(&self) {
-        if !self.compiled.diags.is_empty() {
-            say(self.compiled.render(true));
-        }
-    }
-
-    /// Tells standard error what is wrong, and gives the graph.
+    /// Tells people what is wrong, and gives the graph.
     ///
     /// # Errors
     /// The plan has errors.
-    pub fn checked(mut self) -> Result<(PlanFile, Graph), NoPlan> {
-        self.report();
+    pub fn checked(self) -> Result<(PlanFile, Graph), NoPlan> {
+        self.checked_for(Reader::People)
+    }
+
+    /// Tells what is wrong, and gives the graph.
+    ///
+    /// # Errors
+    /// The plan has errors, what tools read cannot be written.
+    pub fn checked_for(mut self, reader: Reader) -> Result<(PlanFile, Graph), NoPlan> {
+        self.report(reader)?;
         let graph = self.compiled.graph.take().ok_or(NoPlan::Wrong)?;
         Ok((self, graph))
     }
-}
-
-/// The text of a file that a plan file uses.
-pub fn read_used(path: &str) -> Result<String, String> {
-    fs::read_to_string(path).map_err(|error| match error.kind() {
-        ErrorKind::NotFound => "there is no such file".to_owned(),
-        _ => error.to_string().to_lowercase(),
-    })
 }
 
 /// `FILE:Plan` taken apart; a file whose own name holds the colon wins.

@@ -23,6 +23,8 @@ const FOREIGN: &[&str] = &[
     "npm",
     "npx",
     "code",
+    "cc",
+    "install",
 ];
 
 fn docs() -> PathBuf {

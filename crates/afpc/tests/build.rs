@@ -32,6 +32,24 @@ fn a_folder_of_somebody_else_is_left_alone() {
 }
 
 #[test]
+fn files_of_somebody_else_are_left_alone_where_there_is_no_crate() {
+    let place = Place::with_plan();
+    for name in ["src/main.rs", "wall_following.afp"] {
+        let path = format!("mine/{name}");
+        place.write(&path, "mine");
+        let said = place.afpc("build wall_following.afp -o mine");
+        said.fails(2, &[&format!("'{path}' is there, and 'afpc' did not make it"), "'-o DIR'"]);
+        assert_eq!(place.read(&path), "mine");
+        assert_eq!(place.files(), [&path, "wall_following.afp"]);
+        std::fs::remove_file(place.path(&path)).unwrap();
+    }
+    // The plan itself lies where its copy would.
+    let mut command = place.command();
+    command.args(["build", "wall_following.afp", "-o", "."]).env("CARGO", "no-such-cargo");
+    said(command.output().unwrap()).fails(1, &["there is no cargo"]);
+}
+
+#[test]
 fn targets_of_later_releases_and_wrong_project_files_are_refused() {
     let place = Place::with_plan();
     let mcu = place.afpc("build wall_following.afp --target mcu");

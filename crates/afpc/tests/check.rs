@@ -80,6 +80,15 @@ fn codes_are_explained() {
 }
 
 #[test]
+fn a_template_that_is_not_there_is_named_as_it_was_asked_for() {
+    let place = Place::new();
+    for name in ["carbot.Forwrad", "plan.afp", "carbot."] {
+        let message = format!("there is no toolbox or template '{name}'");
+        place.afpc(&format!("templates {name}")).fails(2, &[&message, "help: "]);
+    }
+}
+
+#[test]
 fn plans_are_drawn_in_every_format_there_is() {
     let place = Place::with_plan();
     place.afpc("graph wall_following.afp -o plan.svg").succeeds();

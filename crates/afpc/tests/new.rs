@@ -127,4 +127,6 @@ fn templates_are_listed_and_described() {
     place.afpc("new greeter --toolbox").succeeds();
     let own = in_folder(&place, "greeter", "templates");
     assert!(own.out.contains("greeter: ") && own.out.contains("actor Wag"), "{}", own.out);
+    let row = place.afpc("templates Row").out;
+    assert!(row.contains("  in table: (a table)  The table: its name"), "{row}");
 }

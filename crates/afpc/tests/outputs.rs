@@ -58,3 +58,35 @@ fn nothing_to_do_takes_no_time() {
     said.fails(1, &["p.afp"]);
     assert!(said.out.contains(" 0.0 s simulated"), "{}", said.out);
 }
+
+#[test]
+fn no_output_takes_the_place_of_what_is_read_or_of_another_output() {
+    let place = place();
+    let before = ["p.afp", "p.mcap"].map(|name| place.bytes(name));
+    let files = place.files();
+    for command in [
+        "graph p.afp -o ./p.afp --format svg",
+        "test --generate p.afp -o p.afp",
+        "run p.afp --svg none --log p.afp",
+        "run --again p.mcap --svg none --log ./p.mcap",
+        "run p.afp --log both.svg --svg ./both.svg",
+        "log p.mcap recover -o ./p.mcap",
+        "log p.mcap --svg both.svg --coverage both.svg",
+    ] {
+        place.afpc(command).fails(2, &["help: give "]);
+        assert_eq!(["p.afp", "p.mcap"].map(|name| place.bytes(name)), before, "{command}");
+        assert_eq!(place.files(), files, "{command}");
+    }
+}
+
+#[test]
+fn a_repeated_log_stays_where_logs_go() {
+    let place = place();
+    place.afpc("run p.afp --svg none").succeeds();
+    let (log, again) = ("target/afp/runs/p.mcap", "target/afp/runs/p.again.mcap");
+    let first = place.bytes(log);
+    let said = place.afpc(&format!("run --again {log} --svg none"));
+    said.succeeds();
+    assert_eq!(place.bytes(log), first);
+    assert!(place.exists(again) && said.out.contains(again), "{}", said.out);
+}

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use common::{Place, Said, said};
+use serde_json::Value;
 
 const TOOLBOX: &str = include_str!("gestures/gestures.afp");
 const RUST: &str = include_str!("gestures/src/lib.rs");
@@ -292,4 +293,17 @@ fn errors_of_the_generated_crate(place: &Place) {
         "error[E0308]",
     ];
     said.fails(1, &texts);
+    let told = afpc(place, "build plans/dance.afp --json");
+    told.fails(1, &["error[E0308]"]);
+    let objects = told.out.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+    let objects: Vec<_> = objects.collect();
+    for (line, column) in [(10, 30), (14, 31)] {
+        let is_here = |object: &&Value| {
+            let place = &object["place"];
+            place["file"] == "plans/dance.afp" && place["line"] == line && place["column"] == column
+        };
+        let found = objects.iter().find(is_here).unwrap_or_else(|| panic!("{}", told.out));
+        assert_eq!(found["notes"][0]["place"]["file"], "target/afp/dance/src/dance.rs");
+    }
+    assert_eq!(told.last_json()["summary"]["built"], false);
 }

@@ -50,6 +50,41 @@ fn json_is_the_same_every_time() {
     assert_ne!(said.out, other.out);
 }
 
+/// Two elements of a plan that one button has different meanings for.
+const REACTIONS: &str = "use carbot
+plan Keys {
+    start wait
+    supervise keys: CheckEscapeButtonClick { EscapeButtonClicked -> terminate }
+    actor wait: Hold { on keys { EscapeButtonClicked -> drive } }
+    actor drive: Forward { ForwardSuccessful -> drive }
+}
+";
+
+#[test]
+fn an_event_says_which_element_was_active_and_whether_it_answered() {
+    let place = Place::new();
+    place.write("keys.afp", REACTIONS);
+    let run = format!("run keys.afp --press escape@1s --press escape@2s {QUIET}");
+    let said = place.afpc(&run);
+    said.succeeds();
+    let told = "⚡ keys.EscapeButtonClicked → drive  by 'on' of wait\n";
+    assert!(said.out.contains(told), "{}", said.out);
+    assert!(said.out.contains("⚡ keys.EscapeButtonClicked → terminate\n"), "{}", said.out);
+    let said = place.afpc(&format!("{run} --json"));
+    let lines = said.out.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+    let events = lines.filter(|line| line["kind"] == "event");
+    let answers: Vec<_> = events
+        .map(|line| (line["target"].clone(), line["element"].clone(), line["on"].clone()))
+        .collect();
+    assert_eq!(
+        answers,
+        [
+            ("drive".into(), "wait".into(), true.into()),
+            ("terminate".into(), "drive".into(), Value::Null)
+        ]
+    );
+}
+
 #[test]
 fn a_run_in_real_time_is_that_at_full_speed() {
     let place = Place::with_plan();
@@ -207,7 +242,62 @@ plan Fails {
     assert_eq!(said.code, 3, "{said:#?}");
     let summary = &said.last_json()["summary"];
     assert_eq!((&summary["ending"], &summary["fault"]), (&"error".into(), &"arithmetic".into()));
-    assert!(said.out.contains("✗ go failed"), "{}", said.out);
+    let why = "'distance' of 'go' is infinite; formula at fails.afp:5:34";
+    assert_eq!(summary["fault_text"], why);
+    assert!(said.out.contains(&format!("✗ go failed: {why}\n")), "{}", said.out);
+    assert!(said.out.contains(&format!("error after 0.000 s: {why}\n")), "{}", said.out);
+}
+
+#[test]
+fn a_fault_says_whose_value_it_is_and_where_it_comes_from() {
+    let place = Place::new();
+    let plan = "use carbot use std
+plan Fast {
+    in  pace: speed from 0 cm/s to 1 m/s
+    var n:    int = 0 from 0 to 1
+    start go
+    actor go: Forward(speed = 5 * pace) { ForwardSuccessful -> terminate  Error -> one }
+    computation one: Count(value = n, limit = 4, next => n) { Again -> two    Done -> terminate }
+    computation two: Count(value = n, limit = 4, next => n) { Again -> fail   Done -> terminate }
+}";
+    place.write("fast.afp", plan);
+    place.write(
+        "a.afp",
+        "use \"fast.afp\" scenario \"a\" for Fast { set pace = 1 m/s expect go active until 1 s }",
+    );
+    let input = "'speed' of 'go' is 5 m/s, at most 31 cm/s; formula at fast.afp:6:31";
+    let output = "'next' of 'two' is 2, at most 1 for 'n'; output at fast.afp:8:58";
+    let said = place.afpc("run fast.afp --set pace=1m/s --json --log f.mcap --svg none");
+    assert_eq!(said.code, 3, "{said:#?}");
+    let faults = said.out.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+    let faults: Vec<_> = faults.filter(|event| event["kind"] == "faulted").collect();
+    assert_eq!(faults.iter().map(|event| &event["text"]).collect::<Vec<_>>(), [input, output]);
+    let log = place.afpc("log f.mcap").out;
+    assert!(log.contains(input) && log.contains(output), "{log}");
+    let tested = place.afpc("test a.afp").out;
+    assert!(tested.contains(&format!("the plan ended in Error: {output}")), "{tested}");
+    let refused = place.afpc("run fast.afp --set pace=2m/s");
+    refused.fails(2, &["out of the entry's range, from 0 m/s to 1 m/s"]);
+}
+
+#[test]
+fn the_help_of_a_plan_says_what_it_takes() {
+    let place = Place::new();
+    let plan = "use carbot
+plan Fast {
+    /// How fast.
+    in pace: speed = 10 cm/s
+        from 0 cm/s to 1 m/s
+    in goal: length
+    var far: length = 1 m
+    start go
+    actor go: Forward(distance = goal + far, speed = pace) { ForwardSuccessful -> terminate }
+}";
+    place.write("fast.afp", plan);
+    let said = place.afpc("run fast.afp --help").out;
+    assert!(said.contains("  pace: speed = 10 cm/s from 0 cm/s to 1 m/s  How fast.\n"), "{said}");
+    assert!(said.contains("  goal: length\n") && !said.contains("far: length"), "{said}");
+    assert!(!place.afpc("run --help").out.contains("pace"));
 }
 
 #[test]

@@ -121,6 +121,16 @@ plan Short {
 "#;
 
 #[test]
+fn a_file_that_is_no_text_does_not_hide_the_others() {
+    let place = place();
+    std::fs::write(place.path("tests/bytes.afp"), [0xff, 0xfe]).unwrap();
+    let said = place.afpc("test bump");
+    assert_eq!(said.code, 1, "{said:#?}");
+    assert!(said.err.contains("bytes.afp': it is no text in UTF-8"), "{said:#?}");
+    assert!(said.out.contains("1 passed"), "{said:#?}");
+}
+
+#[test]
 fn mutants_are_made_and_those_that_nobody_notices_are_told() {
     let place = Place::new();
     place.write("short.afp", SHORT);

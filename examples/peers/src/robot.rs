@@ -2,7 +2,7 @@
 
 use afp::core::Platform;
 use afp::core::devices::{ControlId, DeviceRow, Devices, FaultId};
-use afp::load::{ActorSlot, Args, Outputs, See, SupervisorSlot};
+use afp::load::{ActorSlot, Args, BadValue, Outputs, See, SupervisorSlot};
 use afp::{Environment, Events, Fault, Instant, StillClock};
 use afp_session::{Drawing, Pose2, Robot, Samples, Shape, Simulated, World, WorldError};
 
@@ -104,7 +104,7 @@ impl ActorSlot<StandIn> for Part {
         _: See<'_>,
         _: &mut StandIn,
         _: Instant,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), BadValue> {
         Ok(())
     }
 
@@ -114,7 +114,7 @@ impl ActorSlot<StandIn> for Part {
         _: &mut dyn Outputs,
         _: &mut StandIn,
         _: Instant,
-    ) -> Result<Option<u16>, Fault> {
+    ) -> Result<Option<u16>, BadValue> {
         Ok(None)
     }
 
@@ -132,7 +132,7 @@ impl SupervisorSlot<StandIn> for Part {
         _: See<'_>,
         _: &mut StandIn,
         _: Instant,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), BadValue> {
         Ok(())
     }
 
@@ -143,7 +143,7 @@ impl SupervisorSlot<StandIn> for Part {
         _: &mut dyn Outputs,
         _: &mut StandIn,
         _: Instant,
-    ) -> Result<Option<u16>, Fault> {
+    ) -> Result<Option<u16>, BadValue> {
         Ok(None)
     }
 

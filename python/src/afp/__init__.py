@@ -30,12 +30,16 @@ if TYPE_CHECKING:
         __version__,
         faults,
     )
+    from .builder import WorldBuilder
     from .components import Toolbox, tick
     from .log import Log
+    from .picture import Picture
     from .plan import Plan, load, new_plan
     from .result import Collision, ComponentError, Result
+    from .runs import Runs
     from .simulation import Simulation
-    from .sweeps import Runs, sweep
+    from .snapshot import Snapshot
+    from .sweeps import sweep
     from .units import (
         Angle,
         AngularSpeed,
@@ -70,6 +74,7 @@ __all__ = [
     "Event",
     "Length",
     "Log",
+    "Picture",
     "Plan",
     "PlanError",
     "Quantity",
@@ -78,10 +83,12 @@ __all__ = [
     "Runs",
     "Scenario",
     "Simulation",
+    "Snapshot",
     "Speed",
     "Toolbox",
     "Verdict",
     "World",
+    "WorldBuilder",
     "__version__",
     "cm",
     "deg",
@@ -110,9 +117,13 @@ _WHERE = {
     "result": "Collision ComponentError Result",
     "log": "Log",
     "plan": "Plan load new_plan",
-    "sweeps": "Runs sweep",
+    "runs": "Runs",
+    "sweeps": "sweep",
     "simulation": "Simulation",
+    "snapshot": "Snapshot",
     "components": "Toolbox tick",
+    "builder": "WorldBuilder",
+    "picture": "Picture",
 }
 _MODULES = {*_WHERE, "plots", "tables"}
 

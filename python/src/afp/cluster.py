@@ -20,10 +20,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from ._afp import AfpError, Plan, Sweeper, Toolbox
-from .sweeps import mark_of
+from .sweeps import Spec
 from .tables import need
 
-__all__ = ["Spec", "run"]
+__all__ = ["Sent", "run"]
 
 RETRIES = 5
 """How often a chunk is done again when its worker dies."""
@@ -32,69 +32,65 @@ WAITING = 64
 
 
 @dataclass(frozen=True)
-class Spec:
+class Sent:
     """What a worker makes the sweep of."""
 
     text: str
     path: str | None
     name: str
-    worlds: list[str | None]
-    seeds: tuple[int, int]
-    vary: list[tuple[str, list[tuple[str, bool]]]]
-    until: float
     toolboxes: list[Toolbox]
+    spec: Spec
 
     @staticmethod
-    def of(
-        plan: Plan,
-        worlds: list[str | None],
-        seeds: tuple[int, int],
-        vary: list[tuple[str, list[tuple[str, bool]]]],
-        until: float,
-    ) -> Spec:
+    def of(plan: Plan, spec: Spec) -> Sent:
         """For a plan, with its components in Python."""
         path = None if plan.path is None else os.fspath(plan.path)
-        return Spec(plan.text, path, plan.name, worlds, seeds, vary, until, plan.toolboxes)
+        return Sent(plan.text, path, plan.name, plan.toolboxes, spec)
 
     def packed(self) -> bytes:
         """What is sent to workers."""
         try:
             packed: bytes = need("ray.cloudpickle").dumps(self)
         except (TypeError, pickle.PicklingError) as error:
-            text = f"the plan's components cannot be sent to other processes: {error}"
+            text = f"the plan's components or the metrics cannot be sent to other processes: {error}"
             help = 'let them make there what cannot be pickled, or use backend="local"'
             raise TypeError(f"{text}\n  help: {help}") from None
         return packed
 
     def sweeper(self) -> Sweeper:
         """The sweep."""
-        plan = Plan(self.text, self.path, name=self.name, toolboxes=self.toolboxes)
-        return Sweeper(plan, self.worlds, self.seeds, self.vary, self.until, mark_of(self.toolboxes))
+        return self.spec.sweeper(Plan(self.text, self.path, name=self.name, toolboxes=self.toolboxes))
 
 
 def run(
-    spec: Spec, sweeper: Sweeper, runs: Sequence[int], tell: Callable[[int], Any], *, chunk: int | None = None
+    sent: Sent,
+    sweeper: Sweeper,
+    runs: Sequence[int],
+    tell: Callable[[int], Any],
+    on_run: Callable[[dict[str, Any]], Any] | None = None,
+    *,
+    chunk: int | None = None,
 ) -> None:
-    """Does runs on the cluster; `sweeper` keeps their outcomes, `tell` hears how many of all are done."""
+    """Does runs on the cluster; `sweeper` keeps their outcomes, `tell` hears how many of all are done, `on_run` of each."""
     ray = need("ray")
     if not ray.is_initialized():
         ray.init(include_dashboard=False, log_to_driver=False)
     cpus = int(ray.cluster_resources().get("CPU", 1))
     size = chunk or max(1, min(100, len(runs) // (4 * max(cpus, 1))))
     chunks = [list(runs[first : first + size]) for first in range(0, len(runs), size)]
-    sent = ray.put(spec.packed())
+    packed = ray.put(sent.packed())
     task = ray.remote(num_cpus=1, max_retries=RETRIES)(work)
     done = sweeper.total - len(runs)
     waiting: list[Any] = []
     try:
         while chunks or waiting:
             while chunks and len(waiting) < max(WAITING, 2 * cpus):
-                waiting.append(task.remote(sent, sweeper.identity, chunks.pop(0)))
+                waiting.append(task.remote(packed, sweeper.identity, chunks.pop(0)))
             # With a limit, so that Ctrl-C is seen.
             ready, waiting = ray.wait(waiting, timeout=0.5)
             for each in ready:
                 worker, lines = ray.get(each)
-                done += sweeper.accept(lines)
+                done += sweeper.accept(lines, on_run)
                 collected(worker)
                 tell(done)
     finally:
@@ -104,12 +100,12 @@ def run(
 
 def work(packed: bytes, identity: str, runs: list[int]) -> tuple[int, list[str]]:
     """Does a chunk, in a worker: its process, and outcomes as lines of JSON."""
-    spec: Spec = pickle.loads(packed)
-    sweeper = spec.sweeper()
+    sent: Sent = pickle.loads(packed)
+    sweeper = sent.sweeper()
     if sweeper.identity != identity:
         text = "this worker has other versions of the package, the plan's files or the worlds than the driver"
         raise AfpError(f"{text}\n  driver: {identity}\n  worker: {sweeper.identity}")
-    return os.getpid(), sweeper.lines(runs, 1)
+    return os.getpid(), sweeper.lines(runs, 1, sent.spec.judge(sent.name))
 
 
 def collected(worker: int) -> None:

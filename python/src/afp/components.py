@@ -31,7 +31,7 @@ from typing import Any, TypeVar, get_type_hints
 
 from . import _afp
 from ._afp import Robot
-from .units import Quantity, plain, spelled_time
+from .units import UNITS, Quantity, plain, spelled_time
 
 __all__ = ["Toolbox", "tick"]
 
@@ -85,7 +85,7 @@ class Toolbox(_afp.Toolbox):
         name = template or _name(component)
         about = self._template(name)
         self._implement(name, _maker(about["kind"], component, about["inputs"], about["live"]))
-        self._keep(name, component, _source(component))
+        self._keep(name, component, source_of(component))
         return component
 
     def _keep(self, template: str, component: Callable[..., Any], source: str) -> None:
@@ -195,7 +195,7 @@ def _timing(**times: str | float | None) -> str:
     return " ".join(f"{word} {spelled_time(time)}" for word, time in times.items() if time is not None)
 
 
-def _source(component: Callable[..., Any]) -> str:
+def source_of(component: Callable[..., Any]) -> str:
     """The text of a component, or else what there is of one."""
     try:
         return inspect.getsource(component)
@@ -232,21 +232,6 @@ def _shown(hint: Any) -> str:
     return hint.__name__ if isinstance(hint, type) else str(hint).replace("typing.", "")
 
 
-_UNITS = {
-    "length": "m",
-    "angle": "rad",
-    "duration": "s",
-    "speed": "m/s",
-    "angular_speed": "rad/s",
-    "acceleration": "m/s^2",
-    "mass": "kg",
-    "force": "N",
-    "voltage": "V",
-    "temperature": "K",
-    "frequency": "Hz",
-}
-
-
 def _constant(value: Any, type: str, where: str) -> str:
     """A default as it stands in a toolbox file."""
     value = plain(value)
@@ -254,7 +239,7 @@ def _constant(value: Any, type: str, where: str) -> str:
         return "true" if value else "false"
     if isinstance(value, str):
         return _text(value) if type == "string" else value
-    unit = _UNITS.get(type, "")
+    unit = UNITS.get(type, "")
     if isinstance(value, Quantity) and value.unit != unit:
         raise TypeError(f"{where} is {type}{f' in {unit}' if unit else ''}, its default a quantity in {value.unit}")
     if type in {"int", "float"}:
@@ -459,6 +444,11 @@ def _advance(coroutine: types.CoroutineType[Any, Any, Any]) -> tuple[Any] | None
             name = re.sub(r".*<locals>\.", "", coroutine.__qualname__)
             raise TypeError(f"the actor '{name}' returned None, not a state") from None
         return (end.value,)
+    except RuntimeError as why:
+        # What asyncio says when it is awaited here.
+        if str(why) != "no running event loop":
+            raise
+        raise TypeError("an actor can await afp.tick() only; no event loop of asyncio runs it") from why
     if waits is not None:
         raise TypeError(f"an actor can await afp.tick() only, not {waits!r}")
     return None

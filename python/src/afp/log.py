@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import plots, tables
-from ._afp import Event, read_log
+from ._afp import Event, draw_log, read_log
+from .picture import Picture
 
 __all__ = ["Log"]
 
@@ -23,8 +24,10 @@ class Log(tables.Events):
     """The texts that it carries: the world, perhaps the plan."""
     events: list[Event]
     """What happened, polls that saw nothing included."""
-    entries: list[tuple[float, dict[str, Any]]]
-    """The configuration at the start and after each commit, with its time."""
+    configurations: list[tuple[float, dict[str, Any]]]
+    """The values of the entries at the start and after each commit, with its time."""
+    entries: dict[str, Any]
+    """The values of the entries at the end."""
     channels: dict[str, tuple[str, int]]
     """Schema and number of messages of each topic."""
     path: NDArray[np.float64]
@@ -38,22 +41,35 @@ class Log(tables.Events):
         self.facts = told["facts"]
         self.attachments = told["attachments"]
         self.events = told["events"]
-        self.entries = told["entries"]
+        self.configurations = told["entries"]
+        self.entries = self.configurations[-1][1] if self.configurations else {}
         self.channels = told["channels"]
         self.path = told["path"]
         self.cut_short = told["cut_short"]
 
     def entry(self, name: str) -> tuple[NDArray[np.float64], list[Any]]:
         """The times and values of an entry: when it got its first value, and whenever it changed."""
-        known = sorted({name for _, values in self.entries for name in values})
+        known = sorted({name for _, values in self.configurations for name in values})
         if name not in known:
             raise KeyError(f"the log has no entry '{name}'; there are: {', '.join(known)}")
         rows: list[tuple[float, Any]] = []
-        for time, values in self.entries:
+        for time, values in self.configurations:
             value = values.get(name)
             if value is not None and (not rows or rows[-1][1] != value):
                 rows.append((time, value))
         return np.array([time for time, _ in rows]), [value for _, value in rows]
+
+    def picture(self) -> Picture:
+        """The path of the run in its world, as `afpc log --svg` draws it."""
+        return Picture(draw_log(self.file, "path"))
+
+    def sonar(self) -> Picture:
+        """The echoes of the range sensor over the true walls, as `afpc log --sonar` draws them."""
+        return Picture(draw_log(self.file, "sonar"))
+
+    def film(self) -> Picture:
+        """What the camera saw, as `afpc log --film` draws it; for logs of `Simulation(..., log=..., camera=True)`."""
+        return Picture(draw_log(self.file, "film"))
 
     def plot_timeline(self, ax: Any = None) -> Any:
         """Draws what was active when; needs matplotlib."""

@@ -10,6 +10,7 @@ from typing import Any
 
 from . import _afp
 from ._afp import Toolbox
+from .picture import Picture
 from .units import spelled, spelled_time
 
 __all__ = ["Plan", "load", "new_plan"]
@@ -43,9 +44,13 @@ class Plan(_afp.Plan):
         lines = [f"<pre>{html.escape(self.report().rstrip())}</pre>"] if self.diagnostics else []
         return "\n".join([self.svg(), *lines])
 
-    def save_svg(self, path: str | os.PathLike[str], *, theme: str = "light", fold: bool = False) -> None:
+    def save_svg(self, path: str | os.PathLike[str], *, theme: str = "auto", fold: bool = False) -> None:
         """Writes the drawing to a file."""
         Path(path).write_text(self.svg(theme=theme, fold=fold), encoding="utf-8")
+
+    def coverage(self, log: str | os.PathLike[str]) -> Picture:
+        """The drawing with what the run of a log made use of, as `afpc log --coverage` draws it."""
+        return Picture(self._coverage(log))
 
     def use(self, toolbox: str, alias: str | None = None) -> None:
         """Adds `use toolbox as alias`; of another plan file with its path in quotes."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -75,11 +75,13 @@ def timeline(events: Sequence[Event], end: float, title: str, ax: Any = None) ->
     return ax
 
 
-def _label(column: str) -> str:
-    """The name of a column with its unit in brackets."""
+def label(column: str, units: Mapping[str, str]) -> str:
+    """The name of a column with its unit in brackets; `units` has those of entries."""
     name, _, end = column.rpartition("_")
-    unit = {"s": "s", "m": "m", "si": "SI"}.get(end)
-    return f"{name.replace('_', ' ')} [{unit}]" if name and unit else column.replace("_", " ")
+    unit = units.get(name, "") if end == "si" else {"s": "s", "m": "m"}.get(end)
+    if not name or unit is None:
+        return column.replace("_", " ")
+    return f"{name.replace('_', ' ')} [{unit}]" if unit else name.replace("_", " ")
 
 
 def runs(x: Sequence[Any], y: Sequence[Any], endings: Sequence[str], labels: tuple[str, str, str], ax: Any = None) -> Any:
@@ -90,6 +92,67 @@ def runs(x: Sequence[Any], y: Sequence[Any], endings: Sequence[str], labels: tup
         dots = [(a, b) for a, b, e in zip(x, y, endings, strict=True) if e == ending and a is not None and b is not None]
         color = PALETTE[number % len(PALETTE)]
         ax.plot([a for a, _ in dots], [b for _, b in dots], "o", color=color, alpha=0.6, label=ending)
-    ax.set(xlabel=_label(labels[0]), ylabel=_label(labels[1]), title=labels[2])
+    ax.set(xlabel=labels[0], ylabel=labels[1], title=labels[2])
     ax.legend(frameon=False)
     return ax
+
+
+def outcome_map(cells: Mapping[tuple[Any, Any], list[Any]], texts: bool, labels: tuple[str, str, str, str], ax: Any = None) -> Any:
+    """Cells over two axes: the text that most of the runs of each have, or the mean of a measure."""
+    pyplot = need("matplotlib.pyplot")
+    ax = ax if ax is not None else pyplot.subplots(figsize=(6, 4.5), layout="constrained")[1]
+    columns, rows = (list(_ordered({key[axis] for key in cells})) for axis in (0, 1))
+    shown = _texts(ax, cells, columns, rows) if texts else _means(ax, cells, columns, rows, labels[2])
+    for (column, row), words in shown.items():
+        ax.text(column, row, words, ha="center", va="center", fontsize=8, color="white" if texts else "black")
+    ax.set(xticks=range(len(columns)), yticks=range(len(rows)))
+    ax.set_xticklabels([_tick(column) for column in columns])
+    ax.set_yticklabels([_tick(row) for row in rows])
+    ax.set(xlabel=labels[0], ylabel=labels[1], title=f"{labels[3]}: {labels[2]}")
+    return ax
+
+
+Shown = dict[tuple[int, int], str]
+
+
+def _texts(ax: Any, cells: Mapping[tuple[Any, Any], list[Any]], columns: list[Any], rows: list[Any]) -> Shown:
+    """Draws the most frequent texts; what the cells say."""
+    from matplotlib.colors import ListedColormap
+    from matplotlib.patches import Patch
+
+    names = list(dict.fromkeys(text for texts in cells.values() for text in texts))
+    colors = [PALETTE[number % len(PALETTE)] for number in range(len(names))]
+    picture = np.full((len(rows), len(columns)), np.nan)
+    shown: Shown = {}
+    for (x, y), texts in cells.items():
+        most = max(names, key=texts.count)
+        place = (columns.index(x), rows.index(y))
+        picture[place[1], place[0]] = names.index(most)
+        shown[place] = f"{texts.count(most) / len(texts):.0%}"
+    ax.imshow(picture, origin="lower", aspect="auto", cmap=ListedColormap(colors), vmin=-0.5, vmax=len(names) - 0.5)
+    patches = [Patch(color=color, label=name) for color, name in zip(colors, names, strict=True)]
+    ax.legend(handles=patches, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+    return shown
+
+
+def _means(
+    ax: Any, cells: Mapping[tuple[Any, Any], list[Any]], columns: list[Any], rows: list[Any], label: str
+) -> Shown:
+    """Draws means; nothing has to be said."""
+    picture = np.full((len(rows), len(columns)), np.nan)
+    for (x, y), values in cells.items():
+        known = [value for value in values if value is not None]
+        if known:
+            picture[rows.index(y), columns.index(x)] = sum(known) / len(known)
+    image = ax.imshow(picture, origin="lower", aspect="auto", cmap="cividis")
+    ax.figure.colorbar(image, ax=ax, label=label)
+    return {}
+
+
+def _ordered(values: set[Any]) -> list[Any]:
+    """Numbers by size, texts by name, what is missing last."""
+    return sorted(values, key=lambda value: (value is None, value if value is not None else 0))
+
+
+def _tick(value: Any) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)

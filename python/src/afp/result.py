@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import html
 import pickle
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import plots, tables
-from ._afp import AfpError, Event
-
-if TYPE_CHECKING:
-    from .simulation import Simulation
+from ._afp import AfpError, Event, Runner, World
 
 __all__ = ["ComponentError", "Collision", "Result"]
 
@@ -88,12 +86,13 @@ class Result(tables.Events):
     timeline: list[str]
     """The timeline as `afpc run` prints it."""
 
-    def __init__(self, simulation: Simulation) -> None:
-        runner = simulation._runner
-        self._world = simulation.world
-        self.plan = simulation.plan.name
-        self.world = simulation.world.name
-        self.seed = simulation.seed
+    def __init__(
+        self, runner: Runner, plan: str, world: World, seed: int, errors: Sequence[ComponentError] = ()
+    ) -> None:
+        self._world = world
+        self.plan = plan
+        self.world = world.name
+        self.seed = seed
         self.ending = runner.ending
         self.fault, self.fault_text = runner.fault or (None, None)
         self.stopped_by = runner.stopped_by
@@ -104,7 +103,7 @@ class Result(tables.Events):
         self.entries = runner.entries()
         self.events = runner.events(0)
         self.path = runner.path()
-        self.errors = simulation.errors
+        self.errors = list(errors)
         self.timeline = runner.timeline
 
     @property

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ._afp import Event, Plan, Runner, World
 from .result import ComponentError, Result
 from .seeds import seed_of
+from .snapshot import Snapshot
 from .units import moment, seconds
 
 __all__ = ["Simulation"]
@@ -25,9 +26,10 @@ class Simulation:
     `world` is a `World`, the path of its file, or `None` for the one that `afpc run` would take. `set` gives `in`
     entries their values: `afp.cm(30)`, plain floats in SI units, texts as on the command line (`"30cm"`), names of
     enum values. `log` is the MCAP file to be written: whole once the plan has ended or the simulation is closed, which
-    `with` does; nothing can be driven on then.
+    `with` does; nothing can be driven on then. With `camera` it gets what the camera sees, twice a second.
 
-    While it runs, other threads of Python run too; a simulation itself belongs to one caller at a time.
+    While it runs, other threads of Python run too; a simulation itself belongs to one caller at a time. Meanwhile others
+    may read `time`, `ending`, `active` and `pose` (and print it): as they were at most a few hundredths of a second ago.
     """
 
     def __init__(
@@ -38,6 +40,7 @@ class Simulation:
         seed: int = 0,
         set: Mapping[str, Any] | None = None,
         log: str | os.PathLike[str] | None = None,
+        camera: bool = False,
     ) -> None:
         if not isinstance(plan, Plan):
             raise TypeError(f"a simulation needs a Plan, not a {type(plan).__name__}: afp.load() reads one")
@@ -51,7 +54,16 @@ class Simulation:
         self._failures: list[ComponentError] = []
         if not isinstance(set, (Mapping, type(None))):
             raise TypeError(f"set gives entries their values, such as {{'walldist': afp.cm(35)}}, not {set!r}")
-        self._runner = Runner(plan, world, seed_of(seed), dict(set or {}), log)
+        self._runner = Runner(plan, world, seed_of(seed), dict(set or {}), log, camera)
+
+    @classmethod
+    def _of(cls, runner: Runner, plan: Plan, world: World, seed: int) -> Simulation:
+        """Around a run that has been made."""
+        self = cls.__new__(cls)
+        self.plan, self.world, self.seed = plan, world, seed
+        self._failures = []
+        self._runner = runner
+        return self
 
     # Driving
 
@@ -92,7 +104,7 @@ class Simulation:
 
     def result(self) -> Result:
         """What has come of it so far."""
-        return Result(self)
+        return Result(self._runner, self.plan.name, self.world, self.seed, self.errors)
 
     def close(self) -> None:
         """Ends the log, where there is one."""
@@ -108,6 +120,33 @@ class Simulation:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
+
+    # Moments
+
+    def save(self) -> Snapshot:
+        """The simulation as it is now: plan, robot, world, noise and what is to come. `restore` goes back to it.
+
+        Components written in Python cannot be copied, so that plans with such cannot be saved.
+        """
+        return Snapshot(self._runner.keyframe(), self.plan, self.world, self.seed)
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Goes back, or forth, to a moment that this simulation or a clone of it saved; what comes then is the same.
+
+        A simulation with a log cannot: what is in the log has happened.
+        """
+        if not isinstance(snapshot, Snapshot):
+            raise TypeError(f"a simulation is restored from what save() gave, not from {snapshot!r}")
+        if not snapshot._is_of(self.plan, self.world, self.seed):
+            raise ValueError(f"{snapshot!r} is of another simulation; restore goes to a moment of this one")
+        self._runner.restore(snapshot._runner)
+
+    def clone(self) -> Simulation:
+        """Another simulation that goes on from here as this one would; it writes no log."""
+        return Simulation._of(self._runner.keyframe(), self.plan, self.world, self.seed)
+
+    def __copy__(self) -> Simulation:
+        return self.clone()
 
     # Looking
 

@@ -15,6 +15,7 @@ COLUMNS = (
     "outcome",
     "target",
     "supervisor",
+    "element",
     "entry",
     "port",
     "unit",
@@ -74,6 +75,7 @@ class Events:
 
     events: Sequence[Event]
 
+    @property
     def columns(self) -> dict[str, list[Any]]:
         """The events as lists by column."""
         return columns(self.events)

@@ -62,14 +62,20 @@ class Quantity(float):
     def __repr__(self) -> str:
         return f"Quantity({float(self)!r}, {self.unit!r})"
 
+    # Numbers of numpy leave it to these methods what comes of them and a quantity.
+    __array_ufunc__ = None
+
     def _like(self, value: Any, other: object) -> Any:
-        """`value` in the unit, if `other` is of it, too."""
-        alike = isinstance(other, Quantity) and other.unit == self.unit
-        return Quantity(value, self.unit) if alike and value is not NotImplemented else value
+        """`value` in the unit, if `other` is of it, too; quantities of two units have no sum."""
+        if not isinstance(other, Quantity):
+            return value
+        if other.unit != self.unit:
+            raise TypeError(f"a quantity in {self.unit} and one in {other.unit} have no sum and no difference")
+        return Quantity(value, self.unit)
 
     def _scaled(self, value: Any, other: object) -> Any:
         """`value` in the unit, if `other` is a plain number."""
-        is_number = isinstance(other, (int, float)) and not isinstance(other, Quantity)
+        is_number = isinstance(other, (int, float, np.number)) and not isinstance(other, Quantity)
         return Quantity(value, self.unit) if is_number and value is not NotImplemented else value
 
     def __neg__(self) -> Quantity:
@@ -78,20 +84,37 @@ class Quantity(float):
     def __abs__(self) -> Quantity:
         return Quantity(abs(float(self)), self.unit)
 
-    def __add__(self, other: float) -> Any:
-        return self._like(super().__add__(other), other)
+    def __pos__(self) -> Quantity:
+        return self
 
-    def __sub__(self, other: float) -> Any:
-        return self._like(super().__sub__(other), other)
+    def __round__(self, digits: Any = None) -> Any:
+        return round(float(self)) if digits is None else Quantity(round(float(self), digits), self.unit)
 
-    def __mul__(self, other: float) -> Any:
-        return self._scaled(super().__mul__(other), other)
+    def __add__(self, other: Any) -> Any:
+        return self._like(float(self) + plain_number(other), other)
 
-    def __rmul__(self, other: float) -> Any:
-        return self._scaled(super().__rmul__(other), other)
+    def __radd__(self, other: Any) -> Any:
+        # What sum() begins with is of every unit.
+        nothing = type(other) is int and other == 0
+        return self if nothing else self._like(plain_number(other) + float(self), other)
 
-    def __truediv__(self, other: float) -> Any:
-        return self._scaled(super().__truediv__(other), other)
+    def __sub__(self, other: Any) -> Any:
+        return self._like(float(self) - plain_number(other), other)
+
+    def __rsub__(self, other: Any) -> Any:
+        return plain_number(other) - float(self)
+
+    def __mul__(self, other: Any) -> Any:
+        return self._scaled(float(self) * plain_number(other), other)
+
+    def __rmul__(self, other: Any) -> Any:
+        return self._scaled(plain_number(other) * float(self), other)
+
+    def __truediv__(self, other: Any) -> Any:
+        return self._scaled(float(self) / plain_number(other), other)
+
+    def __rtruediv__(self, other: Any) -> Any:
+        return plain_number(other) / float(self)
 
 
 def _number(name: str, value: float) -> float:
@@ -100,6 +123,12 @@ def _number(name: str, value: float) -> float:
     if isinstance(value, Quantity):
         raise TypeError(f"{name}() takes a number, not a quantity in {value.unit}")
     return value
+
+
+def plain_number(value: Any) -> Any:
+    """A number without its unit and without its type of numpy; arrays are of plain numbers."""
+    value = plain(value)
+    return float(value) if isinstance(value, Quantity) else value
 
 
 def plain(value: Any) -> Any:
@@ -179,6 +208,21 @@ def kmh(value: float) -> Quantity:
 
 
 # Type hints for ports of components: the types of the language.
+UNITS = {
+    "length": "m",
+    "angle": "rad",
+    "duration": "s",
+    "speed": "m/s",
+    "angular_speed": "rad/s",
+    "acceleration": "m/s^2",
+    "mass": "kg",
+    "force": "N",
+    "voltage": "V",
+    "temperature": "K",
+    "frequency": "Hz",
+}
+"""The SI units of the types of quantities."""
+
 Length = Annotated[float, "length"]
 """A port of type `length`, metres."""
 Duration = Annotated[float, "duration"]

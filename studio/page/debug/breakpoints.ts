@@ -1,70 +1,117 @@
-// Where a run stops: lines of the text, which are elements of the drawing; they move with the text and are remembered.
+// Where a run stops: lines of the text, which are elements, exits, supervisors and entries of the drawing; they move with the
+// text and are remembered.
 import { effect, signal } from "@preact/signals";
 import { current, onText, text, type Told } from "../documents";
 import { drawing } from "../drawing/model";
 import { itemAt, spanOf } from "../places";
 import { offset, position } from "../positions";
+import type { Part } from "../drawing/shapes";
 import { selected } from "../selection";
 
 const KEY = "afp-studio-breakpoints";
 
-/** Lines, from 0, by document. */
-export const breakpoints = signal<Readonly<Record<string, readonly number[]>>>({});
-/** The items of the drawing that they stand at. */
-export const stops = signal<ReadonlySet<string>>(new Set());
+/** A place where a run stops, or says something. */
+export interface Stop {
+  /** From 0. */
+  line: number;
+  off?: boolean;
+  /** A formula: it stops while this holds alone. */
+  condition?: string;
+  /** What is said in place of stopping, with formulas in braces. */
+  log?: string;
+}
 
-export const linesOf = (uri: string): readonly number[] => breakpoints.value[uri] ?? [];
+/** Stops by document, by line. */
+export const breakpoints = signal<Readonly<Record<string, readonly Stop[]>>>({});
+/** The parts of the drawing that they stand at. */
+export const stops = signal<readonly { part: Part; stop: Stop }[]>([]);
+/** What went wrong that a run stops at. */
+export const filters = signal<readonly string[]>([]);
+/** What a run stops at when it goes wrong. */
+export const FILTERS = ["fault", "deadlineMissed", "interruption"] as const;
+
+export const stopsOf = (uri: string): readonly Stop[] => breakpoints.value[uri] ?? [];
+
+const put = (uri: string, all: readonly Stop[]): void => {
+  breakpoints.value = { ...breakpoints.peek(), [uri]: [...all].sort((a, b) => a.line - b.line) };
+};
 
 export function toggle(uri: string, line: number): void {
-  const lines = linesOf(uri);
-  const now = lines.includes(line) ? lines.filter((each) => each !== line) : [...lines, line].sort((a, b) => a - b);
-  breakpoints.value = { ...breakpoints.peek(), [uri]: now };
+  const all = stopsOf(uri);
+  put(uri, all.some((each) => each.line === line) ? all.filter((each) => each.line !== line) : [...all, { line }]);
+}
+
+/** Changes one that is there. */
+export function change(uri: string, line: number, more: Partial<Stop>): void {
+  put(uri, stopsOf(uri).map((each) => (each.line === line ? { ...each, ...more } : each)));
 }
 
 /** Sets or takes away a breakpoint at what is selected. */
 export async function toggleSelected(): Promise<void> {
   const [uri, last] = [current.value, selected.value.at(-1)];
-  const place = last && (await spanOf(uri, { item: last.item }));
+  const place = last && (await spanOf(uri, last));
   if (place) toggle(uri, place.start.line);
 }
 
 /** Where lines are after a change of a text; those whose line is gone are gone. */
-export function moved(lines: readonly number[], { range: { start, end }, text }: Told): number[] {
+export function moved(all: readonly Stop[], { range: { start, end }, text }: Told): Stop[] {
   const more = text.split("\n").length - 1 - (end.line - start.line);
   // What begins behind the change moves with it; so does a line that a whole one is put before.
   const behind = (line: number): boolean => line > end.line || (line === end.line && end.character === 0 && (start.line < end.line || text.endsWith("\n")));
-  const found = lines.flatMap((line) => (behind(line) ? [line + more] : line <= start.line ? [line] : line === end.line ? [start.line] : []));
-  return [...new Set(found)];
+  const to = (line: number): number | null => (behind(line) ? line + more : line <= start.line ? line : line === end.line ? start.line : null);
+  const found = new Map<number, Stop>();
+  for (const stop of all) {
+    const line = to(stop.line);
+    if (line !== null && !found.has(line)) found.set(line, { ...stop, line });
+  }
+  return [...found.values()];
+}
+
+/** What was remembered, as far as it is sound; before conditions there were lines alone. */
+function sound(kept: unknown): Record<string, Stop[]> {
+  if (typeof kept !== "object" || kept === null) return {};
+  const one = (stop: any): Stop[] => {
+    if (Number.isInteger(stop)) return [{ line: stop }];
+    if (!Number.isInteger(stop?.line)) return [];
+    const word = (name: "condition" | "log") => (typeof stop[name] === "string" ? { [name]: stop[name] } : {});
+    return [{ line: stop.line, ...(stop.off === true ? { off: true } : {}), ...word("condition"), ...word("log") }];
+  };
+  return Object.fromEntries(Object.entries(kept).flatMap(([uri, all]) => (Array.isArray(all) ? [[uri, all.flatMap(one)]] : [])));
 }
 
 /** Begins to move them with the texts, to remember them, and to find their items. */
 export function begin(storage: Storage): void {
   try {
-    const kept = JSON.parse(storage.getItem(KEY) ?? "{}");
-    const sound = (lines: unknown): lines is number[] => Array.isArray(lines) && lines.every((line) => Number.isInteger(line));
-    breakpoints.value = Object.fromEntries(Object.entries(kept).filter(([, lines]) => sound(lines))) as Record<string, number[]>;
+    breakpoints.value = sound(JSON.parse(storage.getItem(KEY) ?? "{}"));
   } catch {
     // What cannot be read is forgotten.
   }
   onText((uri, _changes, _maker, told) => {
-    const before = linesOf(uri);
-    const lines = told.reduce(moved, before);
-    if (lines.join() !== before.join()) breakpoints.value = { ...breakpoints.peek(), [uri]: lines };
+    const before = stopsOf(uri);
+    const after = told.reduce<readonly Stop[]>(moved, before);
+    if (lines(after) !== lines(before)) breakpoints.value = { ...breakpoints.peek(), [uri]: after };
   });
   effect(() => storage.setItem(KEY, JSON.stringify(breakpoints.value)));
   effect(() => {
     // A drawing that has changed may have other names.
     void drawing.value;
-    void find(current.value, linesOf(current.value));
+    void find(current.value, stopsOf(current.value));
   });
 }
 
-async function find(uri: string, lines: readonly number[]): Promise<void> {
+const lines = (all: readonly Stop[]): string => all.map(({ line }) => line).join();
+
+async function find(uri: string, all: readonly Stop[]): Promise<void> {
   const now = text(uri);
-  const places = lines.map((line) => {
+  const places = all.map(({ line }) => {
     const start = offset(now, { line, character: 0 });
     return position(now, start + (/^\s*/.exec(now.slice(start, offset(now, { line, character: 1e6 })))?.[0].length ?? 0));
   });
-  const items = await Promise.all(places.map((place) => itemAt(uri, place).catch(() => null)));
-  if (current.peek() === uri && linesOf(uri).join() === lines.join()) stops.value = new Set(items.flatMap((each) => (each ? [each.item] : [])));
+  const parts = await Promise.all(places.map((place) => itemAt(uri, place).catch(() => null)));
+  if (current.peek() !== uri || stopsOf(uri) !== all) return;
+  stops.value = parts.flatMap((part, at) => (part ? [{ part, stop: all[at]! }] : []));
 }
+
+/** Breakpoints as the debugger takes them. */
+export const asked = (all: readonly Stop[]): object[] =>
+  all.filter(({ off }) => !off).map(({ line, condition, log }) => ({ line: line + 1, ...(condition ? { condition } : {}), ...(log ? { logMessage: log } : {}) }));

@@ -5,6 +5,7 @@ import { Tool } from "../bar";
 import { Sign } from "../icons";
 import { words } from "../words";
 import { toggleSelected } from "./breakpoints";
+import { askWhy } from "./why";
 import { active, again, back, dismiss, ended, goOn, into, next, older, out, pause, phase, setSpeed, speed, state, stop } from "./run";
 
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 20, null] as const;
@@ -18,10 +19,11 @@ export function Controls() {
     <div class="controls" role="group" aria-label={words.runPane}>
       {older.value && active.value && <Tool icon="again" label={`${words.older} ${words.runAgain}`} run={again} />}
       {active.value && <span class={`clock ${now}`}>{at === undefined ? words.starting : words.seconds(at)}</span>}
-      {held && <Tool icon="back" label={words.stepBack} run={back} />}
+      {held && <Tool icon="back" label={`${words.stepBack} (Shift+F10)`} run={back} />}
       {held && <Tool icon="next" label={`${words.step} (F10)`} run={next} />}
       {held && <Tool icon="into" label={`${words.stepInto} (F11)`} run={into} />}
       {held && <Tool icon="out" label={`${words.stepOut} (Shift+F11)`} run={out} />}
+      {active.value && <Tool icon="why" label={`${words.why} (W)`} run={askWhy} />}
       {now === "running" && <Tool icon="pause" label={`${words.pause} (F8)`} run={pause} />}
       {active.value && <Tool icon="stop" label={`${words.stop} (Shift+F5)`} run={stop} />}
       {now !== "running" && now !== "starting" && (
@@ -60,8 +62,9 @@ export function commands(): void {
   command({ id: "step", label: words.step, key: "F10", run: next, enabled: () => phase.value !== "running" });
   command({ id: "into", label: words.stepInto, key: "F11", run: into, enabled: () => phase.value !== "running" });
   command({ id: "out", label: words.stepOut, key: "Shift+F11", run: out, enabled: () => phase.value === "held" });
-  command({ id: "back", label: words.stepBack, run: back, enabled: () => phase.value === "held" });
+  command({ id: "back", label: words.stepBack, key: "Shift+F10", run: back, enabled: () => phase.value === "held" });
   command({ id: "stop", label: words.stop, key: "Shift+F5", run: stop, enabled: () => active.value });
   command({ id: "breakpoint", label: words.breakpoint, key: "F9", run: () => void toggleSelected() });
+  command({ id: "why", label: words.why, key: "W", where: "drawing", run: askWhy, enabled: () => active.value });
   command({ id: "again", label: words.runAgain, key: "Ctrl+Shift+F5", run: again, enabled: () => phase.value !== "idle" });
 }

@@ -3,8 +3,10 @@ import { effect } from "@preact/signals";
 import { svg } from "../drawing/fragment";
 import { drawing } from "../drawing/model";
 import { rectOf, type Drawing, type Rect } from "../drawing/shapes";
-import { stops } from "./breakpoints";
+import { stops, type Stop } from "./breakpoints";
 import { at, taken, type At } from "./follow";
+import { onDrawing } from "../results";
+import { resultMarks } from "./result-marks";
 import { active, frames, phase, state } from "./run";
 
 /** Milliseconds that an edge is shown as just taken. */
@@ -75,16 +77,23 @@ const borders = (drawn: Drawing, found: At, held: boolean): SVGElement[] =>
     return rect ? [frame(rect, `run-active${inside ? " inside" : ""}${held ? " held" : ""}`)] : [];
   });
 
-/** A disc on the left border of what a run stops at. */
+/** A disc on the left border; a ring for one that is off, a bar for one with a condition, a diamond for one that speaks. */
+function disc([x, y, , height]: Rect, { off, condition, log }: Stop): SVGElement[] {
+  const middle = y + height / 2;
+  const name = `breakpoint${off ? " off" : ""}`;
+  const body = log ? svg("path", { class: name, d: `M${x - 7} ${middle}l7 -7l7 7l-7 7z` }) : svg("circle", { class: name, cx: x, cy: middle, r: 6 });
+  return condition ? [body, svg("path", { class: "breakpoint-sign", d: `M${x - 3} ${middle - 1.5}h6m-6 3h6` })] : [body];
+}
+
+/** What a run stops at. */
 export function discs(layer: SVGGElement): () => void {
   return effect(() => {
     const drawn = drawing.value;
-    const rects = drawn ? [...stops.value].flatMap((item) => {
-      const rect = rectOf(drawn, { item });
-      return rect ? [rect] : [];
+    const made = drawn ? stops.value.flatMap(({ part, stop }) => {
+      const rect = rectOf(drawn, part);
+      return rect ? disc(rect, stop) : [];
     }) : [];
-    const made = rects.map(([x, y, , height]) => svg("circle", { class: "breakpoint", cx: x, cy: y + height / 2, r: 6 }));
-    layer.replaceChildren(...made);
+    layer.replaceChildren(...(drawn ? resultMarks(drawn, onDrawing.value) : []), ...made);
   });
 }
 

@@ -7,35 +7,11 @@ import { report, trouble } from "../panes/files";
 import { reveal } from "../places";
 import { number, problems } from "../problems";
 import { words } from "../words";
-import { breakpoints } from "./breakpoints";
+import * as arranged from "./arranged";
+import { asked, breakpoints, filters } from "./breakpoints";
 import type { Frame } from "./follow";
-
-export type Phase = "idle" | "starting" | "running" | "held" | "over";
-
-/** What is the case, as the debugger says it some twenty times a second. */
-export interface State {
-  at: number;
-  stack: string[];
-  watching: string[];
-  entries: Record<string, string>;
-  held: boolean;
-  /** Where the robot is, metres and radians; null for one that does not say so. */
-  pose: readonly [number, number, number] | null;
-}
-
-export interface Ended {
-  ending: string;
-  at: number;
-  sentences: string[];
-}
-
-/** A line of what happened, and where the text says so. */
-export interface Said {
-  text: string;
-  kind: string;
-  path: string | null;
-  line: number;
-}
+import type { Ended, Phase, Said, State } from "./told";
+import { extended, type Record } from "./trace";
 
 export const phase = signal<Phase>("idle");
 export const state = signal<State | null>(null);
@@ -51,6 +27,10 @@ export const speed = signal<number | null>(1);
 export const world = signal<string | null>(null);
 /** The seed of all noise of the next run. */
 export const seed = signal(0);
+/** What has happened, as records. */
+export const records = signal<readonly Record[]>([]);
+/** The log that is shown in place of a run; empty for a run. */
+export const log = signal("");
 /** Why it stands still. */
 export const why = signal("");
 export const active = computed(() => phase.value === "running" || phase.value === "held" || phase.value === "starting");
@@ -83,12 +63,51 @@ export async function start(hold = false): Promise<void> {
   // What was chosen last counts, though its drawing may still be on its way.
   const plan = trail.value[0] ?? wanted.value ?? shownPlan.value ?? "";
   program = `${pathOf(uri)}${plan ? `:${plan}` : ""}`;
+  const world = wantedWorld();
+  await launch({ program, ...world, ...{ stopOnEntry: hold, seed: seed.value } }, plan);
+}
+
+const wantedWorld = (): object => ({
+  ...(world.value === null ? {} : { world: world.value }),
+  ...(arranged.start.value ? { start: arranged.start.value } : {}),
+});
+
+/** Shows a run that is over, from its log; it stands at its beginning. */
+export async function openLog(path: string): Promise<void> {
+  await stop();
+  dismiss();
+  program = "";
+  const still = { stopOnEntry: true };
+  await launch({ log: path, ...still }, "");
+}
+
+async function launch(what: { program: string } | { log: string }, plan: string): Promise<void> {
   [phase.value, state.value, ended.value, said.value, older.value, why.value] = ["starting", null, null, [], false, ""];
+  [records.value, log.value] = [[], "log" in what ? what.log : ""];
   frames.value = [{ path: "", plan }];
   const own = connect(address(), () => dap === own && lost());
   dap = own;
+  hear(own);
+  try {
+    await own.request("initialize", { adapterID: "afp", clientID: "afp-studio", linesStartAt1: true, columnsStartAt1: true });
+    const begun = await own.request<{ plan: string; file: string } | null>("launch", { ...what, ...(speed.value === null ? {} : { speed: speed.value }) });
+    if (begun) frames.value = [{ path: "", plan: begun.plan }];
+    if (begun && "log" in what) launched.value = begun;
+  } catch (reason) {
+    failed(reason);
+  }
+}
+
+/** The plan of the log that was opened last, and its file. */
+export const launched = signal<{ plan: string; file: string } | null>(null);
+
+/** Takes what the debugger tells. */
+function hear(own: Dap): void {
   own.on("initialized", () => void configure(own).catch(failed));
   own.on("afp/state", (now: State) => dap === own && take(own, now));
+  own.on("afp/trace", (now: { records: Record[] }) => {
+    if (dap === own) records.value = extended(records.peek(), now.records);
+  });
   own.on("afp/ended", (now: Ended) => dap === own && finish(now));
   own.on("stopped", ({ description }) => {
     [phase.value, why.value] = ["held", description ?? ""];
@@ -97,18 +116,14 @@ export async function start(hold = false): Promise<void> {
   own.on("output", ({ category, output, source, line }) => {
     const one = { text: String(output).trimEnd(), kind: category ?? "console", path: source?.path ?? null, line: line ?? 0 };
     said.value = [...said.peek(), one].slice(-MOST);
+    if (category === "stderr") trouble.value = one.text.trim();
   });
-  try {
-    await own.request("initialize", { adapterID: "afp", clientID: "afp-studio", linesStartAt1: true, columnsStartAt1: true });
-    await own.request("launch", { program, stopOnEntry: hold, seed: seed.value, ...(world.value === null ? {} : { world: world.value }), ...(speed.value === null ? {} : { speed: speed.value }) });
-  } catch (reason) {
-    failed(reason);
-  }
 }
 
 async function configure(own: Dap): Promise<void> {
-  await own.request("afp/subscribe", { state: true });
+  await own.request("afp/subscribe", { state: true, trace: true });
   await send(own);
+  if (!log.peek()) for (const { command, args } of arranged.requests()) await own.request(command, args);
   await own.request("configurationDone");
   if (phase.value === "starting") phase.value = "running";
 }
@@ -116,7 +131,12 @@ async function configure(own: Dap): Promise<void> {
 /** Tells the debugger where to stop. */
 async function send(own: Dap): Promise<void> {
   const files = Object.entries(breakpoints.peek());
-  await Promise.all(files.map(([uri, lines]) => own.request("setBreakpoints", { source: { path: pathOf(uri) }, breakpoints: lines.map((line) => ({ line: line + 1 })) })));
+  const sent = await Promise.all(files.map(([uri, all]) => own.request<{ breakpoints: { message?: string }[] }>("setBreakpoints", { source: { path: pathOf(uri) }, breakpoints: asked(all) })));
+  await own.request("setExceptionBreakpoints", { filters: filters.peek() });
+  // A file that the plan does not use has breakpoints of other plans.
+  const open = sent[files.findIndex(([uri]) => uri === current.peek())];
+  const wrong = open?.breakpoints.find(({ message }) => message);
+  if (wrong) trouble.value = wrong.message!;
 }
 
 /** Waits a little until the server has written everything. */
@@ -178,6 +198,9 @@ function failed(reason: unknown): void {
 /** Asks something of the run; what is refused is shown. */
 export const order = (command: string, args: object = { threadId: 1 }): Promise<unknown> | undefined => dap?.request(command, args).catch(report);
 
+/** Asks something of the run that nobody waits for; without a run, or refused, there is no answer. */
+export const ask = <T>(command: string, args: object = {}): Promise<T | null> => dap?.request<T>(command, args).catch(() => null) ?? Promise.resolve(null);
+
 export const pause = (): unknown => order("pause");
 export const next = (): unknown => step("next");
 export const into = (): unknown => step("stepIn");
@@ -222,7 +245,13 @@ export async function again(): Promise<void> {
 /** Takes the card of the end away. */
 export function dismiss(): void {
   if (active.value) return;
-  [phase.value, ended.value, state.value] = ["idle", null, null];
+  [phase.value, ended.value, state.value, log.value] = ["idle", null, null, ""];
+}
+
+/** Goes to another moment of the run, and stands still there; a run that is over goes back. */
+export function seek(at: number): unknown {
+  if (phase.peek() === "idle" || phase.peek() === "starting") return;
+  return order("afp/seek", { at });
 }
 
 export function setSpeed(factor: number | null): void {
@@ -240,11 +269,11 @@ export function revealSaid({ path, line }: Said): void {
 /** Begins to notice that the text is another one than the one that runs, and where it shall stop. */
 export function begin(): () => void {
   effect(() => {
-    void breakpoints.value;
+    void [breakpoints.value, filters.value];
     // Lines of a text that is not the one that runs would be others.
     if (dap && active.peek() && !older.peek()) void send(dap).catch(report);
   });
   return onText((uri) => {
-    if (active.value && program.startsWith(pathOf(uri)) && nameOf(uri).endsWith(".afp")) older.value = true;
+    if (active.value && program && program.startsWith(pathOf(uri)) && nameOf(uri).endsWith(".afp")) older.value = true;
   });
 }

@@ -188,7 +188,9 @@ export async function copied(): Promise<string> {
   const items = [...new Set(selected.peek().map((part) => part.item))].filter((item) => item.includes("."));
   const texts = await Promise.all(items.map((item) => ask.written(item)));
   const templates = new Set(texts.flatMap((text) => [...text.matchAll(/:\s*([\w.]+)/g)].map((found) => found[1])));
-  const toolboxes = new Set(catalog.offers.peek().filter((offer) => offer.toolbox && templates.has(offer.template)).map((offer) => offer.toolbox));
+  // Who copies before the palette is there needs its toolboxes, too.
+  const known = catalog.offers.peek().length ? catalog.offers.peek() : await ask.palette("");
+  const toolboxes = new Set(known.filter((offer) => offer.toolbox && templates.has(offer.template)).map((offer) => offer.toolbox));
   const uses = [...toolboxes].map((name) => `use ${name}\n`).join("");
   say(words.copied(items.length));
   return `${uses}${texts.join("\n")}\n`;

@@ -36,11 +36,19 @@ export function declared(port: string): { name: string; out: boolean } | null {
   return found ? { name: found[2]!, out: found[1] === "out" } : null;
 }
 
+const HEAD = /^\s*(?:\/\/\/?.*\n\s*)*(actor|computation|subplan|supervise)\s+\w+\s*:\s*([\w.]+)([^{]*)/d;
+
 /** The first line of an element or supervisor: its kind, template and timing. */
 export function headed(text: string): { kind: string; template: string; every: string; deadline: string } {
-  const [, kind = "", template = "", rest = ""] = /^\s*(?:\/\/\/?.*\n\s*)*(actor|computation|subplan|supervise)\s+\w+\s*:\s*([\w.]+)([^{]*)/.exec(text) ?? [];
+  const [, kind = "", template = "", rest = ""] = HEAD.exec(text) ?? [];
   const after = (keyword: string): string => new RegExp(`\\b${keyword}\\s+(\\S+(?:\\s+(?:ns|us|ms|s|min|h)\\b)?)`).exec(rest)?.[1] ?? "";
   return { kind, template, every: after("every"), deadline: after("deadline") };
+}
+
+/** Where the last letter of its template stands in that text; null where it has none. */
+export function templateAt(text: string): number | null {
+  const end = HEAD.exec(text)?.indices?.[2]?.[1];
+  return end === undefined ? null : end - 1;
 }
 
 /** Asks for the parts of an item; null where it is no element or supervisor. */

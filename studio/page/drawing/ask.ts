@@ -72,6 +72,17 @@ export async function help(item: string): Promise<string> {
   return [...lines.reverse(), ...own.slice(0, Math.max(first, 0))].map((line) => line.trim().replace(/^\/\/\/ ?/, "")).join("\n");
 }
 
+/** The note that stands above an item, which is a comment; empty where there is none. */
+export async function note(item: string): Promise<string> {
+  const range = await spanOf(current.peek(), { item });
+  if (!range) return "";
+  const lines = text(current.peek()).split("\n").slice(0, range.start.line).map((line) => line.trim()).reverse();
+  const help = lines.findIndex((line) => !line.startsWith("///"));
+  const above = help < 0 ? [] : lines.slice(help);
+  const end = above.findIndex((line) => !/^\/\/(?!\/)/.test(line));
+  return (end < 0 ? above : above.slice(0, end)).reverse().map((line) => line.replace(/^\/\/ ?/, "")).join("\n");
+}
+
 interface Made {
   label: string;
   edit: WorkspaceEdit;

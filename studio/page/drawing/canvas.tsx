@@ -7,21 +7,32 @@ import { isForField, keyName } from "../commands";
 import { origin, selected } from "../selection";
 import * as actions from "./actions";
 import { target } from "./bring";
+import { fill, refresh } from "./fill";
 import * as catalog from "./catalog";
 import { Chooser, Rename, useInSight } from "./choices";
 import { question } from "./choose";
-import { carries, commands, fit, isMoving, reveal, settle } from "./keys";
-import { connecting, newLine } from "./lead";
-import { legible } from "./legible";
+import { menu } from "./context";
+import { ContextMenu } from "./contextmenu";
+import { flows } from "./flow";
+import { carries, commands, fit, isMoving, settle } from "./keys";
+import { connecting, isSupervisor, newLine } from "./lead";
 import { mark } from "./marks";
 import { svg } from "./fragment";
+import { farView } from "./far";
 import * as messages from "./messages";
+import { Minimap } from "./minimap";
 import { drawing, plan, wanted } from "./model";
 import { box, byKeys, hovered, pointers } from "./pointer";
+import { NoteField } from "./notefield";
+import { noting } from "./note";
 import { renaming } from "./rename";
+import { reveal } from "./reveal";
+import { SeekBar } from "./seekbar";
+import { hits } from "./seeking";
 import { notice, said, spoken } from "./say";
-import { planOf, type Part, type Point } from "./shapes";
-import { cull, show, size, stage, view } from "./stage";
+import { planOf, type Drawing, type Part, type Point } from "./shapes";
+import { several, toggle } from "./several";
+import { size, stage, view } from "./stage";
 import { editing } from "./value";
 import { first, STEP, zoomed, type View } from "./view";
 import { words } from "./words";
@@ -40,9 +51,9 @@ export function mountCanvas(host: HTMLElement): () => void {
   pane.append(scene.root, over);
   host.append(pane);
   render(<Over />, over);
-  const [below, above, dots] = [0, 1, 2].map(() => svg("g", { class: "run-layer", "aria-hidden": "true" })) as [SVGGElement, SVGGElement, SVGGElement];
+  const [below, above, dots, data] = [0, 1, 2, 3].map(() => svg("g", { class: "run-layer", "aria-hidden": "true" })) as [SVGGElement, SVGGElement, SVGGElement, SVGGElement];
   scene.rings.before(below);
-  scene.marks.before(above, dots);
+  scene.marks.before(data, above, dots);
   const watch = new ResizeObserver(() => (size.value = { width: pane.clientWidth, height: pane.clientHeight }));
   watch.observe(pane);
   const key = (event: KeyboardEvent): void => {
@@ -64,7 +75,7 @@ export function mountCanvas(host: HTMLElement): () => void {
   pane.addEventListener("pointerdown", settles, true);
   // A press says afterwards that it was one.
   pane.addEventListener("focus", () => (byKeys.value = true));
-  const ends = [catalog.begin(), messages.begin(), commands(), pointers(pane, scene), ...shows(scene, pane), ...sights(), focuses(pane), discs(dots), runMarks({ root: scene.root, below, over: above, nodes: scene.nodes, edges: scene.edges })];
+  const ends = [catalog.begin(), messages.begin(), commands(), pointers(pane, scene), farView(pane, scene), ...shows(scene, pane), ...sights(), focuses(pane), discs(dots), flows(data), runMarks({ root: scene.root, below, over: above, nodes: scene.nodes, edges: scene.edges })];
   return () => {
     ends.forEach((end) => end());
     watch.disconnect();
@@ -75,29 +86,24 @@ export function mountCanvas(host: HTMLElement): () => void {
 
 /** Draws what changes: the drawing, the marks over it, what a screen reader stands on. */
 function shows(scene: ReturnType<typeof stage>, pane: HTMLElement): (() => void)[] {
-  let before = drawing.peek();
+  let before: Drawing | null = null;
   return [
     effect(() => {
       const after = drawing.value;
-      show(scene, before === after ? null : before, after);
+      void [view.value, size.value];
+      if (before !== after) refresh(scene, before, after);
+      else if (after) fill(scene, after);
       before = after;
     }),
     effect(() => {
       pane.toggleAttribute("data-keys", byKeys.value);
     }),
     effect(() => {
-      const { zoom } = view.value;
-      void size.value;
-      if (!drawing.value) return;
-      cull(scene, drawing.value);
-      legible(scene, drawing.value, zoom);
-    }),
-    effect(() => {
       const drawn = drawing.value;
       const known = connecting.value;
       const fits = known && drawn ? new Set([...drawn.elements.keys()].filter((item) => known.targets.get(item.slice(item.lastIndexOf(".") + 1)) === null)) : null;
       const keys = byKeys.value;
-      mark(scene, drawn, { selected: selected.value, keys, fits: known?.targets.size ? fits : null, over: known?.over ?? null, target: target.value, box: box.value, line: newLine(), zoom: view.value.zoom });
+      mark(scene, drawn, { selected: selected.value, keys, fits: known?.targets.size ? fits : null, over: known?.over ?? null, found: hits.value, target: target.value, box: box.value, line: newLine(), zoom: view.value.zoom });
     }),
     effect(() => {
       const last = selected.value.at(-1);
@@ -150,7 +156,7 @@ function sights(): (() => void)[] {
 function focuses(pane: HTMLElement): () => void {
   let open = false;
   return effect(() => {
-    const now = question.value !== null || renaming.value !== null || editing.value !== null;
+    const now = question.value !== null || renaming.value !== null || editing.value !== null || menu.value !== null || noting.value !== null;
     if (open && !now && (document.activeElement === document.body || pane.contains(document.activeElement))) {
       const keys = byKeys.peek();
       pane.focus({ preventScroll: true });
@@ -166,6 +172,9 @@ function Over() {
       {drawing.value !== null && plan.value === null && <p class="board-empty">{words.noPlan}</p>}
       <Chooser key="chooser" />
       <Rename />
+      <ContextMenu />
+      <NoteField />
+      <SeekBar />
       <ValuePopup />
       <Tip />
       {notice.value && <p class="over board-notice">{notice.value}</p>}
@@ -173,8 +182,10 @@ function Over() {
         <Tool label={words.zoomIn} sign="+" run={() => grow(STEP)} />
         <Tool label={words.zoomOut} sign="−" run={() => grow(1 / STEP)} />
         <Tool label={words.zoomFit} sign="⤢" run={fit} />
+        {several.value && <button type="button" class="tool on" aria-pressed="true" onClick={() => toggle(false)}>{words.several}</button>}
         <span class="board-zoom">{Math.round(view.value.zoom * 100)} %</span>
       </div>
+      <Minimap />
       <p class="hidden" role="status">{said.value}</p>
     </>
   );
@@ -206,15 +217,16 @@ function tip(): { at: Point; texts: { text: string; help?: boolean }[] } | null 
   const known = connecting.value;
   if (known) {
     const reason = known.over === null ? null : known.targets.get(known.over.slice(known.over.lastIndexOf(".") + 1));
-    const entry = (known.from.part?.kind ?? "whole") === "whole";
-    return known.at && { at: known.at, texts: [{ text: reason ?? (entry ? words.portHint : words.connectHint) }] };
+    const whole = (known.from.part?.kind ?? "whole") === "whole";
+    const hint = !whole ? words.connectHint : isSupervisor(drawn, known.from) ? words.handHint : words.portHint;
+    return known.at && { at: known.at, texts: [{ text: reason ?? hint }] };
   }
   const last = selected.value.at(-1);
   const focus = byKeys.value && last ? { part: last, at: actions.beneath(last) } : null;
   const over = hovered.value;
   const at = over?.at ?? focus?.at ?? null;
   const part = over?.hit.part ?? focus?.part;
-  if (!at || !part || isMoving() || question.value || editing.value || renaming.value) return null;
+  if (!at || !part || isMoving() || menu.value || question.value || editing.value || renaming.value || noting.value) return null;
   const texts = messages.messagesOf(drawn, part).flatMap(({ message, help }) => [{ text: message }, ...(help ? [{ text: help, help: true }] : [])]);
   return { at, texts };
 }

@@ -1,5 +1,6 @@
 // Lists to choose from, at a place of the drawing: what to add, what then, which exit. `choices.tsx` shows them.
 import { signal } from "@preact/signals";
+import { matching } from "../ranking";
 import type { Point } from "./shapes";
 
 export interface Choice {
@@ -42,11 +43,7 @@ export function choose(title: string, list: Question["list"], at: Point | null =
   });
 }
 
-/** The choices that hold all words typed, those that begin with them first, refused ones last. */
+/** The choices that fit what was typed by their names and hints, refused ones last. */
 export function filtered(choices: readonly Choice[], typed: string): Choice[] {
-  const wanted = typed.toLowerCase().split(/\s+/).filter(Boolean);
-  const text = ({ label, hint = "" }: Choice): string => `${label} ${hint}`.toLowerCase();
-  const rank = (choice: Choice): number => (choice.refused ? 2 : 0) + (choice.label.toLowerCase().startsWith(wanted[0] ?? "") ? 0 : 1);
-  const fitting = choices.filter((choice) => wanted.every((word) => text(choice).includes(word)));
-  return fitting.map((choice, at) => ({ choice, at })).sort((one, two) => rank(one.choice) - rank(two.choice) || one.at - two.at).map(({ choice }) => choice);
+  return matching(typed, choices, { text: ({ label, hint = "" }) => `${label} ${hint}`, isLast: ({ refused }) => Boolean(refused) });
 }

@@ -7,12 +7,15 @@ export type Event =
   | { type: "down"; id: number; at: Point; hit: Hit | null; shift: boolean; middle: boolean; touch: boolean; selection: readonly string[] }
   | { type: "move"; id: number; at: Point; free: boolean }
   | { type: "up"; id: number; at: Point; free: boolean }
+  /** A finger has rested where it was put. */
+  | { type: "rest"; id: number }
   /** `Escape`, or the pointer is lost. */
   | { type: "cancel" };
 
 /** Points are in pixels of the pane. */
 export type Effect =
   | { do: "click"; hit: Hit | null; at: Point; add: boolean }
+  | { do: "menu"; hit: Hit | null; at: Point }
   | { do: "pan"; by: Point }
   | { do: "zoom"; factor: number; at: Point }
   | { do: "lift"; elements: readonly string[] }
@@ -56,6 +59,8 @@ export const IDLE: State = { is: "idle" };
 
 /** So many pixels make a press a drag. */
 export const DECIDES = 4;
+/** So many milliseconds make a press of a finger a rest. */
+export const RESTS = 500;
 
 const minus = ([ax, ay]: Point, [bx, by]: Point): Point => [ax - bx, ay - by];
 const middle = ([ax, ay]: Point, [bx, by]: Point): Point => [(ax + bx) / 2, (ay + by) / 2];
@@ -63,6 +68,7 @@ const middle = ([ax, ay]: Point, [bx, by]: Point): Point => [(ax + bx) / 2, (ay 
 export function next(state: State, event: Event): [State, Effect[]] {
   if (event.type === "cancel") return [IDLE, undone(state)];
   if (event.type === "down") return down(state, event);
+  if (event.type === "rest") return rest(state, event.id);
   switch (state.is) {
     case "idle":
       return [state, []];
@@ -84,6 +90,12 @@ function undone(state: State): Effect[] {
 
 type Down = Extract<Event, { type: "down" }>;
 type Later = Extract<Event, { type: "move" | "up" }>;
+
+/** A finger that rests opens the menu, and means nothing more until it is put down again. */
+function rest(state: State, id: number): [State, Effect[]] {
+  if (state.is !== "pressed" || state.id !== id || !state.touch) return [state, []];
+  return [IDLE, [{ do: "menu", hit: state.hit, at: state.at }]];
+}
 
 function down(state: State, event: Down): [State, Effect[]] {
   const { id, at, hit, shift, touch, selection } = event;
@@ -125,12 +137,15 @@ function pressed(state: Pressed, event: Later): [State, Effect[]] {
   return begun.is === "idle" ? [IDLE, []] : [after.is === "idle" ? { is: "panning", id, last: at } : after, [...effects, ...more]];
 }
 
+/** Whether a supervisor is meant, which is drawn with another element. */
+const isInner = (hit: Hit): boolean => hit.on === "element" && hit.part.item !== hit.element;
+
 /** What a press has become, once it moved far enough. */
 function decided(state: Pressed): [State, Effect[]] {
   const { id, at, hit } = state;
-  const ground: [State, Effect[]] = state.shift && !state.touch ? [{ is: "boxing", id, from: at }, []] : [{ is: "panning", id, last: at }, []];
+  const ground: [State, Effect[]] = state.shift ? [{ is: "boxing", id, from: at }, []] : [{ is: "panning", id, last: at }, []];
   if (state.middle || hit === null || hit.on === "edge") return state.middle ? [{ is: "panning", id, last: at }, []] : ground;
-  if (hit.on === "exit" || hit.on === "head" || hit.on === "entry") return [{ is: "drawing", id }, [{ do: "draw", from: hit.part, head: hit.on === "head" }]];
+  if (hit.on === "exit" || hit.on === "head" || hit.on === "entry" || isInner(hit)) return [{ is: "drawing", id }, [{ do: "draw", from: hit.part, head: hit.on === "head" }]];
   return [{ is: "moving", id, from: at }, [{ do: "lift", elements: state.elements }]];
 }
 

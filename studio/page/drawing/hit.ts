@@ -1,5 +1,5 @@
 // What is under a point of the plan, from the rectangles that the engine gives: no page is asked.
-import { distance, inside, type Drawing, type Edge, type Element, type Part, type Point } from "./shapes";
+import { boxOf, distance, holderOf, inside, type Drawing, type Edge, type Element, type Part, type Point } from "./shapes";
 
 /** What a press means there. */
 export type Hit =
@@ -40,10 +40,17 @@ function kindOf(element: Element, part: Part): "element" | "exit" | "port" | "en
   return entry ? "entry" : "element";
 }
 
+/** What a part is, however it was found. */
+export function onOf(drawing: Drawing, part: Part): Hit["on"] | null {
+  const holder = holderOf(drawing, part.item);
+  return holder ? kindOf(holder, part) : null;
+}
+
 function edge(drawing: Drawing, at: Point, near: number, zoom: number): Hit | null {
   let best: Edge | null = null;
   let least = near;
   for (const one of drawing.edges.values()) {
+    if (!inside(boxOf(one), at, near)) continue;
     const away = distance(one.points, at);
     if (away <= least) [best, least] = [one, away];
   }

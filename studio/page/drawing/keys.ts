@@ -10,16 +10,21 @@ import { anatomy, choices } from "./anatomy";
 import { pressed, type Carrying } from "./carry";
 import { offers } from "./catalog";
 import { choose, type Choice } from "./choose";
+import * as flow from "./flow";
 import { carry, movable, named, snapped } from "./lift";
-import { drawing, hold, leave } from "./model";
+import { drawing, hold, leave, trail } from "./model";
 import { home, reading, step, type Direction } from "./navigate";
+import * as note from "./note";
 import { choice } from "./offers";
 import { byKeys, placed, putBack } from "./pointer";
+import { reveal } from "./reveal";
+import { chosen as elements, extract, inline, isSubPlan } from "./restructure";
 import { refuse, say, spoken } from "./say";
 import { around, nameOf, same, type Part } from "./shapes";
+import { several, toggle } from "./several";
 import { size, view, type Stage } from "./stage";
 import { editing } from "./value";
-import { fitted, panned, shown, STEP, zoomed } from "./view";
+import { fitted, panned, STEP, zoomed } from "./view";
 import { words } from "./words";
 import * as entries from "./entries";
 
@@ -36,14 +41,6 @@ function go(part: Part | null, add = false): void {
   select(add ? [...before.filter((other) => !same(other, part)), part] : [part], "drawing");
   reveal(part);
   say(spoken(drawn, part));
-}
-
-/** Moves the view as little as brings a part into sight. */
-export function reveal(part: Part): void {
-  const drawn = drawing.peek();
-  const element = drawn?.elements.get(part.item);
-  const rect = element?.outer ?? actions.rectOfPart(part);
-  if (rect) view.value = shown(view.peek(), rect, size.peek());
 }
 
 function walk(direction: Direction): void {
@@ -154,8 +151,11 @@ const cut = async (): Promise<void> => {
   await actions.remove(selected.peek());
 };
 
+const paste = async (): Promise<void> => actions.paste(await navigator.clipboard.readText());
+
 /** Leaves the innermost thing: the selection is the last one. */
 function escape(): void {
+  if (several.peek()) return toggle(false);
   select([], "drawing");
   say(words.nothingSelected);
 }
@@ -187,10 +187,16 @@ export function commands(): () => void {
     { id: "rename-item", label: words.rename, key: "F2", enabled: chosen, run: () => actions.rename(actions.focused()!) },
     { id: "remove", label: words.remove, key: "Delete", enabled: chosen, run: () => actions.remove(selected.peek()) },
     { id: "duplicate", label: words.duplicate, key: "Ctrl+D", enabled: chosen, run: actions.duplicate },
+    { id: "extract", label: words.extract, key: "Ctrl+G", enabled: () => may() && elements().length > 0, run: extract },
+    { id: "inline", label: words.inline, key: "Ctrl+Shift+G", enabled: () => may() && isSubPlan(), run: inline },
+    { id: "note", label: words.writeNote, key: "N", enabled: chosen, run: note.write },
+    { id: "flow", label: words.flow, key: "V", run: flow.cycle },
+    { id: "paste", label: words.paste, enabled: may, run: paste },
+    { id: "several", label: words.several, run: () => toggle() },
     { id: "copy", label: words.copy, key: "Ctrl+C", enabled: any, run: copy },
     { id: "cut", label: words.cut, key: "Ctrl+X", enabled: chosen, run: cut },
-    { id: "into", label: words.into, key: "Ctrl+Enter", run: () => actions.into(actions.focused()) },
-    { id: "out", label: words.out, key: "Backspace", run: leave },
+    { id: "into", label: words.into, key: "Ctrl+Enter", enabled: isSubPlan, run: () => actions.into(actions.focused()) },
+    { id: "out", label: words.out, key: "Backspace", enabled: () => trail.peek().length > 0, run: leave },
     { id: "fit", label: words.zoomFit, key: "0", run: fit },
     { id: "one", label: words.zoomOne, key: "1", run: () => zoom(1 / view.peek().zoom) },
     { id: "zoom-in", label: words.zoomIn, key: ["+", "="], run: () => zoom(STEP) },

@@ -10,7 +10,8 @@ import { hit } from "./hit";
 import { GRID } from "./lift";
 import { drawing } from "./model";
 import { refuse } from "./say";
-import { centre, nameOf, rectOf, type Part, type Point } from "./shapes";
+import { pathOf } from "./offers";
+import { centre, holderOf, nameOf, planOf, rectOf, type Drawing, type Part, type Point } from "./shapes";
 import { view } from "./stage";
 import { toPlan } from "./view";
 import { words } from "./words";
@@ -18,15 +19,26 @@ import { words } from "./words";
 /** What is being drawn, the names that it may be led to, each with the reason why not, and where it is, in pixels of the pane. */
 export const connecting = signal<{ from: Part; targets: ReadonlyMap<string, string | null>; over: string | null; at: Point | null } | null>(null);
 
-const isEntry = ({ part }: Part): boolean => part === undefined || part.kind === "whole";
+const isWhole = ({ part }: Part): boolean => part === undefined || part.kind === "whole";
+
+/** Whether what is drawn is a supervisor, which goes to another element; another whole item is an entry. */
+export const isSupervisor = (drawn: Drawing, from: Part): boolean => isWhole(from) && !drawn.entries.some((entry) => entry.item === from.item);
+
+/** What may be drawn where. */
+async function targetsOf(from: Part): Promise<ReadonlyMap<string, string | null>> {
+  const drawn = drawing.peek();
+  if (!isWhole(from) || !drawn) return actions.fitting(from);
+  const all = [...drawn.elements.values()];
+  // Which ports an entry fits is asked at the drop; a supervisor of the start watches the whole plan.
+  return new Map(all.filter((one) => one.kind !== null || isSupervisor(drawn, from)).map((one) => [nameOf(one.item), null]));
+}
 
 export async function begin(from: Part): Promise<void> {
   if (!pen.peek()) return;
   connecting.value = { from, targets: new Map(), over: null, at: null };
   select([from], "drawing");
   try {
-    // An entry goes to a port of any element: which ones it fits is asked at the drop.
-    const targets = await actions.fitting(isEntry(from) ? { item: from.item, part: { kind: "start" } } : from);
+    const targets = await targetsOf(from);
     const now = connecting.peek();
     if (now?.from === from) connecting.value = { ...now, targets };
   } catch (why) {
@@ -49,13 +61,23 @@ export async function drop(at: Point): Promise<void> {
   if (!drawn || !now) return;
   const place = toPlan(view.peek(), at);
   const found = hit(drawn, place, view.peek().zoom, 0);
-  if (isEntry(now.from)) return found && "element" in found ? bind(now.from, found.part, at) : refuse(words.portHint);
+  if (isSupervisor(drawn, now.from)) return found && "element" in found ? hand(drawn, now.from, found.element) : refuse(words.noElement);
+  if (isWhole(now.from)) return found && "element" in found ? bind(now.from, found.part, at) : refuse(words.portHint);
   const over = now.over === null ? undefined : drawn.elements.get(now.over);
   const reason = over && now.targets.get(nameOf(over.item));
   if (reason) return refuse(reason);
   if (over?.kind) return void (await actions.lead(now.from, nameOf(over.item)));
   const grid = (value: number): number => Math.round(value / GRID) * GRID;
   await actions.whatThen(now.from, at, [grid(place[0] - 60), grid(place[1])]);
+}
+
+/** Hands a supervisor to another element, or to the whole plan. */
+async function hand(drawn: Drawing, { item }: Part, to: string): Promise<void> {
+  if (holderOf(drawn, item)?.item === to) return;
+  const plan = planOf(item);
+  const owner = drawn.elements.get(to)?.kind === null ? null : nameOf(to);
+  const after = pathOf(plan, owner, nameOf(item));
+  await ask.edit([{ move: { item, plan, ...(owner ? { owner } : {}) } }], {}, [{ item: after }]);
 }
 
 /** Binds a port to an entry; dropped on an element, asks for the port where several fit. */

@@ -21,7 +21,7 @@ export function legible(stage: Stage, drawing: Drawing, zoom: number): void {
   // Steps of a fiftieth: the eye sees no finer ones.
   const step = zoom >= NEAR ? 1 : zoom < FAR ? 0 : Math.round(zoom * 50) / 50;
   for (const [item, group] of stage.nodes) {
-    if (group.dataset.zoom === String(step) || group.hasAttribute("display")) continue;
+    if (group.dataset.zoom === String(step) || group.hasAttribute("display") || !stage.filled.has(group)) continue;
     if (step !== 1 || group.dataset.zoom !== undefined) fit(group, step, drawing.elements.get(item)?.rect[2] ?? 0);
     group.dataset.zoom = String(step);
   }

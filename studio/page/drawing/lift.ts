@@ -1,12 +1,22 @@
 // Elements under a drag: their groups get a transform, the ends of their edges follow, nothing is asked before the drop.
+import { signal } from "@preact/signals";
 import { bent, road } from "./bend";
-import { holderOf, nameOf, planOf, type Drawing, type Point } from "./shapes";
+import { holderOf, nameOf, planOf, type Drawing, type Edge, type Point } from "./shapes";
 import type { Stage } from "./stage";
 
 /** The grid that dragged elements keep to, in units of the plan. */
 export const GRID = 12;
 
 const NONE: Point = [0, 0];
+
+/** Elements that are shown elsewhere until the engine says where they are, and the edges that follow them. */
+export interface Carried {
+  elements: ReadonlySet<string>;
+  by: Point;
+  followers: readonly Follower[];
+}
+
+export const carried = signal<Carried | null>(null);
 
 /**
  * How far elements go, so that the first one stands on the grid; `free` of it, on whole units.
@@ -21,22 +31,38 @@ export function snapped(drawing: Drawing, elements: readonly string[], [dx, dy]:
 
 /** Shows elements at other places. */
 export function carry(stage: Stage, drawing: Drawing, elements: readonly string[], by: Point): void {
-  const carried = new Set(elements);
+  const followers = follow(drawing, elements);
+  carried.value = { elements: new Set(elements), by, followers };
   const groups = [...elements.map((item) => stage.nodes.get(item)), stage.rings, stage.marks];
   for (const group of groups) group?.setAttribute("transform", `translate(${by[0]} ${by[1]})`);
-  for (const edge of drawing.edges.values()) {
-    const from = holderOf(drawing, edge.from)?.item;
-    const to = holderOf(drawing, edge.to)?.item;
-    const [start, end] = [from !== undefined && carried.has(from), to !== undefined && carried.has(to)];
-    if (!start && !end) continue;
+  for (const { edge, start, end } of followers) {
     const group = stage.edges.get(edge.id);
-    if (group) draw(group, bent(edge.points, start ? by : NONE, end ? by : NONE));
+    if (group && !group.hasAttribute("display")) draw(stage, group, bent(edge.points, start ? by : NONE, end ? by : NONE));
   }
 }
 
-function draw(group: SVGGElement, points: Point[]): void {
+export interface Follower {
+  edge: Edge;
+  /** Which of its ends is carried. */
+  start: boolean;
+  end: boolean;
+}
+
+let last: { drawing: Drawing; elements: readonly string[]; found: Follower[] } | null = null;
+
+/** The edges that follow elements; found once for all moves of a drag. */
+function follow(drawing: Drawing, elements: readonly string[]): readonly Follower[] {
+  if (last?.drawing === drawing && last.elements === elements) return last.found;
+  const carried = new Set(elements);
+  const held = (item: string): boolean => carried.has(holderOf(drawing, item)?.item ?? "");
+  const all = [...drawing.edges.values()].map((edge) => ({ edge, start: held(edge.from), end: held(edge.to) }));
+  last = { drawing, elements, found: all.filter(({ start, end }) => start || end) };
+  return last.found;
+}
+
+function draw(stage: Stage, group: SVGGElement, points: Point[]): void {
   const { line, tip } = road(points);
-  group.dataset.bent = "yes";
+  stage.filled.delete(group);
   for (const path of group.querySelectorAll("path")) path.setAttribute("d", path.classList.contains("tip") ? tip : line);
 }
 

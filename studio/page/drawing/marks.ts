@@ -1,6 +1,6 @@
 // What is drawn over the drawing: rings of selection and focus, handles of exits, what fits, the box and the line being drawn.
 import { svg } from "./fragment";
-import { rectOf, type Drawing, type Part, type Point, type Rect } from "./shapes";
+import { holderOf, rectOf, type Drawing, type Part, type Point, type Rect } from "./shapes";
 import type { Stage } from "./stage";
 
 /** What is to be marked. */
@@ -11,6 +11,8 @@ export interface Marked {
   /** Elements that fit what is being connected, and the one under the pointer. */
   fits: ReadonlySet<string> | null;
   over: string | null;
+  /** What was looked for. */
+  found: readonly Part[];
   /** What a template would be dropped onto. */
   target: { rect: Rect } | { edge: string } | null;
   box: Rect | null;
@@ -29,6 +31,10 @@ export function mark(stage: Stage, drawing: Drawing | null, marked: Marked): voi
       // Exits lie over the ring of their element.
       if (rect) (whole ? below : made).push(...ring(rect, marked, part === last));
       if (whole) made.push(...handles(drawing, part.item, marked.zoom));
+    }
+    for (const part of marked.found) {
+      const rect = rectOf(drawing, part);
+      if (rect) below.push(outline(rect, 2, "found"));
     }
     for (const item of marked.fits ?? []) {
       const element = drawing.elements.get(item);
@@ -55,8 +61,7 @@ function ring(rect: Rect, { keys, zoom }: Marked, last: boolean): SVGElement[] {
 
 /** Exits of what is selected have a handle to be dragged. */
 function handles(drawing: Drawing, item: string, zoom: number): SVGElement[] {
-  const pieces = [...drawing.elements.values()].flatMap((element) => element.pieces);
-  const exits = pieces.filter((piece) => piece.item === item && piece.part.kind === "exit");
+  const exits = (holderOf(drawing, item)?.pieces ?? []).filter((piece) => piece.item === item && piece.part.kind === "exit");
   return exits.map(({ rect: [x, y, width, height] }) => {
     const aside = item.split(".").length > 2 || !drawing.elements.has(item);
     const at = aside ? { cx: x + width, cy: y + height / 2 } : { cx: x + width / 2, cy: y + height };
@@ -64,8 +69,13 @@ function handles(drawing: Drawing, item: string, zoom: number): SVGElement[] {
   });
 }
 
+let faded: readonly unknown[] = [];
+
 /** With an edge selected the others fade; while something is connected, what does not fit. */
 function fade(stage: Stage, drawing: Drawing | null, { selected, fits, target }: Marked): void {
+  const now = [stage, drawing, selected, fits, target];
+  if (now.every((each, at) => each === faded[at])) return;
+  faded = now;
   const exits = selected.filter((part) => part.part?.kind === "exit" || part.part?.kind === "start");
   const edges = [...(drawing?.edges.values() ?? [])];
   const chosen = new Set(edges.filter((edge) => exits.some((part) => part.item === edge.from && part.part?.name === edge.part.name)).map((edge) => edge.id));

@@ -4,14 +4,17 @@ import { pen } from "../session";
 import { select, selected } from "../selection";
 import * as actions from "./actions";
 import * as ask from "./ask";
-import { IDLE, next, type Effect, type Event, type State } from "./gesture";
-import { hit, NEAR_EDGE, NEAR_FINGER, type Hit } from "./hit";
+import { openMenu } from "./context";
+import { refresh } from "./fill";
+import { IDLE, next, RESTS, type Effect, type Event, type State } from "./gesture";
+import { hit, NEAR_EDGE, NEAR_FINGER, onOf, type Hit } from "./hit";
 import { carry, movable, places, snapped } from "./lift";
 import * as lead from "./lead";
 import { drawing, hold, release } from "./model";
 import { say } from "./say";
+import { several } from "./several";
 import { planOf, same, touches, type Point, type Rect } from "./shapes";
-import { show, view, type Stage } from "./stage";
+import { view, type Stage } from "./stage";
 import { editing } from "./value";
 import { panned, toPlan, wheelFactor, zoomed } from "./view";
 import { words } from "./words";
@@ -25,6 +28,8 @@ export const byKeys = signal(false);
 
 let state: State = IDLE;
 let lifted: readonly string[] = [];
+/** Ends when a finger has rested. */
+let resting: ReturnType<typeof setTimeout>;
 
 /** Whether a drag is under way. */
 export const busy = (): boolean => state.is !== "idle";
@@ -53,7 +58,10 @@ export function pointers(host: HTMLElement, stage: Stage): () => void {
     const touch = event.pointerType === "touch";
     const drawn = drawing.peek();
     const selection = drawn ? movable(drawn, selected.peek().map((part) => part.item)) : [];
-    feed({ type: "down", id: event.pointerId, at: place, hit: under(place, touch), shift: event.shiftKey, middle: event.button === 1, touch, selection });
+    const { pointerId: id } = event;
+    feed({ type: "down", id, at: place, hit: under(place, touch), shift: event.shiftKey || several.peek(), middle: event.button === 1, touch, selection });
+    clearTimeout(resting);
+    if (touch) resting = setTimeout(() => feed({ type: "rest", id }), RESTS);
     event.preventDefault();
   };
   const move = (event: PointerEvent): void => {
@@ -84,10 +92,19 @@ export function pointers(host: HTMLElement, stage: Stage): () => void {
     if (!found || found.on === "exit" || found.on === "port" || "edge" in found) return;
     actions.open(found.part);
   };
+  const asked = (event: MouseEvent): void => {
+    event.preventDefault();
+    if ((event.target as Element).closest(".over") || state.is !== "idle") return;
+    // A key asks about what is selected, at its place.
+    const part = actions.focused();
+    const byKey = event.button !== 2 && !(event instanceof PointerEvent && event.pointerType === "touch");
+    if (byKey) openMenu(drawing.peek() && part && onOf(drawing.peek()!, part), (part && actions.below(part)) ?? at(event));
+    else run(stage, { do: "menu", hit: under(at(event), false), at: at(event) });
+  };
   const out = (): void => void (hovered.value = null);
   const all: [string, (event: any) => void, AddEventListenerOptions?][] = [
     ["pointerdown", down], ["pointermove", move], ["pointerup", up], ["pointercancel", cancel], ["lostpointercapture", () => state.is !== "pinching" && state.is !== "idle" && cancel()],
-    ["wheel", wheel, { passive: false }], ["dblclick", twice], ["pointerleave", out],
+    ["wheel", wheel, { passive: false }], ["dblclick", twice], ["contextmenu", asked], ["pointerleave", out],
   ];
   for (const [name, take, options] of all) host.addEventListener(name, take, options);
   window.addEventListener("keydown", escape, true);
@@ -108,6 +125,8 @@ function run(stage: Stage, effect: Effect): void {
       return;
     case "click":
       return click(effect.hit, effect.at, effect.add);
+    case "menu":
+      return about(effect.hit, effect.at);
     case "lift":
       return lift(effect.elements);
     case "drag":
@@ -145,6 +164,13 @@ function lift(elements: readonly string[]): void {
   if (!elements.every((item) => known.includes(item))) select(elements.map((item) => ({ item: drawn?.elements.get(item)?.kind === null ? planOf(item) : item })), "drawing");
 }
 
+/** The menu of what was pressed; it is selected, unless it was. */
+function about(found: Hit | null, at: Point): void {
+  hovered.value = null;
+  if (found && !selected.peek().some((other) => same(other, found.part))) select([found.part], "drawing");
+  openMenu(found?.on ?? null, at);
+}
+
 const scaled = ([x, y]: Point): Point => [x / view.peek().zoom, y / view.peek().zoom];
 
 function click(found: Hit | null, at: Point, add: boolean): void {
@@ -175,14 +201,14 @@ export async function placed(stage: Stage, elements: readonly string[], by: Poin
   for (const item of elements) stage.nodes.get(item)?.setAttribute("data-dropped", "yes");
   release();
   const done = await ask.place(places(drawn, elements, by), words.movePlaces);
-  if (!done && drawing.peek() === drawn) show(stage, drawn, drawn);
+  if (!done && drawing.peek() === drawn) refresh(stage, drawn, drawn);
   setTimeout(() => elements.forEach((item) => stage.nodes.get(item)?.removeAttribute("data-dropped")), 500);
 }
 
 export function putBack(stage: Stage): void {
   const drawn = drawing.peek();
   release();
-  if (drawn && drawing.peek() === drawn) show(stage, drawn, drawn);
+  if (drawn && drawing.peek() === drawn) refresh(stage, drawn, drawn);
 }
 
 function boxed(from: Point, to: Point, done: boolean): void {

@@ -1,7 +1,12 @@
-// The shapes of the engine's messages about a drawing, and the geometry that reads them.
-import type { Part } from "../selection";
+// The shapes of the engine's messages about a drawing, and the geometry that reads them. Nothing is imported: editors check what
+// they take of the page without its packages.
 
-export type { Part };
+/** An item of a plan, or a part of it. */
+export interface Part {
+  /** The path of an item, as `WallFollowing.followWall`. */
+  item: string;
+  part?: { kind: string; name?: string; nth?: number };
+}
 
 export type Point = readonly [x: number, y: number];
 /** left, top, width, height in units of the plan */
@@ -132,6 +137,17 @@ export function around(rects: Iterable<Rect>): Rect | null {
       : [x, y, x + width, y + height];
   }
   return found && [found[0], found[1], found[2] - found[0], found[3] - found[1]];
+}
+
+const boxes = new WeakMap<Edge, Rect>();
+
+/** The smallest rectangle around an edge; edges are never changed, so it is computed once. */
+export function boxOf(edge: Edge): Rect {
+  const known = boxes.get(edge);
+  if (known) return known;
+  const box = around(edge.points.map(([x, y]) => [x, y, 0, 0] as const)) ?? [0, 0, 0, 0];
+  boxes.set(edge, box);
+  return box;
 }
 
 /** How far a point is from a line of several pieces. */

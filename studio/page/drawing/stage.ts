@@ -1,9 +1,10 @@
-// The drawing in the page: one SVG, a group for each element and edge, changed only where the drawing has changed.
+// The drawing in the page: one SVG, a group for each element and edge, changed only where the drawing has changed. What a
+// group shows is put into it by `fill.ts` when it comes into sight.
 import { effect, signal } from "@preact/signals";
-import { all, nodes, svg } from "./fragment";
+import { nodes, svg } from "./fragment";
 import { spoken } from "./say";
-import { touches, type Drawing, type Edge, type Element, type Part } from "./shapes";
-import { FAR, NEAR, sight, type Size, type View } from "./view";
+import type { Drawing, Edge, Element, Part } from "./shapes";
+import { FAR, NEAR, type Size, type View } from "./view";
 
 /** Where the plan stands in the pane, and how large the pane is, in CSS pixels. */
 export const view = signal<View>({ x: 0, y: 0, zoom: 1 });
@@ -18,12 +19,12 @@ export interface Stage {
   /** The groups of elements and edges, by item and id. */
   nodes: Map<string, SVGGElement>;
   edges: Map<string, SVGGElement>;
+  /** What each group shows. A group that is not here shows nothing, or something that is not so: a preview. */
+  filled: WeakMap<SVGGElement, Element | Edge>;
   /** The id in the page of what a part is drawn with. */
   idOf(part: Part, drawing: Drawing): string | null;
 }
 
-/** So many elements are all kept in the page; of more, only those in sight. */
-const FEW = 150;
 /** Milliseconds for an element to reach its new place. */
 const TRAVELS = 160;
 
@@ -34,7 +35,7 @@ export function stage(): Stage {
   const defs = svg("defs");
   const world = svg("g");
   const layer = (name: string): SVGGElement => svg("g", { "aria-hidden": "true", class: name });
-  const [edges, rings, nodes, marks] = [layer("ways"), layer("marks"), svg("g"), layer("marks")];
+  const [edges, rings, nodes, marks] = [layer("ways"), layer("marks"), svg("g", { class: "nodes" }), layer("marks")];
   world.append(edges, rings, nodes, marks);
   root.append(defs, world);
   effect(() => {
@@ -50,6 +51,7 @@ export function stage(): Stage {
     layers: { edges, nodes },
     nodes: new Map(),
     edges: new Map(),
+    filled: new WeakMap(),
     idOf: (part, drawing) => (drawing.elements.has(part.item) ? domId(part.item) : null),
   };
 }
@@ -64,11 +66,12 @@ export function show(stage: Stage, before: Drawing | null, after: Drawing | null
   const old = same ? before : null;
   if (!same) for (const [, group] of [...stage.nodes, ...stage.edges]) group.remove();
   if (!same) [stage.nodes, stage.edges].forEach((map) => map.clear());
-  replace(stage, "edges", old?.edges, after?.edges ?? new Map<string, Edge>(), () => {});
-  replace(stage, "nodes", old?.elements, after?.elements ?? new Map<string, Element>(), (group, element, known) => {
-    name(group, element, after!);
-    if (known) travel(group, known, element);
-  });
+  replace(stage, "edges", after?.edges ?? new Map<string, Edge>());
+  replace(stage, "nodes", after?.elements ?? new Map<string, Element>());
+  for (const [item, element] of old?.elements ?? []) {
+    const now = after!.elements.get(item);
+    if (now && now !== element) travel(stage.nodes.get(item)!, element, now);
+  }
   // What is said of these depends on more than themselves.
   const counted = [...(after?.elements.values() ?? [])].filter((element) => element.kind === null).map((element) => element.item);
   for (const item of new Set([started(old), started(after), ...counted])) {
@@ -86,40 +89,29 @@ function symbols(stage: Stage, drawing: Drawing | null): void {
   for (const { svg } of missing) defs.append(...nodes(svg));
 }
 
-type Shown = { svg: string };
-
-function replace<T extends Shown>(
-  stage: Stage,
-  layer: "edges" | "nodes",
-  before: ReadonlyMap<string, T> | undefined,
-  after: ReadonlyMap<string, T>,
-  made: (group: SVGGElement, one: T, known: T | undefined) => void,
-): void {
+/** A group for each element or edge that there is, and none for others. */
+function replace(stage: Stage, layer: "edges" | "nodes", after: ReadonlyMap<string, unknown>): void {
   const groups = stage[layer];
   for (const [id, group] of groups) {
     if (after.has(id)) continue;
     group.remove();
     groups.delete(id);
   }
-  const anew: { id: string; one: T; group: SVGGElement }[] = [];
-  for (const [id, one] of after) {
-    const group = groups.get(id) ?? svg("g", { class: layer === "edges" ? "way" : "node" });
-    groups.set(id, group);
+  const fresh: SVGGElement[] = [];
+  for (const id of after.keys()) {
+    const known = groups.get(id);
     // A preview may stand where the answer says nothing new.
-    group.removeAttribute("transform");
-    if (before?.get(id) !== one || group.dataset.bent) anew.push({ id, one, group });
+    known?.removeAttribute("transform");
+    if (known) continue;
+    const group = svg("g", { class: layer === "edges" ? "way" : "node", display: "none" });
+    groups.set(id, group);
+    fresh.push(group);
   }
-  const drawn = all(anew.map(({ one }) => one.svg));
-  anew.forEach(({ id, one, group }, nth) => {
-    delete group.dataset.bent;
-    delete group.dataset.zoom;
-    group.replaceChildren(...drawn[nth]!);
-    made(group, one, before?.get(id));
-  });
-  stage.layers[layer].append(...anew.filter(({ group }) => !group.isConnected).map(({ group }) => group));
+  stage.layers[layer].append(...fresh);
 }
 
-function name(group: SVGGElement, element: Element, drawing: Drawing): void {
+/** Says what an element is to who cannot see it. */
+export function name(group: SVGGElement, element: Element, drawing: Drawing): void {
   group.id = domId(element.item);
   group.setAttribute("role", "img");
   group.setAttribute("aria-label", spoken(drawing, { item: element.kind === null ? (drawing.plan ?? element.item) : element.item }));
@@ -128,18 +120,6 @@ function name(group: SVGGElement, element: Element, drawing: Drawing): void {
 /** An element that the engine has put elsewhere goes there; one that was dragged is there already. */
 function travel(group: SVGGElement, from: Element, to: Element): void {
   const [dx, dy] = [from.outer[0] - to.outer[0], from.outer[1] - to.outer[1]];
-  if ((dx === 0 && dy === 0) || still() || group.dataset.dropped) return;
+  if ((dx === 0 && dy === 0) || still() || group.dataset.dropped || group.hasAttribute("display")) return;
   group.animate([{ transform: `translate(${dx}px, ${dy}px)` }, { transform: "none" }], { duration: TRAVELS, easing: "ease-out" });
-}
-
-/** Takes out of the page what is not in sight of a large drawing. */
-export function cull(stage: Stage, drawing: Drawing): void {
-  const large = drawing.elements.size > FEW;
-  const seen = sight(view.peek(), size.peek());
-  for (const [item, group] of stage.nodes) {
-    const element = drawing.elements.get(item);
-    const hidden = large && element !== undefined && !touches(element.outer, seen);
-    if (hidden) group.setAttribute("display", "none");
-    else group.removeAttribute("display");
-  }
 }

@@ -37,14 +37,21 @@ export function zoomed(view: View, factor: number, at: Point): View {
 }
 
 /** All of a rectangle in sight, in the middle, never larger than 1:1. */
-export function fitted(rect: Rect, size: Size, least = LEAST): View {
+export function fitted(rect: Rect, size: Size, least = LEAST, margin = MARGIN): View {
   const [x, y, width, height] = rect;
-  const room = Math.min((size.width - 2 * MARGIN) / Math.max(width, 1), (size.height - 2 * MARGIN) / Math.max(height, 1));
+  const room = Math.min((size.width - 2 * margin) / Math.max(width, 1), (size.height - 2 * margin) / Math.max(height, 1));
   const zoom = clamp(Math.min(room, 1), least, MOST);
   const left = (size.width - width * zoom) / 2;
   const top = (size.height - height * zoom) / 2;
-  return { zoom, x: Math.max(left, MARGIN) - x * zoom, y: Math.max(top, MARGIN) - y * zoom };
+  return { zoom, x: Math.max(left, margin) - x * zoom, y: Math.max(top, margin) - y * zoom };
 }
+
+/** The same zoom, with a point of the plan in the middle. */
+export const centred = (view: View, [x, y]: Point, size: Size): View => ({
+  zoom: view.zoom,
+  x: size.width / 2 - x * view.zoom,
+  y: size.height / 2 - y * view.zoom,
+});
 
 /** What a plan is shown with first: fitted, but legible, and then from its top. */
 export const first = (bounds: Rect, size: Size): View => fitted(bounds, size, Math.min(NEAR, 1));

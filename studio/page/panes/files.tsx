@@ -1,9 +1,11 @@
 // The files of the folder: opened, begun, copied from examples; and what is shown while there is none.
-import { signal } from "@preact/signals";
+import { effect, signal } from "@preact/signals";
 import { create, current, isOpen, open } from "../documents";
 import { askLine } from "../dialogs";
+import { showLog } from "../debug/logs";
 import { guide } from "../guide";
 import { Sign } from "../icons";
+import { run } from "../jobs";
 import { files, hello } from "../session";
 import { planText, words } from "../words";
 
@@ -15,6 +17,7 @@ export const report = (why: unknown): void => {
 };
 
 const plans = () => files.value.filter(({ name }) => name.endsWith(".afp"));
+const logs = () => files.value.filter(({ name }) => name.endsWith(".mcap"));
 const KEY = "afp-studio-open";
 
 export async function show(uri: string): Promise<void> {
@@ -65,6 +68,32 @@ export async function makeNew(): Promise<void> {
   if (name) await make(`${name}.afp`, { text: planText(planName(name)) });
 }
 
+/** Makes a project in a folder of its own, as `afpc new` does, and shows its plan. */
+export async function makeProject(): Promise<void> {
+  const wrong = (name: string) => (!/^[a-z][a-z0-9_]*$/.test(name) ? words.projectWrong : files.value.some((file) => file.name.startsWith(`${name}/`)) ? words.nameTaken(name) : null);
+  const name = await askLine(words.newProjectName, words.newProjectHint, "patrol", words.create, wrong);
+  if (!name) return;
+  try {
+    const done = await run(words.newProject, { kind: "new", name });
+    if (!done?.ok) throw new Error(done?.said || words.jobFailed);
+    const made = await appears((file) => file.name.startsWith(`${name}/`) && file.name.endsWith(".afp") && !/\/(tests|scenarios)\//.test(file.name));
+    await show(made);
+  } catch (why) {
+    report(why);
+  }
+}
+
+/** Waits until the folder has a file; its address. */
+const appears = (wanted: (file: { uri: string; name: string }) => boolean): Promise<string> =>
+  new Promise((done) => {
+    const ends = effect(() => {
+      const found = files.value.find(wanted);
+      if (!found) return;
+      queueMicrotask(() => ends());
+      done(found.uri);
+    });
+  });
+
 /** The menu of files. */
 export function Files({ done }: { done: () => void }) {
   const pick = (run: () => unknown) => () => {
@@ -85,6 +114,17 @@ export function Files({ done }: { done: () => void }) {
         <Sign name="plus" />
         {words.newPlan}
       </button>
+      <button role="menuitem" onClick={pick(makeProject)}>
+        <Sign name="plus" />
+        {words.newProject}
+      </button>
+      {logs().length > 0 && <p class="group" role="presentation">{words.logs}</p>}
+      {logs().map(({ uri, name }) => (
+        <button role="menuitem" onClick={pick(() => showLog(uri))} key={uri}>
+          <Sign name="timeline" />
+          {name}
+        </button>
+      ))}
       <p class="group" role="presentation">{words.examples}</p>
       {hello.value?.examples.map(({ name, title }) => (
         <button role="menuitem" onClick={pick(() => makeExample(name))} key={name}>

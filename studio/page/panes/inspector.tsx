@@ -13,6 +13,7 @@ import { refuse } from "../drawing/say";
 import { nameOf, type Drawing, type Entry, type Part } from "../drawing/shapes";
 import { words } from "../drawing/words";
 import { Severity, Sign } from "../icons";
+import { AllAbout, Code } from "../book";
 import { nodes } from "../markdown";
 import { said, severityOf } from "../problems";
 import { select, selected } from "../selection";
@@ -23,7 +24,7 @@ export function Inspector() {
   const drawn = drawing.value;
   const part = selected.value.at(-1);
   if (!drawn || drawn.plan === null) return <p class="empty">{words.noPlan}</p>;
-  if (selected.value.length > 1) return <p class="empty">{words.several(selected.value.length)}</p>;
+  if (selected.value.length > 1) return <p class="empty">{words.manySelected(selected.value.length)}</p>;
   const entry = part && drawn.entries.find((entry) => entry.item === part.item);
   const plan = !part || part.item === drawn.plan || part.item === `${drawn.plan}.start`;
   return (
@@ -73,11 +74,14 @@ function Wrong({ drawn, part }: { drawn: Drawing; part: Part }) {
   return (
     <ul class="wrong-list">
       {found.map((problem, nth) => (
-        <li key={nth}><Severity of={severityOf(problem)} /><span>{said(problem).message}<small>{said(problem).help}</small></span></li>
+        <li key={nth}><Severity of={severityOf(problem)} /><span>{said(problem).message}<small>{said(problem).help}</small></span>{problem.code && <Code of={problem.code} />}</li>
       ))}
     </ul>
   );
 }
+
+/** Periods that are set without a keyboard. */
+const PERIODS = ["5 ms", "10 ms", "20 ms", "50 ms", "100 ms"];
 
 function Component({ drawn, part }: { drawn: Drawing; part: Part }) {
   const [found, setFound] = useState<Anatomy | null>(null);
@@ -99,6 +103,7 @@ function Component({ drawn, part }: { drawn: Drawing; part: Part }) {
       <Wrong drawn={drawn} part={{ item }} />
       <Name item={item} />
       <div class="line"><span>{words.templateOf}</span><button type="button" class="field" onClick={() => void actions.template()}>{found.template}<Sign name="down" /></button></div>
+      <AllAbout item={item} template={found.template} />
       {offer && <div class="inspector-help" ref={(node) => node?.replaceChildren(nodes(offer.help))} />}
       {found.ports.length > 0 && <h3>{words.ports}</h3>}
       {found.ports.map((port) => <PortRow key={port.name} port={port} />)}
@@ -110,6 +115,7 @@ function Component({ drawn, part }: { drawn: Drawing; part: Part }) {
       ))}
       {timing && <h3>{words.timing}</h3>}
       {timing && <Line label={words.every} value={timing.every} hint={words.unlessSaid} take={time("every")} />}
+      {timing && <div class="periods" role="group" aria-label={words.periods}>{PERIODS.map((each) => <button type="button" aria-pressed={timing.every === each} onClick={() => void time("every")(each)} key={each}>{each}</button>)}</div>}
       {timing && <Line label={words.deadline} value={timing.deadline} hint={words.unlessSaid} take={time("deadline")} />}
       <Help item={item} drawn={drawn} />
     </>

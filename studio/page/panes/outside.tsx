@@ -1,11 +1,17 @@
 // What a hand can do to the robot while a plan runs: press its controls, let a part of it fail.
-import { signal } from "@preact/signals";
+import { computed, signal } from "@preact/signals";
 import { useRef } from "preact/hooks";
-import { active, order } from "../debug/run";
+import { active, log, order } from "../debug/run";
 import { Sign } from "../icons";
 import { press, tap } from "../world/press";
-import { devices, type Fault, type Stimulus } from "../world/surroundings";
+import { points } from "../world/geometry";
+import { placeOn } from "../world/grab";
+import { drop, robotAt } from "../world/hand";
+import { devices, type Fault, type Stimulus, type Surroundings } from "../world/surroundings";
 import { words } from "../words";
+
+/** Whether there is a robot that feels what is done to it: a log is over. */
+const live = computed(() => active.value && !log.value);
 
 const nameOf = (spoken: string): string => spoken.split(".").at(-1)!;
 
@@ -24,7 +30,7 @@ export function Stimuli() {
 function Control({ of: { words: spoken, help, stops } }: { of: Stimulus }) {
   const release = useRef<(() => void) | null>(null);
   const down = (event: PointerEvent & { currentTarget: HTMLElement }): void => {
-    if (event.button !== 0 || !active.value) return;
+    if (event.button !== 0 || !live.value) return;
     event.currentTarget.setPointerCapture(event.pointerId);
     release.current ??= press(spoken);
   };
@@ -37,11 +43,47 @@ function Control({ of: { words: spoken, help, stops } }: { of: Stimulus }) {
     if (event.detail === 0) tap(spoken);
   };
   return (
-    <button class={stops ? "stops" : ""} disabled={!active.value} title={active.value ? help : words.pressLater(help)}
+    <button class={stops ? "stops" : ""} disabled={!live.value} title={live.value ? help : words.pressLater(help)}
       onPointerDown={down} onPointerUp={up} onPointerCancel={up} onLostPointerCapture={up} onClick={click}>
       {stops && <Sign name="stop" />}
       {nameOf(spoken)}
     </button>
+  );
+}
+
+/** Metres before the robot at which a click drops something. */
+const AHEAD = 0.6;
+
+/** Buttons that drop something into the world: dragged onto the floor, or clicked, before the robot. */
+export function Drops({ world }: { world: Surroundings }) {
+  const dropped = useRef(false);
+  if (!world.drops.length) return null;
+  const down = (event: PointerEvent & { currentTarget: HTMLElement }, shape: string): void => {
+    const button = event.currentTarget;
+    button.setPointerCapture(event.pointerId);
+    dropped.current = false;
+    button.onpointerup = (up) => {
+      button.onpointerup = null;
+      const floor = document.elementFromPoint(up.clientX, up.clientY)?.closest(".floor")?.querySelector<SVGGraphicsElement>(".metres");
+      if (!floor) return;
+      dropped.current = true;
+      drop(shape, placeOn(floor, up));
+    };
+  };
+  const click = (shape: string): void => {
+    const [x, y, heading] = robotAt(world);
+    if (!dropped.current) drop(shape, [x + AHEAD * Math.cos(heading), y + AHEAD * Math.sin(heading)]);
+    dropped.current = false;
+  };
+  return (
+    <span class="drops" role="group" aria-label={words.drop}>
+      {world.drops.map(({ shape, outline }) => (
+        <button title={words.dropOf(shape)} onPointerDown={(event) => down(event, shape)} onClick={() => click(shape)} key={shape}>
+          <svg viewBox="-0.55 -0.55 1.1 1.1" width="16" height="16" aria-hidden="true"><polygon points={points(outline)} /></svg>
+          {shape}
+        </button>
+      ))}
+    </span>
   );
 }
 
@@ -85,7 +127,7 @@ export function Faults() {
         <select aria-label={words.lasting} value={String(lasting.value)} onChange={(event) => (lasting.value = event.currentTarget.value === "null" ? null : Number(event.currentTarget.value))}>
           {SECONDS.map((each) => <option value={String(each)} key={each}>{words.lastingOf(each)}</option>)}
         </select>
-        <button disabled={!active.value} onClick={() => inject(one)}>{words.inject}</button>
+        <button disabled={!live.value} onClick={() => inject(one)}>{words.inject}</button>
       </div>
       <p>{one.help}</p>
     </details>

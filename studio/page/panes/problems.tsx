@@ -1,5 +1,6 @@
 // What is wrong: a click selects it, a fix is made by a click.
 import { useEffect } from "preact/hooks";
+import { Code } from "../book";
 import { Severity } from "../icons";
 import { current } from "../documents";
 import { askFixes, fixes, mend, problems, said, severityOf, type Diagnostic } from "../problems";
@@ -31,8 +32,9 @@ function Problem({ of }: { of: Diagnostic }) {
           {message}
           {help && <span class="help">{help}</span>}
         </span>
-        <span class="place">{`${of.code ?? ""} ${line + 1}:${character + 1}`}</span>
+        <span class="place">{`${line + 1}:${character + 1}`}</span>
       </button>
+      {of.code && <Code of={of.code} />}
       {fixes.value.get(of)?.map((fix) => (
         <button class="fix" onClick={() => void mend(fix)} key={fix.title}>{words.fix(fix.title)}</button>
       ))}

@@ -1,12 +1,16 @@
 // The run in words: what each entry holds, and what happened, a line each; a click shows where the text says so.
-import { useEffect, useRef } from "preact/hooks";
-import { phase, revealSaid, said, state, why } from "../debug/run";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { Tool } from "../bar";
+import { active, log, phase, revealSaid, said, state, why } from "../debug/run";
 import { words } from "../words";
+import { Force } from "./forced";
+import { Stops } from "./stops";
 
 /** Lines that are shown; the newest are last. */
 const SHOWN = 300;
 
 export function RunPane() {
+  const [forcing, setForcing] = useState("");
   const list = useRef<HTMLOListElement>(null);
   const lines = said.value.slice(-SHOWN);
   // Who has scrolled up to read something is left there.
@@ -14,7 +18,6 @@ export function RunPane() {
     const host = list.current;
     if (host && host.scrollHeight - host.scrollTop - host.clientHeight < 80) host.scrollTop = host.scrollHeight;
   }, [lines.at(-1)]);
-  if (phase.value === "idle" && !said.value.length) return <p class="empty">{words.noRun}</p>;
   const entries = Object.entries(state.value?.entries ?? {});
   return (
     <div class="run-pane">
@@ -24,12 +27,20 @@ export function RunPane() {
           {entries.map(([name, value]) => (
             <div key={name}>
               <dt>{name}</dt>
-              <dd>{String(value)}</dd>
+              {forcing === name ? (
+                <dd><Force entry={name} value={String(value)} done={() => setForcing("")} /></dd>
+              ) : (
+                <dd>
+                  {String(value)}
+                  {active.value && !log.value && !name.includes(".") && <Tool icon="lock" label={words.forceEntry(name)} run={() => setForcing(name)} />}
+                </dd>
+              )}
             </div>
           ))}
         </dl>
       </section>
       <section aria-label={words.happened}>
+        {phase.value === "idle" && !lines.length && <p class="none">{words.noRun}</p>}
         <h3>{words.happened}{phase.value === "held" && why.value ? `: ${why.value}` : ""}</h3>
         <ol ref={list} tabIndex={0} aria-label={words.happened}>
           {lines.map((each, at) => (
@@ -39,6 +50,7 @@ export function RunPane() {
           ))}
         </ol>
       </section>
+      <Stops />
     </div>
   );
 }

@@ -1,5 +1,5 @@
 // The value of a port: a quantity with steps, slider and unit, the entries that fit, or a formula as a line.
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import * as ask from "../drawing/ask";
 import { useInSight } from "../drawing/choices";
 import { refuse } from "../drawing/say";
@@ -59,7 +59,8 @@ export function Value({ part, out, answer, done }: Given) {
   const name = part.part?.name ?? "";
   const first = answer.value ?? answer.default ?? "";
   const [text, setText] = useState(first);
-  useEffect(() => setText(first), [answer]);
+  // An answer that says nothing new leaves what is being typed alone; one that does comes before the next key.
+  useLayoutEffect(() => setText(first), [first]);
   const bind = async (to: string): Promise<void> => {
     const binding = out ? { out: to } : { in: to };
     if (await ask.edit([{ bind: { component: part.item, port: name, to: binding } }], {}, [part])) done();

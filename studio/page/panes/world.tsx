@@ -1,18 +1,22 @@
-// The world from above: what stands in it, the robot at its pose, the path that it has driven; seen before any run.
-import { useEffect, useRef, useState } from "preact/hooks";
-import { active, seed, state, world as chosen } from "../debug/run";
-import { frame, placeOf, points, scaleIn, short, viewBox, type Point, type Pose, type Thing } from "../world/geometry";
-import { shown, towards, type Motion } from "../world/motion";
-import { again, choose, missing, path, sow, surroundings, type Surroundings } from "../world/surroundings";
+// The world of a run: where it takes place, the floor from above, what a hand can do in it.
+import { useEffect, useRef } from "preact/hooks";
+import { active, seed, world as chosen } from "../debug/run";
+import { putBack } from "../debug/arranged";
+import { arranged } from "../world/hand";
+import { show, watched } from "../world/camera";
+import { again, choose, missing, sow, surroundings, type Surroundings } from "../world/surroundings";
 import { words } from "../words";
-import { Faults, Stimuli } from "./outside";
+import { Floor } from "./floor";
+import { Drops, Faults, Stimuli } from "./outside";
 
 export function WorldPane() {
   const world = surroundings.value;
   return (
     <div class="world">
       {world && <Where world={world} />}
-      {world ? <Picture world={world} /> : <Absent />}
+      {world ? <Floor world={world} /> : <Absent />}
+      {world && <Hand world={world} />}
+      {world?.camera && watched.value && <Camera />}
       <Stimuli />
       <Faults />
     </div>
@@ -46,78 +50,22 @@ function Where({ world }: { world: Surroundings }) {
   );
 }
 
-/** Pixels of a name: its height, and the width of a letter. */
-const TALL = 11;
-const LETTER = 6;
-
-function Picture({ world }: { world: Surroundings }) {
-  const host = useRef<SVGSVGElement>(null);
-  const [scale, setScale] = useState(100);
-  const box = frame(world);
-  useEffect(() => {
-    const measure = new ResizeObserver(([entry]) => entry && setScale(scaleIn(box, entry.contentRect.width, entry.contentRect.height) || 1));
-    measure.observe(host.current!);
-    return () => measure.disconnect();
-  }, [world]);
-  const pixels = (number: number): string => short(number / scale);
-  return (
-    <svg class="floor" viewBox={viewBox(box)} role="img" aria-label={words.seenFromAbove(state.value?.pose ?? world.start)} ref={host}>
-      <g transform="scale(1 -1)">
-        <rect class="ground" x={short(box.x)} y={short(box.y)} width={short(box.width)} height={short(box.height)} />
-        {world.patches.map(({ corners, color }, at) => <polygon class="patch" points={points(corners)} fill={`rgb(${color.join()})`} key={at} />)}
-        {world.things.map((thing, at) => <Obstacle thing={thing} key={at} />)}
-        {world.lights.map(([x, y], at) => <circle class="light" cx={short(x)} cy={short(y)} r={pixels(6)} key={at} />)}
-        <Driven />
-        {world.things.filter(({ labelled }) => labelled).map(({ name, outline }, at) => <Label name={name} at={placeOf(outline, box, [(name.length * LETTER) / scale, TALL / scale])} size={pixels(TALL)} key={at} />)}
-        <Robot world={world} />
-      </g>
-    </svg>
-  );
-}
-
-const Obstacle = ({ thing: { outline, low, path } }: { thing: Thing }) => (
-  <>
-    {path.length > 1 && <polyline class="course" points={points(path)} />}
-    <polygon class={`thing${low ? " low" : ""}`} points={points(outline)} />
-  </>
+/** What can be dropped, everything back, the camera. */
+const Hand = ({ world }: { world: Surroundings }) => (
+  <div class="hand">
+    <Drops world={world} />
+    {arranged.value && !active.value && <button onClick={putBack}>{words.putBack}</button>}
+    {world.camera && <button aria-pressed={watched.value} onClick={() => (watched.value = !watched.value)}>{words.camera}</button>}
+  </div>
 );
 
-const Label = ({ name, at: [x, y], size }: { name: string; at: Point; size: string }) => (
-  <text class="label" transform={`translate(${short(x)} ${short(y)}) scale(1 -1)`} font-size={size} dy=".35em">{name}</text>
-);
-
-/** In pieces, so that an hour of driving costs no more a frame than the first minute. */
-const Driven = () => <>{path.value.map((piece, at) => <polyline class="driven" points={points(piece)} key={at} />)}</>;
-
-const isStill = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;
-
-/** The robot, moved by one attribute at every frame while there is a way to go. */
-function Robot({ world }: { world: Surroundings }) {
-  const host = useRef<SVGGElement>(null);
-  useEffect(() => {
-    let motion: Motion | null = null;
-    let waiting = 0;
-    const put = ([x, y, heading]: Pose): void => host.current!.setAttribute("transform", `translate(${short(x)} ${short(y)}) rotate(${short((heading * 180) / Math.PI)})`);
-    const move = (): void => {
-      waiting = 0;
-      const now = performance.now();
-      put(shown(motion!, now));
-      if (now < motion!.end) waiting = requestAnimationFrame(move);
-    };
-    const ends = state.subscribe((told) => {
-      motion = towards(told ? motion : null, told?.pose ?? world.start, performance.now(), isStill());
-      waiting ||= requestAnimationFrame(move);
-    });
-    return () => {
-      ends();
-      cancelAnimationFrame(waiting);
-    };
-  }, [world]);
-  const nose = Math.max(0.05, ...world.body.map(([x]) => x));
+function Camera() {
+  const host = useRef<HTMLCanvasElement>(null);
+  useEffect(() => show(host.current!), []);
   return (
-    <g class="robot" ref={host}>
-      <polygon points={points(world.body)} />
-      <path d={`M0 0H${short(nose)}`} />
-    </g>
+    <figure class="camera">
+      <canvas width="4" height="3" role="img" aria-label={words.cameraSees} ref={host} />
+      {!active.value && <figcaption>{words.cameraLater}</figcaption>}
+    </figure>
   );
 }

@@ -6,7 +6,7 @@ import { setDiagnostics, type Diagnostic as Shown } from "@codemirror/lint";
 import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
 import { Annotation, Compartment, EditorSelection, EditorState, StateEffect, StateField, type ChangeSet, type Extension } from "@codemirror/state";
 import { Decoration, EditorView, drawSelection, highlightActiveLine, highlightSpecialChars, hoverTooltip, keymap, lineNumbers, type DecorationSet } from "@codemirror/view";
-import { effect } from "@preact/signals";
+import { effect, untracked } from "@preact/signals";
 import { onText, text, typed, version } from "../documents";
 import type { Change } from "../history";
 import { cursorAt, shown } from "../places";
@@ -15,6 +15,7 @@ import { diagnostics, fixes, mend, said, severityOf, type Diagnostic } from "../
 import { pen } from "../session";
 import { words } from "../words";
 import { marks } from "./marks";
+import * as seek from "./seek";
 import { completion, hover } from "./sources";
 import { follow, stops } from "./stops";
 import { theme } from "./theme";
@@ -72,6 +73,7 @@ const behaviour: Extension = [
   indentOnInput(),
   search({ top: true }),
   highlighted,
+  seek.seeking,
   theme,
   keymap.of([...closeBracketsKeymap, ...completionKeymap, ...searchKeymap, ...defaultKeymap, indentWithTab]),
   EditorView.contentAttributes.of({ "aria-label": words.text, spellcheck: "false" }),
@@ -123,6 +125,7 @@ export function edit(host: HTMLElement, uri: string, nonce: string): { view: Edi
   const view = new EditorView({ parent: host, state: EditorState.create({ doc: text(uri), extensions }) });
   const ends = [
     follow(view, uri),
+    seek.follow(view),
     onText((changed, changes, maker) => {
       if (changed !== uri || maker === "text") return;
       view.dispatch(...changes.map(({ from, to, insert }) => ({ changes: { from, to, insert }, sequential: true, annotations: fromPage.of(true) })));
@@ -136,7 +139,9 @@ export function edit(host: HTMLElement, uri: string, nonce: string): { view: Edi
     effect(() => {
       const place = shown.value;
       if (place?.uri !== uri) return;
-      show(view, offset(text(uri), place.range.start), offset(text(uri), place.range.end));
+      // Once for a place: what is typed afterwards does not take the cursor back to it.
+      const now = untracked(() => text(uri));
+      show(view, offset(now, place.range.start), offset(now, place.range.end));
       if (place.focus) view.focus();
     }),
   ];

@@ -2,28 +2,38 @@
 import { RangeSet, StateEffect, StateField, type Extension } from "@codemirror/state";
 import { gutter, GutterMarker, type EditorView } from "@codemirror/view";
 import { effect } from "@preact/signals";
-import { linesOf, toggle } from "../debug/breakpoints";
+import { stopsOf, toggle, type Stop } from "../debug/breakpoints";
 import { words } from "../words";
 
 class Disc extends GutterMarker {
+  constructor(private readonly stop: Stop) {
+    super();
+  }
+
+  override eq(other: GutterMarker): boolean {
+    return other instanceof Disc && JSON.stringify(other.stop) === JSON.stringify(this.stop);
+  }
+
   override toDOM(): HTMLElement {
     const made = document.createElement("span");
-    made.className = "cm-breakpoint";
-    made.title = words.breakpoint;
+    const { off, condition, log } = this.stop;
+    made.className = `cm-breakpoint${off ? " off" : ""}${log ? " speaks" : ""}`;
+    made.textContent = condition ? "=" : "";
+    made.title = log ?? condition ?? words.breakpoint;
     return made;
   }
 }
 
-const disc = new Disc();
-const setStops = StateEffect.define<readonly number[]>();
+const plain = new Disc({ line: 0 });
+const setStops = StateEffect.define<readonly Stop[]>();
 
 const field = StateField.define<RangeSet<GutterMarker>>({
   create: () => RangeSet.empty,
   update: (before, { state, effects, changes }) => {
     const set = effects.find((each) => each.is(setStops));
     if (!set) return before.map(changes);
-    const lines = (set.value as readonly number[]).filter((line) => line < state.doc.lines);
-    return RangeSet.of(lines.map((line) => disc.range(state.doc.line(line + 1).from)), true);
+    const known = (set.value as readonly Stop[]).filter(({ line }) => line < state.doc.lines);
+    return RangeSet.of(known.map((stop) => new Disc(stop).range(state.doc.line(stop.line + 1).from)), true);
   },
 });
 
@@ -33,7 +43,7 @@ export const stops = (uri: string): Extension => [
   gutter({
     class: "cm-stops",
     markers: (view) => view.state.field(field),
-    initialSpacer: () => disc,
+    initialSpacer: () => plain,
     domEventHandlers: {
       mousedown: (view, block) => {
         toggle(uri, view.state.doc.lineAt(block.from).number - 1);
@@ -44,4 +54,4 @@ export const stops = (uri: string): Extension => [
 ];
 
 /** Shows the breakpoints of a text; the answer ends that. */
-export const follow = (view: EditorView, uri: string): (() => void) => effect(() => view.dispatch({ effects: setStops.of(linesOf(uri)) }));
+export const follow = (view: EditorView, uri: string): (() => void) => effect(() => view.dispatch({ effects: setStops.of(stopsOf(uri)) }));

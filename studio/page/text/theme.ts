@@ -17,6 +17,7 @@ export const theme = EditorView.theme({
   "&.cm-focused > .cm-scroller > .cm-selectionLayer .cm-selectionBackground, .cm-selectionBackground": { backgroundColor: "var(--select)" },
   ".cm-matchingBracket, &.cm-focused .cm-matchingBracket": { backgroundColor: "transparent", outline: "1px solid var(--strong-line)" },
   ".cm-selectionMatch": { backgroundColor: "color-mix(in srgb, var(--accent) 14%, transparent)" },
+  ".cm-sought": { backgroundColor: "color-mix(in srgb, var(--warning) 30%, transparent)" },
   ".cm-shown": { backgroundColor: "color-mix(in srgb, var(--accent) 10%, transparent)" },
   ".cm-hint": { font: "12px/16px var(--sans)", color: "var(--second)", backgroundColor: "var(--pane)", borderRadius: "4px", padding: "0 4px", marginLeft: "6px" },
   ".cm-tooltip": { backgroundColor: "var(--page)", color: "var(--ink)", border: "1px solid var(--line)", borderRadius: "9px", boxShadow: "var(--shadow)", maxWidth: "520px", overflow: "hidden" },

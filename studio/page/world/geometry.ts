@@ -5,10 +5,14 @@ export type Point = readonly [number, number];
 export type Pose = readonly [number, number, number];
 
 export interface Thing {
+  /** What the run knows it by. */
+  id: string;
   name: string;
   outline: readonly Point[];
   /** Whether sensors look over it. */
   low: boolean;
+  /** Whether a hand can put it elsewhere. */
+  movable: boolean;
   labelled: boolean;
   /** Where its middle goes; empty for what stays. */
   path: readonly Point[];

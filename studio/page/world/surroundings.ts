@@ -1,15 +1,20 @@
 // The world that a run of the plan takes place in and the robot in it: known before any run, asked for anew after each.
 import { batch, effect, signal } from "@preact/signals";
 import { connect } from "../dap";
-import { active, address, pathOf, seed, state, world } from "../debug/run";
+import { putBack } from "../debug/arranged";
+import { active, address, log, pathOf, seed, state, world } from "../debug/run";
 import { current } from "../documents";
 import { trouble } from "../panes/files";
 import { files, lsp } from "../session";
-import { extended, type Path, type World } from "./geometry";
+import { extended, type Path, type Point, type World } from "./geometry";
 
 export interface Surroundings extends World {
   /** The worlds to choose from, as a run takes them, each with where it comes from; first the one that is taken by itself. */
   worlds: readonly { name: string; from: string }[];
+  /** What can be dropped into it, with outlines around their middle. */
+  drops: readonly { shape: string; outline: readonly Point[] }[];
+  /** Whether the robot has a camera. */
+  camera: boolean;
 }
 
 export interface Stimulus {
@@ -42,11 +47,11 @@ export const path = signal<Path>([]);
 
 let asked = 0;
 
-async function askWorld(uri: string, chosen: string | null): Promise<void> {
+async function askWorld(uri: string, chosen: string | null, log = ""): Promise<void> {
   const own = ++asked;
   const dap = connect(address(), () => {});
   try {
-    const found = await dap.request<Surroundings>("afp/world", { program: pathOf(uri), ...(chosen === null ? {} : { world: chosen }) });
+    const found = await dap.request<Surroundings>("afp/world", { ...(log ? { log } : {}), program: uri ? pathOf(uri) : "", ...(chosen === null ? {} : { world: chosen }) });
     if (own === asked) batch(() => ([surroundings.value, missing.value] = [found, ""]));
   } catch (why) {
     if (own === asked) refuse((why as Error).message, chosen);
@@ -73,15 +78,18 @@ async function askRobot(uri: string): Promise<void> {
 
 /** Begins to keep them; the answer ends that. */
 export function begin(): () => void {
-  let before = "";
+  let before: string | null = null;
   const asks = effect(() => {
-    const [uri, connected, runs, chosen] = [current.value, lsp().open.value, active.value, world.value];
+    const [uri, connected, runs, chosen, shown] = [current.value, lsp().open.value, active.value, world.value, log.value];
     // Files that come and go may be worlds.
     void files.value;
-    if (!uri || !connected || runs) return;
+    if (connected && shown && !before?.startsWith("log")) void askWorld("", null, shown);
+    if (shown) before = `log ${shown}`;
+    if (!connected || runs || shown) return;
     const other = before !== uri;
     before = uri;
     if (other) world.value = null;
+    if (other) putBack();
     if (!other || chosen === null) void askWorld(uri, other ? null : chosen);
   });
   const robots = effect(() => {
@@ -101,6 +109,7 @@ export function begin(): () => void {
 
 /** Chooses where the next run takes place; the first of the list is taken by itself. */
 export function choose(name: string): void {
+  putBack();
   world.value = name === surroundings.peek()?.worlds[0]?.name ? null : name;
 }
 

@@ -5,6 +5,7 @@ use super::dice::Dice;
 use super::entries::{Entries, Kind, Type};
 use super::formula::{converted, formula, ranged};
 use super::plan::Shape;
+use super::table::{Table, index};
 
 /// An element or supervisor without its edges.
 pub struct Made {
@@ -17,24 +18,24 @@ pub struct Made {
 }
 
 /// Types whose entries take a value of a type, by conversion where need be.
-const NUMBERS: &[Type] = &[Type::Float, Type::Int, Type::Text];
-const TEXTS: &[Type] = &[Type::Text];
+pub const NUMBERS: &[Type] = &[Type::Float, Type::Int, Type::Text];
+pub const TEXTS: &[Type] = &[Type::Text];
 const SIDES: &[Type] = &[Type::Side];
 const MAPS: &[Type] = &[Type::Map];
 
 /// Bindings in the making.
-struct Bindings<'a> {
+pub struct Bindings<'a> {
     entries: &'a Entries,
     list: Vec<String>,
     taken: Vec<String>,
 }
 
 impl<'a> Bindings<'a> {
-    fn new(entries: &'a Entries) -> Self {
+    pub fn new(entries: &'a Entries) -> Self {
         Bindings { entries, list: Vec::new(), taken: Vec::new() }
     }
 
-    fn bind(&mut self, port: &str, formula: &str) {
+    pub fn bind(&mut self, port: &str, formula: &str) {
         self.list.push(format!("{port} = {formula}"));
     }
 
@@ -61,8 +62,13 @@ impl<'a> Bindings<'a> {
         }
     }
 
+    /// Lets no output write an entry.
+    pub fn keep(&mut self, entry: &str) {
+        self.taken.push(entry.to_owned());
+    }
+
     /// Connects an output, each entry at most once.
-    fn output(&mut self, port: &str, types: &[Type], dice: &mut Dice) {
+    pub fn output(&mut self, port: &str, types: &[Type], dice: &mut Dice) {
         let mut free = self.entries.writable(types);
         free.retain(|entry| !self.taken.contains(entry));
         if !free.is_empty() && dice.percent(60) {
@@ -72,7 +78,7 @@ impl<'a> Bindings<'a> {
         }
     }
 
-    fn call(self, template: &str) -> String {
+    pub fn call(self, template: &str) -> String {
         format!("{template}({})", self.list.join(", "))
     }
 }
@@ -161,7 +167,11 @@ pub fn guard(name: &str, entries: &Entries, dice: &mut Dice, channels: &mut Vec<
 }
 
 /// A computation other than those of loops.
-pub fn computation(entries: &Entries, dice: &mut Dice) -> Made {
+pub fn computation(entries: &Entries, tables: &[Table], dice: &mut Dice) -> Made {
+    if !tables.is_empty() && dice.percent(15) {
+        let index = index(entries, dice);
+        return dice.pick(tables).reader(&index, None, entries, dice);
+    }
     let mut bindings = Bindings::new(entries);
     let (template, outcomes) = match dice.between(0, 10) {
         0 => {

@@ -40,7 +40,9 @@ pub struct Entries {
     pub text: String,
 }
 
-const TYPES: [Type; 6] = [Type::Bool, Type::Int, Type::Float, Type::Length, Type::Text, Type::Side];
+/// The types that have literals.
+pub const TYPES: [Type; 6] =
+    [Type::Bool, Type::Int, Type::Float, Type::Length, Type::Text, Type::Side];
 
 impl Type {
     pub fn name(self) -> &'static str {

@@ -6,6 +6,7 @@ use super::Channel;
 use super::dice::Dice;
 use super::element::{Made, actor, computation, guard, sub_plan};
 use super::entries::{Entries, Type};
+use super::table::Table;
 
 /// A finished plan, as others can use it.
 #[derive(Clone, Debug)]
@@ -20,11 +21,14 @@ pub struct Shape {
 /// A plan in the making.
 struct Builder<'a> {
     number: u64,
+    tables: &'a [Table],
     entries: Entries,
     dice: &'a mut Dice,
     channels: &'a mut Vec<Channel>,
     /// How many elements there will be.
     elements: u64,
+    /// The events of each global supervisor.
+    globals: Vec<Vec<String>>,
     interruptible: bool,
     /// Whether an event leads to computations that may resume.
     resumes: bool,
@@ -32,19 +36,27 @@ struct Builder<'a> {
 }
 
 impl Shape {
-    /// The plan of a number, which may use those made before.
+    /// The plan of a number, which may use those made before, and tables.
     pub fn new(
         number: u64,
-        others: &[Shape],
+        (others, tables): (&[Shape], &[Table]),
         dice: &mut Dice,
         channels: &mut Vec<Channel>,
     ) -> Self {
         let entries = Entries::new(number, dice);
         let elements = dice.between(4, 8);
-        let (interruptible, resumes) = (false, false);
-        let text = String::new();
-        let mut builder =
-            Builder { number, entries, dice, channels, elements, interruptible, resumes, text };
+        let mut builder = Builder {
+            number,
+            tables,
+            entries,
+            dice,
+            channels,
+            elements,
+            globals: Vec::new(),
+            interruptible: false,
+            resumes: false,
+            text: String::new(),
+        };
         builder.write(others);
         Shape {
             name: format!("Plan{number}"),
@@ -63,7 +75,8 @@ impl Builder<'_> {
     fn write(&mut self, others: &[Shape]) {
         self.text = format!("plan Plan{} {{\n    start e0\n{}", self.number, self.entries.text);
         for global in 0..self.dice.between(0, 3) {
-            self.guard(&format!("g{global}"), 4, None);
+            let events = self.guard(&format!("g{global}"), 4, None);
+            self.globals.push(events);
         }
         self.map_maker();
         let mut index = 1;
@@ -100,8 +113,11 @@ impl Builder<'_> {
         if !last && self.dice.percent(15) && index + 3 <= self.elements {
             return self.counting_loop(index);
         }
+        if !self.tables.is_empty() && self.dice.percent(15) && index + 4 <= self.elements {
+            return self.rows(index);
+        }
         let made = if !last && self.dice.percent(30) {
-            computation(&self.entries, self.dice)
+            computation(&self.entries, self.tables, self.dice)
         } else {
             actor(&name, &self.entries, self.dice, self.channels)
         };
@@ -116,6 +132,7 @@ impl Builder<'_> {
             for local in 0..self.dice.between(0, 3) {
                 self.guard(&format!("w{local}"), 8, Some(index));
             }
+            self.reactions(index);
         }
         for (n, state) in made.outcomes.iter().enumerate() {
             // The first state leads to the next element, so that all of them can be reached.
@@ -151,6 +168,27 @@ impl Builder<'_> {
         2
     }
 
+    /// Row after row of a table: takes no time.
+    fn rows(&mut self, index: u64) -> u64 {
+        let int = self.dice.pick(&self.entries.changing(Type::Int));
+        let table = self.dice.pick(self.tables);
+        let made = table.reader(&int, Some(&int), &self.entries, self.dice);
+        let (read, step, next) = (index + 1, index + 2, index + 3);
+        let error = match self.dice.percent(50) {
+            true => format!(" Error -> e{next}"),
+            false => String::new(),
+        };
+        let _ = write!(
+            self.text,
+            "    computation e{index}: Assign(value = 0, result => {int}) {{ Done -> e{read} }}
+    computation e{read}: {} {{ Row -> e{step} End -> e{next}{error} }}
+    computation e{step}: Assign(value = {int} + 1, result => {int}) {{ Done -> e{read} }}
+",
+            made.call
+        );
+        3
+    }
+
     /// Two computations that only events lead to: they resume or lead elsewhere.
     fn chain(&mut self) {
         let int = self.dice.pick(&self.entries.changing(Type::Int));
@@ -181,8 +219,30 @@ impl Builder<'_> {
         format!("e{}", self.dice.between(least, self.elements))
     }
 
-    /// A global supervisor, or a local one of the element with that index.
-    fn guard(&mut self, name: &str, indent: usize, owner: Option<u64>) {
+    /// What an element does instead where global supervisors report something.
+    fn reactions(&mut self, index: u64) {
+        for (global, mut events) in self.globals.clone().into_iter().enumerate() {
+            if !self.dice.percent(40) {
+                continue;
+            }
+            events.push("DeadlineMissed".to_owned());
+            let _ = write!(self.text, "        on g{global} {{");
+            for event in events {
+                if !self.dice.percent(60) {
+                    continue;
+                }
+                let target = self.event_target(false);
+                // It is active already.
+                let itself = target == format!("e{index}");
+                let _ =
+                    write!(self.text, " {event} -> {}", if itself { "ignore" } else { &target });
+            }
+            self.text.push_str(" }\n");
+        }
+    }
+
+    /// A global supervisor, or a local one of the element with that index; gives its events.
+    fn guard(&mut self, name: &str, indent: usize, owner: Option<u64>) -> Vec<String> {
         let channel = match owner {
             Some(owner) => format!("p{}e{owner}{name}", self.number),
             None => format!("p{}{name}", self.number),
@@ -201,6 +261,7 @@ impl Builder<'_> {
             let _ = write!(self.text, " DeadlineMissed -> {target}");
         }
         self.text.push_str(" }\n");
+        made.outcomes.iter().map(ToString::to_string).collect()
     }
 
     fn event_target(&mut self, connected: bool) -> String {

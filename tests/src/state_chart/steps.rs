@@ -28,8 +28,8 @@ impl Seen {
     pub fn of(record: &Record<'_>) -> Option<Seen> {
         Some(match *record {
             Record::StopRequested => Seen::StopRequested,
-            Record::Event { supervisor, event } => Seen::Event(supervisor, event),
-            Record::AlreadyThere { supervisor, event } => Seen::AlreadyThere(supervisor, event),
+            Record::Event { supervisor, event, .. } => Seen::Event(supervisor, event),
+            Record::AlreadyThere { supervisor, event, .. } => Seen::AlreadyThere(supervisor, event),
             Record::Diverted { element, .. } => Seen::Diverted(element),
             Record::Resumed { element, .. } => Seen::Resumed(element),
             Record::Interrupted { element } => Seen::Interrupted(element),

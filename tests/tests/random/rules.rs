@@ -59,6 +59,10 @@ const RULES: &[Rule] = &[
     ("plans stand in plans in plans", |trace| any(trace, |line| depth(line) >= 3)),
     ("a sub-plan commits its results", commits_results),
     ("a loop of computations", |trace| any(trace, |line| line.contains(" finished Again"))),
+    ("a row of a table is read", |trace| any(trace, |line| line.contains(" finished Row -> "))),
+    ("an index is behind the last row", |trace| {
+        any(trace, |line| line.contains(" finished End -> "))
+    }),
     ("an object is committed", |trace| any(trace, |line| line.contains("-> Map#"))),
     ("a write from outside", |trace| any(trace, |line| line.contains(" outside commits "))),
     ("a write is refused", |trace| any(trace, |line| line.contains(" refused: "))),

@@ -302,6 +302,7 @@ const RULES: &[Rule] = &[
         "functions keep ints, check dimensions, and are faults where they have no value",
         &["formula_functions"],
     ),
+    ("1.11", "a binding that is a name alone is its port and its entry", &["bindings_alone"]),
     ("1.11", "conversions", &["formula_conversions", "formula_text_that_does_not_read"]),
     (
         "1.11",
@@ -314,8 +315,20 @@ const RULES: &[Rule] = &[
         "objects are known by the commit that wrote them",
         &["object_is_known_by_its_commit", "object_through_a_sub_plan", "object_is_copied"],
     ),
+    (
+        "6.2",
+        "one supervisor, and targets of the element that is active: of any kind, event by event",
+        &["on_reactions_of_elements", "on_endings_and_resume", "on_deadline_missed"],
+    ),
+    (
+        "6.2",
+        "a look asks with the reactions of what is entered; a release is served once",
+        &["on_in_the_look"],
+    ),
+    ("6.2", "the reactions of a sub-plan never reach inside", &["on_in_sub_plans"]),
     ("6.3", "'Every' reports each whole period, late ones once", &["every_period"]),
     ("6.5", "'Is' and 'Switch' choose by values that are equal or not", &["choosing"]),
+    ("6.5", "'Row' reads a row of a table, or says that there is none", &["row"]),
     (
         "6.6",
         "a range holds for what is stored: outputs, initial values, inputs and results of sub-plans, outside writes",

@@ -53,18 +53,27 @@ fn of(folder: &str) -> Vec<Plan> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
     let files = fs::read_dir(&folder).unwrap_or_else(|why| panic!("{}: {why}", folder.display()));
     let paths = files.flatten().map(|file| file.path());
-    paths
+    let texts: Vec<(String, String)> = paths
         .filter(|path| path.extension().is_some_and(|end| end == "afp"))
-        .map(|path| read(&path, shipped))
-        .collect()
+        .map(|path| read(&path))
+        .collect();
+    let mut others = Texts::default();
+    for (name, text) in &texts {
+        others.add(&format!("{name}.afp"), text.as_str());
+    }
+    texts.into_iter().map(|(name, text)| compiled(name, text, &others, shipped)).collect()
 }
 
-fn read(path: &Path, shipped: bool) -> Plan {
+/// The name of a plan's file, and its text.
+fn read(path: &Path) -> (String, String) {
     let text = fs::read_to_string(path).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
+    (path.file_stem().unwrap_or_default().to_string_lossy().into_owned(), text)
+}
+
+fn compiled(name: String, text: String, others: &Texts, shipped: bool) -> Plan {
     let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
-    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let source = Source::new(format!("{name}.afp"), text);
-    let compiled = compile(&source, &toolboxes, &Texts::default());
+    let compiled = compile(&source, &toolboxes, others);
     let said = compiled.render(false);
     Plan { name, shipped, graph: compiled.graph.unwrap_or_else(|| panic!("{said}")) }
 }

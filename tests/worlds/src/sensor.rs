@@ -1,6 +1,7 @@
 //! The sensors that are watched.
 
 use afp_carbot::table::TABLE;
+use afp_core::Duration;
 
 /// What measures, in the order of the Carbot's devices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +29,11 @@ impl Sensor {
         Sensor::Camera,
         Sensor::Battery,
     ];
+
+    /// A supervisor or an actor asks it at least so often.
+    pub fn asked_every(self) -> Duration {
+        Duration::from_millis(if self == Sensor::Battery { 100 } else { 50 })
+    }
 
     /// What the toolbox calls it.
     pub fn name(self) -> &'static str {

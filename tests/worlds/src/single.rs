@@ -22,8 +22,8 @@ const UNTIL: Instant = Instant::from_nanos(60_000_000_000);
 const LONG: Duration = Duration::from_secs(1);
 const TOO_LONG: Duration = Duration::from_secs(3);
 
-/// What says that the robot did not get on, whatever the fault: something stood in its way.
-const BLOCKED: [&str; 3] = ["drive-blocked", "drive-stalled", "no-progress"];
+/// What says that the robot did not get on, whatever the fault: something stood in its way, or its plan gave up.
+const BLOCKED: [&str; 4] = ["drive-blocked", "drive-stalled", "failed", "no-progress"];
 
 /// A shipped plan in a room, in which one thing breaks for good, or none.
 #[derive(Clone, Debug)]
@@ -81,8 +81,11 @@ impl Single {
 
     /// Whether the robot pushed against something for longer than it should: it slides along something low beside it
     /// that no sensor of its shows.
-    pub fn pushes_long(outcome: &Outcome) -> bool {
-        outcome.pushing > LONG
+    pub fn pushes_long(&self, outcome: &Outcome) -> bool {
+        // Who goes round things by touching them touches several, and does so with a dead bumper, too: `TOO_LONG` holds.
+        let feels =
+            ["avoid_obstacle", "find_object", "patrol"].contains(&self.case.plan.name.as_str());
+        !feels && outcome.pushing > LONG
     }
 
     /// Whether a reason is one that this fault may have.
@@ -100,6 +103,7 @@ impl Single {
             ("infrared", _) => "no-infrared",
             ("color", _) => "no-color",
             ("battery", _) => "no-battery",
+            ("camera", _) if code == "no-picture" => code,
             ("camera", _) => "no-flow",
             _ => "",
         };

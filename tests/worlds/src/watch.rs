@@ -14,8 +14,6 @@ mod tests;
 
 use stand::Stand;
 
-/// A supervisor or an actor asks a sensor at least so often.
-const SLOWEST: Duration = Duration::from_millis(50);
 /// Readings of sensors that measure all the time are usable up to this age.
 const CURRENT: Duration = Duration::from_millis(100);
 
@@ -26,10 +24,10 @@ const CURRENT: Duration = Duration::from_millis(100);
 /// 1. A command to move comes at the same instant as a valid reading of the odometry that is no
 ///    older than 100 ms.
 /// 2. A command to move comes no later than the templates' [`PATIENCE`], and a poll, after the last
-///    usable reading of every sensor that was asked since the active actor started. What the range and
-///    the infrared sensor say now and then is usable once, when it is valid and no older than 200 ms and the
-///    patience; what other sensors say is usable while it is valid and no older than 100 ms. So neither
-///    silence nor nonsense is free space for longer than that.
+///    usable reading of every sensor that was asked since the active actor started. What the range sensor,
+///    the infrared sensor and the camera say now and then is usable once, when it is valid and no older than
+///    200 ms, the patience and the patience; what other sensors say is usable while it is valid and no older
+///    than 100 ms. So neither silence nor nonsense is free space for longer than that.
 /// 3. Whatever interrupts an actor, the command is zero when the next one starts; the same when it
 ///    fails, and when it is ready.
 /// 4. After the end of the plan nothing commands motion, and the command is zero at the end.
@@ -99,7 +97,9 @@ impl Watch {
         let known = &mut self.sensors[sensor as usize];
         let usable = match sensor {
             Sensor::Ultrasonic => time > known.measured && now.since(time) <= LATE_ECHO,
-            Sensor::Infrared => time > known.measured && now.since(time) <= PATIENCE,
+            Sensor::Infrared | Sensor::Camera => {
+                time > known.measured && now.since(time) <= PATIENCE
+            }
             _ => now.since(time) <= CURRENT,
         };
         let waiting = known.waiting.get_or_insert(now);
@@ -128,8 +128,9 @@ impl Watch {
             self.breaks(now, format!("it drives with an odometry of {age} before"));
         }
         // Late polls are no reason to fault later than the first one after the patience.
-        let patience = PATIENCE + SLOWEST + self.steps[0].since(self.steps[1]);
+        let late = PATIENCE + self.steps[0].since(self.steps[1]);
         for sensor in Sensor::ALL {
+            let patience = late + sensor.asked_every();
             let waited = self.sensors[sensor as usize].waiting.map(|since| now.since(since));
             if let Some(waited) = waited.filter(|waited| *waited > patience) {
                 let name = sensor.name();

@@ -3,13 +3,14 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
+use afp_carbot::Path;
 use afp_carbot::devices::{
-    Battery, Beam, Body, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo, Flow,
-    FlowCamera, Frame, Glow, InfraredSensor, Lens, Motion, Navigator, Odometry, Reading,
-    RotatingTelemetry, Rotator, TouchSensor, Ultrasonic,
+    Battery, Beam, Belief, Body, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo, Flow,
+    FlowCamera, Frame, Glow, InfraredSensor, Lens, Localisation, Motion, Navigator, Odometry,
+    PathPlanner, Reading, RotatingTelemetry, Rotator, Signals, TouchSensor, Trip, Ultrasonic,
 };
-use afp_core::quantity::{Angle, AngularSpeed, Speed};
-use afp_core::{Environment, Fault, Instant};
+use afp_core::quantity::{Angle, AngularSpeed, Frequency, Speed};
+use afp_core::{Environment, Fault, Instant, Poll, Ticket};
 use afp_sim::Simulation;
 
 use crate::sensor::Sensor;
@@ -153,6 +154,31 @@ impl FlowCamera for Witness {
         let valid = reading.value.is_ok();
         self.watch.borrow_mut().told(Sensor::Camera, valid, reading.time, now);
         Ok(reading)
+    }
+}
+
+impl Localisation for Witness {
+    fn belief(&mut self, now: Instant) -> Result<Reading<Belief>, Fault> {
+        // What becomes of it is what becomes of the odometry.
+        let Reading { time, value } = self.sim.belief(now)?;
+        self.told(Sensor::Odometry, Reading { time, value: value.map(|_| ()) });
+        Ok(Reading { time, value })
+    }
+}
+
+impl PathPlanner for Witness {
+    fn search(&mut self, trip: &Trip, now: Instant) -> Result<Option<Ticket>, Fault> {
+        self.sim.search(trip, now)
+    }
+
+    fn found(&mut self, ticket: Ticket, now: Instant) -> Result<Poll<Option<Path>>, Fault> {
+        self.sim.found(ticket, now)
+    }
+}
+
+impl Signals for Witness {
+    fn signal(&mut self, light: bool, tone: Option<Frequency>, now: Instant) {
+        self.sim.signal(light, tone, now);
     }
 }
 

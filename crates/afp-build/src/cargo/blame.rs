@@ -4,11 +4,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use afp_codegen::{CrateFile, declaration};
+use afp_excerpt::{Mark, Report, Severity, place};
 use afp_project::shown;
-use afp_run::{RunError, say};
+use afp_run::say;
 use afp_syntax::source::{Source, Sources, Span};
+use serde_json::{Value, json};
 
-use super::message::Message;
+use super::message::{Message, Place};
 use crate::toolboxes::OwnToolbox;
 
 /// What errors can be traced back to.
@@ -37,22 +39,49 @@ struct Found<'a> {
 }
 
 impl Blame<'_> {
+    /// Whether a message is worth telling: warnings are of the project's own crates alone.
+    pub(super) fn concerns(&self, message: &Message) -> bool {
+        let is_own = |own: &OwnToolbox| is_in(message, own.krate.folder.as_deref());
+        message.is_error || self.toolboxes.iter().any(is_own)
+    }
+
     /// Tells standard error of a message: first where it comes from, then in the compiler's words.
-    ///
-    /// Warnings are told of the project's own crates alone.
     pub(super) fn tell(&self, message: &Message) {
-        let own = self.toolboxes.iter().any(|own| is_in(message, own.krate.folder.as_deref()));
         if message.is_error {
             for found in self.places(message) {
-                say(found.shown().styled());
+                say(found.shown());
             }
-            let path = shown(&real(&message.path()));
-            let (line, column) = message.place;
-            say(format_args!("  = in {}:{line}:{column}", path.display()));
+            if let Some((path, place)) = rust(message) {
+                let (line, column) = place.at;
+                say(format_args!("  = in {path}:{line}:{column}"));
+            }
         }
-        if message.is_error || own {
-            say(&message.rendered);
+        say(&message.rendered);
+    }
+
+    /// A message as diagnostics of plans are for tools: at the first place that it comes from, with the others and the
+    /// one in the Rust as notes; at that one where there is no other. Codes of Rust are not ours, so there is none.
+    pub(super) fn json(&self, message: &Message) -> Value {
+        let places = if message.is_error { self.places(message) } else { Vec::new() };
+        let in_rust = rust(message)
+            .map(|(path, found)| (place(&path, found.bytes.clone(), found.at), &found.label));
+        let severity = if message.is_error { Severity::Error } else { Severity::Warning };
+        let title = places.first().map_or(&message.title, |found| &found.message);
+        let mut marks: Vec<_> = places.iter().map(Found::mark).collect();
+        marks
+            .iter_mut()
+            .zip(&places)
+            .skip(1)
+            .for_each(|(mark, found)| mark.label.clone_from(&found.message));
+        let mut object = Report { severity, code: "", message: title, help: "", marks }.json();
+        match (in_rust, object["notes"].as_array_mut()) {
+            (Some((place, _)), _) if places.is_empty() => object["place"] = place,
+            (Some((place, label)), Some(notes)) => {
+                notes.push(json!({ "place": place, "text": label }));
+            }
+            _ => {}
         }
+        object
     }
 
     /// The places in plan and toolboxes that a message is about.
@@ -74,8 +103,9 @@ impl Generated<'_> {
         if !is_in(message, Some(self.folder)) {
             return None;
         }
-        let file = self.files.iter().find(|file| Path::new(&file.path) == message.file);
-        let (span, exact) = file.or(self.files.first())?.place(message.place.0);
+        let at = message.place.as_ref()?;
+        let file = self.files.iter().find(|file| Path::new(&file.path) == at.file);
+        let (span, exact) = file.or(self.files.first())?.place(at.at.0);
         let message = format!("the Rust made from this does not compile: {}", message.title);
         Some((Found { source: self.sources.get(span.file)?, span, message }, exact))
     }
@@ -89,29 +119,31 @@ fn declared<'a>(own: &'a OwnToolbox, message: &Message) -> Option<Found<'a>> {
     if !inside && !said.contains(&&*own.krate.rust_name()) {
         return None;
     }
-    let (mut line, head) = (Vec::new(), head(message, inside));
-    if inside {
-        line = words(&message.line);
-    }
-    let span = declaration(&own.declared, &said, &line, &words(&head))?;
+    let head = if inside { head(message).unwrap_or_default() } else { String::new() };
+    let line = message.place.as_ref().filter(|_| inside).map_or("", |place| &place.line);
+    let span = declaration(&own.declared, &said, &words(line), &words(&head))?;
     let name = &own.name;
     let message = format!("the Rust of the toolbox '{name}' does not compile: {}", message.title);
     Some(Found { source: &own.source, span, message })
 }
 
-/// The head of the `impl` around the place of a message.
-fn head(message: &Message, inside: bool) -> String {
-    let text = fs::read_to_string(message.path()).ok().filter(|_| inside).unwrap_or_default();
-    let lines: Vec<_> = text.lines().take(message.place.0).collect();
-    let Some(first) = lines.iter().rposition(|line| line.starts_with("impl")) else {
-        return String::new();
-    };
-    // A line that ends another item stands between: the place is in none.
+/// The head of the `impl` around the place of a message; `None` where it is in none.
+fn head(message: &Message) -> Option<String> {
+    let text = fs::read_to_string(message.path()?).ok()?;
+    let lines: Vec<_> = text.lines().take(message.place.as_ref()?.at.0).collect();
+    let first = lines.iter().rposition(|line| line.starts_with("impl"))?;
+    // A line that ends another item stands between.
     if lines[first + 1..].iter().any(|line| line.starts_with('}')) {
-        return String::new();
+        return None;
     }
     let head = lines[first..].iter().take_while(|line| !line.starts_with("    fn "));
-    head.copied().collect::<Vec<_>>().join("\n")
+    Some(head.copied().collect::<Vec<_>>().join("\n"))
+}
+
+/// The place of a message in the Rust, with its file as people name it.
+fn rust(message: &Message) -> Option<(String, &Place)> {
+    let path = shown(&real(&message.path()?)).display().to_string();
+    Some((path, message.place.as_ref()?))
 }
 
 /// The names in a text.
@@ -129,13 +161,14 @@ fn real(path: &Path) -> PathBuf {
 }
 
 impl Found<'_> {
-    fn shown(&self) -> RunError {
-        let Found { source, span, message } = self;
-        RunError::Content {
-            path: source.name.clone().into(),
-            span: Some(span.start as usize..span.end as usize),
-            text: source.text.clone(),
-            message: message.clone(),
-        }
+    fn mark(&self) -> Mark<'_> {
+        let Found { source: Source { name, text }, span, .. } = self;
+        let span = Some(span.start as usize..span.end as usize);
+        Mark { path: name, text, lines: None, span, label: String::new() }
+    }
+
+    fn shown(&self) -> String {
+        let (severity, marks) = (Severity::Error, vec![self.mark()]);
+        Report { severity, code: "", message: &self.message, help: "", marks }.render(true)
     }
 }

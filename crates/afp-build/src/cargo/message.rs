@@ -1,5 +1,6 @@
 //! An error or a warning of the Rust compiler, as cargo hands it on.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
@@ -15,18 +16,29 @@ pub struct Message {
     pub rendered: String,
     /// The folder of the package that it is about.
     pub package: PathBuf,
-    /// The file that it points at, below the folder of the package or absolute.
-    pub file: PathBuf,
-    /// Line and column in it, from 1.
-    pub place: (usize, usize),
-    /// The text of that line.
-    pub line: String,
+    /// Where in its Rust; none for what a linker says.
+    pub place: Option<Place>,
     /// The title, the labels, and the same of all that stands below it.
     pub said: String,
 }
 
+/// A place in the Rust of a package.
+#[derive(Debug, Default)]
+pub struct Place {
+    /// The file, below the folder of the package or absolute.
+    pub file: PathBuf,
+    /// The bytes of its text.
+    pub bytes: Range<usize>,
+    /// Line and column in it, from 1.
+    pub at: (usize, usize),
+    /// The text of that line.
+    pub line: String,
+    /// What the compiler says beside it.
+    pub label: String,
+}
+
 impl Message {
-    /// Reads a line of cargo; `None` for what is no error or warning at a place.
+    /// Reads a line of cargo; `None` for what is no error and no warning, and for errors that only count others.
     pub fn read(line: &Value) -> Option<Message> {
         let about = line.get("message")?;
         let is_error = match about.get("level")?.as_str()? {
@@ -35,28 +47,45 @@ impl Message {
             _ => return None,
         };
         let spans = about.get("spans")?.as_array()?;
-        let primary = spans.iter().find(|span| span["is_primary"] == true)?;
-        let text = |value: &Value, key: &str| value[key].as_str().unwrap_or("").to_owned();
-        let number = |key: &str| primary[key].as_u64().and_then(|n| usize::try_from(n).ok());
+        let primary = spans.iter().find(|span| span["is_primary"] == true);
+        let title = text(about, "message");
+        if primary.is_none() && (!is_error || title.starts_with("aborting due to ")) {
+            return None;
+        }
         let manifest = PathBuf::from(text(line, "manifest_path"));
         let mut said = String::new();
         collect(about, &mut said);
         Some(Message {
             is_error,
-            title: text(about, "message"),
+            title,
             rendered: text(about, "rendered"),
             package: manifest.parent().unwrap_or(Path::new("")).to_owned(),
-            file: text(primary, "file_name").into(),
-            place: (number("line_start")?, number("column_start")?),
-            line: text(&primary["text"][0], "text"),
+            place: primary.and_then(Place::read),
             said,
         })
     }
 
     /// The file that it points at.
-    pub fn path(&self) -> PathBuf {
-        self.package.join(&self.file)
+    pub fn path(&self) -> Option<PathBuf> {
+        Some(self.package.join(&self.place.as_ref()?.file))
     }
+}
+
+impl Place {
+    fn read(span: &Value) -> Option<Place> {
+        let number = |key: &str| span[key].as_u64().and_then(|n| usize::try_from(n).ok());
+        Some(Place {
+            file: text(span, "file_name").into(),
+            bytes: number("byte_start")?..number("byte_end")?,
+            at: (number("line_start")?, number("column_start")?),
+            line: text(&span["text"][0], "text"),
+            label: text(span, "label"),
+        })
+    }
+}
+
+fn text(value: &Value, key: &str) -> String {
+    value[key].as_str().unwrap_or_default().to_owned()
 }
 
 /// Gathers the sentences of a message.
@@ -83,7 +112,7 @@ mod tests {
     fn a_message_is_read_from_its_primary_place() {
         let span = |primary, line: u32, label| {
             json!({ "is_primary": primary, "file_name": "src/lib.rs", "line_start": line,
-                "column_start": 3, "label": label, "text": [{ "text": "  let x" }] })
+                "byte_start": 40, "byte_end": 45, "column_start": 3, "label": label, "text": [{ "text": "  let x" }] })
         };
         let child = json!({ "message": "because", "spans": [], "children": [] });
         let mut line = json!({
@@ -97,11 +126,21 @@ mod tests {
         });
         let message = Message::read(&line).unwrap();
         assert!(message.is_error);
-        assert_eq!(message.path(), std::path::Path::new("/a/src/lib.rs"));
-        assert_eq!((message.place, &*message.line), ((7, 3), "  let x"));
+        assert_eq!(message.path().as_deref(), Some(std::path::Path::new("/a/src/lib.rs")));
+        let place = message.place.unwrap();
+        assert_eq!(
+            (place.at, place.bytes, &*place.line, &*place.label),
+            ((7, 3), 40..45, "  let x", "found")
+        );
         assert_eq!(message.said, "mismatched types\nexpected\nfound\nbecause\n");
         line["message"]["spans"] = json!([]);
-        assert!(Message::read(&line).is_none(), "'aborting due to 1 previous error' has no place");
+        line["message"]["message"] = json!("linker `cc` not found");
+        assert!(Message::read(&line).unwrap().place.is_none(), "a linker knows no place");
+        line["message"]["message"] = json!("aborting due to 1 previous error");
+        assert!(Message::read(&line).is_none());
+        line["message"]["level"] = json!("warning");
+        line["message"]["message"] = json!("1 warning emitted");
+        assert!(Message::read(&line).is_none());
         assert!(Message::read(&json!({ "reason": "build-finished" })).is_none());
     }
 }

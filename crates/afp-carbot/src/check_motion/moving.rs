@@ -47,14 +47,9 @@ impl View<'_> {
             }
         }
         largest.map(|column| Something {
-            bearing: libm::atan2(-column, self.focus()),
+            bearing: libm::atan2(-column, self.lens.focus()),
             strength: most as f64 / self.flow.grid.len().clamp(1, PLACES) as f64,
         })
-    }
-
-    /// The lens's focal length in pixels.
-    fn focus(&self) -> f64 {
-        self.lens.columns as f64 / 2.0 / libm::tan(self.lens.opening.si() / 2.0)
     }
 
     /// Where the `n`-th place is against the middle of the picture, pixels to the right and down.
@@ -69,7 +64,7 @@ impl View<'_> {
         let Some(Some(shift)) = self.flow.shifts.get(n) else { return false };
         let place = self.middle(n);
         let found = [place[0] + f64::from(shift.right), place[1] + f64::from(shift.down)];
-        let focus = self.focus();
+        let focus = self.lens.focus();
         let least = self.speed * self.flow.span.as_secs_f64() * focus;
         self.step
             .unexplained(&self.lens, focus, place, found)

@@ -42,6 +42,13 @@ pub struct Lens {
     pub rows: usize,
 }
 
+impl Lens {
+    /// The focal length in pixels.
+    pub fn focus(&self) -> f64 {
+        self.columns as f64 / 2.0 / libm::tan(self.opening.si() / 2.0)
+    }
+}
+
 /// A camera that takes pictures by itself, some times a second.
 pub trait Camera {
     /// The latest picture; its time is when it was taken.

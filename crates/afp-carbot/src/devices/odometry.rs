@@ -23,6 +23,13 @@ impl Motion {
     pub fn stands(&self) -> bool {
         self.speed.abs().si() < 0.006 && self.turn.abs().si() < 0.026
     }
+
+    /// Where this is, seen from `origin`: along the heading there, and to the left of it.
+    pub fn seen_from(&self, origin: &Motion) -> (Length, Length) {
+        let (sin, cos) = libm::sincos(origin.heading.si());
+        let (x, y) = ((self.x - origin.x).si(), (self.y - origin.y).si());
+        (Length::from_si(x * cos + y * sin), Length::from_si(y * cos - x * sin))
+    }
 }
 
 /// Dead reckoning. It drifts with time and way; nothing corrects it.

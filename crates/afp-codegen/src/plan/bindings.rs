@@ -1,6 +1,6 @@
 //! The functions between entries and ports: inputs pulled from the configuration, outputs staged.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream, TokenTree};
 use quote::quote;
 
 use super::context::{ComponentNames, Context, Paths};
@@ -61,8 +61,8 @@ impl Bound<'_> {
         wanted: impl Fn(&InPort) -> bool,
     ) -> Function {
         let (module, ty) = (&self.paths.module, ident(ty));
-        let ports = self.template.inputs.iter().zip(self.inputs);
-        let ports: Vec<_> = ports.filter(|(port, _)| wanted(port)).collect();
+        let ports = (0..).zip(self.template.inputs.iter().zip(self.inputs));
+        let ports: Vec<_> = ports.filter(|(_, (port, _))| wanted(port)).collect();
         if ports.is_empty() {
             return Function {
                 item: TokenStream::new(),
@@ -70,24 +70,26 @@ impl Bound<'_> {
                 call: quote!(Ok(#module::#ty {})),
             };
         }
-        let generic = ports.iter().any(|(port, _)| is_generic(&port.ty));
-        let borrows = ports.iter().any(|(port, _)| matches!(port.ty, Type::Text | Type::Object(_)));
+        let generic = ports.iter().any(|(_, (port, _))| is_generic(&port.ty));
+        let borrowed = |ty: &Type| matches!(ty, Type::Text | Type::Object(_));
+        let borrows = ports.iter().any(|(_, (port, _))| borrowed(&port.ty));
         let (fields, scratch) = self.context.with_type_paths(|home| {
             let mut formulas = Formulas::new(home, &self.context.entries);
             let fields: Vec<_> = ports
                 .iter()
-                .map(|(port, formula)| {
+                .map(|(number, (port, formula))| {
                     let value = match port.ty {
                         Type::Any | Type::Number | Type::Discrete => formulas.value(formula),
                         _ => formulas.input(formula),
                     };
+                    let value = tried("input", *number, value);
                     let (port, at) = (ident(&snake(&port.name)), at(formula.span));
                     quote!(#at #port: #value)
                 })
                 .collect();
             (fields, formulas.scratch)
         });
-        let reads = ports.iter().any(|(_, formula)| reads_entries(formula));
+        let reads = ports.iter().any(|(_, (_, formula))| reads_entries(formula));
         let lifetime = borrows.then(|| quote!('a));
         let config = reads.then(|| {
             let lifetime = &lifetime;
@@ -109,7 +111,7 @@ impl Bound<'_> {
                 #help
                 #at
                 fn #name #generics (#config #(#scratch: &'a mut Text),*)
-                    -> Result<#module::#ty #arguments, Fault>
+                    -> Result<#module::#ty #arguments, BadValue>
                 {
                     Ok(#module::#ty { #(#fields),* })
                 }
@@ -179,7 +181,7 @@ impl Bound<'_> {
                 #help
                 #at
                 fn #name(staged: &mut Staged, outcome: #module::#outcome #arguments)
-                    -> Result<(), Fault>
+                    -> Result<(), BadValue>
                 {
                     #body
                     Ok(())
@@ -209,6 +211,7 @@ impl Bound<'_> {
                 _ => self.context.with_type_paths(|home| staged_value(home, output, ty, &name)),
             };
             let value = limited(&self.context.plan.entries[output.entry.index()], value);
+            let value = tried("output", number, value);
             let entry = &self.context.entries[output.entry.index()];
             Some((name, quote!(staged.#entry = Some(#value);)))
         });
@@ -236,6 +239,38 @@ pub fn limited(entry: &Entry, value: TokenStream) -> TokenStream {
         }
         None => value,
     }
+}
+
+/// A value that can be refused, with the port or entry that it is for.
+pub fn tried(what: &str, number: u16, value: TokenStream) -> TokenStream {
+    if !can_fail(&value) {
+        return value;
+    }
+    let (what, number) = (ident(what), Literal::u16_unsuffixed(number));
+    let value = refusing(&value).unwrap_or_else(|| quote!(Ok(#value)));
+    quote!(#what(#number, || #value)?)
+}
+
+/// A call that refuses a value, without the `?` behind it.
+fn refusing(value: &TokenStream) -> Option<TokenStream> {
+    let tokens: Vec<_> = value.clone().into_iter().collect();
+    match tokens.as_slice() {
+        [TokenTree::Ident(called), TokenTree::Group(values), _question]
+            if called == "limited" || called == "finite" =>
+        {
+            Some(quote!(#called #values))
+        }
+        _ => None,
+    }
+}
+
+/// Whether an expression can return early.
+fn can_fail(value: &TokenStream) -> bool {
+    value.clone().into_iter().any(|token| match token {
+        TokenTree::Punct(punct) => punct.as_char() == '?',
+        TokenTree::Group(group) => can_fail(&group.stream()),
+        TokenTree::Ident(_) | TokenTree::Literal(_) => false,
+    })
 }
 
 /// A value converted for its entry; numbers that come out of a text or an `int` are finite.

@@ -127,7 +127,7 @@ fn poll_supervisor(context: &Context<'_>) -> TokenStream {
                     #scratch
                     let live = #call;
                     let watch = &mut self.supervisors.#field;
-                    Fired::supervisor(cx.poll_supervisor(watch, live, wanted), #outputs)
+                    Fired::supervisor(cx.poll_supervisor(watch, live, wanted), #outputs, cx)
                 }
             }
         })
@@ -197,7 +197,7 @@ fn start_arm(context: &Context<'_>, element: &Element, names: &ComponentNames) -
                 #number => {
                     #scratch
                     let computed = cx.compute::<#marker, #implementation>(#call);
-                    return Started::computed(computed, #outputs);
+                    return Started::computed(computed, #outputs, cx);
                 }
             }
         }
@@ -219,7 +219,7 @@ fn start_sub_plan_arm(
     let given = gives.then(|| {
         let (function, config) = (&names.inputs, reads.then(|| quote!(&self.config,)));
         quote! {
-            if let Err(fault) = #function(#config &mut plan.config) {
+            if let Err(fault) = cx.noted(#function(#config &mut plan.config)) {
                 return Started::Failed(fault);
             }
         }
@@ -232,7 +232,7 @@ fn start_sub_plan_arm(
             #given
             let mut machine = Machine::new(plan);
             let flow = cx.start_sub_plan(#place, &mut machine);
-            let started = Started::sub_plan(flow, || #stage);
+            let started = Started::sub_plan(flow, || #stage, cx);
             self.active = Active::#variant(machine);
             return started;
         }
@@ -256,7 +256,7 @@ fn pass_live(
     let (function, place) = (&names.live, &names.place);
     (!inputs.is_empty()).then(|| {
         quote! {
-            let live = match #function(&self.config) {
+            let live = match cx.noted(#function(&self.config)) {
                 Ok(live) => live,
                 Err(fault) => return Polled::Failed(fault),
             };
@@ -293,7 +293,7 @@ fn poll_element(context: &Context<'_>) -> TokenStream {
                     Active::#variant(actor) => {
                         #scratch
                         let live = #call;
-                        Polled::actor(cx.poll_actor(actor, live), #outputs)
+                        Polled::actor(cx.poll_actor(actor, live), #outputs, cx)
                     }
                 })
             }
@@ -305,7 +305,7 @@ fn poll_element(context: &Context<'_>) -> TokenStream {
                     Active::#variant(machine) => {
                         #live
                         let flow = cx.inside(#place, |cx| machine.step(cx));
-                        Polled::sub_plan(flow, || #stage)
+                        Polled::sub_plan(flow, || #stage, cx)
                     }
                 })
             }

@@ -1,5 +1,7 @@
 //! The Rust names of everything in one plan.
 
+use std::sync::Arc;
+
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
@@ -13,6 +15,7 @@ use afp_dsl::types::{Enum, Object, Type};
 
 use super::imports::{CORE, QUANTITY, RT};
 use super::shared::FileEnum;
+use super::tables::FileTable;
 
 /// Types of the module itself, and names that are always there.
 const OWN: &[&str] = &[
@@ -44,6 +47,8 @@ pub struct Context<'a> {
     pub graph: &'a Graph,
     /// The enums of the plan files.
     pub enums: &'a [FileEnum],
+    /// Their tables that some plan reads.
+    pub tables: &'a [FileTable],
     pub plan: &'a Plan,
     pub rows: &'a Rows,
     /// The module.
@@ -83,7 +88,7 @@ pub struct ComponentNames {
 /// The module of a plan, by a name that no other module has.
 pub fn module_name(plan: &str) -> Ident {
     match snake(plan).as_str() {
-        name @ ("enums" | "units" | "core" | "std") => format_ident!("{name}_plan"),
+        name @ ("enums" | "tables" | "units" | "core" | "std") => format_ident!("{name}_plan"),
         name => ident(name),
     }
 }
@@ -99,7 +104,11 @@ pub fn type_name(name: &str) -> Ident {
 
 impl<'a> Context<'a> {
     /// Names everything in a plan.
-    pub fn new(graph: &'a Graph, enums: &'a [FileEnum], id: PlanId) -> Self {
+    pub fn new(
+        graph: &'a Graph,
+        (enums, tables): (&'a [FileEnum], &'a [FileTable]),
+        id: PlanId,
+    ) -> Self {
         let (plan, rows) = (graph.plan(id), graph.rows(id));
         let mut namer = Namer::new();
         let elements: Vec<_> =
@@ -118,6 +127,7 @@ impl<'a> Context<'a> {
         Context {
             graph,
             enums,
+            tables,
             plan,
             rows,
             module: module_name(&plan.name),
@@ -143,6 +153,9 @@ impl<'a> Context<'a> {
     /// The marker of a template, such as `carbot::Forward`, with its module `carbot::forward` and
     /// the type that implements it, `afp_carbot::Forward`.
     pub fn paths(&self, id: TemplateId, generic: Option<&Type>) -> Paths {
+        if let Some(paths) = self.table_paths(self.template(id)) {
+            return paths;
+        }
         let toolbox = self.toolbox(id);
         let (home, alias) = (path(&toolbox.rust_path), alias(self.graph, &toolbox.name));
         let name = &self.template(id).name;
@@ -156,6 +169,17 @@ impl<'a> Context<'a> {
             module: quote!(#alias::#snake),
             implementation: quote!(#home::#camel #generic),
         }
+    }
+
+    /// Those of what reads a table, which stands beside the plan's module.
+    fn table_paths(&self, template: &Template) -> Option<Paths> {
+        let table = template.reads_table.as_ref()?.table.as_ref()?;
+        let (_, name) = self.tables.iter().find(|(known, _)| Arc::ptr_eq(known, table))?;
+        Some(Paths {
+            marker: quote!(super::tables::#name::Row),
+            module: quote!(super::tables::#name),
+            implementation: quote!(super::tables::#name::Row),
+        })
     }
 
     /// Gives the types as this plan's module sees them.
@@ -233,7 +257,9 @@ pub fn alias(graph: &Graph, toolbox: &str) -> Ident {
     let name = snake(toolbox);
     let mut roots = graph.toolboxes.iter().map(|each| each.rust_path.split("::").next());
     match name.as_str() {
-        "std" | "core" | "alloc" | "rt" | "enums" | "units" => format_ident!("{name}_templates"),
+        "std" | "core" | "alloc" | "rt" | "enums" | "tables" | "units" => {
+            format_ident!("{name}_templates")
+        }
         name if roots.any(|root| root == Some(name)) => format_ident!("{name}_templates"),
         name => ident(name),
     }

@@ -3,7 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::bindings::{Bound, converted, limited, reads_entries};
+use super::bindings::{Bound, converted, limited, reads_entries, tried};
 use super::context::{ComponentNames, Context, is_bare};
 use crate::formula::{Formulas, is_literal};
 use crate::layout::{at, comment, doc};
@@ -122,7 +122,7 @@ fn sub_plan(
         quote! {
             #help
             #at
-            fn #name(#config to: &mut super::#module::Config) -> Result<(), Fault> {
+            fn #name(#config to: &mut super::#module::Config) -> Result<(), BadValue> {
                 #(#sets)*
                 Ok(())
             }
@@ -133,7 +133,7 @@ fn sub_plan(
         quote! {
             #help
             #at
-            fn #name(staged: &mut Staged, from: &super::#module::Config) -> Result<(), Fault> {
+            fn #name(staged: &mut Staged, from: &super::#module::Config) -> Result<(), BadValue> {
                 #(#gets)*
                 Ok(())
             }
@@ -154,6 +154,8 @@ fn sub_plan(
 /// A live input of a sub-plan that can change: its entry, by position and in Rust, and what it is given.
 pub struct LiveInput<'a> {
     pub index: usize,
+    /// Its position among the `in` entries.
+    port: u16,
     pub entry: &'a Entry,
     pub field: proc_macro2::Ident,
     formula: &'a Formula,
@@ -164,8 +166,10 @@ pub fn live_inputs<'a>(element: &'a Element, child: &'a Plan) -> Vec<LiveInput<'
     let fields = super::context::entry_names(child);
     let ins = child.entries.iter().zip(fields).enumerate();
     let ins = ins.filter(|(_, (entry, _))| entry.kind == EntryKind::In);
-    let live = ins.zip(&element.inputs).map(|((index, (entry, field)), formula)| LiveInput {
+    let ins = (0..).zip(ins.zip(&element.inputs));
+    let live = ins.map(|(port, ((index, (entry, field)), formula))| LiveInput {
         index,
+        port,
         entry,
         field,
         formula,
@@ -185,27 +189,28 @@ fn live_item(
         return None;
     }
     let types = live.iter().map(|it| context.entry_type(&it.entry.ty));
-    let values = live.iter().map(|it| passed(context, it.entry, it.formula));
+    let values = live.iter().map(|it| passed(context, it.port, it.entry, it.formula));
     let (name, help) = (&names.live, doc("", &format!("Live inputs of `{}`.", names.text)));
     let at = at(element.span);
     Some(quote! {
         #help
         #at
-        fn #name(config: &Config) -> Result<(#(#types,)*), Fault> {
+        fn #name(config: &Config) -> Result<(#(#types,)*), BadValue> {
             Ok((#(#values,)*))
         }
     })
 }
 
 /// What an `in` entry of a sub-plan is given.
-fn passed(context: &Context<'_>, entry: &Entry, formula: &Formula) -> TokenStream {
+fn passed(context: &Context<'_>, port: u16, entry: &Entry, formula: &Formula) -> TokenStream {
     let value =
         context.with_type_paths(|home| Formulas::new(home, &context.entries).value(formula));
-    match (is_literal(formula), entry.range, &formula.ty) {
+    let value = match (is_literal(formula), entry.range, &formula.ty) {
         (true, ..) => value,
         (false, None, Type::Quantity(_)) => quote!(finite(#value)?),
         (false, ..) => limited(entry, value),
-    }
+    };
+    tried("input", port, value)
 }
 
 /// Sets the `in` entries of a sub-plan.
@@ -216,8 +221,9 @@ fn given(
     fields: &[proc_macro2::Ident],
 ) -> Vec<TokenStream> {
     let ins = child.entries.iter().zip(fields).filter(|(entry, _)| entry.kind == EntryKind::In);
-    let sets = ins.zip(&element.inputs).map(|((entry, field), formula)| {
-        let value = passed(context, entry, formula);
+    let ins = (0..).zip(ins.zip(&element.inputs));
+    let sets = ins.map(|(port, ((entry, field), formula))| {
+        let value = passed(context, port, entry, formula);
         quote!(to.#field.set(#value);)
     });
     sets.collect()
@@ -247,6 +253,7 @@ fn result(
         (Some(conversion), ty) => converted(home, conversion, ty, quote!(*value)),
     });
     let value = limited(&context.plan.entries[output.entry.index()], value);
+    let value = tried("output", port, value);
     Some(quote! {
         if let Some(value) = from.#field.value() {
             staged.#to = Some(#value);

@@ -26,6 +26,7 @@ pub const CORE: &[&str] = &[
 pub const RT: &[&str] = &[
     "Actor",
     "AtElement",
+    "BadValue",
     "Child",
     "Committer",
     "ComponentRow",
@@ -43,6 +44,7 @@ pub const RT: &[&str] = &[
     "PlanState",
     "PlanTable",
     "Polled",
+    "PortRow",
     "Range",
     "Scale",
     "Slot",
@@ -61,6 +63,8 @@ pub const RT: &[&str] = &[
     "finite",
     "float_to_int",
     "hypot",
+    "initial",
+    "input",
     "int_abs",
     "int_add",
     "int_clamp",
@@ -75,6 +79,7 @@ pub const RT: &[&str] = &[
     "limited",
     "max",
     "min",
+    "output",
     "parse_bool",
     "parse_float",
     "parse_int",
@@ -105,7 +110,16 @@ pub const QUANTITY: &[&str] = &[
     "Voltage",
 ];
 /// What lives in `afp_core::trace`.
-const TRACE: &[&str] = &["ComponentName", "EntryKind", "EntryName", "Kind", "Sink"];
+const TRACE: &[&str] = &[
+    "ComponentId",
+    "ComponentName",
+    "DEADLINE_MISSED",
+    "EntryKind",
+    "EntryName",
+    "Kind",
+    "Reaction",
+    "Sink",
+];
 
 /// The items for what the sections name.
 pub fn imports(

@@ -1,7 +1,7 @@
 //! The names that a trace shows, with all sub-plans unfolded.
 
 use proc_macro2::{Literal, TokenStream};
-use quote::quote;
+use quote::{ToTokens, quote};
 
 use super::context::Context;
 use super::shared::units_name;
@@ -9,13 +9,15 @@ use crate::layout::doc;
 use crate::rust_type::float;
 use afp_dsl::graph::{EntryKind, Graph, PlanId};
 use afp_dsl::types::{Dimension, Type};
-use afp_dsl::unfold::{ComponentNames, EntryNames, Kind, unfold};
+use afp_dsl::unfold::{
+    ComponentNames, EntryNames, Kind, PlanTexts, PortNames, Reaction, TextPlace, unfold,
+};
 
 /// The table of names, and access by name.
 pub fn names(context: &Context<'_>, id: PlanId) -> TokenStream {
     let all = unfold(&Graph { main: id, ..context.graph.clone() });
-    let components = all.components.iter().map(component);
-    let entries = all.entries.iter().map(entry);
+    let components = all.components.iter().map(|names| component(names, &all.texts));
+    let entries = all.entries.iter().map(|names| entry(names, &all.texts));
     let (ty, access) = (&context.ty, access(context));
     let about = doc("", "The names behind the ids of a trace.");
     quote! {
@@ -61,8 +63,8 @@ fn access(context: &Context<'_>) -> TokenStream {
     }
 }
 
-fn component(names: &ComponentNames) -> TokenStream {
-    let ComponentNames { path, kind, template, outcomes, special, inputs } = names;
+fn component(names: &ComponentNames, texts: &PlanTexts) -> TokenStream {
+    let ComponentNames { path, kind, template, outcomes, special, .. } = names;
     let kind = match kind {
         Kind::Plan => quote!(Plan),
         Kind::Actor => quote!(Actor),
@@ -71,14 +73,67 @@ fn component(names: &ComponentNames) -> TokenStream {
         Kind::Supervisor => quote!(Supervisor),
     };
     let outcomes = outcomes.iter().map(|(name, target)| quote!((#name, #target)));
+    let inputs = names.inputs.iter().map(|names| port(names, texts));
+    let writing = (!names.outputs.is_empty()).then(|| {
+        let outputs = names.outputs.iter().map(|(position, names)| {
+            let (row, entry) = (port(names, texts), &names.entry);
+            let position = Literal::u16_unsuffixed(*position);
+            quote!(#row.into(#position, #entry))
+        });
+        quote!(.writing(&[#(#outputs),*]))
+    });
+    let reactions = (!names.reactions.is_empty()).then(|| {
+        let reactions = names.reactions.iter().map(|(each, target)| reaction(each, target));
+        quote!(.reacting(&[#(#reactions),*]))
+    });
     quote! {
         ComponentRow::new(
             #path, Kind::#kind, #template, &[#(#outcomes),*], #special, &[#(#inputs),*],
-        )
+        ) #writing #reactions
     }
 }
 
-fn entry(names: &EntryNames) -> TokenStream {
+/// A port and what is bound to it.
+fn port(names: &PortNames, texts: &PlanTexts) -> TokenStream {
+    let (name, unit) = (&names.name, unit(&names.ty));
+    let (within, at) = (within(names.range), placed(texts.place(names.span)));
+    quote!(PortRow::new(#name, #unit) #within #at)
+}
+
+fn within(range: Option<(f64, f64)>) -> Option<TokenStream> {
+    range.map(|(least, greatest)| {
+        let (least, greatest) = (float(least), float(greatest));
+        quote!(.within(#least, #greatest))
+    })
+}
+
+fn placed(place: Option<TextPlace<'_>>) -> Option<TokenStream> {
+    place.map(|TextPlace { file, line, column }| {
+        let [line, column] = [line, column].map(Literal::u32_unsuffixed);
+        quote!(.at(#file, #line, #column))
+    })
+}
+
+fn unit(ty: &Type) -> String {
+    match ty {
+        Type::Quantity(dimension) => dimension.si_unit(),
+        _ => String::new(),
+    }
+}
+
+/// An edge of an element that holds instead of one of a global supervisor.
+fn reaction(reaction: &Reaction, target: &str) -> TokenStream {
+    let supervisor = Literal::u32_unsuffixed(reaction.supervisor);
+    let outcome = match reaction.event {
+        Some(event) => Literal::u16_unsuffixed(event).into_token_stream(),
+        None => quote!(DEADLINE_MISSED),
+    };
+    quote! {
+        Reaction { supervisor: ComponentId(#supervisor), outcome: #outcome, target: #target }
+    }
+}
+
+fn entry(names: &EntryNames, texts: &PlanTexts) -> TokenStream {
     let EntryNames { path, kind, ty, range, .. } = names;
     let kind = match kind {
         EntryKind::In => quote!(In),
@@ -86,18 +141,12 @@ fn entry(names: &EntryNames) -> TokenStream {
         EntryKind::Var => quote!(Var),
         EntryKind::Const => quote!(Const),
     };
-    let unit = match ty {
-        Type::Quantity(dimension) => dimension.si_unit(),
-        _ => String::new(),
-    };
+    let unit = unit(ty);
     let choices = match ty {
         Type::Enum(choices) => choices.variants.as_slice(),
         _ => &[],
     };
     let ty = ty.to_string();
-    let within = range.map(|(least, greatest)| {
-        let (least, greatest) = (float(least), float(greatest));
-        quote!(.within(#least, #greatest))
-    });
-    quote!(EntryRow::new(#path, EntryKind::#kind, #ty, #unit, &[#(#choices),*]) #within)
+    let (within, at) = (within(*range), placed(names.initial.and_then(|span| texts.place(span))));
+    quote!(EntryRow::new(#path, EntryKind::#kind, #ty, #unit, &[#(#choices),*]) #within #at)
 }

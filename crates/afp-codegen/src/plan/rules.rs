@@ -31,7 +31,7 @@ pub fn rules(context: &Context<'_>) -> TokenStream {
     let notes = [
         "Where each state and event leads.",
         "The elements.",
-        "The supervisors: global ones, local ones, then global ones where their own events lead.",
+        "The supervisors: global ones, local ones, then global ones for elements of their own.",
         "Who is polled while an element is active, in order.",
     ];
     let [of_edges, of_elements, of_supervisors, of_sweeps] = notes.map(|note| doc("", note));
@@ -118,7 +118,12 @@ fn supervisor(context: &Context<'_>, place: usize, row: &SupervisorRow) -> Token
     let ComponentNames { text: name, number: instance, .. } =
         &context.supervisors[row.instance.index()];
     let template = &context.template(supervisor.template).name;
-    let there = if place == row.instance.index() { "" } else { ", where an event of it leads" };
+    let own = context.rows.supervisors.get(row.instance.index());
+    let there = match own {
+        _ if place == row.instance.index() => "",
+        Some(own) if own.events == row.events => ", where an event of it leads",
+        _ => ", where an element reacts to it",
+    };
     let (note, at) = (comment(&format!("{name}: {template}{there}")), at(supervisor.span));
     let [period, deadline, budget] = [row.period, row.deadline, row.budget].map(duration);
     let (slot, events) = (Literal::u16_unsuffixed(row.slot), range(row.events));
@@ -175,6 +180,16 @@ fn edges(context: &Context<'_>) -> Vec<TokenStream> {
     let supervisors = plan.supervisors.iter().zip(&rows.supervisors);
     for ((supervisor, row), names) in supervisors.zip(&context.supervisors) {
         add(&names.text, &outcomes(context, supervisor.template), rows.edges(row.events));
+    }
+    for row in rows.supervisors.iter().skip(plan.supervisors.len()) {
+        let own = rows.supervisors.get(row.instance.index());
+        if own.is_some_and(|own| own.events == row.events) {
+            continue;
+        }
+        let template = plan.supervisors[row.instance.index()].template;
+        let name = &context.supervisors[row.instance.index()].text;
+        let name = format!("{name}, where an element reacts to it");
+        add(&name, &outcomes(context, template), rows.edges(row.events));
     }
     edges
 }

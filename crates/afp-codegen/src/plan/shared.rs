@@ -149,6 +149,7 @@ fn types(graph: &Graph, see: &mut dyn FnMut(&Type)) {
         plan.entries.iter().for_each(|entry| see(&entry.ty));
     }
     formulas(graph).for_each(|formula| walk(formula, &mut |part| see(&part.ty)));
+    super::tables::types(graph, see);
 }
 
 fn conversions(graph: &Graph, see: &mut dyn FnMut(&Conversion)) {

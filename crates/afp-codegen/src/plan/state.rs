@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use super::bindings::limited;
+use super::bindings::{limited, tried};
 use super::context::Context;
 use crate::formula::{Formulas, is_literal};
 use crate::layout::{at, doc};
@@ -214,24 +214,25 @@ fn slots(context: &Context<'_>) -> usize {
 
 /// Initial values, in the order in which they may refer to one another.
 fn initialise(context: &Context<'_>) -> TokenStream {
-    let entries = || context.plan.entries.iter().zip(&context.entries);
-    let cleared = entries().filter(|(entry, _)| entry.kind != EntryKind::In);
-    let cleared: Vec<_> = cleared.map(|(_, name)| quote!(config.#name.clear();)).collect();
+    let entries = || (0..).zip(context.plan.entries.iter().zip(&context.entries));
+    let cleared = entries().filter(|(_, (entry, _))| entry.kind != EntryKind::In);
+    let cleared: Vec<_> = cleared.map(|(_, (_, name))| quote!(config.#name.clear();)).collect();
     let kinds = [&[EntryKind::Const][..], &[EntryKind::In], &[EntryKind::Var, EntryKind::Out]];
-    let set = kinds.iter().flat_map(|kinds| entries().filter(|(e, _)| kinds.contains(&e.kind)));
+    let set =
+        kinds.iter().flat_map(|kinds| entries().filter(|(_, (e, _))| kinds.contains(&e.kind)));
     let set: Vec<_> = set
-        .filter_map(|(entry, name)| {
+        .filter_map(|(number, (entry, name))| {
             let formula = entry.init.as_ref()?;
             let value = context
                 .with_type_paths(|home| Formulas::new(home, &context.entries).value(formula));
             let set = match (&entry.ty, is_literal(formula)) {
                 (_, true) => quote!(config.#name.set(#value);),
-                (Type::Quantity(_), false) if entry.range.is_none() => quote! {
-                    let value = finite(#value)?;
-                    config.#name.set(value);
-                },
-                (_, false) => {
-                    let value = limited(entry, value);
+                (ty, false) => {
+                    let value = match ty {
+                        Type::Quantity(_) if entry.range.is_none() => quote!(finite(#value)?),
+                        _ => limited(entry, value),
+                    };
+                    let value = tried("initial", number, value);
                     quote! {
                         let value = #value;
                         config.#name.set(value);
@@ -247,7 +248,7 @@ fn initialise(context: &Context<'_>) -> TokenStream {
     let config =
         (!cleared.is_empty() || !set.is_empty()).then(|| quote!(let config = &mut self.config;));
     quote! {
-        fn initialise(&mut self) -> Result<(), Fault> {
+        fn initialise(&mut self) -> Result<(), BadValue> {
             #config
             #(#cleared)*
             #(#set)*

@@ -10,6 +10,9 @@ use afp_dsl::toolbox::{
     Amount, Control, Device, Fault, Signal, SignalType, Toolbox, device::ROBOT,
 };
 
+/// The modules that [`devices`] makes.
+pub const MODULES: [&str; 2] = ["devices", "signal"];
+
 /// The modules `devices` and `signal`; nothing where no device is declared.
 pub fn devices(core: &TokenStream, toolbox: &Toolbox) -> TokenStream {
     let all = &toolbox.devices;

@@ -108,7 +108,7 @@ fn implement_ports(
     parameters: Parameters,
     ports: &[(u16, &InPort)],
 ) -> TokenStream {
-    let checks = ports.iter().filter_map(|(_, port)| check(core, port));
+    let checks = ports.iter().filter_map(|(index, port)| check(core, *index, port));
     let shown: Vec<_> =
         ports.iter().filter_map(|(index, port)| shown(core, *index, port)).collect();
     let see = if shown.is_empty() { quote!(_) } else { quote!(see) };
@@ -122,7 +122,7 @@ fn implement_ports(
     quote! {
         impl #generics #core::rt::Ports for #name #arguments {
             #[inline]
-            fn check(&self) -> Result<(), #core::Fault> {
+            fn check(&self) -> Result<(), #core::rt::BadValue> {
                 #(#checks)*
                 Ok(())
             }
@@ -135,22 +135,23 @@ fn implement_ports(
 }
 
 /// Checks that a port's number is finite and in range.
-fn check(core: &TokenStream, port: &InPort) -> Option<TokenStream> {
-    let name = ident(&snake(&port.name));
+fn check(core: &TokenStream, index: u16, port: &InPort) -> Option<TokenStream> {
+    let (name, index) = (ident(&snake(&port.name)), Literal::u16_unsuffixed(index));
     match (&port.ty, port.range) {
         (Type::Int, Some((least, greatest))) => {
             let (least, greatest) = (int(least.ceil() as i64), int(greatest.floor() as i64));
-            Some(quote!(#core::rt::within_int(self.#name, #least, #greatest)?;))
+            Some(quote!(#core::rt::within_int(#index, self.#name, #least, #greatest)?;))
         }
         (Type::Quantity(dimension), Some((least, greatest))) => {
             let si = (*dimension != Dimension::NONE).then(|| quote!(.si()));
             let home = home(core);
             let (least, greatest) =
                 (home.constant(*dimension, least), home.constant(*dimension, greatest));
-            Some(quote!(#core::rt::within(self.#name #si, #least #si, #greatest #si)?;))
+            Some(quote!(#core::rt::within(#index, self.#name #si, #least #si, #greatest #si)?;))
         }
         (Type::Quantity(_) | Type::Any | Type::Number | Type::Discrete, _) => {
-            Some(quote!(#core::rt::within_value(#core::rt::Stored::as_value(&self.#name))?;))
+            let value = quote!(#core::rt::Stored::as_value(&self.#name));
+            Some(quote!(#core::rt::within_value(#index, #value)?;))
         }
         _ => None,
     }
@@ -174,7 +175,8 @@ fn implement_from_args(
 ) -> TokenStream {
     let fields = ports.iter().map(|(index, port)| {
         let (name, value) = (ident(&snake(&port.name)), pull(core, *index, &port.ty));
-        quote!(#name: #value)
+        let index = Literal::u16_unsuffixed(*index);
+        quote!(#name: #core::rt::input(#index, || Ok(#value))?)
     });
     let args = if ports.is_empty() { quote!(_) } else { quote!(args) };
     let arguments = match (parameters.borrows, parameters.generic) {
@@ -184,7 +186,7 @@ fn implement_from_args(
     };
     quote! {
         impl<'a> #core::rt::FromArgs<'a> for #name #arguments {
-            fn from_args(#args: &'a dyn #core::rt::Args) -> Result<Self, #core::Fault> {
+            fn from_args(#args: &'a dyn #core::rt::Args) -> Result<Self, #core::rt::BadValue> {
                 Ok(#name { #(#fields),* })
             }
         }

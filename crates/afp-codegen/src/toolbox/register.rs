@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::{bound, words};
+use super::{bound, implemented, words};
 use crate::layout::doc;
 use crate::names::{camel, ident, snake};
 use afp_dsl::toolbox::{Template, TemplateKind, Toolbox};
@@ -11,13 +11,13 @@ use afp_dsl::toolbox::{Template, TemplateKind, Toolbox};
 /// `register`, for every platform that all components of the toolbox accept.
 pub fn register(core: &TokenStream, toolbox: &Toolbox) -> TokenStream {
     let about = doc("", "Names the Rust type of every template and object to a registry.");
-    let bounds = toolbox.templates.iter().filter(|t| t.kind != TemplateKind::Computation);
+    let bounds = implemented(toolbox).filter(|t| t.kind != TemplateKind::Computation);
     let bounds = bounds.map(|template| {
         let (marker, implementation) = types(core, &quote!(super), template);
         let component = words(template.kind).component;
         quote!(#implementation: #core::#component<#marker, E>,)
     });
-    let templates = toolbox.templates.iter().map(|template| {
+    let templates = implemented(toolbox).map(|template| {
         let (marker, implementation) = types(core, &quote!(super), template);
         let method = ident(&snake(&words(template.kind).component.to_string()));
         let (home, name) = (&toolbox.name, &template.name);
@@ -60,7 +60,7 @@ pub struct Support {
 pub fn register_supported(toolbox: &Toolbox, support: &Support) -> TokenStream {
     let Support { core, home, registry, platform, traits } = support;
     let missing = traits.iter().map(|path| missing(platform, path));
-    let templates = toolbox.templates.iter().map(|template| {
+    let templates = implemented(toolbox).map(|template| {
         let (marker, implementation) = types(core, home, template);
         let method = ident(&snake(&words(template.kind).component.to_string()));
         let (toolbox, name) = (&toolbox.name, &template.name);

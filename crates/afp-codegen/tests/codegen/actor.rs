@@ -13,24 +13,24 @@ enum Active {
 }
 
 /// Outputs of `here`.
-fn here_outputs(staged: &mut Staged, outcome: kit::here::State) -> Result<(), Fault> {
+fn here_outputs(staged: &mut Staged, outcome: kit::here::State) -> Result<(), BadValue> {
     let kit::here::State::Done { place } = outcome;
     staged.place = Some(Object::new(place));
     Ok(())
 }
 
 /// Inputs of `seek`.
-fn seek<'a>(config: &'a Config) -> Result<kit::seek::Inputs<'a>, Fault> {
+fn seek<'a>(config: &'a Config) -> Result<kit::seek::Inputs<'a>, BadValue> {
     Ok(kit::seek::Inputs {
         name: config.text(),
         side: crate::kit::templates::Side::Right,
-        r#where: config.place()?,
+        r#where: input(2, || Ok(config.place()?))?,
         tries: 5,
     })
 }
 
 /// Live inputs of `seek`.
-fn seek_live(config: &Config) -> Result<kit::seek::Live, Fault> {
+fn seek_live(config: &Config) -> Result<kit::seek::Live, BadValue> {
     Ok(kit::seek::Live {
         speed: config.pace(),
         r#loop: true,
@@ -38,7 +38,7 @@ fn seek_live(config: &Config) -> Result<kit::seek::Live, Fault> {
 }
 
 /// Outputs of `seek`.
-fn seek_outputs(staged: &mut Staged, outcome: kit::seek::State) -> Result<(), Fault> {
+fn seek_outputs(staged: &mut Staged, outcome: kit::seek::State) -> Result<(), BadValue> {
     match outcome {
         kit::seek::State::Found { place, said } => {
             staged.found = Some(Object::new(place));
@@ -46,7 +46,7 @@ fn seek_outputs(staged: &mut Staged, outcome: kit::seek::State) -> Result<(), Fa
         }
         kit::seek::State::Lost { said, turn } => {
             staged.text = Some(said);
-            staged.turn = Some(finite(turn)?);
+            staged.turn = Some(output(2, || finite(turn))?);
         }
         _ => {}
     }

@@ -10,7 +10,7 @@ enum Active {
 }
 
 /// Inputs of `area`.
-fn area(config: &Config) -> Result<kit::area::Inputs, Fault> {
+fn area(config: &Config) -> Result<kit::area::Inputs, BadValue> {
     Ok(kit::area::Inputs {
         width: config.width(),
         height: Length::from_si(3.0),
@@ -18,13 +18,13 @@ fn area(config: &Config) -> Result<kit::area::Inputs, Fault> {
 }
 
 /// Outputs of `area`.
-fn area_outputs(staged: &mut Staged, outcome: kit::area::State) -> Result<(), Fault> {
+fn area_outputs(staged: &mut Staged, outcome: kit::area::State) -> Result<(), BadValue> {
     match outcome {
         kit::area::State::Small { area } => {
-            staged.size = Some(finite(area)?);
+            staged.size = Some(output(0, || finite(area))?);
         }
         kit::area::State::Large { area } => {
-            staged.size = Some(finite(area)?);
+            staged.size = Some(output(0, || finite(area))?);
         }
     }
     Ok(())

@@ -20,7 +20,7 @@ enum Active {
 }
 
 /// Inputs of `a`.
-fn a(config: &Config) -> Result<std_templates::assign::Inputs<f64>, Fault> {
+fn a(config: &Config) -> Result<std_templates::assign::Inputs<f64>, BadValue> {
     Ok(std_templates::assign::Inputs {
         value: config.f(),
     })
@@ -30,14 +30,14 @@ fn a(config: &Config) -> Result<std_templates::assign::Inputs<f64>, Fault> {
 fn a_outputs(
     staged: &mut Staged,
     outcome: std_templates::assign::State<f64>,
-) -> Result<(), Fault> {
+) -> Result<(), BadValue> {
     let std_templates::assign::State::Done { result } = outcome;
-    staged.number = Some(float_to_int(result)?);
+    staged.number = Some(output(0, || Ok(float_to_int(result)?))?);
     Ok(())
 }
 
 /// Inputs of `b`.
-fn b(config: &Config) -> Result<std_templates::assign::Inputs<Length>, Fault> {
+fn b(config: &Config) -> Result<std_templates::assign::Inputs<Length>, BadValue> {
     Ok(std_templates::assign::Inputs {
         value: config.way(),
     })
@@ -47,14 +47,14 @@ fn b(config: &Config) -> Result<std_templates::assign::Inputs<Length>, Fault> {
 fn b_outputs(
     staged: &mut Staged,
     outcome: std_templates::assign::State<Length>,
-) -> Result<(), Fault> {
+) -> Result<(), BadValue> {
     let std_templates::assign::State::Done { result } = outcome;
-    staged.said = Some(print_quantity(result.si(), "m")?);
+    staged.said = Some(output(0, || Ok(print_quantity(result.si(), "m")?))?);
     Ok(())
 }
 
 /// Inputs of `c`.
-fn c(config: &Config) -> Result<std_templates::assign::Inputs<bool>, Fault> {
+fn c(config: &Config) -> Result<std_templates::assign::Inputs<bool>, BadValue> {
     Ok(std_templates::assign::Inputs {
         value: config.flag(),
     })
@@ -64,14 +64,14 @@ fn c(config: &Config) -> Result<std_templates::assign::Inputs<bool>, Fault> {
 fn c_outputs(
     staged: &mut Staged,
     outcome: std_templates::assign::State<bool>,
-) -> Result<(), Fault> {
+) -> Result<(), BadValue> {
     let std_templates::assign::State::Done { result } = outcome;
-    staged.said = Some(Text::print(result)?);
+    staged.said = Some(output(0, || Ok(Text::print(result)?))?);
     Ok(())
 }
 
 /// Inputs of `d`.
-fn d() -> Result<std_templates::assign::Inputs<crate::kit::templates::Side>, Fault> {
+fn d() -> Result<std_templates::assign::Inputs<crate::kit::templates::Side>, BadValue> {
     Ok(std_templates::assign::Inputs {
         value: crate::kit::templates::Side::Left,
     })
@@ -81,41 +81,54 @@ fn d() -> Result<std_templates::assign::Inputs<crate::kit::templates::Side>, Fau
 fn d_outputs(
     staged: &mut Staged,
     outcome: std_templates::assign::State<crate::kit::templates::Side>,
-) -> Result<(), Fault> {
+) -> Result<(), BadValue> {
     let std_templates::assign::State::Done { result } = outcome;
-    staged.said = Some(print_choice(result)?);
+    staged.said = Some(output(0, || Ok(print_choice(result)?))?);
     Ok(())
 }
 
 /// Inputs of `e`.
-fn e(config: &Config) -> Result<kit::area::Inputs, Fault> {
+fn e(config: &Config) -> Result<kit::area::Inputs, BadValue> {
     Ok(kit::area::Inputs {
-        width: Length::from_si(
-            parse_quantity(config.text(), super::units::LENGTH.iter().copied())?,
-        ),
+        width: input(
+            0,
+            || Ok(
+                Length::from_si(
+                    parse_quantity(config.text(), super::units::LENGTH.iter().copied())?,
+                ),
+            ),
+        )?,
         height: Length::from_si(1.0),
     })
 }
 
 /// Inputs of `k`.
-fn k(config: &Config) -> Result<std_templates::count::Inputs, Fault> {
+fn k(config: &Config) -> Result<std_templates::count::Inputs, BadValue> {
     Ok(std_templates::count::Inputs {
         value: bool_to_int(config.flag()),
-        limit: parse_int(config.text())?,
+        limit: input(1, || Ok(parse_int(config.text())?))?,
     })
 }
 
 /// Inputs of `n`.
-fn n(config: &Config) -> Result<std_templates::wait::Inputs, Fault> {
+fn n(config: &Config) -> Result<std_templates::wait::Inputs, BadValue> {
     Ok(std_templates::wait::Inputs {
-        duration: Time::from_si(
-            parse_quantity(config.text(), super::units::DURATION.iter().copied())?,
-        ),
+        duration: input(
+            0,
+            || Ok(
+                Time::from_si(
+                    parse_quantity(
+                        config.text(),
+                        super::units::DURATION.iter().copied(),
+                    )?,
+                ),
+            ),
+        )?,
     })
 }
 
 /// Inputs of `o`.
-fn o(config: &Config) -> Result<std_templates::compare::Inputs<f64>, Fault> {
+fn o(config: &Config) -> Result<std_templates::compare::Inputs<f64>, BadValue> {
     Ok(std_templates::compare::Inputs {
         left: int_to_float(config.i()),
         right: config.f(),
@@ -123,7 +136,7 @@ fn o(config: &Config) -> Result<std_templates::compare::Inputs<f64>, Fault> {
 }
 
 /// Inputs of `p`.
-fn p(config: &Config) -> Result<std_templates::assign::Inputs<Text>, Fault> {
+fn p(config: &Config) -> Result<std_templates::assign::Inputs<Text>, BadValue> {
     Ok(std_templates::assign::Inputs {
         value: config.text.get().clone(),
     })
@@ -133,8 +146,8 @@ fn p(config: &Config) -> Result<std_templates::assign::Inputs<Text>, Fault> {
 fn p_outputs(
     staged: &mut Staged,
     outcome: std_templates::assign::State<Text>,
-) -> Result<(), Fault> {
+) -> Result<(), BadValue> {
     let std_templates::assign::State::Done { result } = outcome;
-    staged.number = Some(parse_int(result.as_str())?);
+    staged.number = Some(output(0, || Ok(parse_int(result.as_str())?))?);
     Ok(())
 }

@@ -41,7 +41,7 @@ static ELEMENTS: [ElementRow; 1] = [
     },
 ];
 
-/// The supervisors: global ones, local ones, then global ones where their own events lead.
+/// The supervisors: global ones, local ones, then global ones for elements of their own.
 static SUPERVISORS: [SupervisorRow; 0] = [];
 
 /// Who is polled while an element is active, in order.
@@ -128,7 +128,7 @@ static ELEMENTS: [ElementRow; 3] = [
     },
 ];
 
-/// The supervisors: global ones, local ones, then global ones where their own events lead.
+/// The supervisors: global ones, local ones, then global ones for elements of their own.
 static SUPERVISORS: [SupervisorRow; 4] = [
     // late: CheckTimeout
     SupervisorRow {

@@ -181,29 +181,35 @@ impl PlanState for P {
         None
     }
 
-    fn initialise(&mut self) -> Result<(), Fault> {
+    fn initialise(&mut self) -> Result<(), BadValue> {
         let config = &mut self.config;
         config.flag.clear();
         config.text.clear();
         config.size.clear();
         config.half.clear();
-        let value = finite(1.0 / 2.0)?;
+        let value = initial(5, || finite(1.0 / 2.0))?;
         config.half.set(value);
         if !config.often.is_set() {
             config.often.set(3);
         }
         config.flag.set(true);
-        let value = join("a", Text::print(config.often())?.as_str())?;
+        let value = initial(
+            3,
+            || Ok(join("a", Text::print(config.often())?.as_str())?),
+        )?;
         config.text.set(value);
-        let value = finite(
-            <Quantity<
-                2,
-                0,
-                0,
-                0,
-                0,
-                0,
-            >>::from_si(Length::from_si(2.0).si() * Length::from_si(3.0).si()),
+        let value = initial(
+            4,
+            || finite(
+                <Quantity<
+                    2,
+                    0,
+                    0,
+                    0,
+                    0,
+                    0,
+                >>::from_si(Length::from_si(2.0).si() * Length::from_si(3.0).si()),
+            ),
         )?;
         config.size.set(value);
         Ok(())
@@ -313,12 +319,20 @@ where
             WAIT_MORE => {
                 let live = wait_more_live(&self.config);
                 let watch = &mut self.supervisors.wait_more;
-                Fired::supervisor(cx.poll_supervisor(watch, live, wanted), |_| Ok(()))
+                Fired::supervisor(
+                    cx.poll_supervisor(watch, live, wanted),
+                    |_| Ok(()),
+                    cx,
+                )
             }
             WAIT_SAME => {
                 let live = wait_same_live(&self.config);
                 let watch = &mut self.supervisors.wait_same;
-                Fired::supervisor(cx.poll_supervisor(watch, live, wanted), |_| Ok(()))
+                Fired::supervisor(
+                    cx.poll_supervisor(watch, live, wanted),
+                    |_| Ok(()),
+                    cx,
+                )
             }
             _ => Fired::fault(Fault::INTERNAL),
         }
@@ -337,7 +351,7 @@ where
                         std_templates::Log<Text>,
                         afp_std::Log<Text>,
                     >(log(&self.config));
-                return Started::computed(computed, |_| Ok(()));
+                return Started::computed(computed, |_| Ok(()), cx);
             }
             _ => Err(Fault::INTERNAL),
         };
@@ -360,7 +374,7 @@ where
             Active::None => Polled::Failed(Fault::INTERNAL),
             Active::Wait(actor) => {
                 let live = Ok(std_templates::wait::Live {});
-                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()))
+                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()), cx)
             }
         }
     }

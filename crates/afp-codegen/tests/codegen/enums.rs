@@ -68,7 +68,7 @@ enum Active {
 }
 
 /// Inputs of `set`.
-fn set() -> Result<std_templates::assign::Inputs<super::enums::Mood>, Fault> {
+fn set() -> Result<std_templates::assign::Inputs<super::enums::Mood>, BadValue> {
     Ok(std_templates::assign::Inputs {
         value: super::enums::Mood::Loop,
     })
@@ -78,15 +78,15 @@ fn set() -> Result<std_templates::assign::Inputs<super::enums::Mood>, Fault> {
 fn set_outputs(
     staged: &mut Staged,
     outcome: std_templates::assign::State<super::enums::Mood>,
-) -> Result<(), Fault> {
+) -> Result<(), BadValue> {
     let std_templates::assign::State::Done { result } = outcome;
     staged.mood = Some(result);
     Ok(())
 }
 
 /// Inputs of `log`.
-fn log(config: &Config) -> Result<std_templates::log::Inputs<Text>, Fault> {
+fn log(config: &Config) -> Result<std_templates::log::Inputs<Text>, BadValue> {
     Ok(std_templates::log::Inputs {
-        value: join("mood ", print_choice(config.mood())?.as_str())?,
+        value: input(0, || Ok(join("mood ", print_choice(config.mood())?.as_str())?))?,
     })
 }

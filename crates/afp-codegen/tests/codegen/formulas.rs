@@ -20,35 +20,35 @@ enum Active {
 }
 
 /// Inputs of `a`.
-fn a(config: &Config) -> Result<std_templates::log::Inputs<i64>, Fault> {
+fn a(config: &Config) -> Result<std_templates::log::Inputs<i64>, BadValue> {
     Ok(std_templates::log::Inputs {
-        value: int_sub(int_mul(int_neg(config.i())?, 2)?, int_neg(3)?)?,
+        value: input(0, || Ok(int_sub(int_mul(int_neg(config.i())?, 2)?, int_neg(3)?)?))?,
     })
 }
 
 /// Inputs of `b`.
-fn b(config: &Config) -> Result<std_templates::log::Inputs<i64>, Fault> {
+fn b(config: &Config) -> Result<std_templates::log::Inputs<i64>, BadValue> {
     Ok(std_templates::log::Inputs {
-        value: int_rem(int_add(config.i(), 1)?, 4)?,
+        value: input(0, || Ok(int_rem(int_add(config.i(), 1)?, 4)?))?,
     })
 }
 
 /// Inputs of `c`.
-fn c(config: &Config) -> Result<std_templates::log::Inputs<f64>, Fault> {
+fn c(config: &Config) -> Result<std_templates::log::Inputs<f64>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: int_to_float(config.i()) / 4.0 + config.f() * (config.f() - 1.5),
     })
 }
 
 /// Inputs of `d`.
-fn d(config: &Config) -> Result<std_templates::log::Inputs<f64>, Fault> {
+fn d(config: &Config) -> Result<std_templates::log::Inputs<f64>, BadValue> {
     Ok(std_templates::log::Inputs {
-        value: rem(config.f(), (config.f() + 1.0))?,
+        value: input(0, || Ok(rem(config.f(), (config.f() + 1.0))?))?,
     })
 }
 
 /// Inputs of `e`.
-fn e(config: &Config) -> Result<std_templates::log::Inputs<Time>, Fault> {
+fn e(config: &Config) -> Result<std_templates::log::Inputs<Time>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: Time::from_si(
             Length::from_si(2.0 * (config.way() - Length::from_si(0.1)).si()).si()
@@ -58,7 +58,7 @@ fn e(config: &Config) -> Result<std_templates::log::Inputs<Time>, Fault> {
 }
 
 /// Inputs of `k`.
-fn k(config: &Config) -> Result<std_templates::log::Inputs<f64>, Fault> {
+fn k(config: &Config) -> Result<std_templates::log::Inputs<f64>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: 1.0
             - config.way()
@@ -67,32 +67,43 @@ fn k(config: &Config) -> Result<std_templates::log::Inputs<f64>, Fault> {
 }
 
 /// Inputs of `n`.
-fn n(config: &Config) -> Result<std_templates::log::Inputs<Text>, Fault> {
+fn n(config: &Config) -> Result<std_templates::log::Inputs<Text>, BadValue> {
     Ok(std_templates::log::Inputs {
-        value: join(
-            join(join("i ", Text::print(config.i())?.as_str())?.as_str(), " of ")?
-                .as_str(),
-            "4",
+        value: input(
+            0,
+            || Ok(
+                join(
+                    join(
+                            join("i ", Text::print(config.i())?.as_str())?.as_str(),
+                            " of ",
+                        )?
+                        .as_str(),
+                    "4",
+                )?,
+            ),
         )?,
     })
 }
 
 /// Inputs of `o`.
-fn o(config: &Config) -> Result<std_templates::log::Inputs<i64>, Fault> {
+fn o(config: &Config) -> Result<std_templates::log::Inputs<i64>, BadValue> {
     Ok(std_templates::log::Inputs {
-        value: int_min(int_min(config.i(), 3), int_neg(config.i())?),
+        value: input(0, || Ok(int_min(int_min(config.i(), 3), int_neg(config.i())?)))?,
     })
 }
 
 /// Inputs of `q`.
-fn q(config: &Config) -> Result<std_templates::log::Inputs<i64>, Fault> {
+fn q(config: &Config) -> Result<std_templates::log::Inputs<i64>, BadValue> {
     Ok(std_templates::log::Inputs {
-        value: int_add(int_clamp(config.i(), int_neg(int_abs(config.i())?)?, 5)?, 1)?,
+        value: input(
+            0,
+            || Ok(int_add(int_clamp(config.i(), int_neg(int_abs(config.i())?)?, 5)?, 1)?),
+        )?,
     })
 }
 
 /// Inputs of `r`.
-fn r(config: &Config) -> Result<std_templates::log::Inputs<Length>, Fault> {
+fn r(config: &Config) -> Result<std_templates::log::Inputs<Length>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: Length::from_si(
             hypot(config.way().si(), max(config.way().si(), Length::from_si(2.0).si())),
@@ -101,7 +112,7 @@ fn r(config: &Config) -> Result<std_templates::log::Inputs<Length>, Fault> {
 }
 
 /// Inputs of `s`.
-fn s(config: &Config) -> Result<std_templates::log::Inputs<f64>, Fault> {
+fn s(config: &Config) -> Result<std_templates::log::Inputs<f64>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: sin(
             atan2(

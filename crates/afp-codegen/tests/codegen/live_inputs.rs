@@ -13,7 +13,7 @@ enum Active {
 }
 
 /// Inputs of `wait`.
-fn wait(config: &Config) -> Result<std_templates::wait::Inputs, Fault> {
+fn wait(config: &Config) -> Result<std_templates::wait::Inputs, BadValue> {
     Ok(std_templates::wait::Inputs {
         duration: Time::from_si(Length::from_si(1.0).si() / config.twice().si())
             * int_to_float(config.fixed()) * int_to_float(config.size()),
@@ -21,7 +21,7 @@ fn wait(config: &Config) -> Result<std_templates::wait::Inputs, Fault> {
 }
 
 /// Inputs of `log`.
-fn log(config: &Config) -> Result<std_templates::log::Inputs<Text>, Fault> {
+fn log(config: &Config) -> Result<std_templates::log::Inputs<Text>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: config.label.get().clone(),
     })
@@ -197,7 +197,7 @@ impl PlanState for Inner {
         None
     }
 
-    fn initialise(&mut self) -> Result<(), Fault> {
+    fn initialise(&mut self) -> Result<(), BadValue> {
         Ok(())
     }
 
@@ -300,7 +300,7 @@ where
                         std_templates::Log<Text>,
                         afp_std::Log<Text>,
                     >(log(&self.config));
-                return Started::computed(computed, |_| Ok(()));
+                return Started::computed(computed, |_| Ok(()), cx);
             }
             _ => Err(Fault::INTERNAL),
         };
@@ -323,7 +323,7 @@ where
             Active::None => Polled::Failed(Fault::INTERNAL),
             Active::Wait(actor) => {
                 let live = Ok(std_templates::wait::Live {});
-                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()))
+                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()), cx)
             }
         }
     }
@@ -366,8 +366,8 @@ enum Active {
 const INNER_PLACE: Child = Child { components: 1, entries: 2 };
 
 /// Inputs of `inner`.
-fn inner(config: &Config, to: &mut super::inner::Config) -> Result<(), Fault> {
-    to.twice.set(limited(config.pace() * 2.0, 0.0, 5.0)?);
+fn inner(config: &Config, to: &mut super::inner::Config) -> Result<(), BadValue> {
+    to.twice.set(input(0, || limited(config.pace() * 2.0, 0.0, 5.0))?);
     to.fixed.set(3);
     to.size.set(2);
     to.label.set(config.name.get().clone());
@@ -375,8 +375,8 @@ fn inner(config: &Config, to: &mut super::inner::Config) -> Result<(), Fault> {
 }
 
 /// Live inputs of `inner`.
-fn inner_live(config: &Config) -> Result<(Speed, Text), Fault> {
-    Ok((limited(config.pace() * 2.0, 0.0, 5.0)?, config.name.get().clone()))
+fn inner_live(config: &Config) -> Result<(Speed, Text), BadValue> {
+    Ok((input(0, || limited(config.pace() * 2.0, 0.0, 5.0))?, config.name.get().clone()))
 }
 
 /// Sub-plans whose inputs are read again at each step.
@@ -478,7 +478,7 @@ impl PlanState for P {
         None
     }
 
-    fn initialise(&mut self) -> Result<(), Fault> {
+    fn initialise(&mut self) -> Result<(), BadValue> {
         let config = &mut self.config;
         config.name.clear();
         if !config.pace.is_set() {
@@ -567,12 +567,12 @@ where
         let started: Result<Active, Fault> = match element {
             INNER => {
                 let mut plan = super::inner::Inner::new();
-                if let Err(fault) = inner(&self.config, &mut plan.config) {
+                if let Err(fault) = cx.noted(inner(&self.config, &mut plan.config)) {
                     return Started::Failed(fault);
                 }
                 let mut machine = Machine::new(plan);
                 let flow = cx.start_sub_plan(INNER_PLACE, &mut machine);
-                let started = Started::sub_plan(flow, || Ok(()));
+                let started = Started::sub_plan(flow, || Ok(()), cx);
                 self.active = Active::Inner(machine);
                 return started;
             }
@@ -596,7 +596,7 @@ where
         match &mut self.active {
             Active::None => Polled::Failed(Fault::INTERNAL),
             Active::Inner(machine) => {
-                let live = match inner_live(&self.config) {
+                let live = match cx.noted(inner_live(&self.config)) {
                     Ok(live) => live,
                     Err(fault) => return Polled::Failed(fault),
                 };
@@ -611,7 +611,7 @@ where
                     },
                 );
                 let flow = cx.inside(INNER_PLACE, |cx| machine.step(cx));
-                Polled::sub_plan(flow, || Ok(()))
+                Polled::sub_plan(flow, || Ok(()), cx)
             }
         }
     }

@@ -14,7 +14,7 @@ enum Active {
 }
 
 /// Inputs of `loop`.
-fn r#loop(config: &Config) -> Result<std_templates::assign::Inputs<i64>, Fault> {
+fn r#loop(config: &Config) -> Result<std_templates::assign::Inputs<i64>, BadValue> {
     Ok(std_templates::assign::Inputs {
         value: config.r#type(),
     })
@@ -24,14 +24,14 @@ fn r#loop(config: &Config) -> Result<std_templates::assign::Inputs<i64>, Fault> 
 fn loop_outputs(
     staged: &mut Staged,
     outcome: std_templates::assign::State<i64>,
-) -> Result<(), Fault> {
+) -> Result<(), BadValue> {
     let std_templates::assign::State::Done { result } = outcome;
     staged.staged = Some(result);
     Ok(())
 }
 
 /// Inputs of `active`.
-fn active(config: &Config) -> Result<std_templates::assign::Inputs<i64>, Fault> {
+fn active(config: &Config) -> Result<std_templates::assign::Inputs<i64>, BadValue> {
     Ok(std_templates::assign::Inputs {
         value: config.staged(),
     })
@@ -41,14 +41,14 @@ fn active(config: &Config) -> Result<std_templates::assign::Inputs<i64>, Fault> 
 fn active_outputs(
     staged: &mut Staged,
     outcome: std_templates::assign::State<i64>,
-) -> Result<(), Fault> {
+) -> Result<(), BadValue> {
     let std_templates::assign::State::Done { result } = outcome;
     staged.r#type = Some(result);
     Ok(())
 }
 
 /// Inputs of `self_`.
-fn self_() -> Result<std_templates::wait::Inputs, Fault> {
+fn self_() -> Result<std_templates::wait::Inputs, BadValue> {
     Ok(std_templates::wait::Inputs {
         duration: Time::from_si(1.0),
     })
@@ -59,33 +59,39 @@ pub static NAMES: NameTable = NameTable {
     components: &[
         ComponentRow::new("Config", Kind::Plan, "Config", &[], "", &[]),
         ComponentRow::new(
-            "loop",
-            Kind::Computation,
-            "Assign",
-            &[("Done", "active")],
-            "",
-            &["value"],
-        ),
+                "loop",
+                Kind::Computation,
+                "Assign",
+                &[("Done", "active")],
+                "",
+                &[PortRow::new("value", "").at("names.afp", 9, 38)],
+            )
+            .writing(
+                &[PortRow::new("result", "").at("names.afp", 9, 54).into(0, "staged")],
+            ),
         ComponentRow::new(
-            "active",
-            Kind::Computation,
-            "Assign",
-            &[("Done", "self_")],
-            "",
-            &["value"],
-        ),
+                "active",
+                Kind::Computation,
+                "Assign",
+                &[("Done", "self_")],
+                "",
+                &[PortRow::new("value", "").at("names.afp", 10, 40)],
+            )
+            .writing(
+                &[PortRow::new("result", "").at("names.afp", 10, 58).into(0, "type")],
+            ),
         ComponentRow::new(
             "self_",
             Kind::Actor,
             "Wait",
             &[("Elapsed", "terminate")],
             "",
-            &["duration"],
+            &[PortRow::new("duration", "s").within(0.0, 3600.0).at("names.afp", 11, 34)],
         ),
     ],
     entries: &[
-        EntryRow::new("staged", EntryKind::Var, "int", "", &[]),
-        EntryRow::new("type", EntryKind::Var, "int", "", &[]),
+        EntryRow::new("staged", EntryKind::Var, "int", "", &[]).at("names.afp", 7, 23),
+        EntryRow::new("type", EntryKind::Var, "int", "", &[]).at("names.afp", 8, 23),
     ],
 };
 

@@ -13,24 +13,24 @@ enum Active {
 }
 
 /// Outputs of `here`.
-fn here_outputs(staged: &mut Staged, outcome: kit::here::State) -> Result<(), Fault> {
+fn here_outputs(staged: &mut Staged, outcome: kit::here::State) -> Result<(), BadValue> {
     let kit::here::State::Done { place } = outcome;
     staged.to = Some(Object::new(place));
     Ok(())
 }
 
 /// Inputs of `seek`.
-fn seek<'a>(config: &'a Config) -> Result<kit::seek::Inputs<'a>, Fault> {
+fn seek<'a>(config: &'a Config) -> Result<kit::seek::Inputs<'a>, BadValue> {
     Ok(kit::seek::Inputs {
         name: "",
         side: crate::kit::templates::Side::Left,
-        r#where: config.from()?,
+        r#where: input(2, || Ok(config.from()?))?,
         tries: 3,
     })
 }
 
 /// Live inputs of `seek`.
-fn seek_live() -> Result<kit::seek::Live, Fault> {
+fn seek_live() -> Result<kit::seek::Live, BadValue> {
     Ok(kit::seek::Live {
         speed: Speed::from_si(0.1),
         r#loop: true,
@@ -52,7 +52,7 @@ enum Active {
 }
 
 /// Outputs of `here`.
-fn here_outputs(staged: &mut Staged, outcome: kit::here::State) -> Result<(), Fault> {
+fn here_outputs(staged: &mut Staged, outcome: kit::here::State) -> Result<(), BadValue> {
     let kit::here::State::Done { place } = outcome;
     staged.place = Some(Object::new(place));
     Ok(())
@@ -62,13 +62,16 @@ fn here_outputs(staged: &mut Staged, outcome: kit::here::State) -> Result<(), Fa
 const INNER_PLACE: Child = Child { components: 2, entries: 1 };
 
 /// Inputs of `inner`.
-fn inner(config: &Config, to: &mut super::inner::Config) -> Result<(), Fault> {
+fn inner(config: &Config, to: &mut super::inner::Config) -> Result<(), BadValue> {
     to.from.set(config.place.get().clone());
     Ok(())
 }
 
 /// Results of `inner`.
-fn inner_outputs(staged: &mut Staged, from: &super::inner::Config) -> Result<(), Fault> {
+fn inner_outputs(
+    staged: &mut Staged,
+    from: &super::inner::Config,
+) -> Result<(), BadValue> {
     if let Some(value) = from.to.value() {
         staged.place = Some(value.clone());
     }

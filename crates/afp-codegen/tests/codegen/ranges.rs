@@ -12,7 +12,7 @@ enum Active {
 }
 
 /// Inputs of `wait`.
-fn wait(config: &Config) -> Result<std_templates::wait::Inputs, Fault> {
+fn wait(config: &Config) -> Result<std_templates::wait::Inputs, BadValue> {
     Ok(std_templates::wait::Inputs {
         duration: Time::from_si(1.0) * (config.angle() / Angle::from_si(1.0)),
     })
@@ -117,7 +117,7 @@ impl PlanState for Inner {
         None
     }
 
-    fn initialise(&mut self) -> Result<(), Fault> {
+    fn initialise(&mut self) -> Result<(), BadValue> {
         let config = &mut self.config;
         config.gap.clear();
         config.gap.set(0.5);
@@ -223,7 +223,7 @@ where
             Active::None => Polled::Failed(Fault::INTERNAL),
             Active::Wait(actor) => {
                 let live = Ok(std_templates::wait::Live {});
-                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()))
+                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()), cx)
             }
         }
     }
@@ -259,13 +259,15 @@ pub static NAMES: NameTable = NameTable {
             "Wait",
             &[("Elapsed", "terminate")],
             "",
-            &["duration"],
+            &[PortRow::new("duration", "s").within(0.0, 3600.0).at("ranges.afp", 19, 33)],
         ),
     ],
     entries: &[
         EntryRow::new("angle", EntryKind::In, "angle", "rad", &[])
             .within(-1.5707963267948966, 1.5707963267948966),
-        EntryRow::new("gap", EntryKind::Out, "float", "", &[]).within(0.0, 1.0),
+        EntryRow::new("gap", EntryKind::Out, "float", "", &[])
+            .within(0.0, 1.0)
+            .at("ranges.afp", 18, 22),
     ],
 };
 
@@ -300,7 +302,7 @@ enum Active {
 }
 
 /// Inputs of `count`.
-fn count(config: &Config) -> Result<std_templates::count::Inputs, Fault> {
+fn count(config: &Config) -> Result<std_templates::count::Inputs, BadValue> {
     Ok(std_templates::count::Inputs {
         value: config.turns(),
         limit: config.often(),
@@ -311,13 +313,13 @@ fn count(config: &Config) -> Result<std_templates::count::Inputs, Fault> {
 fn count_outputs(
     staged: &mut Staged,
     outcome: std_templates::count::State,
-) -> Result<(), Fault> {
+) -> Result<(), BadValue> {
     match outcome {
         std_templates::count::State::Again { next } => {
-            staged.turns = Some(limited(next, 0.0, 10.0)?);
+            staged.turns = Some(output(0, || limited(next, 0.0, 10.0))?);
         }
         std_templates::count::State::Done { next } => {
-            staged.turns = Some(limited(next, 0.0, 10.0)?);
+            staged.turns = Some(output(0, || limited(next, 0.0, 10.0))?);
         }
     }
     Ok(())
@@ -327,24 +329,30 @@ fn count_outputs(
 const INNER_PLACE: Child = Child { components: 2, entries: 4 };
 
 /// Inputs of `inner`.
-fn inner(config: &Config, to: &mut super::inner::Config) -> Result<(), Fault> {
+fn inner(config: &Config, to: &mut super::inner::Config) -> Result<(), BadValue> {
     to.angle
         .set(
-            limited(
-                Angle::from_si(
-                    (config.pace() / Speed::from_si(1.0)) * Angle::from_si(1.0).si(),
+            input(
+                0,
+                || limited(
+                    Angle::from_si(
+                        (config.pace() / Speed::from_si(1.0)) * Angle::from_si(1.0).si(),
+                    ),
+                    -1.5707963267948966,
+                    1.5707963267948966,
                 ),
-                -1.5707963267948966,
-                1.5707963267948966,
             )?,
         );
     Ok(())
 }
 
 /// Results of `inner`.
-fn inner_outputs(staged: &mut Staged, from: &super::inner::Config) -> Result<(), Fault> {
+fn inner_outputs(
+    staged: &mut Staged,
+    from: &super::inner::Config,
+) -> Result<(), BadValue> {
     if let Some(value) = from.gap.value() {
-        staged.share = Some(limited(finite(*value)?, 0.5, 1.0)?);
+        staged.share = Some(output(0, || limited(finite(*value)?, 0.5, 1.0))?);
     }
     Ok(())
 }
@@ -503,16 +511,19 @@ impl PlanState for P {
         None
     }
 
-    fn initialise(&mut self) -> Result<(), Fault> {
+    fn initialise(&mut self) -> Result<(), BadValue> {
         let config = &mut self.config;
         config.turns.clear();
         config.share.clear();
         if !config.pace.is_set() {
             config.pace.set(Speed::from_si(1.0));
         }
-        let value = limited(int_mul(config.often(), 2)?, 0.0, 10.0)?;
+        let value = initial(2, || limited(int_mul(config.often(), 2)?, 0.0, 10.0))?;
         config.turns.set(value);
-        let value = limited(1.0 / int_to_float(config.often()), 0.5, 1.0)?;
+        let value = initial(
+            3,
+            || limited(1.0 / int_to_float(config.often()), 0.5, 1.0),
+        )?;
         config.share.set(value);
         Ok(())
     }
@@ -616,11 +627,12 @@ where
                 return Started::computed(
                     computed,
                     |outcome| count_outputs(&mut self.staged, outcome),
+                    cx,
                 );
             }
             INNER => {
                 let mut plan = super::inner::Inner::new();
-                if let Err(fault) = inner(&self.config, &mut plan.config) {
+                if let Err(fault) = cx.noted(inner(&self.config, &mut plan.config)) {
                     return Started::Failed(fault);
                 }
                 let mut machine = Machine::new(plan);
@@ -628,6 +640,7 @@ where
                 let started = Started::sub_plan(
                     flow,
                     || inner_outputs(&mut self.staged, &machine.plan().config),
+                    cx,
                 );
                 self.active = Active::Inner(machine);
                 return started;
@@ -656,6 +669,7 @@ where
                 Polled::sub_plan(
                     flow,
                     || inner_outputs(&mut self.staged, &machine.plan().config),
+                    cx,
                 )
             }
         }
@@ -687,38 +701,69 @@ pub static NAMES: NameTable = NameTable {
     components: &[
         ComponentRow::new("P", Kind::Plan, "P", &[], "", &[]),
         ComponentRow::new(
-            "count",
-            Kind::Computation,
-            "Count",
-            &[("Again", "inner"), ("Done", "terminate")],
-            "",
-            &["value", "limit"],
-        ),
+                "count",
+                Kind::Computation,
+                "Count",
+                &[("Again", "inner"), ("Done", "terminate")],
+                "",
+                &[
+                    PortRow::new("value", "").at("ranges.afp", 12, 38),
+                    PortRow::new("limit", "").at("ranges.afp", 12, 53),
+                ],
+            )
+            .writing(
+                &[
+                    PortRow::new("next", "")
+                        .within(0.0, 10.0)
+                        .at("ranges.afp", 12, 68)
+                        .into(0, "turns"),
+                ],
+            ),
         ComponentRow::new(
-            "inner",
-            Kind::SubPlan,
-            "Inner",
-            &[("OK", "count"), ("Interrupted", "")],
-            "",
-            &["angle"],
-        ),
+                "inner",
+                Kind::SubPlan,
+                "Inner",
+                &[("OK", "count"), ("Interrupted", "")],
+                "",
+                &[
+                    PortRow::new("angle", "rad")
+                        .within(-1.5707963267948966, 1.5707963267948966)
+                        .at("ranges.afp", 13, 34),
+                ],
+            )
+            .writing(
+                &[
+                    PortRow::new("gap", "")
+                        .within(0.5, 1.0)
+                        .at("ranges.afp", 13, 65)
+                        .into(0, "share"),
+                ],
+            ),
         ComponentRow::new(
             "inner.wait",
             Kind::Actor,
             "Wait",
             &[("Elapsed", "terminate")],
             "",
-            &["duration"],
+            &[PortRow::new("duration", "s").within(0.0, 3600.0).at("ranges.afp", 19, 33)],
         ),
     ],
     entries: &[
-        EntryRow::new("pace", EntryKind::In, "speed", "m/s", &[]).within(0.0, 2.0),
+        EntryRow::new("pace", EntryKind::In, "speed", "m/s", &[])
+            .within(0.0, 2.0)
+            .at("ranges.afp", 8, 22),
         EntryRow::new("often", EntryKind::In, "int", "", &[]).within(1.0, 3.0),
-        EntryRow::new("turns", EntryKind::Var, "int", "", &[]).within(0.0, 10.0),
-        EntryRow::new("share", EntryKind::Var, "float", "", &[]).within(0.5, 1.0),
+        EntryRow::new("turns", EntryKind::Var, "int", "", &[])
+            .within(0.0, 10.0)
+            .at("ranges.afp", 10, 22),
+        EntryRow::new("share", EntryKind::Var, "float", "", &[])
+            .within(0.5, 1.0)
+            .at("ranges.afp", 11, 24),
         EntryRow::new("inner.angle", EntryKind::In, "angle", "rad", &[])
             .within(-1.5707963267948966, 1.5707963267948966),
-        EntryRow::new("inner.gap", EntryKind::Out, "float", "", &[]).within(0.0, 1.0),
+        EntryRow::new("inner.gap", EntryKind::Out, "float", "", &[])
+            .within(0.0, 1.0)
+            .at("ranges.afp", 18, 22),
     ],
 };
 

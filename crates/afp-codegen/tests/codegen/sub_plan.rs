@@ -13,7 +13,7 @@ enum Active {
 }
 
 /// Inputs of `loop`.
-fn r#loop(config: &Config) -> Result<std_templates::count::Inputs, Fault> {
+fn r#loop(config: &Config) -> Result<std_templates::count::Inputs, BadValue> {
     Ok(std_templates::count::Inputs {
         value: config.i(),
         limit: config.rounds(),
@@ -24,7 +24,7 @@ fn r#loop(config: &Config) -> Result<std_templates::count::Inputs, Fault> {
 fn loop_outputs(
     staged: &mut Staged,
     outcome: std_templates::count::State,
-) -> Result<(), Fault> {
+) -> Result<(), BadValue> {
     match outcome {
         std_templates::count::State::Again { next } => {
             staged.i = Some(next);
@@ -37,7 +37,7 @@ fn loop_outputs(
 }
 
 /// Inputs of `wait`.
-fn wait() -> Result<std_templates::wait::Inputs, Fault> {
+fn wait() -> Result<std_templates::wait::Inputs, BadValue> {
     Ok(std_templates::wait::Inputs {
         duration: Time::from_si(1.0),
     })
@@ -63,14 +63,17 @@ enum Active {
 const ROUND_PLACE: Child = Child { components: 2, entries: 2 };
 
 /// Inputs of `round`.
-fn round(config: &Config, to: &mut super::round::Config) -> Result<(), Fault> {
-    to.rounds.set(float_to_int(config.often())?);
-    to.label.set(join("at ", Text::print(config.count())?.as_str())?);
+fn round(config: &Config, to: &mut super::round::Config) -> Result<(), BadValue> {
+    to.rounds.set(input(0, || Ok(float_to_int(config.often())?))?);
+    to.label.set(input(1, || Ok(join("at ", Text::print(config.count())?.as_str())?))?);
     Ok(())
 }
 
 /// Results of `round`.
-fn round_outputs(staged: &mut Staged, from: &super::round::Config) -> Result<(), Fault> {
+fn round_outputs(
+    staged: &mut Staged,
+    from: &super::round::Config,
+) -> Result<(), BadValue> {
     if let Some(value) = from.done.value() {
         staged.count = Some(*value);
     }
@@ -81,8 +84,8 @@ fn round_outputs(staged: &mut Staged, from: &super::round::Config) -> Result<(),
 const AGAIN_PLACE: Child = Child { components: 5, entries: 6 };
 
 /// Inputs of `again`.
-fn again(to: &mut super::round::Config) -> Result<(), Fault> {
+fn again(to: &mut super::round::Config) -> Result<(), BadValue> {
     to.rounds.set(2);
-    to.label.set(Text::try_from("round")?);
+    to.label.set(input(1, || Ok(Text::try_from("round")?))?);
     Ok(())
 }

@@ -18,7 +18,7 @@ struct Supervisors {
 /// Live inputs of `near`.
 fn near_live(
     config: &Config,
-) -> Result<std_templates::check_value::Live<Length>, Fault> {
+) -> Result<std_templates::check_value::Live<Length>, BadValue> {
     Ok(std_templates::check_value::Live {
         value: config.dist(),
         limit: Length::from_si(0.1),
@@ -26,14 +26,14 @@ fn near_live(
 }
 
 /// Inputs of `any`.
-fn any<'a>() -> Result<kit::watch::Inputs<'a>, Fault> {
+fn any<'a>() -> Result<kit::watch::Inputs<'a>, BadValue> {
     Ok(kit::watch::Inputs {
         label: "mood",
     })
 }
 
 /// Live inputs of `any`.
-fn any_live(config: &Config) -> Result<kit::watch::Live<Text>, Fault> {
+fn any_live(config: &Config) -> Result<kit::watch::Live<Text>, BadValue> {
     Ok(kit::watch::Live {
         value: config.mood.get().clone(),
     })
@@ -43,7 +43,7 @@ fn any_live(config: &Config) -> Result<kit::watch::Live<Text>, Fault> {
 fn any_outputs(
     staged: &mut Staged,
     outcome: kit::watch::Event<Text>,
-) -> Result<(), Fault> {
+) -> Result<(), BadValue> {
     match outcome {
         kit::watch::Event::Changed { seen, side } => {
             staged.mood = Some(seen);
@@ -57,7 +57,7 @@ fn any_outputs(
 }
 
 /// Inputs of `wait.slow`.
-fn wait_slow() -> Result<std_templates::check_timeout::Inputs, Fault> {
+fn wait_slow() -> Result<std_templates::check_timeout::Inputs, BadValue> {
     Ok(std_templates::check_timeout::Inputs {
         duration: Time::from_si(0.1),
     })

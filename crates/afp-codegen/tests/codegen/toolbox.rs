@@ -81,8 +81,8 @@ pub mod seek {
 
     impl ::afp_core::rt::Ports for Inputs<'_> {
         #[inline]
-        fn check(&self) -> Result<(), ::afp_core::Fault> {
-            ::afp_core::rt::within_int(self.tries, 1, 9)?;
+        fn check(&self) -> Result<(), ::afp_core::rt::BadValue> {
+            ::afp_core::rt::within_int(5, self.tries, 1, 9)?;
             Ok(())
         }
 
@@ -96,16 +96,26 @@ pub mod seek {
     impl<'a> ::afp_core::rt::FromArgs<'a> for Inputs<'a> {
         fn from_args(
             args: &'a dyn ::afp_core::rt::Args,
-        ) -> Result<Self, ::afp_core::Fault> {
+        ) -> Result<Self, ::afp_core::rt::BadValue> {
             Ok(Inputs {
-                name: args.text(0)?,
-                side: ::afp_core::rt::Choice::from_index(args.choice(1)?)
-                    .ok_or(::afp_core::Fault::INTERNAL)?,
-                r#where: args
-                    .object(2)?
-                    .downcast_ref()
-                    .ok_or(::afp_core::Fault::INTERNAL)?,
-                tries: args.int(5)?,
+                name: ::afp_core::rt::input(0, || Ok(args.text(0)?))?,
+                side: ::afp_core::rt::input(
+                    1,
+                    || Ok(
+                        ::afp_core::rt::Choice::from_index(args.choice(1)?)
+                            .ok_or(::afp_core::Fault::INTERNAL)?,
+                    ),
+                )?,
+                r#where: ::afp_core::rt::input(
+                    2,
+                    || Ok(
+                        args
+                            .object(2)?
+                            .downcast_ref()
+                            .ok_or(::afp_core::Fault::INTERNAL)?,
+                    ),
+                )?,
+                tries: ::afp_core::rt::input(5, || Ok(args.int(5)?))?,
             })
         }
     }
@@ -121,8 +131,9 @@ pub mod seek {
 
     impl ::afp_core::rt::Ports for Live {
         #[inline]
-        fn check(&self) -> Result<(), ::afp_core::Fault> {
+        fn check(&self) -> Result<(), ::afp_core::rt::BadValue> {
             ::afp_core::rt::within(
+                3,
                 self.speed.si(),
                 ::afp_core::quantity::Speed::from_si(0.0).si(),
                 ::afp_core::quantity::Speed::from_si(1.0).si(),
@@ -139,10 +150,13 @@ pub mod seek {
     impl<'a> ::afp_core::rt::FromArgs<'a> for Live {
         fn from_args(
             args: &'a dyn ::afp_core::rt::Args,
-        ) -> Result<Self, ::afp_core::Fault> {
+        ) -> Result<Self, ::afp_core::rt::BadValue> {
             Ok(Live {
-                speed: ::afp_core::quantity::Speed::from_si(args.float(3)?),
-                r#loop: args.bool(4)?,
+                speed: ::afp_core::rt::input(
+                    3,
+                    || Ok(::afp_core::quantity::Speed::from_si(args.float(3)?)),
+                )?,
+                r#loop: ::afp_core::rt::input(4, || Ok(args.bool(4)?))?,
             })
         }
     }
@@ -215,7 +229,7 @@ pub mod watch {
 
     impl ::afp_core::rt::Ports for Inputs<'_> {
         #[inline]
-        fn check(&self) -> Result<(), ::afp_core::Fault> {
+        fn check(&self) -> Result<(), ::afp_core::rt::BadValue> {
             Ok(())
         }
 
@@ -227,8 +241,10 @@ pub mod watch {
     impl<'a> ::afp_core::rt::FromArgs<'a> for Inputs<'a> {
         fn from_args(
             args: &'a dyn ::afp_core::rt::Args,
-        ) -> Result<Self, ::afp_core::Fault> {
-            Ok(Inputs { label: args.text(1)? })
+        ) -> Result<Self, ::afp_core::rt::BadValue> {
+            Ok(Inputs {
+                label: ::afp_core::rt::input(1, || Ok(args.text(1)?))?,
+            })
         }
     }
 
@@ -241,8 +257,11 @@ pub mod watch {
 
     impl<V: ::afp_core::rt::Any> ::afp_core::rt::Ports for Live<V> {
         #[inline]
-        fn check(&self) -> Result<(), ::afp_core::Fault> {
-            ::afp_core::rt::within_value(::afp_core::rt::Stored::as_value(&self.value))?;
+        fn check(&self) -> Result<(), ::afp_core::rt::BadValue> {
+            ::afp_core::rt::within_value(
+                0,
+                ::afp_core::rt::Stored::as_value(&self.value),
+            )?;
             Ok(())
         }
 
@@ -254,8 +273,10 @@ pub mod watch {
     impl<'a> ::afp_core::rt::FromArgs<'a> for Live<::afp_core::Value> {
         fn from_args(
             args: &'a dyn ::afp_core::rt::Args,
-        ) -> Result<Self, ::afp_core::Fault> {
-            Ok(Live { value: args.value(0)? })
+        ) -> Result<Self, ::afp_core::rt::BadValue> {
+            Ok(Live {
+                value: ::afp_core::rt::input(0, || Ok(args.value(0)?))?,
+            })
         }
     }
 
@@ -321,9 +342,13 @@ pub mod area {
 
     impl ::afp_core::rt::Ports for Inputs {
         #[inline]
-        fn check(&self) -> Result<(), ::afp_core::Fault> {
-            ::afp_core::rt::within_value(::afp_core::rt::Stored::as_value(&self.width))?;
+        fn check(&self) -> Result<(), ::afp_core::rt::BadValue> {
             ::afp_core::rt::within_value(
+                0,
+                ::afp_core::rt::Stored::as_value(&self.width),
+            )?;
+            ::afp_core::rt::within_value(
+                1,
                 ::afp_core::rt::Stored::as_value(&self.height),
             )?;
             Ok(())
@@ -338,10 +363,16 @@ pub mod area {
     impl<'a> ::afp_core::rt::FromArgs<'a> for Inputs {
         fn from_args(
             args: &'a dyn ::afp_core::rt::Args,
-        ) -> Result<Self, ::afp_core::Fault> {
+        ) -> Result<Self, ::afp_core::rt::BadValue> {
             Ok(Inputs {
-                width: ::afp_core::quantity::Length::from_si(args.float(0)?),
-                height: ::afp_core::quantity::Length::from_si(args.float(1)?),
+                width: ::afp_core::rt::input(
+                    0,
+                    || Ok(::afp_core::quantity::Length::from_si(args.float(0)?)),
+                )?,
+                height: ::afp_core::rt::input(
+                    1,
+                    || Ok(::afp_core::quantity::Length::from_si(args.float(1)?)),
+                )?,
             })
         }
     }
@@ -399,7 +430,7 @@ pub mod here {
     pub struct Inputs {}
     impl ::afp_core::rt::Ports for Inputs {
         #[inline]
-        fn check(&self) -> Result<(), ::afp_core::Fault> {
+        fn check(&self) -> Result<(), ::afp_core::rt::BadValue> {
             Ok(())
         }
 
@@ -409,7 +440,7 @@ pub mod here {
     impl<'a> ::afp_core::rt::FromArgs<'a> for Inputs {
         fn from_args(
             _: &'a dyn ::afp_core::rt::Args,
-        ) -> Result<Self, ::afp_core::Fault> {
+        ) -> Result<Self, ::afp_core::rt::BadValue> {
             Ok(Inputs {})
         }
     }

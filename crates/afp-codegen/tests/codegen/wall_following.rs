@@ -55,10 +55,10 @@ use ::afp_core::{
 };
 use ::afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
 use ::afp_core::rt::{
-    Actor, AtElement, Child, Committer, ComponentRow, Cx, ElementKind, ElementRow, Entry,
-    EntryRow, Fired, NameTable, NamedPlan, Plan, PlanState, PlanTable, Polled, Range,
-    Slot, Started, Supervisor, SupervisorRow, Tables, Target, Unit, finite, set_input,
-    stage_outside,
+    Actor, AtElement, BadValue, Child, Committer, ComponentRow, Cx, ElementKind,
+    ElementRow, Entry, EntryRow, Fired, NameTable, NamedPlan, Plan, PlanState, PlanTable,
+    Polled, PortRow, Range, Slot, Started, Supervisor, SupervisorRow, Tables, Target,
+    Unit, finite, output, set_input, stage_outside,
 };
 use ::afp_core::trace::{EntryKind, Kind, Sink};
 use afp_carbot::templates as carbot;
@@ -92,7 +92,7 @@ enum Active {
 }
 
 /// Inputs of `searchFirstWall`.
-fn search_first_wall() -> Result<carbot::forward::Inputs, Fault> {
+fn search_first_wall() -> Result<carbot::forward::Inputs, BadValue> {
     Ok(carbot::forward::Inputs {
         distance: Length::from_si(100.0),
         speed: Speed::from_si(0.2),
@@ -100,7 +100,7 @@ fn search_first_wall() -> Result<carbot::forward::Inputs, Fault> {
 }
 
 /// Inputs of `backupCollision`.
-fn backup_collision(config: &Config) -> Result<carbot::forward::Inputs, Fault> {
+fn backup_collision(config: &Config) -> Result<carbot::forward::Inputs, BadValue> {
     Ok(carbot::forward::Inputs {
         distance: -config.walldist(),
         speed: Speed::from_si(0.2),
@@ -108,7 +108,7 @@ fn backup_collision(config: &Config) -> Result<carbot::forward::Inputs, Fault> {
 }
 
 /// Inputs of `findWallAngle`.
-fn find_wall_angle() -> Result<carbot::search_wall::Inputs, Fault> {
+fn find_wall_angle() -> Result<carbot::search_wall::Inputs, BadValue> {
     Ok(carbot::search_wall::Inputs {
         sweep: Angle::from_deg(60.0),
         range: Length::from_si(1.5),
@@ -119,15 +119,15 @@ fn find_wall_angle() -> Result<carbot::search_wall::Inputs, Fault> {
 fn find_wall_angle_outputs(
     staged: &mut Staged,
     outcome: carbot::search_wall::State,
-) -> Result<(), Fault> {
+) -> Result<(), BadValue> {
     if let carbot::search_wall::State::WallFound { angle } = outcome {
-        staged.wallangle = Some(finite(angle)?);
+        staged.wallangle = Some(output(0, || finite(angle))?);
     }
     Ok(())
 }
 
 /// Inputs of `parallelToWall`.
-fn parallel_to_wall(config: &Config) -> Result<carbot::turn::Inputs, Fault> {
+fn parallel_to_wall(config: &Config) -> Result<carbot::turn::Inputs, BadValue> {
     Ok(carbot::turn::Inputs {
         angle: config.wallangle(),
         speed: AngularSpeed::from_deg(45.0),
@@ -135,7 +135,7 @@ fn parallel_to_wall(config: &Config) -> Result<carbot::turn::Inputs, Fault> {
 }
 
 /// Inputs of `followWall`.
-fn follow_wall(config: &Config) -> Result<carbot::wall_forward::Inputs, Fault> {
+fn follow_wall(config: &Config) -> Result<carbot::wall_forward::Inputs, BadValue> {
     Ok(carbot::wall_forward::Inputs {
         walldist: config.walldist(),
         lanedist: config.walldist(),
@@ -147,7 +147,7 @@ fn follow_wall(config: &Config) -> Result<carbot::wall_forward::Inputs, Fault> {
 }
 
 /// Inputs of `turnAfterWallLost`.
-fn turn_after_wall_lost() -> Result<carbot::turn::Inputs, Fault> {
+fn turn_after_wall_lost() -> Result<carbot::turn::Inputs, BadValue> {
     Ok(carbot::turn::Inputs {
         angle: -Angle::from_deg(60.0),
         speed: AngularSpeed::from_deg(45.0),
@@ -175,7 +175,10 @@ struct Supervisors {
 }
 
 /// Inputs of `searchFirstWall.checkLane`.
-fn search_first_wall_check_lane() -> Result<carbot::check_driving_lane::Inputs, Fault> {
+fn search_first_wall_check_lane() -> Result<
+    carbot::check_driving_lane::Inputs,
+    BadValue,
+> {
     Ok(carbot::check_driving_lane::Inputs {
         clearance: Length::from_si(0.1),
         margin: Length::from_si(0.1),
@@ -186,7 +189,7 @@ fn search_first_wall_check_lane() -> Result<carbot::check_driving_lane::Inputs, 
 /// Live inputs of `searchFirstWall.checkLane`.
 fn search_first_wall_check_lane_live(
     config: &Config,
-) -> Result<carbot::check_driving_lane::Live, Fault> {
+) -> Result<carbot::check_driving_lane::Live, BadValue> {
     Ok(carbot::check_driving_lane::Live {
         distance: config.walldist(),
     })
@@ -308,7 +311,7 @@ impl PlanState for WallFollowing {
         None
     }
 
-    fn initialise(&mut self) -> Result<(), Fault> {
+    fn initialise(&mut self) -> Result<(), BadValue> {
         let config = &mut self.config;
         config.wallangle.clear();
         if !config.walldist.is_set() {
@@ -415,22 +418,38 @@ where
             ESCAPE => {
                 let live = Ok(carbot::check_escape_button::Live {});
                 let watch = &mut self.supervisors.escape;
-                Fired::supervisor(cx.poll_supervisor(watch, live, wanted), |_| Ok(()))
+                Fired::supervisor(
+                    cx.poll_supervisor(watch, live, wanted),
+                    |_| Ok(()),
+                    cx,
+                )
             }
             SEARCH_FIRST_WALL_TOUCH => {
                 let live = Ok(carbot::check_touch_sensor::Live {});
                 let watch = &mut self.supervisors.search_first_wall_touch;
-                Fired::supervisor(cx.poll_supervisor(watch, live, wanted), |_| Ok(()))
+                Fired::supervisor(
+                    cx.poll_supervisor(watch, live, wanted),
+                    |_| Ok(()),
+                    cx,
+                )
             }
             SEARCH_FIRST_WALL_CHECK_LANE => {
                 let live = search_first_wall_check_lane_live(&self.config);
                 let watch = &mut self.supervisors.search_first_wall_check_lane;
-                Fired::supervisor(cx.poll_supervisor(watch, live, wanted), |_| Ok(()))
+                Fired::supervisor(
+                    cx.poll_supervisor(watch, live, wanted),
+                    |_| Ok(()),
+                    cx,
+                )
             }
             FOLLOW_WALL_WALL_TOUCH => {
                 let live = Ok(carbot::check_touch_sensor::Live {});
                 let watch = &mut self.supervisors.follow_wall_wall_touch;
-                Fired::supervisor(cx.poll_supervisor(watch, live, wanted), |_| Ok(()))
+                Fired::supervisor(
+                    cx.poll_supervisor(watch, live, wanted),
+                    |_| Ok(()),
+                    cx,
+                )
             }
             _ => Fired::fault(Fault::INTERNAL),
         }
@@ -483,30 +502,31 @@ where
             Active::None => Polled::Failed(Fault::INTERNAL),
             Active::SearchFirstWall(actor) => {
                 let live = Ok(carbot::forward::Live {});
-                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()))
+                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()), cx)
             }
             Active::BackupCollision(actor) => {
                 let live = Ok(carbot::forward::Live {});
-                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()))
+                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()), cx)
             }
             Active::FindWallAngle(actor) => {
                 let live = Ok(carbot::search_wall::Live {});
                 Polled::actor(
                     cx.poll_actor(actor, live),
                     |outcome| find_wall_angle_outputs(&mut self.staged, outcome),
+                    cx,
                 )
             }
             Active::ParallelToWall(actor) => {
                 let live = Ok(carbot::turn::Live {});
-                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()))
+                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()), cx)
             }
             Active::FollowWall(actor) => {
                 let live = Ok(carbot::wall_forward::Live {});
-                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()))
+                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()), cx)
             }
             Active::TurnAfterWallLost(actor) => {
                 let live = Ok(carbot::turn::Live {});
-                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()))
+                Polled::actor(cx.poll_actor(actor, live), |_| Ok(()), cx)
             }
         }
     }
@@ -669,7 +689,7 @@ static ELEMENTS: [ElementRow; 6] = [
     },
 ];
 
-/// The supervisors: global ones, local ones, then global ones where their own events lead.
+/// The supervisors: global ones, local ones, then global ones for elements of their own.
 static SUPERVISORS: [SupervisorRow; 4] = [
     // escape: CheckEscapeButton
     SupervisorRow {
@@ -752,7 +772,12 @@ pub static NAMES: NameTable = NameTable {
             "Forward",
             &[("ForwardSuccessful", "searchFirstWall")],
             "",
-            &["distance", "speed"],
+            &[
+                PortRow::new("distance", "m")
+                    .within(-1000.0, 1000.0)
+                    .at("wall_following.afp", 15, 47),
+                PortRow::new("speed", "m/s").within(0.0, 0.31),
+            ],
         ),
         ComponentRow::new(
             "backupCollision",
@@ -760,23 +785,44 @@ pub static NAMES: NameTable = NameTable {
             "Forward",
             &[("ForwardSuccessful", "findWallAngle")],
             "",
-            &["distance", "speed"],
+            &[
+                PortRow::new("distance", "m")
+                    .within(-1000.0, 1000.0)
+                    .at("wall_following.afp", 25, 47),
+                PortRow::new("speed", "m/s").within(0.0, 0.31),
+            ],
         ),
         ComponentRow::new(
-            "findWallAngle",
-            Kind::Actor,
-            "SearchWall",
-            &[("WallFound", "parallelToWall"), ("NoWallFound", "turnAfterWallLost")],
-            "",
-            &["sweep", "range"],
-        ),
+                "findWallAngle",
+                Kind::Actor,
+                "SearchWall",
+                &[("WallFound", "parallelToWall"), ("NoWallFound", "turnAfterWallLost")],
+                "",
+                &[
+                    PortRow::new("sweep", "rad")
+                        .within(0.08726646259971647, 2.0943951023931953),
+                    PortRow::new("range", "m").within(0.1, 4.0),
+                ],
+            )
+            .writing(
+                &[
+                    PortRow::new("angle", "rad")
+                        .at("wall_following.afp", 29, 46)
+                        .into(0, "wallangle"),
+                ],
+            ),
         ComponentRow::new(
             "parallelToWall",
             Kind::Actor,
             "Turn",
             &[("TurnSuccessful", "followWall")],
             "",
-            &["angle", "speed"],
+            &[
+                PortRow::new("angle", "rad")
+                    .within(-62.83185307179586, 62.83185307179586)
+                    .at("wall_following.afp", 34, 40),
+                PortRow::new("speed", "rad/s").within(0.0, 1.5707963267948966),
+            ],
         ),
         ComponentRow::new(
             "followWall",
@@ -788,7 +834,24 @@ pub static NAMES: NameTable = NameTable {
                 ("WallLost", "turnAfterWallLost"),
             ],
             "",
-            &["walldist", "lanedist", "gain", "tolerance", "step", "speed"],
+            &[
+                PortRow::new("walldist", "m")
+                    .within(0.05, 2.0)
+                    .at("wall_following.afp", 38, 46),
+                PortRow::new("lanedist", "m")
+                    .within(0.05, 2.0)
+                    .at("wall_following.afp", 38, 67),
+                PortRow::new("gain", "")
+                    .within(0.0, 10.0)
+                    .at("wall_following.afp", 38, 84),
+                PortRow::new("tolerance", "m")
+                    .within(0.01, 2.0)
+                    .at("wall_following.afp", 38, 99),
+                PortRow::new("step", "m")
+                    .within(0.01, 1000.0)
+                    .at("wall_following.afp", 38, 113),
+                PortRow::new("speed", "m/s").within(0.01, 0.31),
+            ],
         ),
         ComponentRow::new(
             "turnAfterWallLost",
@@ -796,7 +859,12 @@ pub static NAMES: NameTable = NameTable {
             "Turn",
             &[("TurnSuccessful", "searchFirstWall")],
             "",
-            &["angle", "speed"],
+            &[
+                PortRow::new("angle", "rad")
+                    .within(-62.83185307179586, 62.83185307179586)
+                    .at("wall_following.afp", 45, 43),
+                PortRow::new("speed", "rad/s").within(0.0, 1.5707963267948966),
+            ],
         ),
         ComponentRow::new(
             "escape",
@@ -820,7 +888,20 @@ pub static NAMES: NameTable = NameTable {
             "CheckDrivingLane",
             &[("LaneNotFree", "findWallAngle")],
             "",
-            &["distance", "clearance", "margin", "halfwidth"],
+            &[
+                PortRow::new("distance", "m")
+                    .within(0.0, 4.0)
+                    .at("wall_following.afp", 19, 58),
+                PortRow::new("clearance", "m")
+                    .within(0.0, 1.0)
+                    .at("wall_following.afp", 19, 80),
+                PortRow::new("margin", "m")
+                    .within(0.0, 1.0)
+                    .at("wall_following.afp", 19, 96),
+                PortRow::new("halfwidth", "m")
+                    .within(0.01, 2.0)
+                    .at("wall_following.afp", 19, 115),
+            ],
         ),
         ComponentRow::new(
             "followWall.wallTouch",
@@ -832,7 +913,8 @@ pub static NAMES: NameTable = NameTable {
         ),
     ],
     entries: &[
-        EntryRow::new("walldist", EntryKind::In, "length", "m", &[]),
+        EntryRow::new("walldist", EntryKind::In, "length", "m", &[])
+            .at("wall_following.afp", 6, 29),
         EntryRow::new("wallangle", EntryKind::Var, "angle", "rad", &[]),
     ],
 };

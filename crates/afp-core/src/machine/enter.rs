@@ -114,7 +114,7 @@ impl<P: PlanState> Level<P> {
         match found.what {
             What::Event(event, _) => {
                 let element = component(cx, element);
-                cx.trace(&Record::Event { supervisor, event });
+                cx.trace(&Record::Event { supervisor, event, element });
                 cx.trace(&Record::Diverted { element, supervisor, event });
             }
             What::Leads(_, Err(Stop::Run(fault))) => return Err(Stop::Run(fault)),

@@ -38,13 +38,13 @@ impl<P: PlanState> Level<P> {
         P: Plan<E>,
     {
         let id = supervisor_id(t, cx, supervisor);
-        cx.trace(&Record::Event { supervisor: id, event });
+        let element = component(cx, moment.element);
+        cx.trace(&Record::Event { supervisor: id, event, element });
         self.commit(Author::Component(id), cx);
         let way = self.compute_until_resumed(t, target, cx);
         cx.step.clock = cx.clock.now(cx.now);
         match way {
             Ok(None) => {
-                let element = component(cx, moment.element);
                 cx.trace(&Record::Resumed { element, supervisor: id });
                 Ok(())
             }

@@ -1,7 +1,7 @@
 //! Polling supervisors: who is due, who is late, whose event is taken.
 
 use super::held::is_held;
-use super::{Edge, Level, Stop, supervisor_id};
+use super::{Edge, Level, Stop, component, supervisor_id};
 use crate::clock::Clock;
 use crate::component::Environment;
 use crate::fault::Fault;
@@ -262,7 +262,10 @@ impl<P: PlanState> Level<P> {
     {
         let id = supervisor_id(t, cx, found.supervisor);
         match found.what {
-            What::Event(event, _) => cx.trace(&Record::Event { supervisor: id, event }),
+            What::Event(event, _) => {
+                let element = component(cx, element);
+                cx.trace(&Record::Event { supervisor: id, event, element });
+            }
             What::Leads(_, Err(Stop::Run(fault))) => return Flow::Fatal(fault),
             What::Leads(..) => {}
             What::Fault(fault) => {
@@ -356,7 +359,8 @@ fn takes<E: ?Sized, S: Sink, C>(
             let there = element == moment.element && (global || moment.look);
             if there && S::ENABLED {
                 let supervisor = supervisor_id(t, cx, supervisor);
-                cx.sink.record(cx.now, &Record::AlreadyThere { supervisor, event });
+                let element = component(cx, element);
+                cx.sink.record(cx.now, &Record::AlreadyThere { supervisor, event, element });
             }
             !there
         }

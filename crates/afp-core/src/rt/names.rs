@@ -5,7 +5,7 @@ use crate::rt::formula::{Unit, parse_bool, parse_choice, parse_float, parse_int,
 use crate::rt::state::PlanState;
 use crate::trace::{
     ComponentId, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Kind, Names,
-    TraceEntryId,
+    PortName, Reaction, TextPlace, TraceEntryId,
 };
 use crate::value::{Text, Value};
 
@@ -28,7 +28,11 @@ pub struct ComponentRow {
     /// Where `Error` or `DeadlineMissed` leads.
     pub special: &'static str,
     /// The input ports.
-    pub inputs: &'static [&'static str],
+    pub inputs: &'static [PortRow],
+    /// The outputs that are bound.
+    pub outputs: &'static [PortRow],
+    /// The edges of an element that hold instead of those of global supervisors.
+    pub reactions: &'static [Reaction<'static>],
 }
 
 /// The names of one entry.
@@ -38,6 +42,47 @@ pub struct EntryRow {
     pub name: EntryName<'static>,
     /// The values of an enum.
     pub choices: &'static [&'static str],
+    /// Where its initial value stands in the text.
+    pub initial: Option<TextPlace<'static>>,
+}
+
+/// The name of one port.
+#[derive(Clone, Copy, Debug)]
+pub struct PortRow {
+    /// Name, unit, range and place.
+    pub name: PortName<'static>,
+    /// Its position in the template, where not all ports have a row.
+    pub position: u16,
+}
+
+impl PortRow {
+    /// An input port.
+    pub const fn new(name: &'static str, unit: &'static str) -> Self {
+        let name = PortName { name, unit, range: None, entry: None, place: None };
+        PortRow { name, position: 0 }
+    }
+
+    /// An output port, by position in the template, that is bound to an entry.
+    #[must_use]
+    pub const fn into(mut self, position: u16, entry: &'static str) -> Self {
+        self.position = position;
+        self.name.entry = Some(entry);
+        self
+    }
+
+    /// The row of a port with a range, in SI units.
+    #[must_use]
+    pub const fn within(mut self, least: f64, greatest: f64) -> Self {
+        self.name.range = Some((least, greatest));
+        self
+    }
+
+    /// The row of a port to which something is bound there.
+    #[must_use]
+    pub const fn at(mut self, file: &'static str, line: u32, column: u32) -> Self {
+        self.name.place = Some(TextPlace { file, line, column });
+        self
+    }
 }
 
 impl ComponentRow {
@@ -48,10 +93,24 @@ impl ComponentRow {
         template: &'static str,
         outcomes: &'static [(&'static str, &'static str)],
         special: &'static str,
-        inputs: &'static [&'static str],
+        inputs: &'static [PortRow],
     ) -> Self {
         let name = ComponentName { path, kind, template };
-        ComponentRow { name, outcomes, special, inputs }
+        ComponentRow { name, outcomes, special, inputs, outputs: &[], reactions: &[] }
+    }
+
+    /// The row of a component whose outputs are bound.
+    #[must_use]
+    pub const fn writing(mut self, outputs: &'static [PortRow]) -> Self {
+        self.outputs = outputs;
+        self
+    }
+
+    /// The row of an element with edges of its own for events of global supervisors.
+    #[must_use]
+    pub const fn reacting(mut self, reactions: &'static [Reaction<'static>]) -> Self {
+        self.reactions = reactions;
+        self
     }
 }
 
@@ -64,13 +123,20 @@ impl EntryRow {
         unit: &'static str,
         choices: &'static [&'static str],
     ) -> Self {
-        EntryRow { name: EntryName { path, kind, ty, unit, range: None }, choices }
+        EntryRow { name: EntryName { path, kind, ty, unit, range: None }, choices, initial: None }
     }
 
     /// The row of an entry with a range, in SI units.
     #[must_use]
     pub const fn within(mut self, least: f64, greatest: f64) -> Self {
         self.name.range = Some((least, greatest));
+        self
+    }
+
+    /// The row of an entry whose initial value stands there.
+    #[must_use]
+    pub const fn at(mut self, file: &'static str, line: u32, column: u32) -> Self {
+        self.initial = Some(TextPlace { file, line, column });
         self
     }
 }
@@ -157,8 +223,32 @@ impl Names for NameTable {
         }
     }
 
+    fn reaction(&self, element: ComponentId, n: u16) -> Option<Reaction<'_>> {
+        self.row(element)?.reactions.get(usize::from(n)).copied()
+    }
+
     fn input(&self, id: ComponentId, port: u16) -> &str {
-        self.row(id).and_then(|row| row.inputs.get(usize::from(port))).map_or("", |name| name)
+        self.input_port(id, port).name
+    }
+
+    fn input_port(&self, id: ComponentId, port: u16) -> PortName<'_> {
+        let row = self.row(id).and_then(|row| row.inputs.get(usize::from(port)));
+        row.map_or(PortName::default(), |row| row.name)
+    }
+
+    fn output_port(&self, id: ComponentId, port: u16) -> PortName<'_> {
+        let rows = self.row(id).map_or(&[][..], |row| row.outputs);
+        let row = rows.iter().find(|row| row.position == port);
+        row.map_or(PortName::default(), |row| row.name)
+    }
+
+    fn outputs(&self, id: ComponentId) -> u16 {
+        let rows = self.row(id).map_or(&[][..], |row| row.outputs);
+        rows.iter().map(|row| row.position.saturating_add(1)).max().unwrap_or(0)
+    }
+
+    fn initial(&self, id: TraceEntryId) -> Option<TextPlace<'_>> {
+        self.entry_row(id)?.initial
     }
 
     fn entries(&self) -> u32 {

@@ -6,7 +6,7 @@ use crate::component::{
     Actor, ActorTemplate, Computation, ComputationTemplate, Events, Poll, Supervisor,
     SupervisorTemplate,
 };
-use crate::fault::Fault;
+use crate::fault::{BadValue, Fault};
 use crate::rt::formula::parse_choice;
 use crate::rt::plan::{Cx, Fired, Polled, Started};
 use crate::rt::ports::{Outcome, Ports};
@@ -23,14 +23,14 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
     #[inline]
     pub fn start_actor<'i, T, A>(
         &mut self,
-        inputs: Result<T::Inputs<'i>, Fault>,
+        inputs: Result<T::Inputs<'i>, BadValue>,
     ) -> Result<A, Fault>
     where
         T: ActorTemplate,
         T::Inputs<'i>: Ports,
         A: Actor<T, E>,
     {
-        let inputs = self.read(inputs?)?;
+        let inputs = self.read(inputs)?;
         A::start(inputs, self.env, self.now)
     }
 
@@ -42,15 +42,14 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
     pub fn poll_actor<'i, T, A>(
         &mut self,
         actor: &mut A,
-        live: Result<T::Live<'i>, Fault>,
+        live: Result<T::Live<'i>, BadValue>,
     ) -> Result<Poll<T::State>, Fault>
     where
         T: ActorTemplate,
         T::Live<'i>: Ports,
         A: Actor<T, E>,
     {
-        let live = live?;
-        live.check()?;
+        let live = self.checked(live)?;
         actor.poll(live, self.env, self.now)
     }
 
@@ -73,14 +72,14 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
     #[inline]
     pub fn start_supervisor<'i, T, A>(
         &mut self,
-        inputs: Result<T::Inputs<'i>, Fault>,
+        inputs: Result<T::Inputs<'i>, BadValue>,
     ) -> Result<Option<A>, Fault>
     where
         T: SupervisorTemplate,
         T::Inputs<'i>: Ports,
         A: Supervisor<T, E>,
     {
-        let inputs = self.read(inputs?)?;
+        let inputs = self.read(inputs)?;
         A::start(inputs, self.env, self.now).map(Some)
     }
 
@@ -92,7 +91,7 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
     pub fn poll_supervisor<'i, T, A>(
         &mut self,
         supervisor: &mut Option<A>,
-        live: Result<T::Live<'i>, Fault>,
+        live: Result<T::Live<'i>, BadValue>,
         wanted: Events,
     ) -> Result<Option<T::Event>, Fault>
     where
@@ -101,8 +100,7 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
         A: Supervisor<T, E>,
     {
         let supervisor = supervisor.as_mut().ok_or(Fault::INTERNAL)?;
-        let live = live?;
-        live.check()?;
+        let live = self.checked(live)?;
         supervisor.poll(live, wanted, self.env, self.now)
     }
 
@@ -112,27 +110,28 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
     /// The fault of an input or of the computation.
     pub fn compute<'i, T, A>(
         &mut self,
-        inputs: Result<T::Inputs<'i>, Fault>,
+        inputs: Result<T::Inputs<'i>, BadValue>,
     ) -> Result<T::State, Fault>
     where
         T: ComputationTemplate,
         T::Inputs<'i>: Ports,
         A: Computation<T>,
     {
-        let inputs = self.read(inputs?)?;
+        let inputs = self.read(inputs)?;
         A::compute(inputs)
     }
 }
 
 impl Started {
     /// What a computation brought; `stage` stages its outputs.
-    pub fn computed<O: Outcome>(
+    pub fn computed<O: Outcome, E: ?Sized, S, C>(
         computed: Result<O, Fault>,
-        stage: impl FnOnce(O) -> Result<(), Fault>,
+        stage: impl FnOnce(O) -> Result<(), BadValue>,
+        cx: &mut Cx<'_, E, S, C>,
     ) -> Self {
         let done = computed.and_then(|state| {
             let index = state.index();
-            stage(state).map(|()| index)
+            cx.noted(stage(state)).map(|()| index)
         });
         done.map_or_else(Started::Failed, Started::Done)
     }
@@ -141,15 +140,16 @@ impl Started {
 impl Polled {
     /// What an actor's poll brought; `stage` stages its outputs.
     #[inline]
-    pub fn actor<O: Outcome>(
+    pub fn actor<O: Outcome, E: ?Sized, S, C>(
         polled: Result<Poll<O>, Fault>,
-        stage: impl FnOnce(O) -> Result<(), Fault>,
+        stage: impl FnOnce(O) -> Result<(), BadValue>,
+        cx: &mut Cx<'_, E, S, C>,
     ) -> Self {
         match polled {
             Ok(Poll::Pending) => Polled::Pending,
             Ok(Poll::Ready(state)) => {
                 let index = state.index();
-                stage(state).map_or_else(Polled::Failed, |()| Polled::Done(index))
+                cx.noted(stage(state)).map_or_else(Polled::Failed, |()| Polled::Done(index))
             }
             Err(fault) => Polled::Failed(fault),
         }
@@ -159,19 +159,46 @@ impl Polled {
 impl Fired {
     /// What a supervisor's poll brought; `stage` stages its outputs.
     #[inline]
-    pub fn supervisor<O: Outcome>(
+    pub fn supervisor<O: Outcome, E: ?Sized, S, C>(
         polled: Result<Option<O>, Fault>,
-        stage: impl FnOnce(O) -> Result<(), Fault>,
+        stage: impl FnOnce(O) -> Result<(), BadValue>,
+        cx: &mut Cx<'_, E, S, C>,
     ) -> Self {
         match polled {
             Ok(None) => Fired::NOTHING,
             Ok(Some(event)) => {
                 let index = event.index();
-                Fired::event(index, stage(event))
+                Fired::event(index, cx.noted(stage(event)))
             }
             Err(fault) => Fired::fault(fault),
         }
     }
+}
+
+/// What is bound to an input port, by position in the template.
+///
+/// # Errors
+/// Those of the formula, with the port.
+#[inline]
+pub fn input<T>(port: u16, value: impl FnOnce() -> Result<T, BadValue>) -> Result<T, BadValue> {
+    value().map_err(|why| why.for_input(port))
+}
+
+/// What an output port, by position in the template, gives the entry that it is bound to.
+///
+/// # Errors
+/// Those of conversion and range, with the port.
+#[inline]
+pub fn output<T>(port: u16, value: impl FnOnce() -> Result<T, BadValue>) -> Result<T, BadValue> {
+    value().map_err(|why| why.for_output(port))
+}
+
+/// The initial value of an entry, by position in its plan.
+///
+/// # Errors
+/// Those of formula and range, with the entry.
+pub fn initial<T>(entry: u16, value: impl FnOnce() -> Result<T, BadValue>) -> Result<T, BadValue> {
+    value().map_err(|why| why.for_entry(entry))
 }
 
 /// The value, unless it is a number that is not finite.
@@ -179,8 +206,8 @@ impl Fired {
 /// # Errors
 /// [`Fault::ARITHMETIC`].
 #[inline]
-pub fn finite<T: Stored>(value: T) -> Result<T, Fault> {
-    within_value(value.as_value()).map(|()| value)
+pub fn finite<T: Stored>(value: T) -> Result<T, BadValue> {
+    finite_value(value.as_value()).map(|()| value)
 }
 
 /// The value, unless it is a number that is not finite or out of its entry's range.
@@ -188,48 +215,69 @@ pub fn finite<T: Stored>(value: T) -> Result<T, Fault> {
 /// # Errors
 /// [`Fault::ARITHMETIC`] or [`Fault::RANGE`].
 #[inline]
-pub fn limited<T: Stored>(value: T, least: f64, greatest: f64) -> Result<T, Fault> {
+pub fn limited<T: Stored>(value: T, least: f64, greatest: f64) -> Result<T, BadValue> {
     match value.as_value() {
-        ValueRef::Float(number) => within(number, least, greatest)?,
+        ValueRef::Float(number) => between(number, least, greatest)?,
         // The ends come from whole numbers; what does not fit 64 bits saturates.
-        ValueRef::Int(number) => within_int(number, least as i64, greatest as i64)?,
+        ValueRef::Int(number) => between_ints(number, least as i64, greatest as i64)?,
         _ => {}
     }
     Ok(value)
 }
 
-/// Checks that a number is finite and in its port's range.
+/// Checks that the number of an input port is finite and in its range.
 ///
 /// # Errors
 /// [`Fault::ARITHMETIC`] or [`Fault::RANGE`].
 #[inline]
-pub fn within(value: f64, least: f64, greatest: f64) -> Result<(), Fault> {
-    if !value.is_finite() {
-        Err(Fault::ARITHMETIC)
-    } else if (least..=greatest).contains(&value) {
-        Ok(())
-    } else {
-        Err(Fault::RANGE)
-    }
+pub fn within(port: u16, value: f64, least: f64, greatest: f64) -> Result<(), BadValue> {
+    between(value, least, greatest).map_err(|why| why.for_input(port))
 }
 
-/// Checks that an integer is in its port's range.
+/// Checks that the integer of an input port is in its range.
 ///
 /// # Errors
 /// [`Fault::RANGE`].
 #[inline]
-pub fn within_int(value: i64, least: i64, greatest: i64) -> Result<(), Fault> {
-    if (least..=greatest).contains(&value) { Ok(()) } else { Err(Fault::RANGE) }
+pub fn within_int(port: u16, value: i64, least: i64, greatest: i64) -> Result<(), BadValue> {
+    between_ints(value, least, greatest).map_err(|why| why.for_input(port))
 }
 
-/// Checks that a value is no number or a finite one.
+/// Checks that the value of an input port is no number or a finite one.
 ///
 /// # Errors
 /// [`Fault::ARITHMETIC`].
 #[inline]
-pub fn within_value(value: ValueRef<'_>) -> Result<(), Fault> {
+pub fn within_value(port: u16, value: ValueRef<'_>) -> Result<(), BadValue> {
+    finite_value(value).map_err(|why| why.for_input(port))
+}
+
+#[inline]
+fn between(value: f64, least: f64, greatest: f64) -> Result<(), BadValue> {
+    if !value.is_finite() {
+        Err(BadValue::number(Fault::ARITHMETIC, value))
+    } else if (least..=greatest).contains(&value) {
+        Ok(())
+    } else {
+        Err(BadValue::number(Fault::RANGE, value))
+    }
+}
+
+#[inline]
+fn between_ints(value: i64, least: i64, greatest: i64) -> Result<(), BadValue> {
+    if (least..=greatest).contains(&value) {
+        Ok(())
+    } else {
+        Err(BadValue::number(Fault::RANGE, value as f64))
+    }
+}
+
+#[inline]
+fn finite_value(value: ValueRef<'_>) -> Result<(), BadValue> {
     match value {
-        ValueRef::Float(number) if !number.is_finite() => Err(Fault::ARITHMETIC),
+        ValueRef::Float(number) if !number.is_finite() => {
+            Err(BadValue::number(Fault::ARITHMETIC, number))
+        }
         _ => Ok(()),
     }
 }
@@ -296,8 +344,8 @@ impl WriteError {
         limited(value, least, greatest).map(|_| ()).map_err(WriteError::of)
     }
 
-    /// Why a value that has a fault cannot be written.
-    pub fn of(fault: Fault) -> WriteError {
-        if fault == Fault::ARITHMETIC { WriteError::NotFinite } else { WriteError::Range }
+    /// Why a value that will not do cannot be written.
+    pub fn of(why: BadValue) -> WriteError {
+        if why.fault == Fault::ARITHMETIC { WriteError::NotFinite } else { WriteError::Range }
     }
 }

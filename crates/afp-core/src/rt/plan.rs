@@ -4,7 +4,7 @@ use core::num::NonZeroU32;
 
 use crate::clock::Clock;
 use crate::component::Environment;
-use crate::fault::{Failure, Fault};
+use crate::fault::{BadValue, Detail, Failure, Fault, Port, Subject};
 use crate::machine::{Flow, Machine};
 use crate::rt::ports::Ports;
 use crate::rt::state::{Plan, PlanState};
@@ -86,6 +86,8 @@ pub(crate) struct StepState {
     pub called: ComponentId,
     /// The component that failed last: the innermost one, where sub-plans passed its fault on.
     pub failure: Option<Failure>,
+    /// The value that the fault of the component called last is about.
+    pub noted: Option<(Detail, Fault)>,
     /// A plan has just ended in `Error`: whoever uses it fails for the same reason.
     pub passed_on: bool,
 }
@@ -144,7 +146,8 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
     ///
     /// # Errors
     /// A value that is not finite or out of range.
-    pub fn read<I: Ports>(&mut self, inputs: I) -> Result<I, Fault> {
+    pub fn read<I: Ports>(&mut self, inputs: Result<I, BadValue>) -> Result<I, Fault> {
+        let inputs = self.noted(inputs)?;
         if S::ENABLED {
             let (component, at) = (self.place.component, self.now);
             let sink = &mut *self.sink;
@@ -152,8 +155,17 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
                 sink.record(at, &Record::Input { component, port, value });
             });
         }
-        inputs.check()?;
-        Ok(inputs)
+        self.checked(Ok(inputs))
+    }
+
+    /// Checks inputs that are read anew.
+    ///
+    /// # Errors
+    /// A value that is not finite or out of range.
+    #[inline]
+    pub(crate) fn checked<I: Ports>(&mut self, inputs: Result<I, BadValue>) -> Result<I, Fault> {
+        let checked = inputs.and_then(|inputs| inputs.check().map(|()| inputs));
+        self.noted(checked)
     }
 
     /// For plans that keep their components in boxes: lends the platform, and what shows the
@@ -227,11 +239,52 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
 }
 
 impl<E: ?Sized, S, C> Cx<'_, E, S, C> {
-    /// Notes who failed, unless it is a sub-plan that passes on the fault of a component inside.
-    pub(crate) fn note_failure(&mut self, component: ComponentId, fault: Fault) {
+    /// What became of values of the component that is called, as a fault; what it is about is noted.
+    ///
+    /// # Errors
+    /// The fault alone.
+    #[inline]
+    pub fn noted<T>(&mut self, value: Result<T, BadValue>) -> Result<T, Fault> {
+        value.map_err(|why| self.note(why))
+    }
+
+    /// Notes what a fault is about.
+    #[cold]
+    pub fn note(&mut self, why: BadValue) -> Fault {
+        let subject = why.port.map(|port| match port {
+            Port::Input(port) => Subject::Input(port),
+            Port::Output(port) => Subject::Output(port),
+            Port::Entry(entry) => {
+                Subject::Entry(TraceEntryId(self.place.entries.saturating_add(entry.into())))
+            }
+        });
+        let (component, value) = (self.step.called, why.value);
+        self.step.noted = subject.map(|subject| (Detail { component, subject, value }, why.fault));
+        why.fault
+    }
+
+    /// As [`Cx::noted`], for what a sub-plan is given and gives back: components inside may have been called
+    /// since.
+    ///
+    /// # Errors
+    /// The fault alone.
+    pub fn noted_outside<T>(&mut self, value: Result<T, BadValue>) -> Result<T, Fault> {
+        value.map_err(|why| {
+            self.step.called = self.place.component;
+            self.note(why)
+        })
+    }
+
+    /// Notes who failed, unless it is a sub-plan that passes on the fault of a component inside, and says
+    /// which value the fault is about.
+    pub(crate) fn note_failure(&mut self, component: ComponentId, fault: Fault) -> Option<Detail> {
+        let noted = self.step.noted.take();
         if !core::mem::take(&mut self.step.passed_on) {
-            self.step.failure = Some(Failure { component, fault });
+            let detail = noted.filter(|(detail, of)| (detail.component, *of) == (component, fault));
+            let detail = detail.map(|(detail, _)| detail);
+            self.step.failure = Some(Failure { component, fault, detail });
         }
+        self.step.failure?.detail
     }
 
     /// Calls a component, so that a panic in it is known to be its own.
@@ -261,8 +314,8 @@ impl<E: ?Sized, S: Sink, C> Cx<'_, E, S, C> {
     /// Notes and traces that a component failed.
     #[cold]
     pub(crate) fn failed(&mut self, component: ComponentId, fault: Fault) {
-        self.note_failure(component, fault);
-        self.trace(&Record::Faulted { component, fault });
+        let detail = self.note_failure(component, fault);
+        self.trace(&Record::Faulted { component, fault, detail });
     }
 }
 
@@ -316,8 +369,12 @@ impl<S: Sink> Committer<'_, S> {
 
 impl Started {
     /// What a sub-plan's start brought; `stage` stages its results.
-    pub fn sub_plan(flow: Flow, stage: impl FnOnce() -> Result<(), Fault>) -> Self {
-        match ended(flow, stage) {
+    pub fn sub_plan<E: ?Sized, S, C>(
+        flow: Flow,
+        stage: impl FnOnce() -> Result<(), BadValue>,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Self {
+        match ended(flow, stage, cx) {
             None => Started::SubPlan(flow),
             Some(Ok(state)) => Started::Done(state),
             Some(Err(fault)) => Started::Failed(fault),
@@ -327,8 +384,12 @@ impl Started {
 
 impl Polled {
     /// What a sub-plan's step brought; `stage` stages its results.
-    pub fn sub_plan(flow: Flow, stage: impl FnOnce() -> Result<(), Fault>) -> Self {
-        match ended(flow, stage) {
+    pub fn sub_plan<E: ?Sized, S, C>(
+        flow: Flow,
+        stage: impl FnOnce() -> Result<(), BadValue>,
+        cx: &mut Cx<'_, E, S, C>,
+    ) -> Self {
+        match ended(flow, stage, cx) {
             None => Polled::SubPlan(flow),
             Some(Ok(state)) => Polled::Done(state),
             Some(Err(fault)) => Polled::EndedInError(fault),
@@ -337,10 +398,14 @@ impl Polled {
 }
 
 /// The state that a sub-plan reached, if it ended: `OK` is 0, `Interrupted` 1.
-fn ended(flow: Flow, stage: impl FnOnce() -> Result<(), Fault>) -> Option<Result<u16, Fault>> {
+fn ended<E: ?Sized, S, C>(
+    flow: Flow,
+    stage: impl FnOnce() -> Result<(), BadValue>,
+    cx: &mut Cx<'_, E, S, C>,
+) -> Option<Result<u16, Fault>> {
     match flow {
-        Flow::Ended(Ending::Ok) => Some(stage().map(|()| 0)),
-        Flow::Ended(Ending::Interrupted) => Some(stage().map(|()| 1)),
+        Flow::Ended(Ending::Ok) => Some(cx.noted_outside(stage()).map(|()| 0)),
+        Flow::Ended(Ending::Interrupted) => Some(cx.noted_outside(stage()).map(|()| 1)),
         Flow::Ended(Ending::Error(fault)) => Some(Err(fault)),
         Flow::Running(_) | Flow::Fatal(_) => None,
     }

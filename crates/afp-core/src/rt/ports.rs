@@ -8,7 +8,7 @@ use core::any::Any as Dynamic;
 use crate::component::{
     Actor, ActorTemplate, Computation, ComputationTemplate, Supervisor, SupervisorTemplate,
 };
-use crate::fault::Fault;
+use crate::fault::{BadValue, Fault};
 use crate::value::{Text, Value, ValueRef};
 
 /// The inputs of a component, or those read anew at each poll.
@@ -17,7 +17,7 @@ pub trait Ports {
     ///
     /// # Errors
     /// [`Fault::ARITHMETIC`] or [`Fault::RANGE`].
-    fn check(&self) -> Result<(), Fault>;
+    fn check(&self) -> Result<(), BadValue>;
 
     /// Shows each port with its position among the template's inputs.
     fn each(&self, see: &mut dyn FnMut(u16, ValueRef<'_>));
@@ -50,7 +50,7 @@ pub trait FromArgs<'a>: Ports + Sized {
     ///
     /// # Errors
     /// The first fault of a formula.
-    fn from_args(args: &'a dyn Args) -> Result<Self, Fault>;
+    fn from_args(args: &'a dyn Args) -> Result<Self, BadValue>;
 }
 
 /// Takes the outputs of a component, port by port.

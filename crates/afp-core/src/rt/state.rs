@@ -2,7 +2,7 @@
 
 use crate::clock::Clock;
 use crate::component::Events;
-use crate::fault::Fault;
+use crate::fault::{BadValue, Fault};
 use crate::rt::plan::{Committer, Cx, Fired, Polled, Slot, Started};
 use crate::rt::table::Tables;
 use crate::trace::Sink;
@@ -47,7 +47,7 @@ pub trait PlanState: Sized {
     /// # Errors
     /// The fault of a formula; the plan then ends in `Error`.
     #[doc(hidden)]
-    fn initialise(&mut self) -> Result<(), Fault>;
+    fn initialise(&mut self) -> Result<(), BadValue>;
 
     /// An entry's committed value.
     #[doc(hidden)]

@@ -64,9 +64,16 @@ impl<N: Names + ?Sized> Line<'_, N> {
         }
     }
 
-    fn outcome(&self, f: &mut fmt::Formatter<'_>, id: ComponentId, outcome: u16) -> fmt::Result {
+    /// An outcome and where it leads while an element is active.
+    fn outcome(
+        &self,
+        f: &mut fmt::Formatter<'_>,
+        id: ComponentId,
+        outcome: u16,
+        element: ComponentId,
+    ) -> fmt::Result {
         f.write_str(self.names.outcome(id, outcome))?;
-        match self.names.target(id, outcome) {
+        match self.names.target_at(id, outcome, element) {
             "" => Ok(()),
             target => write!(f, " -> {target}"),
         }
@@ -115,18 +122,18 @@ impl<N: Names + ?Sized> fmt::Display for Line<'_, N> {
                 let path = self.path(supervisor);
                 write!(f, "{path} missed its deadline by {lateness} ({cause}, {skipped} skipped)")
             }
-            Record::Event { supervisor, event } => {
+            Record::Event { supervisor, event, element } => {
                 write!(f, "{} event ", self.path(supervisor))?;
-                self.outcome(f, supervisor, event)
+                self.outcome(f, supervisor, event, element)
             }
-            Record::AlreadyThere { supervisor, event } => {
+            Record::AlreadyThere { supervisor, event, element } => {
                 write!(f, "{} already there: ", self.path(supervisor))?;
-                self.outcome(f, supervisor, event)
+                self.outcome(f, supervisor, event, element)
             }
             Record::Interrupted { element } => write!(f, "{} interrupted", self.path(element)),
             Record::Finished { element, state } => {
                 write!(f, "{} finished ", self.path(element))?;
-                self.outcome(f, element, state)
+                self.outcome(f, element, state, element)
             }
             Record::Committed { author, entry, old, new } => {
                 write!(f, "{} commits {}: ", self.author(author), self.names.entry(entry).path)?;
@@ -145,7 +152,7 @@ impl<N: Names + ?Sized> fmt::Display for Line<'_, N> {
             Record::Resumed { element, supervisor } => {
                 write!(f, "{} resumed by {}", self.path(element), self.path(supervisor))
             }
-            Record::Faulted { component, fault } => {
+            Record::Faulted { component, fault, .. } => {
                 write!(f, "{} fault {}: {fault}", self.path(component), fault.code())?;
                 self.error_target(f, component)
             }

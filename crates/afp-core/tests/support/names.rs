@@ -3,7 +3,7 @@
 use afp_core::rt::ElementKind;
 use afp_core::trace::{
     ComponentId, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Kind, Names,
-    TraceEntryId,
+    Reaction, TraceEntryId,
 };
 
 use super::build::Spec;
@@ -102,6 +102,10 @@ impl Names for SpecNames {
             DEADLINE_MISSED | ERROR => self.get(id).special.1,
             outcome => &self.get(id).outcomes[usize::from(outcome)].1,
         }
+    }
+
+    fn reaction(&self, _: ComponentId, _: u16) -> Option<Reaction<'_>> {
+        None
     }
 
     fn input(&self, _: ComponentId, _: u16) -> &str {

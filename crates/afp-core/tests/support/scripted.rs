@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use afp_core::rt::{
-    Committer, Cx, ElementKind, Events, Fired, Machine, Plan, PlanState, PlanTable, Polled, Slot,
-    Started, Tables,
+    BadValue, Committer, Cx, ElementKind, Events, Fired, Machine, Plan, PlanState, PlanTable,
+    Polled, Slot, Started, Tables,
 };
 use afp_core::trace::{EntryKind, Sink};
 use afp_core::{Clock, Fault, Value, ValueRef, WriteError};
@@ -134,10 +134,10 @@ impl PlanState for Scripted {
         missing.map(|index| index as u16)
     }
 
-    fn initialise(&mut self) -> Result<(), Fault> {
+    fn initialise(&mut self) -> Result<(), BadValue> {
         for (spec, value) in self.spec.entries.iter().zip(&mut self.entries) {
             if spec.broken {
-                return Err(Fault::ARITHMETIC);
+                return Err(Fault::ARITHMETIC.into());
             }
             if spec.kind != EntryKind::In || *value == Value::Unset {
                 *value = spec.init.clone();
@@ -242,7 +242,11 @@ impl Plan<World> for Scripted {
                     machine.plan_mut().set(inner, plan.get(outer));
                 }
                 let flow = cx.start_sub_plan(child, machine);
-                Started::sub_plan(flow, || plan.stage_results(row, machine.plan()))
+                Started::sub_plan(
+                    flow,
+                    || plan.stage_results(row, machine.plan()).map_err(BadValue::from),
+                    cx,
+                )
             });
         }
         if let Err(fault) = cx.env.call(row.name, Phase::Start, cx.now) {
@@ -273,7 +277,11 @@ impl Plan<World> for Scripted {
             let child = spec.element_rows[usize::from(element)].child;
             return self.with_child(element, |plan, machine| {
                 let flow = cx.inside(child, |cx| machine.step(cx));
-                Polled::sub_plan(flow, || plan.stage_results(row, machine.plan()))
+                Polled::sub_plan(
+                    flow,
+                    || plan.stage_results(row, machine.plan()).map_err(BadValue::from),
+                    cx,
+                )
             });
         }
         if let Err(fault) = cx.env.call(row.name, Phase::Poll, cx.now) {

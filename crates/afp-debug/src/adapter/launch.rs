@@ -7,7 +7,7 @@ use afp_core::trace::ComponentId;
 use afp_core::{Duration, Instant};
 use dapts::event;
 use serde::Deserialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::steer::{Mode, Pace};
 use super::{Adapter, Answer, Refusal, Run};
@@ -26,6 +26,9 @@ pub struct Launch {
     /// The world; without one that of the plan.
     #[serde(default)]
     pub world: Option<String>,
+    /// Where the robot starts, metres and radians; without it where the world says.
+    #[serde(default)]
+    pub start: Option<[f64; 3]>,
     /// The seed of all noise.
     #[serde(default)]
     pub seed: u64,
@@ -108,7 +111,10 @@ impl Adapter<'_> {
         if launch.until.is_some_and(|until| !(until > 0.0 && until < 1e9)) {
             return Err("'until' is a number of seconds above 0; leave it out for no end".into());
         }
-        let fresh = launch.world.is_some() || !launch.set.is_empty() || launch.until.is_some();
+        let fresh = launch.world.is_some()
+            || launch.start.is_some()
+            || !launch.set.is_empty()
+            || launch.until.is_some();
         match &launch.log {
             None if launch.program.is_empty() => {
                 return Err(
@@ -117,7 +123,8 @@ impl Adapter<'_> {
             }
             Some(_) if fresh => {
                 return Err(
-                    "a log is run again as it was: leave 'world', 'set' and 'until' out".into()
+                    "a log is run again as it was: leave 'world', 'start', 'set' and 'until' out"
+                        .into(),
                 );
             }
             _ => {}
@@ -129,7 +136,10 @@ impl Adapter<'_> {
             self.event::<event::Capabilities>(&dapts::CapabilitiesEvent { capabilities });
         }
         self.event::<event::Initialized>(&None);
-        Ok(Value::Null)
+        let program = self.run()?.target.program();
+        let plan = program.units.first();
+        let file = plan.and_then(|plan| program.files.get(plan.at.file));
+        Ok(json!({"plan": plan.map(|plan| &plan.name), "file": file}))
     }
 
     fn begin(&mut self, launch: Launch, now: Wall) -> Answer<()> {
@@ -145,6 +155,7 @@ impl Adapter<'_> {
             transitions: Vec::new(),
             exception: None,
             told: false,
+            traced: None,
             told_at: now,
             end,
             forces: Vec::new(),
@@ -165,9 +176,10 @@ impl Adapter<'_> {
 
     pub(super) fn restart(&mut self, now: Wall) -> Answer<Value> {
         let launch = self.run()?.launch.clone();
-        let told = self.run()?.told;
+        let (told, traced) = (self.run()?.told, self.run()?.traced.is_some());
         self.begin(launch, now)?;
-        self.run()?.told = told;
+        let run = self.run()?;
+        (run.told, run.traced) = (told, traced.then(Vec::new));
         self.configured(now)
     }
 
@@ -178,6 +190,8 @@ impl Adapter<'_> {
             run.target.stop(&mut |happened, _| said.push(happened.clone()));
             if command == "terminate" && run.mode != Mode::Over {
                 said.iter().for_each(|happened| self.say(&run, happened));
+                run.keep_trace(&said);
+                self.tell_trace(&mut run);
                 self.ended(&run);
             }
         }

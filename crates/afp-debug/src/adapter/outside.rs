@@ -4,9 +4,11 @@ use std::time::Duration as Wall;
 
 use afp_core::Duration;
 use afp_core::devices::{find_control, find_fault};
-use afp_session::{HOLD, Request};
+use afp_session::{HOLD, Pose2, Put, Request};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use serde::Deserialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::steer::Pace;
 use super::{Adapter, Answer, Refusal};
@@ -22,6 +24,19 @@ pub(super) struct Break {
     fault: String,
     amount: Option<f64>,
     seconds: Option<f64>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Move {
+    /// A thing of the world; the robot without it.
+    thing: Option<String>,
+    to: [f64; 3],
+}
+
+#[derive(Deserialize)]
+pub(super) struct Drop {
+    shape: String,
+    to: [f64; 3],
 }
 
 #[derive(Deserialize)]
@@ -56,6 +71,30 @@ impl Adapter<'_> {
             Some(_) => return Err("'seconds' is a number above 0".into()),
         };
         target.ask(Duration::ZERO, Request::Break(id, fault.amount, lasting))?;
+        Ok(Value::Null)
+    }
+
+    /// Puts the robot or a thing of its world somewhere else.
+    pub(super) fn carry(&mut self, wanted: Move) -> Answer<Value> {
+        self.put(wanted.thing.map_or(Put::Robot, Put::Thing), wanted.to)
+    }
+
+    /// Puts something into the world that was not there.
+    pub(super) fn drop_into(&mut self, wanted: Drop) -> Answer<Value> {
+        self.put(Put::New(wanted.shape), wanted.to)
+    }
+
+    /// What the robot's camera sees.
+    pub(super) fn picture(&mut self) -> Answer<Value> {
+        let target = &self.run()?.target;
+        let (width, height, rgb) = target.picture().ok_or("there is no picture yet")?;
+        let at = target.now().as_secs_f64();
+        Ok(json!({"at": at, "width": width, "height": height, "rgb": STANDARD.encode(rgb)}))
+    }
+
+    fn put(&mut self, what: Put, [x, y, heading]: [f64; 3]) -> Answer<Value> {
+        let at = Pose2 { x, y, heading };
+        self.run()?.target.ask(Duration::ZERO, Request::Put(what, at))?;
         Ok(Value::Null)
     }
 

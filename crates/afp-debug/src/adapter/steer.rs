@@ -77,6 +77,8 @@ pub(super) struct Step {
 struct Subscribe {
     #[serde(default)]
     state: bool,
+    #[serde(default)]
+    trace: bool,
 }
 
 impl Adapter<'_> {
@@ -93,15 +95,27 @@ impl Adapter<'_> {
             "reverseContinue" => self.reverse(),
             "afp/press" => self.press(&parse(arguments)?),
             "afp/fault" => self.fault(&parse(arguments)?),
-            "afp/force" => self.force(parse(arguments)?),
-            "afp/release" => self.release(&parse(arguments)?),
+            "afp/move" => self.carry(parse(arguments)?),
+            "afp/drop" => self.drop_into(parse(arguments)?),
+            "afp/picture" => self.picture(),
+            "afp/force" => {
+                let forced = self.force(parse(arguments)?)?;
+                self.tell_state();
+                Ok(forced)
+            }
+            "afp/release" => {
+                let forced = self.release(&parse(arguments)?)?;
+                self.tell_state();
+                Ok(forced)
+            }
             "afp/why" => self.why(&parse(arguments)?),
             "afp/speed" => self.speed(&parse(arguments)?, now),
             "afp/seek" => self.seek(&parse(arguments)?),
             "afp/world" => self.world(parse(arguments)?),
             "afp/subscribe" => {
-                let Subscribe { state } = parse(arguments)?;
+                let Subscribe { state, trace } = parse(arguments)?;
                 self.run()?.told = state;
+                self.trace(trace)?;
                 self.tell_state();
                 Ok(Value::Null)
             }
@@ -166,6 +180,7 @@ impl Adapter<'_> {
         }
         if run.mode != Mode::Held && now.saturating_sub(run.told_at) >= STATES {
             run.told_at = now;
+            self.tell_trace(&mut run);
             self.tell_state_of(&run);
         }
         self.run = Some(run);
@@ -187,6 +202,7 @@ impl Adapter<'_> {
                 Ok(advance) => advance,
                 Err(why) => return self.failed(run, &why),
             };
+            run.keep_trace(&happened);
             let held = self.look_at(run, &happened, hits.drain(..), before);
             run.keep_forces(&happened);
             happened.clear();

@@ -1,6 +1,6 @@
 //! What a client is told while a run goes on, and when it stands still.
 
-use afp_session::{EndingKind, EventKind};
+use afp_session::{Done, EndingKind, EventKind, Requested};
 use dapts::{StoppedEventReason as Reason, event};
 use serde_json::json;
 
@@ -29,13 +29,20 @@ impl Adapter<'_> {
         }
         let at = what.event.at.as_secs_f64();
         let text = match &what.event.request {
+            Some(Requested { what, done: Done::Refused(why), .. }) => {
+                format!("{at:>10.3}  {what} (from outside) is refused: {why}\n")
+            }
             Some(request) => format!("{at:>10.3}  {} (from outside)\n", request.what),
             None => format!("{at:>10.3}  {}\n", what.text),
         };
         let program = run.target.program();
         let place = program.unit(what.event.component_id).map(|unit| unit.at);
         let mut said = dapts::OutputEvent { output: text, ..dapts::OutputEvent::default() };
-        said.category = Some(dapts::OutputEventCategory::Console);
+        let refused = matches!(&what.event.request, Some(Requested { done: Done::Refused(_), .. }));
+        said.category = Some(match refused {
+            true => dapts::OutputEventCategory::Stderr,
+            false => dapts::OutputEventCategory::Console,
+        });
         if let Some(place) = place.filter(|_| !what.text.is_empty()) {
             said.line = Some(place.line + self.client.first_line);
             said.source = source(program, place.file);
@@ -75,6 +82,7 @@ impl Adapter<'_> {
             thread_id: Some(1),
             ..dapts::StoppedEvent::default()
         });
+        self.tell_trace(run);
         self.tell_state_of(run);
     }
 
@@ -102,11 +110,13 @@ impl Adapter<'_> {
         let mut said = Vec::new();
         run.target.stop(&mut |happened, _| said.push(happened.clone()));
         said.iter().for_each(|happened| self.say(run, happened));
+        run.keep_trace(&said);
         self.end(run);
     }
 
     pub(super) fn end(&mut self, run: &mut Run<'_>) {
         run.mode = Mode::Over;
+        self.tell_trace(run);
         self.tell_state_of(run);
         self.ended(run);
     }
@@ -170,12 +180,18 @@ impl Adapter<'_> {
             ("watching", json!(watching)),
             ("entries", json!(entries)),
             ("held", json!(held)),
+            ("moving", json!(run.target.moving().into_iter().map(outline).collect::<Vec<_>>())),
             ("pose", json!(run.target.pose().map(|it| [it.x, it.y, it.heading].map(rounded)))),
         ] {
             body[name] = value;
         }
         self.tell("afp/state", body);
     }
+}
+
+fn outline((id, outline): (String, Vec<[f64; 2]>)) -> serde_json::Value {
+    let outline: Vec<_> = outline.into_iter().map(|corner| corner.map(rounded)).collect();
+    json!({"id": id, "outline": outline})
 }
 
 /// Four digits behind the point: tenths of a millimetre are enough for pictures.

@@ -87,11 +87,10 @@ impl Adapter<'_> {
         let limit = at.min(run.end);
         let program = run.target.program().clone();
         for _ in 0..BATCH {
-            let mut changed = false;
-            let advance = run.target.advance(limit, &mut |what, _| {
-                changed |= is_transition(what, &program, None);
-            });
-            if changed {
+            let mut happened = Vec::new();
+            let advance = run.target.advance(limit, &mut |what, _| happened.push(what.clone()));
+            run.keep_trace(&happened);
+            if happened.iter().any(|what| is_transition(what, &program, None)) {
                 run.note(run.target.steps());
             }
             match advance {

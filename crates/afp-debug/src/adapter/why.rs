@@ -57,6 +57,17 @@ fn edges(program: &Program, state: &State, plan: ComponentId, name: &str) -> Vec
                 "values": values(program, state, id),
             }));
         }
+        for (watcher, number, _) in unit.reactions.iter().filter(|(.., target)| target == name) {
+            let Some(supervisor) = program.unit(*watcher) else { continue };
+            let outcome = supervisor.outcomes.get(usize::from(*number));
+            let outcome = outcome.map_or("DeadlineMissed", |(name, _)| name);
+            edges.push(json!({
+                "from": supervisor.path, "outcome": outcome, "during": unit.name,
+                "last": state.reacted(id, *watcher, *number).map(|at| at.as_secs_f64()),
+                "looks": state.is_on(*watcher) && state.is_on(id),
+                "values": values(program, state, *watcher),
+            }));
+        }
     }
     edges
 }

@@ -8,12 +8,16 @@ use super::{Adapter, Answer, Launch, Surroundings};
 impl Adapter<'_> {
     /// What a run would take place in: metres and radians, x forward from the start, y left.
     pub(super) fn world(&mut self, launch: Launch) -> Answer<Value> {
-        let Surroundings { drawing, worlds } = self.host.world(&launch)?;
+        let Surroundings { drawing, worlds, drops, camera } = self.host.world(&launch)?;
         let Drawing { start, body, things, patches, lights } = &drawing;
         let Pose2 { x, y, heading } = start;
         let patches: Vec<_> = patches
             .iter()
             .map(|patch| json!({ "corners": patch.corners, "color": patch.color }))
+            .collect();
+        let drops: Vec<_> = drops
+            .iter()
+            .map(|drop| json!({ "shape": drop.shape, "outline": drop.outline }))
             .collect();
         let worlds: Vec<_> =
             worlds.iter().map(|(name, from)| json!({ "name": name, "from": from })).collect();
@@ -24,11 +28,13 @@ impl Adapter<'_> {
             "patches": patches,
             "lights": lights,
             "worlds": worlds,
+            "drops": drops,
+            "camera": camera,
         }))
     }
 }
 
 fn thing(thing: &Thing) -> Value {
-    let Thing { name, outline, low, labelled, path } = thing;
-    json!({ "name": name, "outline": outline, "low": low, "labelled": labelled, "path": path })
+    let Thing { id, name, outline, low, movable, labelled, path } = thing;
+    json!({ "id": id, "name": name, "outline": outline, "low": low, "movable": movable, "labelled": labelled, "path": path })
 }

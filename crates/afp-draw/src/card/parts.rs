@@ -2,7 +2,7 @@
 
 use super::super::layout;
 use super::super::metrics::{shorten, width};
-use super::super::sketch::{Anchor, Arrow, Label, Piece, Rect, Sketch};
+use super::super::sketch::{Anchor, Arrow, Label, Piece, Rect, Sketch, Tip};
 use super::super::usage::{Class, Use};
 use super::super::view::{Exit, Input, Output, To};
 use super::{Card, Leaving, REACH};
@@ -27,22 +27,29 @@ pub(super) const STAND_OUT: f64 = 9.0;
 /// Length of the arrow from an exit to its tag.
 const STUB: f64 = 20.0;
 
+/// How far the arrow back of an exit that resumes goes out, and how far beside the exit it comes back.
+const OUT: f64 = 13.0;
+const BESIDE: f64 = 17.0;
+
+/// What stands beside it, and how far away.
+const RESUME: &str = "Resume";
+const APART: f64 = 6.0;
+
 /// The ends of flow that are no elements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Tag<'a> {
+struct Tag<'a> {
     text: &'a str,
     class: &'static str,
 }
 
 impl<'a> Tag<'a> {
-    pub(super) fn of(to: To<'a>) -> Option<Tag<'a>> {
+    fn of(to: To<'a>) -> Option<Tag<'a>> {
         let (text, class) = match to {
-            To::Element(_) => return None,
+            To::Element(_) | To::Resume => return None,
             To::Terminate => ("Terminate", "terminate"),
             To::Fail("") => ("Fail", "fail"),
             To::Fail(reason) => (reason, "fail"),
             To::Ignore => ("Ignore", "ignore"),
-            To::Resume => ("Resume", "resume"),
             To::Unknown(text) => (text, "unknown"),
             To::Nowhere => ("?", "nowhere"),
         };
@@ -54,7 +61,7 @@ pub(super) fn chip_width(name: &str) -> f64 {
     width(name, CHIP_SIZE, false) + 16.0
 }
 
-pub(super) fn tag_width(tag: Tag) -> f64 {
+fn tag_width(tag: Tag) -> f64 {
     width(&shorten(tag.text), CHIP_SIZE, false) + 20.0
 }
 
@@ -62,9 +69,27 @@ pub(super) fn pill_width(text: &str) -> f64 {
     width(&shorten(text), PORT_SIZE, false) + 16.0
 }
 
-/// How far to the right of its box an exit with its tag reaches.
+/// The room that an exit needs below a box: its own, that of the tag it leads to, or that of the arrow back.
+pub(super) fn exit_width(exit: &Exit) -> f64 {
+    let own = chip_width(&exit.text());
+    match exit.to {
+        To::Resume => (own + BESIDE + PILL / 3.0).max(width(RESUME, CHIP_SIZE, false)),
+        to => own.max(Tag::of(to).map_or(0.0, tag_width)),
+    }
+}
+
+/// The room that an exit needs on the right of a box.
+pub(super) fn exit_height(exit: &Exit) -> f64 {
+    if exit.to == To::Resume { ROW + BESIDE - 5.0 } else { ROW }
+}
+
+/// How far to the right of its box an exit with its tag or arrow back reaches.
 pub(super) fn reach_right(exit: &Exit) -> f64 {
-    STAND_OUT + Tag::of(exit.to).map_or(0.0, |tag| STUB + tag_width(tag))
+    let beyond = match exit.to {
+        To::Resume => OUT + APART + width(RESUME, CHIP_SIZE, false),
+        to => Tag::of(to).map_or(0.0, |tag| STUB + tag_width(tag)),
+    };
+    STAND_OUT + beyond
 }
 
 /// Data that flows into a port at `at`; on the side named by `side`.
@@ -82,7 +107,7 @@ pub(super) fn inflow(
     };
     let rect = data(sketch, at, text, class, side);
     let points = vec![attached(rect, at), at];
-    sketch.arrows.push(Arrow { points, class: "data".into(), thick: false });
+    sketch.arrows.push(Arrow { points, class: "data".into(), tip: Tip::Thin });
     port(sketch, at, input.port, side);
     let part = Part::Input { name: input.port.to_owned(), nth: input.nth };
     sketch.pieces.push(Piece { item: of.item.clone(), part, rect, severity: input.severity });
@@ -100,7 +125,7 @@ pub(super) fn outflow(
     let class = if output.entry.is_empty() { "hole" } else { "entry" };
     let rect = data(sketch, at, output.text(), class, side);
     let points = vec![at, attached(rect, at)];
-    sketch.arrows.push(Arrow { points, class: "data".into(), thick: false });
+    sketch.arrows.push(Arrow { points, class: "data".into(), tip: Tip::Thin });
     port(sketch, at, output.port, side);
     let part = Part::Output { name: output.port.to_owned(), nth: output.nth };
     sketch.pieces.push(Piece { item: of.item.clone(), part, rect, severity: output.severity });
@@ -159,41 +184,68 @@ fn port(sketch: &mut Sketch, (x, y): (f64, f64), name: &str, side: Anchor) {
     });
 }
 
-/// A state on the lower border of a box, centred at `at`, with its tag.
+/// A state on the lower border of a box, in the middle of its room at `at`, with its tag or its arrow back.
 pub(super) fn exit_below(card: &mut Card, of: &Component, (x, y): (f64, f64), exit: &Exit) {
     let text = exit.text();
     let width = chip_width(&text);
+    // The arrow back comes up beside the exit.
+    let x = if exit.to == To::Resume { x - (exit_width(exit) - width) / 2.0 } else { x };
     let rect = Rect { x: x - width / 2.0, y: y - PILL + STAND_OUT, width, height: PILL };
     chip(card, of, rect, exit, &text);
     let bottom = rect.bottom();
     card.height = card.height.max(bottom);
+    if exit.to == To::Resume {
+        let (turn, up) = (bottom + OUT, rect.right() + BESIDE - 5.0);
+        back(card, exit, vec![(x, bottom), (x, turn), (up, turn), (up, y)]);
+        let base = turn + APART + 0.8 * CHIP_SIZE;
+        resume_label(card, (rect.x, base));
+        card.height = card.height.max(base + 0.2 * CHIP_SIZE);
+        return;
+    }
     let Some(tag) = Tag::of(exit.to) else {
         leave(card, of, layout::Exit::Below(x, bottom), exit);
         return;
     };
     let points = vec![(x, bottom), (x, bottom + STUB)];
-    card.sketch.arrows.push(Arrow { points, class: exit_class(exit), thick: true });
+    card.sketch.arrows.push(Arrow::flow(points, exit_class(exit)));
     let width = tag_width(tag);
     let rect = Rect { x: x - width / 2.0, y: bottom + STUB, width, height: PILL };
     card.sketch.pill(rect, tag.class, tag.text, CHIP_SIZE);
     card.height = card.height.max(rect.bottom());
 }
 
-/// An event on the right border of a box at `at`, with its tag.
+/// An event on the right border of a box at `at`, with its tag or its arrow back.
 pub(super) fn exit_right(card: &mut Card, of: &Component, (x, y): (f64, f64), exit: &Exit) {
     let text = exit.text();
     let width = chip_width(&text);
     let right = x + STAND_OUT;
     let rect = Rect { x: right - width, y: y - PILL / 2.0, width, height: PILL };
     chip(card, of, rect, exit, &text);
+    if exit.to == To::Resume {
+        let (turn, below) = (right + OUT, y + BESIDE);
+        back(card, exit, vec![(right, y), (turn, y), (turn, below), (x, below)]);
+        resume_label(card, (turn + APART, y + BESIDE / 2.0 + 0.36 * CHIP_SIZE));
+        return;
+    }
     let Some(tag) = Tag::of(exit.to) else {
         leave(card, of, layout::Exit::Right(right, y), exit);
         return;
     };
     let points = vec![(right, y), (right + STUB, y)];
-    card.sketch.arrows.push(Arrow { points, class: exit_class(exit), thick: true });
+    card.sketch.arrows.push(Arrow::flow(points, exit_class(exit)));
     let rect = Rect { x: right + STUB, y: y - PILL / 2.0, width: tag_width(tag), height: PILL };
     card.sketch.pill(rect, tag.class, tag.text, CHIP_SIZE);
+}
+
+/// The arrow back of an exit that resumes.
+fn back(card: &mut Card, exit: &Exit, points: Vec<(f64, f64)>) {
+    card.sketch.arrows.push(Arrow { tip: Tip::Hollow, ..Arrow::flow(points, exit_class(exit)) });
+}
+
+fn resume_label(card: &mut Card, (x, y): (f64, f64)) {
+    let (text, class) = (RESUME.to_owned(), "resume".into());
+    let (size, bold, anchor) = (CHIP_SIZE, false, Anchor::Start);
+    card.sketch.labels.push(Label { x, y, text, size, bold, anchor, class });
 }
 
 /// The exit itself: hollow when it leads nowhere.

@@ -34,7 +34,7 @@ pub(in super::super) fn start<'a>(view: &View<'a>) -> Card<'a> {
     let mut card = Card::empty(view.start_item());
     let table = configuration(view, &mut card.sketch);
     let left = if table.width > 0.0 { table.width + GAP } else { 0.0 };
-    let stack = Stack::new(view, &plan.supervisors);
+    let stack = Stack::new(view, plan.supervisors.iter());
     let below = if plan.forever { FOREVER } else { "" };
     let name = width(view.name(), NAME, true).max(width(below, PORT_SIZE, false));
     let rect = Rect { x: left, y: 0.0, width: name + 66.0, height: stack.first.max(46.0) };
@@ -84,7 +84,7 @@ fn leave(view: &View, card: &mut Card, rect: Rect) {
             }
             to => {
                 let points = vec![(x, rect.bottom()), (x, rect.bottom() + STUB)];
-                card.sketch.arrows.push(Arrow { points, class, thick: true });
+                card.sketch.arrows.push(Arrow::flow(points, class));
                 let (text, class) = match to {
                     To::Unknown(text) => (text, "unknown"),
                     other => (view.target_name(other), "nowhere"),

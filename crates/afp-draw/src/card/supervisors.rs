@@ -5,10 +5,11 @@ use super::super::sketch::{Anchor, Frame, Glyph, Label, Picture, Piece, Rect, Sh
 use super::super::usage::{Class, Use, times};
 use super::super::view::{Exit, Input, Output, To, View, name, timing};
 use super::parts::{
-    PORT_SIZE, ROW, STAND_OUT, chip_width, exit_right, inflow, outflow, pill_width, reach_right,
+    PORT_SIZE, ROW, STAND_OUT, chip_width, exit_height, exit_right, inflow, outflow, pill_width,
+    reach_right,
 };
 use super::{Card, REACH, shown};
-use afp_dsl::outline::{Component, Part};
+use afp_dsl::outline::{Component, ComponentKind, Part};
 use afp_dsl::types::text::duration;
 
 /// Sizes of texts in pixels.
@@ -36,6 +37,8 @@ pub(super) struct Stack<'a> {
 
 struct Row<'a> {
     supervisor: &'a Component,
+    /// Its name; `on NAME` for reactions.
+    name: String,
     template: String,
     usage: Option<Use>,
     events: Vec<Exit<'a>>,
@@ -44,8 +47,11 @@ struct Row<'a> {
 }
 
 impl<'a> Stack<'a> {
-    pub(super) fn new(view: &View<'a>, supervisors: &'a [Component]) -> Stack<'a> {
-        let rows: Vec<_> = supervisors.iter().map(|each| Row::new(view, each)).collect();
+    pub(super) fn new(
+        view: &View<'a>,
+        supervisors: impl Iterator<Item = &'a Component>,
+    ) -> Stack<'a> {
+        let rows: Vec<_> = supervisors.map(|each| Row::new(view, each)).collect();
         let head = rows.iter().map(Row::head).fold(0.0, f64::max);
         let ports = rows.iter().map(Row::ports).fold(0.0, f64::max);
         let heights: f64 = rows.iter().map(|row| row.height() + GAP).sum();
@@ -88,23 +94,29 @@ impl<'a> Stack<'a> {
 
 impl<'a> Row<'a> {
     fn new(view: &View<'a>, supervisor: &'a Component) -> Row<'a> {
-        let mut name = view.template_name(supervisor).to_owned();
+        let watcher = view.watcher(supervisor);
+        let reacts = supervisor.kind == ComponentKind::Reactions;
+        let own = name(supervisor);
+        let own = if reacts { format!("on {own}") } else { own.to_owned() };
+        let mut template = view.template_name(watcher).to_owned();
         let every = supervisor.times.map(|times| times.every);
         let usual = supervisor.template().map(|template| template.every);
         if let Some(every) = every.filter(|every| usual.is_some_and(|usual| usual != *every)) {
-            name += &format!(" · every {}", duration(every));
+            template += &format!(" · every {}", duration(every));
         }
         let events = view.exits(supervisor);
         let counts = || events.iter().filter(|exit| exit.to != To::Ignore);
         let counts = || counts().filter_map(|exit| exit.count);
-        let usage = view.count(supervisor).map(|_| {
+        let is_counted = view.count(supervisor).is_some() || reacts && counts().next().is_some();
+        let usage = is_counted.then(|| {
             let sum: u64 = counts().sum();
-            name += &format!(" · {}", times(sum));
+            template += &format!(" · {}", times(sum));
             Use::with_exits(sum, counts())
         });
         Row {
             supervisor,
-            template: name,
+            name: own,
+            template,
             usage,
             events,
             inputs: shown(view.inputs(supervisor)),
@@ -113,7 +125,7 @@ impl<'a> Row<'a> {
     }
 
     fn head(&self) -> f64 {
-        let name = width(name(self.supervisor), NAME, true);
+        let name = width(&self.name, NAME, true);
         36.0 + name.max(width(&self.template, TEMPLATE, false)) + 16.0
     }
 
@@ -125,8 +137,9 @@ impl<'a> Row<'a> {
     }
 
     fn height(&self) -> f64 {
-        let rows = self.events.len() + self.inputs.len() + self.outputs.len();
-        LEAST.max(rows as f64 * ROW + 8.0)
+        let events: f64 = self.events.iter().map(exit_height).sum();
+        let data = self.inputs.len() + self.outputs.len();
+        LEAST.max(events + data as f64 * ROW + 8.0)
     }
 
     /// How far it reaches to the right of its box.
@@ -140,7 +153,7 @@ impl<'a> Row<'a> {
     fn draw(&self, view: &View<'a>, card: &mut Card<'a>, rect: Rect) {
         let title = self.title();
         let shape = Shape::Leaning(8.0);
-        let class = Class { name: "supervisor", usage: self.usage };
+        let class = Class { name: self.class(), usage: self.usage };
         card.sketch.frames.push(Frame { rect, shape, class, title });
         self.heading(view, &mut card.sketch, rect);
         let severity = view.severity(self.supervisor.findings.worst());
@@ -148,10 +161,12 @@ impl<'a> Row<'a> {
         card.sketch.pieces.push(Piece { item, part: Part::Whole, rect, severity });
         card.sketch.mark(severity, (rect.x + 2.0, rect.y + 2.0));
         let single = self.events.len() == 1 && self.inputs.is_empty() && self.outputs.is_empty();
-        let mut y = if single { rect.y + rect.height / 2.0 } else { rect.y + 4.0 + ROW / 2.0 };
+        let events: f64 = self.events.iter().map(exit_height).sum();
+        let above = if single { (rect.height - events) / 2.0 } else { 4.0 };
+        let mut y = rect.y + above + ROW / 2.0;
         for event in &self.events {
             exit_right(card, self.supervisor, (rect.right(), y), event);
-            y += ROW;
+            y += exit_height(event);
         }
         for input in &self.inputs {
             inflow(&mut card.sketch, self.supervisor, (rect.right(), y), input, Anchor::End);
@@ -163,8 +178,16 @@ impl<'a> Row<'a> {
         }
     }
 
+    /// Reactions are a tab that only tells where events of the plan's supervisor lead.
+    fn class(&self) -> &'static str {
+        match self.supervisor.kind {
+            ComponentKind::Reactions => "reactions",
+            _ => "supervisor",
+        }
+    }
+
     fn title(&self) -> String {
-        let head = format!("{}: {}", name(self.supervisor), self.template);
+        let head = format!("{}: {}", self.name, self.template);
         let lines = [head, timing(self.supervisor), self.supervisor.doc.clone()];
         lines.into_iter().filter(|line| !line.is_empty()).collect::<Vec<_>>().join("\n")
     }
@@ -175,7 +198,7 @@ impl<'a> Row<'a> {
             y: rect.y + 12.0,
             size: 20.0,
             class: Class { name: "supervisor", usage: self.usage },
-            icon: view.icon(self.supervisor),
+            icon: view.icon(view.watcher(self.supervisor)),
             fallback: Glyph::Supervisor,
         });
         let label = |text: &str, y, size, bold, class| Label {
@@ -187,7 +210,7 @@ impl<'a> Row<'a> {
             anchor: Anchor::Start,
             class: Class::from(class),
         };
-        sketch.labels.push(label(name(self.supervisor), 20.0, NAME, true, "name"));
+        sketch.labels.push(label(&self.name, 20.0, NAME, true, "name"));
         sketch.labels.push(label(&self.template, 34.0, TEMPLATE, false, "template"));
     }
 }

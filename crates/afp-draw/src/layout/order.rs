@@ -21,11 +21,13 @@ pub(super) fn improve(grid: &mut Grid) {
     for layer in 0..grid.layers.len() {
         pack(grid, layer);
     }
+    let mut means = vec![(0.0, 0_u32); grid.items.len()];
     let mut best = (total(grid, &mut work), grid.layers.clone());
     for sweep in 0..SWEEPS {
         let count = grid.layers.len();
         for step in 0..count {
-            sort_by_means(grid, if sweep % 2 == 0 { step } else { count - 1 - step });
+            let layer = if sweep % 2 == 0 { step } else { count - 1 - step };
+            sort_by_means(grid, layer, &mut means);
         }
         let cost = total(grid, &mut work);
         if cost < best.0 {
@@ -55,8 +57,11 @@ fn pack(grid: &mut Grid, layer: usize) {
     }
 }
 
-fn sort_by_means(grid: &mut Grid, layer: usize) {
-    let mut means = vec![(0.0, 0_u32); grid.items.len()];
+/// Sorts the items of a layer. The means are room to count in, for all items: there may be as many layers.
+fn sort_by_means(grid: &mut Grid, layer: usize, means: &mut [(f64, u32)]) {
+    for item in &grid.layers[layer] {
+        means[*item] = (0.0, 0);
+    }
     for net in grid.channels[layer].iter().chain(&grid.channels[layer + 1]) {
         let [start, end] = &grid.nets[*net].ends;
         for (own, other) in [(start, end), (end, start)] {

@@ -23,10 +23,12 @@ const TO_MIDDLE: f64 = 0.08;
 /// Finds the abscissas; the leftmost item ends at 0.
 pub(super) fn place(grid: &mut Grid) {
     let count = grid.layers.len();
+    let mut wishes = vec![(0.0, 0.0); grid.items.len()];
     for round in 0..ROUNDS + ROUNDS_IN_LINE {
         let lines = if round < ROUNDS { vec![None; grid.items.len()] } else { lines(grid) };
         for step in 0..count {
-            place_layer(grid, if round % 2 == 0 { step } else { count - 1 - step }, &lines);
+            let layer = if round % 2 == 0 { step } else { count - 1 - step };
+            place_layer(grid, layer, &lines, &mut wishes);
         }
     }
     for _ in 0..3 {
@@ -55,8 +57,11 @@ fn lines(grid: &Grid) -> Vec<Option<f64>> {
     lines
 }
 
-fn place_layer(grid: &mut Grid, layer: usize, lines: &[Option<f64>]) {
-    let mut wishes = vec![(0.0, 0.0); grid.items.len()];
+/// Places the items of a layer. The wishes are room to count in, for all items: there may be as many layers.
+fn place_layer(grid: &mut Grid, layer: usize, lines: &[Option<f64>], wishes: &mut [(f64, f64)]) {
+    for item in &grid.layers[layer] {
+        wishes[*item] = (0.0, 0.0);
+    }
     let mut add = |item: usize, weight: f64, x: f64| {
         wishes[item].0 += weight * x;
         wishes[item].1 += weight;

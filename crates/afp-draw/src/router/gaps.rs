@@ -50,7 +50,11 @@ impl Gaps {
 
     /// The gap around a place, given along and across the axis.
     pub(super) fn at(&self, along: f64, across: f64) -> usize {
-        let band = self.borders.partition_point(|border| *border <= along);
+        self.within(self.borders.partition_point(|border| *border <= along), across)
+    }
+
+    /// The gap of a band around a place across.
+    fn within(&self, band: usize, across: f64) -> usize {
         let (first, end) = (self.starts[band], self.starts[band + 1]);
         let free = &self.free[first..end];
         let index = free.partition_point(|(_, right)| *right < across);
@@ -68,8 +72,7 @@ impl Gaps {
         let first = self.borders.partition_point(|border| *border <= from);
         let last = self.borders.partition_point(|border| *border < to);
         for band in first..=last.max(first) {
-            let start = band.checked_sub(1).map_or(f64::NEG_INFINITY, |index| self.borders[index]);
-            let gap = self.at(start.max(from), at);
+            let gap = self.within(band, at);
             self.taken[gap].0 += edges;
         }
     }

@@ -25,10 +25,6 @@ pub(super) struct Lines {
     pub(super) positions: Vec<Point>,
     /// The nodes next to each node: above, below, left, right.
     pub(super) next: Vec<[u32; 4]>,
-    /// The first node of each upright line; one more at the end.
-    starts: Vec<usize>,
-    /// The abscissa of each upright line.
-    abscissas: Vec<f64>,
 }
 
 impl Lines {
@@ -51,14 +47,21 @@ impl Lines {
 
     /// The node nearest to a place on its upright line.
     pub(super) fn node(&self, (x, y): Point) -> Option<u32> {
-        let first = self.abscissas.partition_point(|at| *at < x - 0.01);
-        let lines =
-            (first..self.abscissas.len()).take_while(|line| self.abscissas[*line] < x + 0.01);
-        let on_line = |line: usize| {
-            let nodes = self.starts[line]..self.starts[line + 1];
-            nodes.into_iter().find(|node| (self.positions[*node].1 - y).abs() < 0.01)
-        };
-        lines.filter_map(on_line).next().and_then(|node| u32::try_from(node).ok())
+        // Nodes go from left to right, those at one abscissa from top to bottom.
+        let mut first = self.positions.partition_point(|at| at.0 < x - 0.01);
+        loop {
+            let rest = self.positions.get(first..)?;
+            let here = rest.first()?.0;
+            if here >= x + 0.01 {
+                return None;
+            }
+            let end = rest.partition_point(|at| at.0 <= here);
+            let place = rest[..end].partition_point(|at| at.1 <= y - 0.01);
+            if rest[..end].get(place).is_some_and(|at| at.1 < y + 0.01) {
+                return u32::try_from(first + place).ok();
+            }
+            first += end;
+        }
     }
 }
 
@@ -76,31 +79,26 @@ fn extent(boxes: &[Bounds]) -> Bounds {
 
 /// The line of an axis through each anchor that lies in no box.
 fn free_lines(boxes: &[Bounds], anchors: &[Point], ends: Bounds, axis: Axis) -> Vec<Line> {
-    let mut lines: Vec<Line> = Vec::with_capacity(anchors.len());
+    let mut anchors = anchors.to_vec();
+    anchors.sort_by(|a, b| axis.across(*a).total_cmp(&axis.across(*b)));
+    let mut ranges: Vec<_> = boxes.iter().map(|each| each.ranges(axis)).collect();
+    ranges.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
+    let widest = ranges.iter().map(|(across, _)| across.1 - across.0).fold(0.0, f64::max);
     let (_, limits) = ends.ranges(axis);
+    let mut lines: Vec<Line> = Vec::with_capacity(anchors.len());
+    let mut met = Met::default();
     for anchor in anchors {
-        let (at, along) = (axis.across(*anchor), axis.along(*anchor));
+        let (at, along) = (axis.across(anchor), axis.along(anchor));
         let known = |line: &Line| line.at == at && line.from <= along && along <= line.to;
-        // Upright lines are met in the order of their abscissas, level ones are not.
+        // Each level line is looked for anew: where boxes touch, two of them may share a place.
         if axis == Axis::Upright && lines.iter().rev().take_while(|line| line.at == at).any(known) {
             continue;
         }
-        let (mut from, mut to) = limits;
-        let mut inside = false;
-        for each in boxes {
-            let (across, (start, end)) = each.ranges(axis);
-            if across.0 < at && at < across.1 {
-                if end <= along {
-                    from = from.max(end);
-                } else if along <= start {
-                    to = to.min(start);
-                } else {
-                    inside = true;
-                    break;
-                }
-            }
+        if met.at != Some(at) {
+            met = Met::new(&ranges, widest, at);
         }
-        if !inside {
+        if let Some((from, to)) = met.free(along) {
+            let (from, to) = (from.max(limits.0), to.min(limits.1));
             lines.push(Line { at, from: from.min(along), to: to.max(along) });
         }
     }
@@ -109,12 +107,46 @@ fn free_lines(boxes: &[Bounds], anchors: &[Point], ends: Bounds, axis: Axis) -> 
     lines
 }
 
+/// From where to where.
+type Range = (f64, f64);
+
+/// The boxes that a whole line meets: where each begins, in that order, and where the last one of it and of those before ends.
+#[derive(Default)]
+struct Met {
+    at: Option<f64>,
+    boxes: Vec<Range>,
+}
+
+impl Met {
+    /// Of boxes in the order in which they begin across, none of them wider than `widest`.
+    fn new(ranges: &[(Range, Range)], widest: f64, at: f64) -> Met {
+        let first = ranges.partition_point(|(across, _)| across.0 < at - widest);
+        let end = ranges.partition_point(|(across, _)| across.0 < at);
+        let near = ranges.get(first..end).unwrap_or_default().iter();
+        let mut boxes: Vec<_> =
+            near.filter(|(across, _)| at < across.1).map(|(_, along)| *along).collect();
+        boxes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut last = f64::NEG_INFINITY;
+        for (_, end) in &mut boxes {
+            last = end.max(last);
+            *end = last;
+        }
+        Met { at: Some(at), boxes }
+    }
+
+    /// From where to where the line is free around a place; `None` inside of a box.
+    fn free(&self, along: f64) -> Option<(f64, f64)> {
+        let behind = self.boxes.partition_point(|(start, _)| *start < along);
+        let before = behind.checked_sub(1).map_or(f64::NEG_INFINITY, |last| self.boxes[last].1);
+        let next = self.boxes.get(behind).map_or(f64::INFINITY, |(start, _)| *start);
+        (before <= along).then_some((before, next))
+    }
+}
+
 fn crossings(upright: &[Line], level: &[Line]) -> Lines {
     let mut lines = Lines::default();
     let mut last_on: Vec<u32> = vec![NONE; level.len()];
     for line in upright {
-        lines.starts.push(lines.positions.len());
-        lines.abscissas.push(line.at);
         let first = level.partition_point(|other| other.at < line.from);
         let mut above = NONE;
         for (index, other) in level.iter().enumerate().skip(first) {
@@ -134,7 +166,6 @@ fn crossings(upright: &[Line], level: &[Line]) -> Lines {
             above = node;
         }
     }
-    lines.starts.push(lines.positions.len());
     lines
 }
 

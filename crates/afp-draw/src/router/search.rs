@@ -13,6 +13,9 @@ const TOO_MANY: u64 = 4000;
 /// As how many edges a gap counts that has turned out to be too narrow.
 const MANY: u32 = 20;
 
+/// A gap that was not looked for yet.
+const UNKNOWN: u32 = NONE - 1;
+
 /// The sides of a node: above, below, left, right.
 const DOWN: usize = 1;
 const RIGHT: usize = 3;
@@ -32,7 +35,8 @@ pub(super) struct Search<'a> {
     lines: &'a Lines,
     upright: Gaps,
     level: Gaps,
-    /// The gap below and the gap to the right of each node.
+    /// The gap below and the gap to the right of each node, [`UNKNOWN`] until it is asked for: where
+    /// most routes are kept, few nodes ever are.
     gap_of: Vec<[u32; 2]>,
     /// How many edges pass each node upright and level.
     passing: Vec<[u16; 2]>,
@@ -57,21 +61,12 @@ struct Goal {
 impl<'a> Search<'a> {
     pub(super) fn new(lines: &'a Lines, boxes: &[Bounds]) -> Search<'a> {
         let (upright, level) = (Gaps::new(boxes, Axis::Upright), Gaps::new(boxes, Axis::Level));
-        let gap = |gaps: &Gaps, node: usize, side: usize| {
-            let next = lines.next[node][side];
-            let Some(end) = lines.positions.get(next as usize) else { return NONE };
-            let (axis, start) = (gaps.axis(), lines.positions[node]);
-            let middle = (axis.along(start) + axis.along(*end)) / 2.0;
-            u32::try_from(gaps.at(middle, axis.across(start))).unwrap_or(NONE)
-        };
         let nodes = lines.positions.len();
-        let gap_of =
-            (0..nodes).map(|node| [gap(&upright, node, DOWN), gap(&level, node, RIGHT)]).collect();
         Search {
             lines,
             upright,
             level,
-            gap_of,
+            gap_of: vec![[UNKNOWN; 2]; nodes],
             passing: vec![[0; 2]; nodes],
             arrived: vec![0; boxes.len()],
             visits: vec![Visit { stamp: 0, cost: 0, from: NONE }; 4 * nodes],
@@ -187,16 +182,32 @@ impl<'a> Search<'a> {
         self.queue.push(cost, rest, at);
     }
 
+    /// The gap below a node, or to the right of it.
+    fn gap(&mut self, node: usize, upright: bool) -> u32 {
+        let known = self.gap_of[node][usize::from(!upright)];
+        if known != UNKNOWN {
+            return known;
+        }
+        let (gaps, side) = if upright { (&self.upright, DOWN) } else { (&self.level, RIGHT) };
+        let end = self.lines.positions.get(self.lines.next[node][side] as usize);
+        let found = end.and_then(|end| {
+            let (axis, start) = (gaps.axis(), self.lines.positions[node]);
+            let middle = (axis.along(start) + axis.along(*end)) / 2.0;
+            u32::try_from(gaps.at(middle, axis.across(start))).ok()
+        });
+        let gap = found.unwrap_or(NONE);
+        self.gap_of[node][usize::from(!upright)] = gap;
+        gap
+    }
+
     /// The cost of going on to the next node.
-    fn step(&self, node: usize, next: usize, side: usize) -> u64 {
+    fn step(&mut self, node: usize, next: usize, side: usize) -> u64 {
         let (from, to) = (self.lines.positions[node], self.lines.positions[next]);
         let upright = side <= DOWN;
         let crossed = self.passing[next][usize::from(upright)];
-        let (gaps, first) = match upright {
-            true => (&self.upright, if side == DOWN { node } else { next }),
-            false => (&self.level, if side == RIGHT { node } else { next }),
-        };
-        let gap = self.gap_of[first][usize::from(!upright)];
+        let first = if side == DOWN || side == RIGHT { node } else { next };
+        let gap = self.gap(first, upright);
+        let gaps = if upright { &self.upright } else { &self.level };
         let excess = if gap == NONE { 0 } else { gaps.excess(gap as usize) };
         tenths((from.0 - to.0).abs() + (from.1 - to.1).abs())
             + CROSSING * u64::from(crossed)

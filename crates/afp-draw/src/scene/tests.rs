@@ -58,10 +58,11 @@ fn every_part_has_its_identity() {
 
 #[test]
 fn whatever_stands_in_a_file_is_drawn() {
+    // Every prefix would take minutes without optimisation; where it begins differs from plan to plan.
+    let step = if std::env::var_os("AFP_BY_NIGHT").is_some() { 1 } else { 31 };
     for text in shipped() {
         let ends: Vec<_> = text.char_indices().map(|(end, _)| end).collect();
-        // Every prefix would take minutes without optimisation; steps differ from plan to plan.
-        for end in ends.iter().skip(text.len() % 7).step_by(7) {
+        for end in ends.iter().skip(text.len() % step).step_by(step) {
             let compiled = whatever(&text[..*end]);
             let options = Options { warnings: true, ..Options::default() };
             let scene = Scene::new(&compiled.outline, &options, None);

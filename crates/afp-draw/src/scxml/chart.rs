@@ -17,7 +17,8 @@ const HEAD: &str = "\
     convert, which its caller takes for an 'Error', are not seen.
   Events: 'element.State' when an actor or a computation reaches a state, 'element-supervisor.Event'
   when a supervisor of that element interrupts it, 'supervisor.Event' when a global one does,
-  '.DeadlineMissed' and '.Error' likewise; inside of sub-plans 'subplan:element.State' and so on.
+  '.DeadlineMissed' and '.Error' likewise; an element's own reactions to a global supervisor are
+  transitions of its state for the same events, which come before those of its plan; inside of sub-plans 'subplan:element.State' and so on.
   ':stopped' is a stop from outside, ':failed' a fault that no plan can handle.
   A transition without target takes an event and does nothing: the event is ignored or resumes, or
   the supervisor's target is active already. A computation that resumes leads to the history of what
@@ -150,8 +151,8 @@ impl Chart {
         self.transition(&events.join(" "), Some(&after_fault(view, scope, element)));
     }
 
-    /// The events of an element's supervisors, and those of global ones that lead to it and are
-    /// not taken while it is active.
+    /// The events of an element's supervisors, those of global ones to which it reacts by itself, and
+    /// those that lead to it and are not taken while it is active. They come before those of its plan.
     fn supervisors(&mut self, view: &View, scope: &Scope, element: &Element) {
         for supervisor in view.supervisors(Some(element)) {
             self.comment(&supervisor_call(view, supervisor));
@@ -163,12 +164,14 @@ impl Chart {
         if matches!(element.component, Component::Computation(_)) {
             return;
         }
-        for supervisor in view.supervisors(None) {
+        let here = |exit: &Exit| matches!(exit.target, Target::Element(id) if view.element(id).name == element.name);
+        for (supervisor, exits) in view.global_events(element) {
             let path = scope.path(&supervisor.name);
-            for exit in view.events(supervisor) {
-                let here = |id| view.element(id).name == element.name;
-                if matches!(exit.target, Target::Element(id) if here(id)) {
+            for (exit, replaced) in exits {
+                if here(&exit) {
                     self.transition(&event(&path, &exit), None);
+                } else if replaced {
+                    self.transition(&event(&path, &exit), taken(view, scope, &exit).as_deref());
                 }
             }
         }

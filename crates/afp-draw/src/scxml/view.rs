@@ -3,7 +3,7 @@
 use super::super::{Options, formula};
 use afp_dsl::graph::{
     Component, Element, ElementId, Entry, EntryKind, Formula, Graph, Output, Plan, PlanId,
-    Supervisor, Target, TemplateId,
+    Supervisor, SupervisorId, Target, TemplateId,
 };
 use afp_dsl::toolbox::{InPort, Template};
 use afp_syntax::source::Span;
@@ -156,6 +156,33 @@ impl<'a> View<'a> {
             kind: ExitKind::Missed,
         });
         names.zip(&supervisor.events).map(event).chain(missed).collect()
+    }
+
+    /// The events of each global supervisor while an element is active, each with whether the element
+    /// replaces it.
+    pub(super) fn global_events(
+        &self,
+        element: &Element,
+    ) -> Vec<(&'a Supervisor, Vec<(Exit<'a>, bool)>)> {
+        let globals = (0..self.plan.globals).map(SupervisorId);
+        let exits = |id: SupervisorId| {
+            let supervisor = &self.plan.supervisors[id.index()];
+            let table = element.reactions_to(id);
+            let events =
+                (0..).map(Some).zip(outcome_names(self.graph.template(supervisor.template)));
+            let events = events.map(|(event, name)| (event, name, ExitKind::Event));
+            let all = events.chain([(None, "DeadlineMissed", ExitKind::Missed)]);
+            let exits = all.filter_map(|(event, name, kind)| {
+                let here = table.and_then(|table| table.target(event));
+                let own = match event {
+                    Some(event) => supervisor.events.get(usize::from(event)).copied(),
+                    None => supervisor.on_miss,
+                };
+                Some((Exit { name, target: here.or(own)?, kind }, here.is_some()))
+            });
+            (supervisor, exits.collect())
+        };
+        globals.map(exits).collect()
     }
 
     /// The supervisors of an element, or the global ones.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use super::super::Icons;
 use super::super::scene::{Point, Symbol};
-use super::super::sketch::{Anchor, Arrow, Frame, Label, Picture, Rect, Shape, Sketch};
+use super::super::sketch::{Anchor, Arrow, Frame, Label, Picture, Rect, Shape, Sketch, Tip};
 use super::icon;
 use afp_dsl::outline::Part;
 use afp_syntax::item::Item;
@@ -215,7 +215,7 @@ fn paint_label(out: &mut String, label: &Label) {
 
 fn paint_arrow(out: &mut String, arrow: &Arrow) {
     let [.., before, end] = arrow.points[..] else { return };
-    let (length, half) = if arrow.thick { THICK_TIP } else { THIN_TIP };
+    let (length, half) = if arrow.is_flow() { THICK_TIP } else { THIN_TIP };
     let (dx, dy) = direction(before, end);
     let neck = (end.0 - dx * length, end.1 - dy * length);
     let mut points = arrow.points.clone();
@@ -225,17 +225,18 @@ fn paint_arrow(out: &mut String, arrow: &Arrow) {
     }
     let path = bent_path(&points);
     let class = arrow.class;
-    if arrow.thick {
+    if arrow.is_flow() {
         // A gap in the line below makes a crossing readable.
         line(out, &format!("<path class=\"halo\" d=\"{path}\"/>"));
     }
-    let kind = if arrow.thick { "flow" } else { "thin" };
+    let kind = if arrow.is_flow() { "flow" } else { "thin" };
     line(out, &format!("<path class=\"{kind} {class}\" d=\"{path}\"/>"));
     let corner = |side: f64| {
         format!("{} {}", number(neck.0 - dy * half * side), number(neck.1 + dx * half * side))
     };
     let tip = format!("M{} {}L{}L{}z", number(end.0), number(end.1), corner(1.0), corner(-1.0));
-    line(out, &format!("<path class=\"tip {class}\" d=\"{tip}\"/>"));
+    let kind = if arrow.tip == Tip::Hollow { "flow hollow" } else { "tip" };
+    line(out, &format!("<path class=\"{kind} {class}\" d=\"{tip}\"/>"));
 }
 
 /// The unit vector along a vertical or horizontal line.

@@ -17,6 +17,7 @@ const COMMON: &str = "\
 .afp-plan .thin{fill:none;stroke-width:1.2}
 .afp-plan .flow.error{stroke-dasharray:7 4}
 .afp-plan .flow.missed{stroke-dasharray:2 4}
+.afp-plan path.flow.hollow{stroke-width:1.8;stroke-dasharray:none}
 .afp-plan rect.formula{stroke-dasharray:3 2}
 .afp-plan rect.ignore{stroke-dasharray:3 3}
 .afp-plan rect.open,.afp-plan rect.hole,.afp-plan rect.nowhere,.afp-plan rect.unknown{stroke-dasharray:3 2}
@@ -27,6 +28,7 @@ const COMMON: &str = "\
 const RULES: &[Rule] = &[
     (".page", "fill:#ffffff;stroke:none", "fill:#12161d;stroke:none"),
     (".halo", "stroke:#ffffff", "stroke:#12161d"),
+    (".hollow", "fill:#ffffff", "fill:#12161d"),
     ("text", "fill:#1c2430", "fill:#e6ebf2"),
     ("text.template,text.port", "fill:#5b6675", "fill:#9aa7b8"),
     (".box.actor", "fill:#f3f7fd;stroke:#5b7fb5", "fill:#1b2635;stroke:#5f86c0"),
@@ -37,6 +39,11 @@ const RULES: &[Rule] = &[
     (".inner.subplan", "stroke:#7b68c4", "stroke:#8f7dd8"),
     (".icon.subplan", "color:#5a45ad", "color:#b6a6f5"),
     (".box.supervisor", "fill:#fff5ec;stroke:#b06a2c", "fill:#2c2119;stroke:#b87a45"),
+    (
+        ".box.reactions",
+        "fill:#fffaf5;stroke:#b06a2c;stroke-dasharray:4 3",
+        "fill:#201b17;stroke:#b87a45;stroke-dasharray:4 3",
+    ),
     (".icon.supervisor", "color:#b45309", "color:#f0a868"),
     (".box.start", "fill:#1f2b3d;stroke:#1f2b3d", "fill:#dfe7f2;stroke:#dfe7f2"),
     ("text.start", "fill:#ffffff", "fill:#12161d"),
@@ -79,7 +86,6 @@ const RULES: &[Rule] = &[
     (".icon.note", "color:#5b6675", "color:#9aa7b8"),
     (".box.ignore", "fill:#ffffff;stroke:#8b95a3", "fill:#12161d;stroke:#8b95a3"),
     ("text.ignore", "fill:#5b6675", "fill:#9aa7b8"),
-    (".box.resume", "fill:#ffffff;stroke:#b4530f", "fill:#12161d;stroke:#e0894a"),
     ("text.resume", "fill:#a04a0d", "fill:#f0a868"),
 ];
 

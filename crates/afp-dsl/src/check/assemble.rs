@@ -1,5 +1,7 @@
 //! Puts the plans that one plan needs into one graph, sub-plans first.
 
+use std::sync::Arc;
+
 use crate::check::Program;
 use crate::check::names::key;
 use crate::graph::{self, Component, Graph, PlanId};
@@ -31,7 +33,9 @@ pub(super) fn graph(
     let main = ids[main]?;
     tell_apart(&mut drawn, main);
     let toolboxes = program.linked.clone();
-    let mut graph = Graph { plans: drawn, main, toolboxes, rows: Vec::new() };
+    let sources = program.files.iter().map(|file| (file.source.0, Arc::clone(file.source.1)));
+    let mut graph =
+        Graph { plans: drawn, main, toolboxes, rows: Vec::new(), sources: sources.collect() };
     graph.rows = rows::lower(&graph)?;
     Some(graph)
 }

@@ -1,6 +1,7 @@
 //! What goes into and comes out of a component: every input has a value of its port's type, every
 //! output an entry that may be written.
 
+mod alone;
 mod generic;
 mod outputs;
 
@@ -16,6 +17,7 @@ use afp_syntax::diagnostics::words;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 
+pub(crate) use alone::meant;
 use generic::{Generic, actual};
 
 /// The checked bindings of a component.
@@ -84,11 +86,24 @@ struct Ports<'a> {
 
 /// Finds out what the names in bindings mean whose component is made from nothing that is known.
 pub(crate) fn names_only(scope: &Scope<'_>, binds: &[Bind], diags: &mut Diagnostics) {
+    // Whatever reads a table has its columns.
+    let table = binds.iter().find_map(|bind| match bind {
+        Bind::In { formula: Some(formula), .. } => scope.named_table(formula),
+        _ => None,
+    });
     for bind in binds {
-        let (Bind::In { port, .. } | Bind::Out { port, .. }) = bind;
-        scope.record.unknown(port.span);
+        let port = bind.port();
+        let mut columns = table.iter().flat_map(|table| &table.columns);
+        match columns.find(|column| column.name == port.text) {
+            Some(column) if bind.is_alone() => scope.record.alone(port.span, column.span),
+            Some(column) if matches!(bind, Bind::Out { .. }) => {
+                scope.record.definition(port.span, column.span);
+            }
+            _ => scope.record.unknown(port.span),
+        }
         match bind {
-            Bind::In { formula: Some(formula), .. } => {
+            // What reads a table may be what is not known.
+            Bind::In { formula: Some(formula), .. } if !scope.names_table(formula) => {
                 scope.check(formula, None, diags);
             }
             _ => bound_names(scope, bind),
@@ -97,7 +112,7 @@ pub(crate) fn names_only(scope: &Scope<'_>, binds: &[Bind], diags: &mut Diagnost
 }
 
 /// Finds out what a binding is bound to that does not count.
-fn bound_names(scope: &Scope<'_>, bind: &Bind) {
+pub(super) fn bound_names(scope: &Scope<'_>, bind: &Bind) {
     match bind {
         Bind::In { formula, .. } => formula.iter().for_each(|formula| scope.names_only(formula)),
         Bind::Out { entry, formula, .. } => {
@@ -120,6 +135,7 @@ fn find_ports<'a>(
     let mut seen: Vec<&Name> = Vec::new();
     for bind in binds {
         let (Bind::In { port, sign, .. } | Bind::Out { port, sign, .. }) = bind;
+        let alone = bind.is_alone();
         let input = signature.inputs.iter().position(|input| *input.name == *port.text);
         let output = signature.outputs.iter().position(|output| *output.name == *port.text);
         let declared = match (input, output) {
@@ -127,21 +143,31 @@ fn find_ports<'a>(
             (None, place) => place.map(|place| signature.outputs[place].span),
         };
         match declared {
+            Some(definition) if alone => scope.record.alone(port.span, definition),
             Some(definition) => scope.record.definition(port.span, definition),
             None => scope.record.unknown(port.span),
         }
         if let Some(first) = seen.iter().find(|known| known.text == port.text) {
-            diags.push(
-                Diagnostic::new(Code::E0226, port.span, format!("'{}' is bound twice", port.text))
-                    .note(first.span, "first bound here")
-                    .help("remove one of them"),
-            );
+            diags.push(bound_twice(port, first));
             ports.complete = false;
             bound_names(scope, bind);
             continue;
         }
         seen.push(port);
         match (bind, input, output) {
+            (_, None, None) if alone => {
+                bound_names(scope, bind);
+                ports.complete = false;
+                diags.push(alone::without_port(scope, signature, binds, port));
+            }
+            (_, input, _) if alone && scope.places.find(&port.text).is_none() => {
+                bound_names(scope, bind);
+                ports.complete = false;
+                diags.push(alone::without_entry(bind));
+                if let Some(place) = input {
+                    ports.inputs[place] = Some(None);
+                }
+            }
             (Bind::In { formula, .. }, Some(place), _) => {
                 ports.inputs[place] = Some(formula.as_ref());
             }
@@ -168,7 +194,13 @@ fn find_ports<'a>(
     ports
 }
 
-fn mixed_up(sign: Span, port: &Name, is: &str, right: &str) -> Diagnostic {
+fn bound_twice(port: &Name, first: &Name) -> Diagnostic {
+    Diagnostic::new(Code::E0226, port.span, format!("'{}' is bound twice", port.text))
+        .note(first.span, "first bound here")
+        .help("remove one of them")
+}
+
+pub(super) fn mixed_up(sign: Span, port: &Name, is: &str, right: &str) -> Diagnostic {
     Diagnostic::new(Code::E0227, sign, format!("'{}' is {is}", port.text))
         .help(format!("write '{right}'"))
         .replace(right)

@@ -77,7 +77,13 @@ impl Context<'_> {
         if is_fit {
             return Some(signature);
         }
-        diags.push(unfit(&signature, reference.span(), wanted));
+        let of_itself =
+            is_plan && !self.other_plans(reference.span()).any(|other| other == name.text);
+        diags.push(match unfit(&signature, reference.span(), wanted) {
+            error if of_itself => Diagnostic::new(error.code, reference.span(), error.message)
+                .help("name a template: a plan cannot be part of itself"),
+            error => error,
+        });
         None
     }
 

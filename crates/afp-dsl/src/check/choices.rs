@@ -53,8 +53,12 @@ fn enums(scopes: &[FileScope<'_>]) -> Vec<Arc<Enum>> {
 fn of_enum(template: &Template, home: &Arc<Enum>) -> Template {
     let spans = home.variant_spans.iter().copied().chain(std::iter::repeat(home.span));
     let outcomes = home.variants.iter().zip(spans);
-    let outcome =
-        |(name, span): (&String, Span)| Outcome { name: name.clone(), doc: String::new(), span };
+    let outcome = |(name, span): (&String, Span)| Outcome {
+        name: name.clone(),
+        doc: String::new(),
+        once: false,
+        span,
+    };
     let states = template.states_of.clone();
     Template {
         outcomes: outcomes.map(outcome).collect(),

@@ -4,13 +4,15 @@
 //! mistake, however often it is used; and where nothing else is called for, it is that of a declaration with a slip in
 //! it.
 
-use std::ops::Range;
+use std::collections::hash_map::Entry;
 
+use super::places::{ByLine, Lines, Ranges, Within};
 use super::{PlanHead, Program, meant};
 use crate::gather::PlanFile;
-use afp_syntax::ast::{Item, Name};
+use afp_syntax::ast::{Element, Item, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Severity, words::nearest};
 use afp_syntax::source::Span;
+use afp_syntax::units::Unit;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What may only seem to be missing in a plan of which something cannot be read.
@@ -25,77 +27,132 @@ const MISSING: &[Code] = &[
     Code::E0225,
     Code::E0233,
     Code::E0241,
+    Code::E0248,
+    Code::E0602,
+    Code::E0603,
+    Code::E0608,
 ];
 
+/// What the grammar says of a declaration without a name.
+const NAMELESS: &str = "expected a name";
+
 /// Names that are not there.
-const UNKNOWN: &[Code] = &[Code::E0201, Code::E0209, Code::E0216, Code::E0238];
+const UNKNOWN: &[Code] =
+    &[Code::E0201, Code::E0209, Code::E0216, Code::E0238, Code::E0248, Code::E0602];
+
+/// What is said of a whole scenario, which may be that of a line which cannot be read.
+const WHOLE: &[Code] = &[Code::E0601, Code::E0605, Code::E0609];
 
 /// So many of the places at which a name is used are shown.
 const MOST_PLACES: usize = 8;
 
+/// So many names that are not there are looked for elsewhere, which takes a look at all elements each time.
+const MOST_EXPLAINED: usize = 100;
+
 /// Drops and joins what comes of mistakes that are reported.
 pub(super) fn hold_back(program: &Program<'_>, files: &[PlanFile], diags: &mut Diagnostics) {
-    let unread: Vec<Span> = diags
-        .iter()
-        .filter(|each| each.code < Code::E0201 && each.severity == Severity::Error)
-        .map(|each| each.span)
-        .collect();
+    let is_unread =
+        |each: &&Diagnostic| each.code < Code::E0201 && each.severity == Severity::Error;
+    let unread: Vec<Span> = diags.iter().filter(is_unread).map(|each| each.span).collect();
     if !unread.is_empty() {
-        hold_back_unread(files, &unread, diags);
+        let nameless =
+            diags.iter().filter(is_unread).filter(|each| each.message.contains(NAMELESS));
+        let nameless = nameless.map(|each| each.span).collect();
+        hold_back_unread(files, &Unread { places: unread, nameless }, diags);
+    }
+    if diags.iter().any(|each| each.code == Code::E0603) {
+        hold_back_edges(program, diags);
     }
     if diags.iter().any(|each| UNKNOWN.contains(&each.code)) {
         join(program, diags);
     }
 }
 
+/// What cannot be read.
+struct Unread {
+    /// Where it stands.
+    places: Vec<Span>,
+    /// Those of names that are missing.
+    nameless: Vec<Span>,
+}
+
 /// Drops what may come of text that cannot be read at these places.
-fn hold_back_unread(files: &[PlanFile], unread: &[Span], diags: &mut Diagnostics) {
+fn hold_back_unread(files: &[PlanFile], all: &Unread, diags: &mut Diagnostics) {
     let items: Vec<Span> =
         files.iter().flat_map(|file| file.tree.items()).filter_map(|it| span(&it)).collect();
-    let text = |file: u16| {
-        let file = files.iter().find(|it| it.index == file);
-        file.map_or("", |it| &it.source.text)
-    };
-    let lines: Vec<_> =
-        unread.iter().map(|place| (place.file, line(text(place.file), *place))).collect();
-    let words: FxHashSet<&str> =
-        lines.iter().flat_map(|(file, line)| self::words(&text(*file)[line.clone()])).collect();
+    let (lines, unread) = (Lines::new(files), Within::new(&all.places));
+    let by_line = ByLine::new(&lines, &all.places);
+    let words = by_line.lines().flat_map(|(file, line)| self::words(lines.text(file, line)));
+    let words: FxHashSet<&str> = words.collect();
+    let nameless = Ranges::new(plans_around(files, &Within::new(&all.nameless)));
+    let broken = Ranges::new(items.iter().copied().filter(|item| unread.any(*item)).collect());
     // A plan that ends too early has the rest of it behind itself.
-    let outside = |place: &&Span| !items.iter().any(|item| item.contains(**place));
-    let mut whole: FxHashSet<u16> = unread.iter().filter(outside).map(|place| place.file).collect();
-    // What a line would have named that uses nothing that can be read is not known.
-    let uses = files.iter().flat_map(|file| file.tree.items());
-    let uses = uses.filter_map(|item| match item {
-        Item::Use(item) => Some(item.span()),
-        _ => None,
-    });
-    let broken = uses.filter(|item| unread.iter().any(|place| item.contains(*place)));
-    whole.extend(broken.map(|item| item.file));
+    let items = Ranges::new(items);
+    let outside = all.places.iter().filter(|place| !items.any(**place));
+    let mut whole: FxHashSet<u16> = outside.map(|place| place.file).collect();
+    whole.extend(files_with_broken_uses(files, &unread));
+    let heads = Ranges::new(nameless_heads(files));
     // What is wrong besides, once the line can be read: one edit does not mend it.
     let mut besides: FxHashSet<(u16, usize)> = FxHashSet::default();
     diags.retain(|each| {
+        // The grammar has said that a name is missing.
+        if each.code == Code::E0602 && each.span == Span::default() {
+            return false;
+        }
         // A unit is read, whatever stands around it.
         if each.code < Code::E0201 || each.code == Code::E0236 {
             return true;
         }
-        let (file, at) = (each.span.file, each.span.start as usize);
-        let beside = lines.iter().find(|(other, line)| *other == file && line.contains(&at));
+        let file = each.span.file;
+        let beside = by_line.beside(&lines, each.span);
+        // Where nothing but a name is missing, the edges behind it are read.
+        let are_read = |(_, here): (usize, &[Span])| here.iter().all(|place| heads.any(*place));
+        if each.code == Code::E0216 && beside.is_some_and(are_read) {
+            return true;
+        }
         let may_come_of = || {
-            let mut named = each.message.split('\'').skip(1).step_by(2);
-            whole.contains(&file) || named.any(|name| words.contains(name))
+            let named = each.message.split('\'').skip(1).step_by(2);
+            // Of an edge that is not there the element that it would lead from.
+            let most = if each.code == Code::E0603 { 1 } else { usize::MAX };
+            let mut parts = named.take(most).flat_map(|name| name.split('.'));
+            let declared =
+                matches!(each.code, Code::E0209 | Code::E0216) && nameless.any(each.span);
+            whole.contains(&file) || declared || parts.any(|name| words.contains(name))
         };
+        if WHOLE.contains(&each.code) && broken.any(each.span) {
+            return false;
+        }
         let is_missing = MISSING.contains(&each.code);
-        if let Some((_, line)) = beside.filter(|_| each.severity == Severity::Error) {
-            besides.insert((file, line.start));
+        if let Some((line, _)) = beside.filter(|_| each.severity == Severity::Error) {
+            besides.insert((file, line));
         }
         !(beside.is_some() || is_missing && may_come_of())
     });
     diags.change(|each| {
-        let line = line(text(each.span.file), each.span);
-        if each.code < Code::E0201 && besides.contains(&(each.span.file, line.start)) {
+        let line = || (each.span.file, lines.of(each.span).start);
+        if each.code < Code::E0201 && besides.contains(&line()) {
             each.fix = None;
         }
     });
+}
+
+/// The plans with a declaration without its name, which is that of something that seems to be missing.
+fn plans_around(files: &[PlanFile], nameless: &Within) -> Vec<Span> {
+    let plans = files.iter().flat_map(|file| file.tree.items()).filter_map(|item| match item {
+        Item::Plan(plan) => Some(plan.span()),
+        _ => None,
+    });
+    plans.filter(|plan| nameless.any(*plan)).collect()
+}
+
+/// Files with a 'use' that cannot be read: what it would have brought is not known.
+fn files_with_broken_uses(files: &[PlanFile], unread: &Within) -> Vec<u16> {
+    let uses = files.iter().flat_map(|file| file.tree.items()).filter_map(|item| match item {
+        Item::Use(item) => Some(item.span()),
+        _ => None,
+    });
+    let broken = uses.filter(|item| unread.any(*item));
+    broken.map(|item| item.file).collect()
 }
 
 /// Where an item stands that has its own mistakes.
@@ -105,17 +162,32 @@ fn span(item: &Item) -> Option<Span> {
         Item::Plan(item) => item.span(),
         Item::Scenario(item) => item.span(),
         Item::Enum(item) => item.span(),
+        Item::Table(item) => item.span(),
         _ => return None,
     })
 }
 
-/// The line of a place, in bytes of its text.
-fn line(text: &str, place: Span) -> Range<usize> {
-    let at = (place.start as usize).min(text.len());
-    let start = text.get(..at).and_then(|before| before.rfind('\n')).map_or(0, |end| end + 1);
-    let end = text.get(at..).and_then(|rest| rest.find('\n')).map_or(text.len(), |end| at + end);
-    // The end of the line belongs to it, where the text goes on.
-    start..(end + 1).min(text.len())
+/// The heads, up to the template, of elements and supervisors without a name.
+fn nameless_heads(files: &[PlanFile]) -> Vec<Span> {
+    let plans = files.iter().flat_map(|file| file.tree.items()).filter_map(|item| match item {
+        Item::Plan(plan) => Some(plan),
+        _ => None,
+    });
+    let mut heads = Vec::new();
+    for plan in plans {
+        let elements = plan.elements();
+        let local = elements.iter().flat_map(|element| element.guards());
+        let guards = plan.guards().into_iter().chain(local);
+        let guards = guards.map(|guard| (guard.name().is_none(), guard.span(), guard.template()));
+        let elements = elements.iter();
+        let elements = elements.map(|it| (it.name().is_none(), it.span(), it.template()));
+        for (nameless, all, template) in elements.chain(guards) {
+            if let Some(template) = template.filter(|_| nameless) {
+                heads.push(Span { end: template.span().start, ..all });
+            }
+        }
+    }
+    heads
 }
 
 /// The words of a text.
@@ -124,42 +196,119 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
         .filter(|it| !it.is_empty())
 }
 
-/// Joins what is said of one unknown name in one plan.
+/// Joins what is said of one unknown name of one plan: in the plan, and in the scenarios for it.
 fn join(program: &Program<'_>, diags: &mut Diagnostics) {
-    let plan_of =
-        |span: Span| program.plans.iter().position(|head| head.node.span().contains(span));
-    let mut first: FxHashMap<(Code, Option<usize>, String), usize> = FxHashMap::default();
+    let plans: Vec<Span> = program.plans.iter().map(|head| head.node.span()).collect();
+    let around = |span: Span| plans.iter().position(|plan| plan.contains(span));
+    let mut first: FxHashMap<_, usize> = FxHashMap::default();
     let mut joined: Vec<(Diagnostic, Vec<Span>)> = Vec::new();
-    let mut all: Vec<_> = diags.iter().cloned().collect();
-    all.sort_by_key(|each| each.span);
+    let mut last: FxHashMap<usize, FxHashMap<&str, usize>> = FxHashMap::default();
+    let mut all: Vec<_> = diags.iter().filter(|it| UNKNOWN.contains(&it.code)).cloned().collect();
+    // What is wrong in a plan comes before what scenarios say of it.
+    all.sort_by_cached_key(|each| (around(each.span).is_none(), each.span));
     for each in all {
-        if !UNKNOWN.contains(&each.code) {
-            continue;
-        }
-        let key = (each.code, plan_of(each.span), each.message.clone());
-        match first.get(&key) {
-            Some(place) => joined[*place].1.push(each.span),
-            None => {
-                first.insert(key, joined.len());
+        match first.entry(subject(program, &each, around(each.span))) {
+            Entry::Occupied(place) => {
+                let (said, others) = &mut joined[*place.get()];
+                if said.span != each.span && others.last() != Some(&each.span) {
+                    others.push(each.span);
+                }
+            }
+            Entry::Vacant(place) => {
+                place.insert(joined.len());
                 joined.push((each, Vec::new()));
             }
         }
     }
     diags.retain(|each| !UNKNOWN.contains(&each.code));
-    for (error, others) in joined {
-        let head = plan_of(error.span).and_then(|place| program.plans.get(place));
-        let slip = head.filter(|_| !others.is_empty()).and_then(|head| slip(program, head, &error));
+    for (said, (error, others)) in joined.into_iter().enumerate() {
+        let plan = around(error.span);
+        let head = plan.and_then(|place| program.plans.get(place));
+        let slip = head.and_then(|head| {
+            let last = last.entry(head.file).or_insert_with(|| last_places(program, head.file));
+            let end = head.node.span().end as usize;
+            // Scenarios may use names of the plan, and are not read while it is wrong.
+            let is_behind = |name: &str| last.get(name).is_some_and(|place| *place >= end);
+            if others.is_empty() && !is_behind(name_of(&error)) {
+                return None;
+            }
+            slip(program, head, &error).filter(|(name, _)| !is_behind(&name.text))
+        });
         diags.push(match slip {
             Some((name, meant)) => at_declaration(&error, &others, &name, &meant),
-            None => also_at(meant::explain(program, plan_of(error.span), error), &others),
+            None if said < MOST_EXPLAINED => also_at(meant::explain(program, plan, error), &others),
+            None => also_at(error, &others),
         });
     }
+}
+
+/// What is not there: what it would be, in which plan, and its name.
+fn subject(
+    program: &Program<'_>,
+    error: &Diagnostic,
+    plan: Option<usize>,
+) -> (Code, Option<usize>, String) {
+    let of = error.message.split('\'').nth(1);
+    let is_it =
+        |head: &PlanHead| head.name.as_ref().is_some_and(|name| of == Some(name.text.as_str()));
+    let plan = plan.or_else(|| program.plans.iter().position(is_it));
+    match error.code {
+        // Elements are named in plans and in scenarios.
+        Code::E0602 if error.message.contains("has no element or supervisor") => {
+            (Code::E0216, plan, name_of(error).to_owned())
+        }
+        // Something else is wrong with the component, or with the entry.
+        Code::E0602 | Code::E0209 if !error.message.contains("no entry") => {
+            (error.code, plan, format!("{} {}", error.span.start, error.message))
+        }
+        code => (code, plan, name_of(error).to_owned()),
+    }
+}
+
+/// Drops what scenarios say of elements whose own edges are wrong.
+fn hold_back_edges(program: &Program<'_>, diags: &mut Diagnostics) {
+    const EDGES: &[Code] = &[Code::E0210, Code::E0211, Code::E0216, Code::E0226];
+    let wrong = diags.iter().filter(|each| EDGES.contains(&each.code)).map(|each| each.span);
+    let wrong: Vec<Span> = wrong.take(MOST_PLACES).collect();
+    if wrong.is_empty() {
+        return;
+    }
+    let elements: Vec<_> = program.plans.iter().flat_map(|head| head.node.elements()).collect();
+    let (wrong, right): (Vec<_>, Vec<_>) =
+        elements.iter().partition(|element| wrong.iter().any(|it| element.span().contains(*it)));
+    let names = |all: Vec<&Element>| -> FxHashSet<String> {
+        all.into_iter().filter_map(|element| Some(element.name()?.text)).collect()
+    };
+    // Elements of several plans may have one name.
+    let (mut names, right) = (names(wrong), names(right));
+    names.retain(|name| !right.contains(name));
+    diags.retain(|each| {
+        let mut named = each.message.split('\'').skip(1).step_by(2);
+        let comes_of = |name: &str| name.split('.').any(|part| names.contains(part));
+        each.code != Code::E0603 || !named.any(comes_of)
+    });
+}
+
+/// Where each word of a file stands last.
+fn last_places<'a>(program: &Program<'a>, file: usize) -> FxHashMap<&'a str, usize> {
+    let text = program.files.get(file).map_or("", |file| file.text);
+    let place = |word: &str| word.as_ptr().addr() - text.as_ptr().addr();
+    words(text).map(|word| (word, place(word))).collect()
+}
+
+/// The last name that an error mentions.
+fn name_of(error: &Diagnostic) -> &str {
+    error.message.split('\'').skip(1).step_by(2).last().unwrap_or_default()
 }
 
 /// The name that is declared, used nowhere, and differs from one that is used and not there by a slip; and that one.
 fn slip(program: &Program<'_>, head: &PlanHead, error: &Diagnostic) -> Option<(Name, String)> {
     let text = program.files.get(head.file)?.text;
     let used = text.get(error.span.start as usize..error.span.end as usize)?;
+    // One letter is like any other; and what is a unit is more likely meant for that.
+    if used.chars().count() < 2 || Unit::parse(used).is_some() {
+        return None;
+    }
     let declared: Vec<Name> = match error.code {
         Code::E0216 => head.node.elements().iter().filter_map(|element| element.name()).collect(),
         Code::E0209 => head.entries.iter().map(|entry| entry.name.clone()).collect(),

@@ -149,9 +149,13 @@ pub(crate) fn unit_missing(formula: &Formula, dimension: Dimension, text: &str) 
         }
         _ => format!("{} * 1 {unit}", bracketed(formula, text)),
     };
-    Diagnostic::new(Code::E0203, formula.span, message)
-        .help(format!("write '{better}'"))
-        .replace(better)
+    let error = Diagnostic::new(Code::E0203, formula.span, message);
+    let error = error.help(format!("write '{better}'"));
+    // Of two operands either may be the wrong one, so that an entry is left to whoever reads.
+    match formula.kind {
+        FormulaKind::Entry(_) => error,
+        _ => error.replace(better),
+    }
 }
 
 /// The text, in brackets where an operation behind it would bind tighter.

@@ -53,6 +53,16 @@ pub(crate) struct Origin<'a> {
 }
 
 impl Origin<'_> {
+    /// What it has beside its states or events in any case.
+    fn extra(&self) -> &'static str {
+        if self.supervisor { DEADLINE_MISSED } else { ERROR }
+    }
+
+    /// Whether it has such a state or event.
+    pub fn has(&self, name: &Name) -> bool {
+        name.text == self.extra() || self.signature.outcomes.iter().any(|it| **it == *name.text)
+    }
+
     fn computes(&self) -> bool {
         self.signature.kind == SignatureKind::Template(TemplateKind::Computation)
     }
@@ -189,17 +199,31 @@ pub(crate) fn check(
     elements: &Elements<'_>,
     diags: &mut Diagnostics,
 ) -> Connected {
+    let (connected, seen, unknown) = connect(origin, edges, elements, diags);
+    if !origin.broken {
+        report_missing(origin, &seen, unknown, diags);
+    }
+    connected
+}
+
+/// Checks the edges that are written, tells which outcomes they are for, and how many are for none.
+pub(super) fn connect<'e>(
+    origin: &Origin<'_>,
+    edges: &'e [WrittenEdge],
+    elements: &Elements<'_>,
+    diags: &mut Diagnostics,
+) -> (Connected, Vec<&'e Name>, usize) {
     let signature = origin.signature;
     let count = signature.outcomes.len();
     let spans = EdgeSpans { outcomes: vec![None; count], extra: None };
     let mut connected = Connected { outcomes: vec![None; count], extra: None, spans };
     let mut seen: Vec<&Name> = Vec::new();
     let mut unknown = 0;
-    let extra = if origin.supervisor { DEADLINE_MISSED } else { ERROR };
+    let extra = origin.extra();
     for edge in edges {
         let name = &edge.name;
         let place = signature.outcomes.iter().position(|outcome| **outcome == *name.text);
-        outcome(signature, place, name, origin.supervisor, elements.record);
+        outcome(origin, place, name, elements.record);
         if let Some(first) = seen.iter().find(|known| known.text == name.text) {
             diags.push(
                 Diagnostic::new(
@@ -226,16 +250,15 @@ pub(crate) fn check(
             }
             None => {
                 diags.push(unknown_outcome(origin, name, extra));
-                unknown += usize::from(word(&name.text).is_none());
+                // 'OK' of an actor is meant for its state.
+                let added = matches!(name.text.as_str(), ERROR | DEADLINE_MISSED);
+                unknown += usize::from(!added);
                 continue;
             }
         }
         seen.push(name);
     }
-    if !origin.broken {
-        report_missing(origin, &seen, unknown, diags);
-    }
-    connected
+    (connected, seen, unknown)
 }
 
 /// Finds out what the names of edges mean whose component is made from nothing that is known;
@@ -267,16 +290,9 @@ fn leads_to(edge: &WrittenEdge, origin: &Origin<'_>, elements: &Elements<'_>) {
 }
 
 /// Says which state or event an edge is for.
-fn outcome(
-    signature: &Signature,
-    place: Option<usize>,
-    name: &Name,
-    supervisor: bool,
-    record: &Recorder,
-) {
-    let special = if supervisor { DEADLINE_MISSED } else { ERROR };
-    let known = place.is_some() || name.text == special;
-    match (place.and_then(|place| signature.outcome_span(place)), word(&name.text)) {
+fn outcome(origin: &Origin<'_>, place: Option<usize>, name: &Name, record: &Recorder) {
+    let known = place.is_some() || name.text == origin.extra();
+    match (place.and_then(|place| origin.signature.outcome_span(place)), word(&name.text)) {
         (Some(definition), _) => record.definition(name.span, definition),
         (None, Some(word)) if known => record.word(name.span, word),
         _ => record.unknown(name.span),

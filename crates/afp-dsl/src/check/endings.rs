@@ -2,31 +2,93 @@
 //! `terminate`.
 
 use crate::check::names::Places;
-use afp_syntax::ast::{Edge, Element, Guard, Plan};
+use afp_syntax::ast::{Edge, Element, ElementKind, Guard, Plan, Reactions};
 use afp_syntax::source::Span;
 
 /// The first edge, as written, that ends the plan as `Interrupted`.
 pub(crate) fn interrupting(plan: &Plan) -> Option<Span> {
-    let ending = |guards: Vec<Guard>| {
-        let mut edges = guards.into_iter().flat_map(|guard| guard.edges());
-        edges.find(|edge| edge.leads_to("terminate")).map(|edge| edge.span())
-    };
-    if let Some(edge) = ending(plan.guards()) {
-        return Some(edge);
+    let events = Events::of(plan);
+    let ending = |edges: &[Edge]| edges.iter().find(|edge| edge.leads_to("terminate")).cloned();
+    let of_globals = || events.globals.iter().filter(|(_, edge)| edge.leads_to("terminate"));
+    let mut of_elements = events.elements.iter().map(|each| ending(&each.edges));
+    // Most plans are decided without knowing what can be reached.
+    let is_shared = events.elements.iter().any(|each| !each.replaced.is_empty());
+    if !is_shared && let Some((_, edge)) = of_globals().next() {
+        return Some(edge.span());
     }
-    let elements = plan.elements();
-    let first = elements.iter().position(|element| ending(element.guards()).is_some())?;
-    let reached = reached(plan, &elements);
-    let local = elements.iter().zip(reached).skip(first).filter(|(_, reached)| *reached);
-    local.into_iter().find_map(|(element, _)| ending(element.guards()))
+    if of_globals().next().is_none() && of_elements.all(|edge| edge.is_none()) {
+        return None;
+    }
+    let reached = reached(plan, &events);
+    let active = || events.elements.iter().zip(&reached).filter(|(_, reached)| **reached);
+    let global = of_globals().find(|each| active().any(|(element, _)| element.keeps(each)));
+    let edge = global.map(|(_, edge)| edge.clone());
+    edge.or_else(|| active().find_map(|(each, _)| ending(&each.edges))).map(|edge| edge.span())
+}
+
+/// The edges of a plan's supervisors.
+struct Events {
+    /// Those of global ones, each with its supervisor's name.
+    globals: Vec<(String, Edge)>,
+    /// For each element those that hold there alone.
+    elements: Vec<OfElement>,
+}
+
+/// What an element adds to the edges of global supervisors, and what it replaces.
+struct OfElement {
+    takes_time: bool,
+    /// The edges of its own supervisors and of its reactions.
+    edges: Vec<Edge>,
+    /// Supervisors and events to which it reacts by itself.
+    replaced: Vec<(String, String)>,
+}
+
+impl Events {
+    fn of(plan: &Plan) -> Events {
+        let guards = plan.guards().into_iter().flat_map(|guard| {
+            let name = guard.name().map(|name| name.text).unwrap_or_default();
+            guard.edges().into_iter().map(move |edge| (name.clone(), edge))
+        });
+        let globals: Vec<(String, Edge)> = guards.collect();
+        let elements = plan.elements();
+        let elements = elements.iter().map(|element| OfElement::of(element, &globals));
+        Events { elements: elements.collect(), globals }
+    }
+}
+
+impl OfElement {
+    fn of(element: &Element, globals: &[(String, Edge)]) -> OfElement {
+        let takes_time = element.kind() != ElementKind::Computation;
+        let mut edges: Vec<_> = element.guards().iter().flat_map(Guard::edges).collect();
+        let mut replaced = Vec::new();
+        for table in element.reactions().iter().filter(|_| takes_time) {
+            let name = table.name().map(|name| name.text).unwrap_or_default();
+            if !globals.iter().any(|(known, _)| *known == name) {
+                continue;
+            }
+            let events = table.edges().into_iter().flat_map(|edge| edge.names());
+            replaced.extend(events.map(|event| (name.clone(), event.text)));
+            edges.extend(Reactions::edges(table));
+        }
+        OfElement { takes_time, edges, replaced }
+    }
+
+    /// Whether an edge of a global supervisor holds while the element is active, for one of its events.
+    fn keeps(&self, (guard, edge): &(String, Edge)) -> bool {
+        let is_replaced =
+            |event: &String| self.replaced.iter().any(|(of, known)| of == guard && known == event);
+        self.takes_time && !edge.names().iter().all(|event| is_replaced(&event.text))
+    }
 }
 
 fn leads_to(edge: &Edge) -> String {
     edge.target().map(|name| name.text).unwrap_or_default()
 }
 
-/// Which elements can be reached from `start` and from global supervisors, which can fire anywhere.
-fn reached(plan: &Plan, elements: &[Element]) -> Vec<bool> {
+/// Which elements can be reached from `start`, by their own edges, and by those of global supervisors
+/// that hold where something is active.
+fn reached(plan: &Plan, events: &Events) -> Vec<bool> {
+    let elements = plan.elements();
     let names: Vec<_> = elements.iter().map(Element::name).collect();
     let places = Places::of(names.iter().map(|name| name.as_ref().map(|name| name.text.as_str())));
     let mut open: Vec<String> =
@@ -34,16 +96,21 @@ fn reached(plan: &Plan, elements: &[Element]) -> Vec<bool> {
     if open.is_empty() {
         return vec![true; elements.len()];
     }
-    open.extend(plan.guards().iter().flat_map(Guard::edges).map(|edge| leads_to(&edge)));
     let mut reached = vec![false; elements.len()];
+    let mut waiting: Vec<_> = events.globals.iter().collect();
     while let Some(next) = open.pop() {
         let Some(place) = places.find(&next) else { continue };
         if std::mem::replace(&mut reached[place], true) {
             continue;
         }
-        let element = &elements[place];
-        open.extend(element.edges().iter().map(leads_to));
-        open.extend(element.guards().iter().flat_map(Guard::edges).map(|edge| leads_to(&edge)));
+        open.extend(elements[place].edges().iter().map(leads_to));
+        let own = &events.elements[place];
+        open.extend(own.edges.iter().map(leads_to));
+        waiting.retain(|each| {
+            let kept = own.keeps(each);
+            open.extend(kept.then(|| leads_to(&each.1)));
+            !kept
+        });
     }
     reached
 }

@@ -109,7 +109,7 @@ impl Site<'_> {
         unreadable: &'s str,
     ) -> Scope<'s> {
         let Site { places, types, text, record } = *self;
-        Scope { types, entries, places, readable, unreadable, text, record }
+        Scope { types, tables: &[], entries, places, readable, unreadable, text, record }
     }
 }
 

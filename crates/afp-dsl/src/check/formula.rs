@@ -5,6 +5,7 @@ mod literal;
 mod operation;
 
 use std::cell::Cell;
+use std::sync::Arc;
 
 use afp_number::{Error, MAX_TEXT};
 
@@ -15,6 +16,7 @@ use crate::check::names::{Places, ambiguous, unknown};
 use crate::check::types::Types;
 use crate::graph::{EntryId, EntryKind, Formula, FormulaKind};
 use crate::index::{Recorder, Word};
+use crate::table::Table;
 use crate::toolbox::Constant;
 use crate::types::Type;
 use afp_syntax::ast;
@@ -28,6 +30,8 @@ const MAX_SIZE: usize = 256;
 pub(crate) struct Scope<'a> {
     /// Enums.
     pub types: &'a Types,
+    /// Tables of the file, which no formula reads.
+    pub tables: &'a [Arc<Table>],
     /// Entries of the plan.
     pub entries: &'a [EntryDraft],
     /// Where they stand.
@@ -65,9 +69,32 @@ impl Scope<'_> {
         let place = self.places.find(&name.text);
         match place {
             Some(place) => self.record.definition(name.span, self.entries[place].name.span),
-            None => self.record.unknown(name.span),
+            None => match self.table(name) {
+                Some(table) => self.record.definition(name.span, table.span),
+                None => self.record.unknown(name.span),
+            },
         }
         place
+    }
+
+    /// Whether a formula is the name of a table alone.
+    pub fn names_table(&self, formula: &ast::Formula) -> bool {
+        let ast::FormulaKind::Ref(reference) = formula.kind() else { return false };
+        let name = reference.name().filter(|_| reference.home().is_none());
+        name.is_some_and(|name| {
+            self.places.find(&name.text).is_none() && self.table(&name).is_some()
+        })
+    }
+
+    /// The table that a formula names, if it does nothing else.
+    pub fn named_table(&self, formula: &ast::Formula) -> Option<&Table> {
+        let ast::FormulaKind::Ref(reference) = formula.kind() else { return None };
+        self.table(&reference.name()?).filter(|_| self.names_table(formula))
+    }
+
+    /// The table of that name.
+    fn table(&self, name: &ast::Name) -> Option<&Table> {
+        self.tables.iter().find(|table| table.name == name.text).map(|table| &**table)
     }
 
     /// The formula without a wanted type and without looking for its value.
@@ -102,10 +129,7 @@ impl Scope<'_> {
             diags.extend(remarks);
             return None;
         };
-        let known = |entry: u16| {
-            self.entries.get(usize::from(entry)).and_then(|entry| entry.value_for_formulas())
-        };
-        let value = constant::evaluate(&typed, &known);
+        let value = self.evaluate(&typed);
         // What is known now cannot fail later.
         remarks.retain(|remark| remark.code != Code::E0208 || matches!(value, Ok(None)));
         diags.extend(remarks);
@@ -116,6 +140,18 @@ impl Scope<'_> {
                 None
             }
         }
+    }
+
+    /// The value of a checked formula, where it is known.
+    pub fn value(&self, formula: &Formula) -> Option<Constant> {
+        self.evaluate(formula).ok().flatten()
+    }
+
+    fn evaluate(&self, formula: &Formula) -> Result<Option<Constant>, Error> {
+        let known = |entry: u16| {
+            self.entries.get(usize::from(entry)).and_then(|entry| entry.value_for_formulas())
+        };
+        constant::evaluate(formula, &known)
     }
 
     /// The text at a place of this file.
@@ -290,6 +326,12 @@ impl Typer<'_> {
 
     fn unknown_entry(&self, name: &ast::Name) -> Diagnostic {
         let scope = self.scope;
+        if let Some(table) = scope.table(name) {
+            let message = format!("'{}' is a table, not a value", name.text);
+            return Diagnostic::new(Code::E0209, name.span, message)
+                .note(table.span, "declared here")
+                .help("read its rows with 'Row' of 'std', and use what comes out");
+        }
         let message = format!("there is no entry '{}'", name.text);
         let home = scope.types.enums.iter().find(|(_, home)| home.variants.contains(&name.text));
         if let Some((_, home)) = home {
@@ -307,7 +349,11 @@ impl Typer<'_> {
         let readable = scope.entries.iter().enumerate().filter(|(at, _)| (scope.readable)(*at));
         let known = readable.map(|(_, entry)| entry.name.text.as_str());
         // Toolboxes have no entries; only there are generic types.
-        let none = if scope.types.generic { "write a value" } else { "declare it in the plan" };
+        let none = match scope.entries {
+            _ if scope.types.generic => "write a value",
+            [] if !scope.unreadable.is_empty() => scope.unreadable,
+            _ => "declare it in the plan",
+        };
         unknown(Code::E0209, name.span, message, &name.text, known, none)
     }
 
@@ -366,10 +412,14 @@ fn fault_diagnostic(error: Error, span: Span) -> Diagnostic {
             .help("use floats, or smaller numbers"),
         Error::DivisionByZero => Diagnostic::new(Code::E0228, span, "a division by zero")
             .help("divide by something else"),
-        Error::NotFinite => {
-            Diagnostic::new(Code::E0228, span, "the value is infinite or not a number")
-                .help("do not divide by zero, and keep numbers below 1.8e308")
-        }
+        Error::NotFinite => Diagnostic::new(
+            Code::E0228,
+            span,
+            "the value is infinite or not a number",
+        )
+        .help(
+            "divide by no zero, take no root of a negative number, and keep numbers below 1.8e308",
+        ),
         Error::NoRange => {
             Diagnostic::new(Code::E0228, span, "the least value is above the greatest one")
                 .help("write 'clamp(value, low, high)' with 'low' at most 'high'")

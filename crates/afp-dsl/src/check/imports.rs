@@ -153,7 +153,8 @@ pub(crate) fn check_order(file: &File, diags: &mut Diagnostics) {
     for item in &items {
         let (span, what) = match item {
             Item::Use(line) => {
-                if others {
+                // One that stands in a plan has been reported.
+                if others && line.is_in_place() {
                     diags.push(
                         Diagnostic::new(
                             Code::E0114,
@@ -167,6 +168,9 @@ pub(crate) fn check_order(file: &File, diags: &mut Diagnostics) {
             }
             Item::Plan(plan) => {
                 (plan.name().map_or_else(|| plan.span(), |name| name.span), "a plan")
+            }
+            Item::Table(table) => {
+                (table.name().map_or_else(|| table.span(), |name| name.span), "a table")
             }
             Item::Scenario(one) => {
                 (one.name().map_or_else(|| one.span(), |name| name.span), "a scenario")

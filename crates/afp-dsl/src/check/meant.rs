@@ -1,6 +1,9 @@
 //! What a name that is not there may have been meant for: a word, an element, a part of a unit.
 
+use std::sync::Arc;
+
 use super::{PlanHead, Program};
+use crate::toolbox::Toolbox;
 use afp_syntax::diagnostics::{Code, Diagnostic};
 use afp_syntax::units::Unit;
 
@@ -53,13 +56,14 @@ pub(super) fn explain(program: &Program<'_>, plan: Option<usize>, error: Diagnos
     };
     match error.code {
         Code::E0209 => unit(text, &error).or_else(|| entry(head?, name, &error)),
-        Code::E0216 => element(program, plan, name, &error),
+        Code::E0216 => element(program, plan, name, &error)
+            .or_else(|| no_element(program, head?, name, &error)),
         _ => None,
     }
     .unwrap_or(error)
 }
 
-/// `20 cm / s`
+/// `20 cm / s`, `20 cm/sec`
 fn unit(text: &str, error: &Diagnostic) -> Option<Diagnostic> {
     let (before, rest) = text.split_at(error.span.start as usize);
     let last = &rest[..(error.span.end - error.span.start) as usize];
@@ -68,9 +72,21 @@ fn unit(text: &str, error: &Diagnostic) -> Option<Diagnostic> {
     let left = left[..left.len() - 1].trim_end();
     let letters = |each: char| each.is_ascii_alphanumeric() || matches!(each, '/' | '*' | '^');
     let first = left.trim_end_matches(letters);
-    let whole = format!("{}{sign}{last}", &left[first.len()..]);
     let follows_number = first.trim_end().ends_with(|each: char| each.is_ascii_digit());
-    Unit::parse(&whole).filter(|_| follows_number)?;
+    let of = |last: &str| format!("{}{sign}{last}", &left[first.len()..]);
+    let is_unit = |whole: &String| Unit::parse(whole).is_some();
+    let spelled = of(last);
+    if !follows_number {
+        return None;
+    }
+    if !is_unit(&spelled) && sign == '/' && left.len() + 1 == before.len() {
+        // `20 cm/sec`
+        let ours = Unit::meant(last)?;
+        let help = format!("write '{}'", of(ours));
+        let said = Diagnostic::new(error.code, error.span, &*error.message);
+        return is_unit(&of(ours)).then(|| said.help(help).replace(ours));
+    }
+    let whole = Some(spelled).filter(is_unit)?;
     let mut place = error.span;
     place.start = u32::try_from(first.len()).ok()?;
     let help = format!("a unit has no blanks: write '{whole}'");
@@ -104,4 +120,28 @@ fn element(
     let said = Diagnostic::new(error.code, error.span, &*error.message);
     let help = format!("lead to a 'subplan' made of '{other}', or add an element '{name}' here");
     Some(said.note(place, format!("'{name}' is an element of '{other}'")).help(help))
+}
+
+/// What a name behind an arrow is, if it is something but no element.
+fn no_element(
+    program: &Program<'_>,
+    head: &PlanHead,
+    name: &str,
+    error: &Diagnostic,
+) -> Option<Diagnostic> {
+    let said = || Diagnostic::new(error.code, error.span, &*error.message);
+    let guards = head.node.guards().into_iter();
+    if let Some(guard) = guards.filter_map(|it| it.name()).find(|it| it.text == name) {
+        let note = format!("'{name}' is a supervisor, which watches beside the elements");
+        return Some(said().note(guard.span, note).help("lead to the element that comes next"));
+    }
+    let mut plans = program.plans.iter().filter_map(|head| head.name.as_ref());
+    if let Some(plan) = plans.find(|plan| plan.text == name) {
+        let help = format!("add an element made of it, 'subplan NAME: {name}', and lead to that");
+        return Some(said().note(plan.span, format!("'{name}' is a plan")).help(help));
+    }
+    let is_it = |toolbox: &&Arc<Toolbox>| toolbox.templates.iter().any(|it| it.name == name);
+    program.toolboxes.iter().find(is_it)?;
+    let help = format!("add an element made of '{name}', and lead to that by its own name");
+    Some(said().help(help))
 }

@@ -5,6 +5,8 @@ mod component;
 use crate::check::edges::Elements;
 use crate::check::formula::Scope;
 use crate::check::names::{self, Names, Places};
+use crate::check::places::Ranges;
+use crate::check::reactions::Watchers;
 use crate::check::resources::Users;
 use crate::check::{Context, PlanHead, Program, edges, resume, size};
 use crate::graph::{self, Element, ElementId, Supervisor, SupervisorId};
@@ -53,12 +55,20 @@ pub(crate) struct Member {
     pub written: WrittenParts,
     /// Its own supervisors.
     pub locals: Vec<Member>,
+    /// Its reactions to supervisors of the plan.
+    pub reactions: Vec<Member>,
 }
 
 impl Member {
     fn supervisor(node: &ast::Guard, made: Made, written: WrittenParts) -> Member {
         let (name, kind) = (node.name(), ComponentKind::Supervisor);
-        Member { name, kind, made, written, locals: Vec::new() }
+        Member { name, kind, made, written, locals: Vec::new(), reactions: Vec::new() }
+    }
+
+    /// Reactions to a supervisor, which are made from nothing.
+    pub fn reactions(name: Option<ast::Name>, written: WrittenParts) -> Member {
+        let (kind, made) = (ComponentKind::Reactions, Made::default());
+        Member { name, kind, made, written, locals: Vec::new(), reactions: Vec::new() }
     }
 }
 
@@ -70,6 +80,7 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
     let names = declare(head, &elements, program.record, diags);
     let scope = Scope {
         types: &context.file.types,
+        tables: &context.file.tables,
         entries: &head.entries,
         places: &head.places,
         readable: &|_| true,
@@ -90,6 +101,7 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
         members.globals.push(Member::supervisor(&guard, checked.made, checked.written));
     }
     let globals = supervisors.len();
+    let watchers = Watchers { globals: &members.globals, elements: &names, record: program.record };
     let mut drawn = Vec::with_capacity(elements.len());
     users.elements.reserve(elements.len());
     for (at, node) in elements.iter().enumerate() {
@@ -103,8 +115,10 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
             locals.push(Member::supervisor(&guard, checked.made, checked.written));
         }
         let (name, kind) = (names.name(at).cloned(), ComponentKind::of(node.kind()));
-        members.elements.push(Member { name, kind, made, written, locals });
+        let (reactions, tables) = watchers.check(node, diags);
+        members.elements.push(Member { name, kind, made, written, locals, reactions: tables });
         users.elements.extend(user.map(|user| (user, guards)));
+        let built = built.map(|element| Element { reactions, ..element });
         drawn.push(built.and_then(|element| own(element, first, supervisors.len())));
     }
     let start = start(&head.node, &names, diags);
@@ -251,7 +265,6 @@ fn half_typed(plan: &ast::Plan, diags: &Diagnostics) -> bool {
         .chain(plan.guards().iter().map(ast::Guard::span))
         .chain(plan.entries().iter().map(ast::Entry::span))
         .collect();
-    diags
-        .syntax_errors_within(plan.span())
-        .any(|span| !inner.iter().any(|item| item.contains(span)))
+    let inner = Ranges::new(inner);
+    diags.syntax_errors_within(plan.span()).any(|span| !inner.any(span))
 }

@@ -8,6 +8,7 @@ mod claims;
 mod commits;
 mod compare;
 mod devices;
+mod lines;
 mod names;
 mod often;
 mod over;
@@ -25,20 +26,21 @@ use crate::check::range;
 use crate::check::{Context, Members, PlanHead, Program, assemble};
 use crate::gather::PlanFile;
 use crate::graph::{self, EntryKind, Formula};
-use crate::scenario::{Scenario, Start, Stimulus};
+use crate::scenario::{Scenario, Start};
 use crate::toolbox::Constant;
 use crate::types::{Dimension, Type};
-use afp_syntax::ast::{self, Item, Line, LineKind, Name};
+use afp_syntax::ast::{self, Item, Name};
 use afp_syntax::diagnostics::words;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
-use afp_syntax::source::Span;
 use afp_syntax::unquote;
 
 pub use actions::VERBS;
+use lines::sound;
 use over::Over;
 use paths::Paths;
 use resolve::Resolver;
 use robot::Robot;
+use times::Stretch;
 
 /// The plans of a program, as far as they could be checked.
 pub(super) struct Plans<'a> {
@@ -117,9 +119,6 @@ struct Checker<'a> {
     /// What the robot has.
     robot: &'a Robot<'a>,
     head: &'a PlanHead,
-    /// When it ends.
-    until: u64,
-    until_span: Option<Span>,
 }
 
 fn scenario(
@@ -137,20 +136,16 @@ fn scenario(
     let graph = assemble::graph(program, plans.plans.to_vec(), plans.order, place)?;
     let graph = Arc::new(graph);
     let head = &program.plans[place];
-    let lines: Vec<Line> = node
-        .lines()
-        .into_iter()
-        .filter(|line| diags.syntax_errors_within(line.span()).next().is_none())
-        .collect();
-    let (until, until_span) = times::until(&lines, diags);
+    let lines = sound(node.lines(), diags);
+    let stretch = Stretch::of(&lines, None, diags);
     let paths = Paths::new(&graph, resolver, place);
-    let checker = Checker { context, paths, robot, head, until, until_span };
+    let checker = Checker { context, paths, robot, head };
     let plan_file = &files.get(head.file)?.source.name;
     let mut scenario = Scenario {
         span: name.span,
-        ..Scenario::quiet(unquote(&name, diags), graph.clone(), plan_file, until)
+        ..Scenario::quiet(unquote(&name, diags), graph.clone(), plan_file, stretch.until)
     };
-    checker.lines(&lines, &mut scenario, diags);
+    checker.lines(&lines, &stretch, &mut scenario, diags);
     let over = Over::of(&lines, diags);
     let broken = diags.error_within(node.span());
     if scenario.expectations.is_empty() && !broken {
@@ -207,62 +202,6 @@ fn plan(context: Context<'_>, reference: &ast::Ref, diags: &mut Diagnostics) -> 
 }
 
 impl Checker<'_> {
-    fn lines(&self, lines: &[Line], scenario: &mut Scenario, diags: &mut Diagnostics) {
-        let mut once: Vec<(String, Span)> = Vec::new();
-        for line in lines {
-            let key = match line.kind() {
-                LineKind::Stimulus(..) | LineKind::Expect { .. } => None,
-                LineKind::Set(path, _) => path.map(|path| format!("set {}", path.text())),
-                LineKind::OverSeeds(..) => Some("over seeds".to_owned()),
-                LineKind::OverWorlds(_) => Some("over worlds".to_owned()),
-                _ => Some(line.keyword()),
-            };
-            if let Some(key) = key {
-                if let Some((known, first)) = once.iter().find(|(known, _)| excludes(known, &key)) {
-                    let message = match *known == key {
-                        true => format!("'{key}' stands twice"),
-                        false => format!("'{key}' does not go with '{known}'"),
-                    };
-                    diags.push(
-                        Diagnostic::new(Code::E0601, line.span(), message)
-                            .note(*first, "first written here")
-                            .help("remove one of the lines"),
-                    );
-                    continue;
-                }
-                once.push((key, line.span()));
-            }
-            self.line(line, scenario, diags);
-        }
-    }
-
-    fn line(&self, line: &Line, scenario: &mut Scenario, diags: &mut Diagnostics) {
-        match line.kind() {
-            LineKind::World(file) => scenario.world = file.map(|file| unquote(&file, diags)),
-            LineKind::Seed(number) => {
-                scenario.seed = number.and_then(|number| seed(&number, diags)).unwrap_or_default();
-            }
-            LineKind::Set(Some(path), Some(value)) => {
-                scenario.set.extend(self.set(&path, &value, &[EntryKind::In], diags));
-            }
-            LineKind::Robot(formulas) => scenario.robot = self.robot(&formulas, diags),
-            LineKind::Stimulus(Some(at), Some(action)) => {
-                let at = self.instant(&at, diags);
-                let action = self.action(&action, diags);
-                if let (Some(at), Some(action)) = (at, action) {
-                    let (text, span) = (line.in_one_line(), line.span());
-                    scenario.stimuli.push(Stimulus { at, action, text, span });
-                }
-            }
-            LineKind::Expect { never, claim: Some(claim), bounds } => {
-                scenario.expectations.extend(self.expectation(line, never, &claim, &bounds, diags));
-            }
-            LineKind::OverSeeds(..) | LineKind::OverWorlds(_) | LineKind::Until(_) => {}
-            LineKind::Set(..) | LineKind::Stimulus(..) => {}
-            LineKind::Expect { claim: None, .. } => {}
-        }
-    }
-
     fn robot(&self, formulas: &[ast::Formula], diags: &mut Diagnostics) -> Option<Start> {
         let [x, y, heading @ ..] = formulas else { return None };
         let number = |formula: &ast::Formula, ty: &str, diags: &mut Diagnostics| {
@@ -294,6 +233,7 @@ impl Checker<'_> {
         };
         let scope = Scope {
             types: &self.context.file.types,
+            tables: &[],
             entries,
             places: &self.head.places,
             readable: &known,
@@ -380,12 +320,6 @@ impl Checker<'_> {
                 .help(format!("add 'set {} = ...'", first.name)),
         );
     }
-}
-
-/// Whether of two lines one alone can stand.
-fn excludes(one: &str, other: &str) -> bool {
-    let both = |a, b| [(a, b), (b, a)].contains(&(one, other));
-    one == other || both("seed", "over seeds") || both("world", "over worlds")
 }
 
 fn seed(number: &Name, diags: &mut Diagnostics) -> Option<u64> {

@@ -1,4 +1,4 @@
-//! What each plan file can name: its toolboxes, its own plans and enums, and those of the files
+//! What each plan file can name: its toolboxes, its own plans, enums and tables, and those of the files
 //! that it uses, but not of the files that those use.
 
 use std::sync::Arc;
@@ -7,14 +7,17 @@ use crate::check::imports::{self, Import};
 use crate::check::names::Names;
 use crate::check::signature::Signatures;
 use crate::check::types::Types;
-use crate::check::{PlanHead, Program, choices, endings, entries, enums, recursion, shadows};
+use crate::check::{
+    PlanHead, Program, choices, endings, entries, enums, recursion, shadows, tables,
+};
 use crate::gather::PlanFile;
 use crate::index::Recorder;
+use crate::table::Table;
 use crate::toolbox::{Toolbox, Toolboxes};
 use crate::types::{Enum, is_built_in};
 use afp_syntax::ast::{Item, Name};
 use afp_syntax::diagnostics::Diagnostics;
-use afp_syntax::source::Span;
+use afp_syntax::source::{Source, Span};
 use rustc_hash::FxHashMap;
 
 /// What the plans of one file can name.
@@ -23,10 +26,14 @@ pub(crate) struct FileScope<'a> {
     pub path: &'a str,
     /// Its text.
     pub text: &'a str,
+    /// The file with its index among the sources.
+    pub source: (u16, &'a Arc<Source>),
     /// The toolboxes that it uses.
     pub imports: Vec<Import>,
     /// The types that it can name.
     pub types: Types,
+    /// The tables that it can name: its own first.
+    pub tables: Vec<Arc<Table>>,
     /// Whether a file that it wants to use is missing.
     pub incomplete: bool,
     /// The plans that it can name, by name and by place in [`Program::plans`]: its own first, of
@@ -48,6 +55,9 @@ pub(super) fn program<'a>(
     let places = files.iter().enumerate();
     let mut scopes: Vec<_> =
         places.map(|file| scope(file, toolboxes, &enums, &mut linked, record, diags)).collect();
+    let own_tables = files.iter().zip(&scopes);
+    let own_tables: Vec<_> =
+        own_tables.map(|(file, scope)| tables::own(file, &scope.types, record, diags)).collect();
     let mut plans = Vec::new();
     let mut own: Vec<FxHashMap<String, usize>> = Vec::new();
     for (place, file) in files.iter().enumerate() {
@@ -63,12 +73,14 @@ pub(super) fn program<'a>(
     }
     for (place, file) in files.iter().enumerate() {
         for seen in std::iter::once(&place).chain(&file.uses) {
+            scopes[place].tables.extend(own_tables[*seen].iter().cloned());
             for (name, at) in &own[*seen] {
                 scopes[place].plans.entry(name.clone()).or_default().push(*at);
             }
         }
     }
     choices::specialise(&mut linked, files, &scopes);
+    tables::specialise(&mut linked, &scopes);
     let signatures = Signatures::of(&linked, &plans);
     let sub_plans = plans.iter().map(|head| recursion::sub_plans(head, &scopes)).collect();
     Program { toolboxes, linked, files: scopes, plans, sub_plans, signatures, record }
@@ -96,8 +108,10 @@ fn scope<'a>(
     FileScope {
         path: &file.path,
         text: &file.source.text,
+        source: (file.index, &file.source),
         imports,
         types,
+        tables: Vec::new(),
         incomplete: file.incomplete,
         plans: FxHashMap::default(),
         top: top(file),

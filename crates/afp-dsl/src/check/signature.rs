@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use crate::check::PlanHead;
 use crate::graph::{Component, EntryKind, PlanId, TemplateId, ToolboxId};
+use crate::table::Table;
 use crate::toolbox::{Constant, Template, TemplateKind, Toolbox};
 use crate::types::{Enum, Type};
 use afp_syntax::source::Span;
@@ -104,6 +105,21 @@ impl Signatures {
         self.templates.get(toolbox.index())?.iter().find(is_it).cloned()
     }
 
+    /// That of the template of a name that reads a table.
+    pub fn of_table(
+        &self,
+        toolbox: ToolboxId,
+        name: &str,
+        table: &Arc<Table>,
+    ) -> Option<Rc<Signature>> {
+        let is_it = |signature: &&Rc<Signature>| {
+            let reads = signature.template().and_then(|template| template.reads_table.as_ref());
+            let bound = reads.and_then(|reads| reads.table.as_ref());
+            signature.name == name && bound.is_some_and(|bound| Arc::ptr_eq(bound, table))
+        };
+        self.templates.get(toolbox.index())?.iter().find(is_it).cloned()
+    }
+
     /// That of a plan.
     pub fn plan(&self, place: usize) -> &Rc<Signature> {
         &self.plans[place]
@@ -118,15 +134,7 @@ impl Signature {
             name: template.name.clone(),
             kind: SignatureKind::Template(template.kind),
             inputs: inputs(template),
-            outputs: template
-                .outputs
-                .iter()
-                .map(|port| OutputPort {
-                    name: port.name.as_str().into(),
-                    ty: Some(port.ty.clone()),
-                    span: port.span,
-                })
-                .collect(),
+            outputs: outputs(template),
             outcomes: template
                 .outcomes
                 .iter()
@@ -227,4 +235,19 @@ fn inputs(template: &Template) -> Vec<Input> {
         span: port.span,
     };
     template.inputs.iter().map(input).collect()
+}
+
+fn outputs(template: &Template) -> Vec<OutputPort> {
+    let reads = template.reads_table.as_ref();
+    let table = reads.and_then(|reads| reads.table.as_ref());
+    let is_broken = |place: usize| {
+        let column = table.and_then(|table| table.columns.get(place));
+        column.is_some_and(|column| column.ty.is_none())
+    };
+    let output = |(place, port): (usize, &crate::toolbox::OutPort)| OutputPort {
+        name: port.name.as_str().into(),
+        ty: Some(port.ty.clone()).filter(|_| !is_broken(place)),
+        span: port.span,
+    };
+    template.outputs.iter().enumerate().map(output).collect()
 }

@@ -17,7 +17,7 @@ const LONGEST: u64 = 3_600_000_000_000;
 
 /// The written time in nanoseconds, 1 ns to 1 h; reports what is none.
 pub(crate) fn nanoseconds(timing: &Timing, diags: &mut Diagnostics) -> Option<u64> {
-    match time(&timing.value()?, diags)? {
+    match time(&timing.value()?, "ms", diags)? {
         0 => refuse(&timing.value()?, "a time is longer than nothing", diags),
         time => Some(time),
     }
@@ -47,8 +47,8 @@ pub(crate) fn of_supervisor(
     }
 }
 
-/// The written time in nanoseconds, 0 to 1 h; reports what is none.
-pub(crate) fn time(value: &Formula, diags: &mut Diagnostics) -> Option<u64> {
+/// The written time in nanoseconds, 0 to 1 h; reports what is none. People write such times in the `usual` unit.
+pub(crate) fn time(value: &Formula, usual: &str, diags: &mut Diagnostics) -> Option<u64> {
     let span = value.span();
     let FormulaKind::Number { number, unit, broken, .. } = value.kind() else {
         return refuse(value, "a time is a positive number with a unit", diags);
@@ -59,8 +59,8 @@ pub(crate) fn time(value: &Formula, diags: &mut Diagnostics) -> Option<u64> {
     let Some(unit) = unit else {
         diags.push(
             Diagnostic::new(Code::E0203, span, "expected a duration, found a bare number")
-                .help(format!("write '{} ms'", number.text))
-                .replace(format!("{} ms", number.text)),
+                .help(format!("write '{} {usual}'", number.text))
+                .replace(format!("{} {usual}", number.text)),
         );
         return None;
     };
@@ -71,7 +71,7 @@ pub(crate) fn time(value: &Formula, diags: &mut Diagnostics) -> Option<u64> {
         diags.push(
             Diagnostic::new(Code::E0204, unit.span, message)
                 .help("write 's', 'ms', 'us' or 'ns'")
-                .replace("ms"),
+                .replace(usual),
         );
         return None;
     }

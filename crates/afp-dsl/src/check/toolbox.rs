@@ -144,6 +144,7 @@ fn read(
     toolbox.devices = devices(&items, &site, diags);
     let site = Site { devices: &toolbox.devices, ..site };
     toolbox.templates = templates(&items, &site, diags);
+    crate::check::tables::mark(&mut toolbox);
     let spans = toolbox.templates.iter().map(|template| template.span);
     size::at_most(
         MAX_ROWS,

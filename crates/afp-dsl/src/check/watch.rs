@@ -128,6 +128,7 @@ impl Inside {
         let record = Recorder::for_text(whole.len());
         let scope = Scope {
             types: &self.types,
+            tables: &[],
             entries: &self.entries,
             places: &self.places,
             readable: &|_| true,

@@ -71,9 +71,9 @@ pub(crate) fn is_quick(view: &View<'_>, edge: &Edge) -> bool {
         }
         Cause::Error(_) => true,
         // An event that leads back to the element being entered is not taken.
-        Cause::Event(..) => edge.from != view.anywhere() && edge.from != edge.to,
-        // The look never raises it.
-        Cause::Miss(_) | Cause::Active(_) => false,
+        Cause::Event(..) => !view.is_shared(edge.from) && edge.from != edge.to,
+        // The look never raises a miss, and a global supervisor is asked once in a step.
+        Cause::Miss(_) | Cause::On(..) | Cause::Active(_) => false,
     }
 }
 

@@ -15,10 +15,11 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [bool; 3] {
     }
     if ends == [false; 3] {
         let message = format!("'{}' can never end: nothing leads to 'terminate'", view.plan.name);
-        diags.push(
-            Diagnostic::new(Code::E0307, view.plan.span, message)
-                .help("lead a state or an event to 'terminate', or write 'plan NAME forever' where it is meant to run on"),
+        let help = format!(
+            "lead a state or an event to 'terminate', or write 'plan {} forever' where it is meant to run on",
+            view.plan.name
         );
+        diags.push(Diagnostic::new(Code::E0307, view.plan.span, message).help(help));
         return ends;
     }
     let back = backward(view);

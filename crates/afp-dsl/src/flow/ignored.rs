@@ -6,9 +6,8 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// Warns of each, at its name.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
-    for supervisor in view.supervisors() {
-        let mut targets = supervisor.events.iter().chain(&supervisor.on_miss);
-        if targets.any(|target| *target != Target::Ignore) {
+    for (id, supervisor) in view.numbered_supervisors() {
+        if view.plan.targets(id).any(|target| target != Target::Ignore) {
             continue;
         }
         let message = format!("'{}' watches for nothing: every event is ignored", supervisor.name);

@@ -13,9 +13,10 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
         let Component::Actor(id) = element.component else { continue };
         let template = view.model.template(id);
         let leads_on = |edge: &Edge| {
-            matches!(edge.cause, Cause::Event(..) | Cause::Miss(_)) && edge.to != node
+            matches!(edge.cause, Cause::Event(..) | Cause::Miss(_) | Cause::On(..))
+                && edge.to != node
         };
-        let all = || view.from(node).iter().chain(view.from(view.anywhere()));
+        let all = || view.from(node).iter().chain(view.of_globals(node));
         if !element.states.is_empty() || all().any(leads_on) {
             continue;
         }

@@ -3,40 +3,72 @@
 //! An event of a global supervisor is not taken while its target is active, so a lasting condition
 //! lets one element finish. Elements behind it that only this event leads to are part of the same
 //! recovery, and there it is taken: the recovery begins anew, for ever. A computation is over at once,
-//! so behind one the first actor is such an element already.
+//! so behind one the first actor is such an element already. Where such an element reacts otherwise to
+//! the event (`on`), it goes on.
+
+use std::collections::BTreeMap;
 
 use crate::flow::dataflow::{WIDTH, propagate};
-use crate::flow::view::{Cause, View, takes_time};
+use crate::flow::view::{Cause, Edge, Node, View, takes_time};
+use crate::graph::SupervisorId;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+
+/// An event of a global supervisor, and where it leads.
+type Way = (SupervisorId, u16, Node);
 
 /// Warns of each such event, at its edge.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
-    let anywhere = view.anywhere();
-    if !view.reached[anywhere] {
-        return;
-    }
-    let events: Vec<usize> = view
-        .range(anywhere)
-        .filter(|at| matches!(view.edges[*at].cause, Cause::Event(..)))
-        .collect();
-    for group in events.chunks(WIDTH) {
+    let ways = ways(view);
+    let ways: Vec<_> = ways.into_iter().collect();
+    for group in ways.chunks(WIDTH) {
         let mut stops = vec![0u64; view.edges.len()];
-        for (bit, at) in group.iter().enumerate() {
-            stops[*at] = 1 << bit;
+        for (bit, (_, edges)) in group.iter().enumerate() {
+            edges.iter().for_each(|at| stops[*at] = 1 << bit);
         }
         let without = propagate(view, u64::MAX, &stops);
-        for (bit, at) in group.iter().enumerate() {
-            report(view, *at, |node| without[node] >> bit & 1 == 0, diags);
+        for (bit, (way, edges)) in group.iter().enumerate() {
+            let edge = edges.last().map(|at| view.edges[*at]);
+            report(view, *way, edge, |node| without[node] >> bit & 1 == 0, diags);
         }
     }
 }
 
+/// The edges of each way; those that hold for most elements come last.
+fn ways(view: &View<'_>) -> BTreeMap<Way, Vec<usize>> {
+    let mut ways: BTreeMap<Way, Vec<usize>> = BTreeMap::new();
+    for (at, edge) in view.edges.iter().enumerate().filter(|(_, edge)| view.reached[edge.from]) {
+        if let Some(way) = way(view, edge) {
+            ways.entry(way).or_default().push(at);
+        }
+    }
+    ways
+}
+
+fn way(view: &View<'_>, edge: &Edge) -> Option<Way> {
+    let (id, event) = match edge.cause {
+        Cause::Event(id, event) if view.is_shared(edge.from) => (id, event),
+        Cause::On(_, id, Some(event)) => (id, event),
+        _ => return None,
+    };
+    // What happens once holds no more while its recovery runs.
+    (!view.is_once(id, event)).then_some((id, event, edge.to))
+}
+
 /// `only` tells which nodes can be reached by the event alone.
-fn report(view: &View<'_>, at: usize, only: impl Fn(usize) -> bool, diags: &mut Diagnostics) {
-    let edge = &view.edges[at];
+fn report(
+    view: &View<'_>,
+    wanted: Way,
+    edge: Option<Edge>,
+    only: impl Fn(usize) -> bool,
+    diags: &mut Diagnostics,
+) {
+    let Some(edge) = edge else { return };
     let Some(target) = view.element(edge.to).filter(|_| only(edge.to)) else { return };
-    let behind = |node: usize| node != edge.to && only(node);
-    let mut recovery = view.elements().filter(|(node, other)| behind(*node) && takes_time(other));
+    let again = |node: usize| {
+        let mut edges = view.of_globals(node);
+        node != edge.to && only(node) && edges.any(|other| way(view, other) == Some(wanted))
+    };
+    let mut recovery = view.elements().filter(|(node, other)| takes_time(other) && again(*node));
     let Some((_, other)) = recovery.next() else { return };
     let label = view.label(edge.cause);
     let (first, next) = (&target.name, &other.name);
@@ -45,6 +77,6 @@ fn report(view: &View<'_>, at: usize, only: impl Fn(usize) -> bool, diags: &mut 
     diags.push(
         Diagnostic::new(Code::E0309, view.span(edge.cause), message)
             .note(other.span, "only this event leads here, and it may still hold")
-            .help(format!("put '{first}' and '{next}' into one sub-plan and lead the event to it")),
+            .help(format!("put '{first}' and '{next}' into one sub-plan and lead the event to it, or ignore the event in '{next}' with 'on'")),
     );
 }

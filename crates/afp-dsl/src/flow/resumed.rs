@@ -5,9 +5,10 @@
 
 use std::collections::BTreeSet;
 
-use crate::flow::view::{Cause, View, each_entry, takes_time};
+use crate::flow::view::{Cause, Node, View, each_entry, takes_time};
 use crate::graph::{
-    Component, Element, EntryId, EntryKind, Formula, Supervisor, SupervisorId, Target, chain,
+    Component, Element, ElementId, EntryId, EntryKind, Formula, Supervisor, SupervisorId, Target,
+    chain,
 };
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
@@ -15,10 +16,19 @@ use afp_syntax::source::Span;
 /// Warns of events that resume with nothing written, and of inputs read once from entries that are
 /// written while the element goes on.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
-    let of_all = written(view, (0..view.plan.globals).map(SupervisorId), diags);
-    for (_, element) in view.elements().filter(|(_, element)| takes_time(element)) {
-        let mut changed = written(view, element.supervisors.iter().copied(), diags);
-        changed.extend(&of_all);
+    let globals = || (0..view.plan.globals).map(SupervisorId);
+    let of_all = written(view, globals().flat_map(|id| own(view, id)), diags);
+    for (node, element) in view.elements().filter(|(_, element)| takes_time(element)) {
+        let mut changed =
+            written(view, element.supervisors.iter().flat_map(|id| own(view, *id)), diags);
+        if element.reactions.is_empty() {
+            changed.extend(&of_all);
+        } else {
+            changed.extend(written(view, replacing(node, element), diags));
+            let kept = globals().flat_map(|id| kept(view, element, id));
+            // What is wrong with these is said once.
+            changed.extend(written(view, kept, &mut Diagnostics::default()));
+        }
         if changed.is_empty() {
             continue;
         }
@@ -34,35 +44,60 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     }
 }
 
-/// The entries that supervisors write without interrupting, each with an edge that does so.
+/// The edges of a supervisor.
+fn own(view: &View<'_>, id: SupervisorId) -> Vec<(Cause, Target)> {
+    let supervisor = view.supervisor(id);
+    let events = (0..).zip(&supervisor.events);
+    let events = events.map(|(event, target)| (Cause::Event(id, event), *target));
+    events.chain(supervisor.on_miss.map(|to| (Cause::Miss(id), to))).collect()
+}
+
+/// The edges of a global supervisor that hold while an element is active.
+fn kept(view: &View<'_>, element: &Element, id: SupervisorId) -> Vec<(Cause, Target)> {
+    let mut edges = own(view, id);
+    if let Some(table) = element.reactions_to(id) {
+        edges.retain(|(cause, _)| match cause {
+            Cause::Event(_, event) => table.target(Some(*event)).is_none(),
+            _ => table.on_miss.is_none(),
+        });
+    }
+    edges
+}
+
+/// The edges by which an element replaces those of global supervisors.
+fn replacing(node: Node, element: &Element) -> impl Iterator<Item = (Cause, Target)> {
+    let tables = element.reactions.iter().flat_map(|table| {
+        let events = (0..).map(Some).take(table.events.len()).chain([None]);
+        events.filter_map(move |event| Some((table.supervisor, event, table.target(event)?)))
+    });
+    let id = u16::try_from(node).ok().map(ElementId);
+    tables.filter_map(move |(supervisor, event, to)| Some((Cause::On(id?, supervisor, event), to)))
+}
+
+/// The entries that edges write without interrupting; warns of those that write nothing.
 fn written(
     view: &View<'_>,
-    supervisors: impl Iterator<Item = SupervisorId>,
+    edges: impl Iterator<Item = (Cause, Target)>,
     diags: &mut Diagnostics,
 ) -> BTreeSet<EntryId> {
     let mut written = BTreeSet::new();
-    for id in supervisors {
-        let supervisor = view.supervisor(id);
-        let events = (0..).zip(&supervisor.events);
-        let events = events.map(|(event, target)| (Cause::Event(id, event), *target));
-        for (cause, target) in events.chain(supervisor.on_miss.map(|to| (Cause::Miss(id), to))) {
-            let (run, _) = chain(&view.plan.elements, target);
-            let resumes = target == Target::Resume || run.iter().any(|id| view.resumes(id.index()));
-            if !resumes {
-                continue;
-            }
-            let computed = run.iter().flat_map(|id| &view.plan.elements[id.index()].outputs);
-            let before = written.len();
-            let own: Vec<_> = view.writes(cause).map(|output| output.entry).collect();
-            let nothing = own.is_empty() && run.is_empty();
-            written.extend(own.into_iter().chain(computed.map(|output| output.entry)));
-            if nothing && written.len() == before {
-                let message = format!("'{}' resumes with nothing written", view.label(cause));
-                diags.push(
-                    Diagnostic::new(Code::E0316, view.span(cause), message)
-                        .help("write 'ignore', which says the same, or lead the event to a computation that writes"),
-                );
-            }
+    for (cause, target) in edges {
+        let (run, _) = chain(&view.plan.elements, target);
+        let resumes = target == Target::Resume || run.iter().any(|id| view.resumes(id.index()));
+        if !resumes {
+            continue;
+        }
+        let computed = run.iter().flat_map(|id| &view.plan.elements[id.index()].outputs);
+        let before = written.len();
+        let own: Vec<_> = view.writes(cause).map(|output| output.entry).collect();
+        let nothing = own.is_empty() && run.is_empty();
+        written.extend(own.into_iter().chain(computed.map(|output| output.entry)));
+        if nothing && written.len() == before {
+            let message = format!("'{}' resumes with nothing written", view.label(cause));
+            diags.push(
+                Diagnostic::new(Code::E0316, view.span(cause), message)
+                    .help("write 'ignore', which says the same, or lead the event to a computation that writes"),
+            );
         }
     }
     written

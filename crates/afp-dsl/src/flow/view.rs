@@ -1,8 +1,9 @@
 //! A plan as a plain graph of nodes and edges, which is what searches need.
 //!
 //! Beside the elements there are four nodes: "anywhere", which stands for every actor and sub-plan
-//! at once and is where the events of global supervisors begin, the two endings, and `fail`. Edges
-//! to `ignore` and `resume` are left out: what goes on is where it was.
+//! at once and is where the events of global supervisors begin, the two endings, and `fail`. An event
+//! that some element replaces (`on`) has a node of its own, which stands for the others. Edges to
+//! `ignore` and `resume` are left out: what goes on is where it was.
 
 use crate::check::constant::evaluate;
 use crate::flow::{FAILED, INTERRUPTED, Model, OK, Summary};
@@ -27,6 +28,8 @@ pub(crate) enum Cause {
     Event(SupervisorId, u16),
     /// A supervisor misses its deadline.
     Miss(SupervisorId),
+    /// A global supervisor reports an event, or misses its deadline, to which an element reacts by itself.
+    On(ElementId, SupervisorId, Option<u16>),
     /// An actor or sub-plan is active, so global supervisors are asked.
     Active(ElementId),
 }
@@ -54,6 +57,8 @@ pub(crate) struct View<'a> {
     pub edges: Vec<Edge>,
     /// Which nodes can be reached from `start`, by node.
     pub reached: Vec<bool>,
+    /// The events, or missed deadlines, that some element replaces.
+    replaced: Vec<(SupervisorId, Option<u16>)>,
     summaries: &'a [Option<Summary>],
     first: Vec<u32>,
 }
@@ -61,12 +66,14 @@ pub(crate) struct View<'a> {
 impl<'a> View<'a> {
     /// Looks at a plan; `summaries` holds those of its sub-plans, as far as they are known.
     pub fn new(model: &'a Model<'a>, plan: &'a Plan, summaries: &'a [Option<Summary>]) -> View<'a> {
-        let count = plan.elements.len() + 4;
+        let replaced = replaced(plan);
+        let count = plan.elements.len() + 4 + replaced.len();
         let mut view = View {
             plan,
             model,
             edges: Vec::new(),
             reached: vec![false; count],
+            replaced,
             summaries,
             first: Vec::with_capacity(count + 1),
         };
@@ -78,7 +85,12 @@ impl<'a> View<'a> {
         for place in 0..plan.globals {
             view.add_supervisor(view.anywhere(), SupervisorId(place));
         }
-        view.first.resize(count + 1, view.edges.len() as u32);
+        view.first.resize(view.kept_by_some(0) + 1, view.edges.len() as u32);
+        for at in 0..view.replaced.len() {
+            let (id, event) = view.replaced[at];
+            view.add_outcome(view.kept_by_some(at), id, event);
+            view.first.push(view.edges.len() as u32);
+        }
         view.reach();
         view
     }
@@ -98,18 +110,47 @@ impl<'a> View<'a> {
             self.add_supervisor(node, *supervisor);
         }
         if takes_time(element) {
-            let to = self.anywhere();
-            self.edges.push(Edge { cause: Cause::Active(id), from: node, to, possible: true });
+            self.activate(node, self.anywhere(), id);
+            for at in 0..self.replaced.len() {
+                let (supervisor, event) = self.replaced[at];
+                let table = element.reactions_to(supervisor);
+                match table.and_then(|table| table.target(event)) {
+                    Some(target) => {
+                        let cause = Cause::On(id, supervisor, event);
+                        self.add(cause, node, target, INTERRUPTED, true);
+                    }
+                    None => self.activate(node, self.kept_by_some(at), id),
+                }
+            }
         }
     }
 
+    fn activate(&mut self, from: Node, to: Node, id: ElementId) {
+        self.edges.push(Edge { cause: Cause::Active(id), from, to, possible: true });
+    }
+
     fn add_supervisor(&mut self, from: Node, id: SupervisorId) {
-        let supervisor = &self.plan.supervisors[id.index()];
-        for (event, target) in supervisor.events.iter().enumerate() {
-            self.add(Cause::Event(id, event as u16), from, *target, INTERRUPTED, true);
+        let events = 0..self.plan.supervisors[id.index()].events.len();
+        let events = events.map(|event| Some(event as u16)).chain([None]);
+        for event in events {
+            if !self.replaced.contains(&(id, event)) {
+                self.add_outcome(from, id, event);
+            }
         }
-        if let Some(target) = supervisor.on_miss {
-            self.add(Cause::Miss(id), from, target, INTERRUPTED, true);
+    }
+
+    /// The edge of an event, or of a missed deadline.
+    fn add_outcome(&mut self, from: Node, id: SupervisorId, event: Option<u16>) {
+        let supervisor = &self.plan.supervisors[id.index()];
+        let (cause, target) = match event {
+            Some(event) => {
+                let target = supervisor.events.get(usize::from(event)).copied();
+                (Cause::Event(id, event), target)
+            }
+            None => (Cause::Miss(id), supervisor.on_miss),
+        };
+        if let Some(target) = target {
+            self.add(cause, from, target, INTERRUPTED, true);
         }
     }
 
@@ -147,6 +188,33 @@ impl<'a> View<'a> {
         self.plan.elements.len()
     }
 
+    /// The node of a replaced event, which stands for all that keep the supervisor's own edge.
+    fn kept_by_some(&self, at: usize) -> Node {
+        self.plan.elements.len() + 4 + at
+    }
+
+    /// Whether a node stands for several actors and sub-plans, so that edges of global supervisors
+    /// begin there.
+    pub fn is_shared(&self, node: Node) -> bool {
+        node == self.anywhere() || node >= self.kept_by_some(0)
+    }
+
+    /// The edges of global supervisors that hold while an element is active.
+    pub fn of_globals(&self, node: Node) -> impl Iterator<Item = &Edge> {
+        let own = self.from(node).iter();
+        own.flat_map(move |edge| match edge.cause {
+            Cause::On(..) => std::slice::from_ref(edge),
+            Cause::Active(_) => self.from(edge.to),
+            _ => &[],
+        })
+    }
+
+    /// All edges of global supervisors that are taken from somewhere.
+    pub fn of_all_globals(&self) -> impl Iterator<Item = &Edge> {
+        let reached = self.edges.iter().filter(|edge| self.reached[edge.from]);
+        reached.filter(|edge| self.is_shared(edge.from) || matches!(edge.cause, Cause::On(..)))
+    }
+
     /// The node of an ending: [`OK`], [`INTERRUPTED`] or [`FAILED`].
     pub fn end(&self, ending: usize) -> Node {
         self.plan.elements.len() + 1 + ending
@@ -182,12 +250,16 @@ impl<'a> View<'a> {
 
     /// The supervisors that are ever started: global ones, and those of reached elements.
     pub fn supervisors(&self) -> impl Iterator<Item = &'a Supervisor> {
-        let plan = self.plan;
-        let started = |supervisor: &&Supervisor| match supervisor.owner {
+        self.numbered_supervisors().map(|(_, supervisor)| supervisor)
+    }
+
+    /// The same with their numbers.
+    pub fn numbered_supervisors(&self) -> impl Iterator<Item = (SupervisorId, &'a Supervisor)> {
+        let all = (0..).map(SupervisorId).zip(&self.plan.supervisors);
+        all.filter(|(_, supervisor)| match supervisor.owner {
             Some(owner) => self.reached[owner.index()],
             None => true,
-        };
-        plan.supervisors.iter().filter(started)
+        })
     }
 
     /// The elements that can be reached, with their nodes.
@@ -214,6 +286,12 @@ impl<'a> View<'a> {
         }
     }
 
+    /// Whether an event happens once, so that it does not still hold a moment later.
+    pub fn is_once(&self, id: SupervisorId, event: u16) -> bool {
+        let template = self.model.template(self.supervisor(id).template);
+        template.outcomes.get(usize::from(event)).is_some_and(|event| event.once)
+    }
+
     /// The outputs that are committed when an edge is taken.
     pub fn writes(&self, cause: Cause) -> impl Iterator<Item = &'a Output> {
         let (outputs, carried): (&[Output], _) = match cause {
@@ -221,13 +299,15 @@ impl<'a> View<'a> {
                 let element = &self.plan.elements[id.index()];
                 (&element.outputs, self.carried(element, state))
             }
-            Cause::Event(id, event) => {
+            Cause::Event(id, event) | Cause::On(_, id, Some(event)) => {
                 let supervisor = self.supervisor(id);
                 let template = self.model.template(supervisor.template);
                 let on = template.outputs.iter().map(|port| port.on.contains(&event));
                 (&supervisor.outputs, on.collect())
             }
-            Cause::Error(_) | Cause::Miss(_) | Cause::Active(_) => (&[], Vec::new()),
+            Cause::Error(_) | Cause::Miss(_) | Cause::On(..) | Cause::Active(_) => {
+                (&[], Vec::new())
+            }
         };
         outputs
             .iter()
@@ -258,12 +338,17 @@ impl<'a> View<'a> {
                 let supervisor = self.supervisor(id);
                 (&supervisor.edges, supervisor.span)
             }
+            Cause::On(element, id, _) => {
+                let element = &self.plan.elements[element.index()];
+                let Some(table) = element.reactions_to(id) else { return element.span };
+                (&table.edges, table.span)
+            }
         };
         let written = match cause {
-            Cause::State(_, place) | Cause::Event(_, place) => {
+            Cause::State(_, place) | Cause::Event(_, place) | Cause::On(_, _, Some(place)) => {
                 edges.outcomes.get(usize::from(place)).copied().flatten()
             }
-            Cause::Error(_) | Cause::Miss(_) => edges.extra,
+            Cause::Error(_) | Cause::Miss(_) | Cause::On(_, _, None) => edges.extra,
             Cause::Active(_) => None,
         };
         written.unwrap_or(own)
@@ -277,12 +362,14 @@ impl<'a> View<'a> {
                 format!("{}.{}", element.name, self.state_name(element, state))
             }
             Cause::Error(id) => format!("{}.Error", self.plan.elements[id.index()].name),
-            Cause::Event(id, event) => {
+            Cause::Event(id, event) | Cause::On(_, id, Some(event)) => {
                 let template = self.model.template(self.supervisor(id).template);
                 let name = template.outcomes.get(usize::from(event)).map_or("", |e| &e.name);
                 format!("{}.{name}", self.supervisor_path(id))
             }
-            Cause::Miss(id) => format!("{}.DeadlineMissed", self.supervisor_path(id)),
+            Cause::Miss(id) | Cause::On(_, id, None) => {
+                format!("{}.DeadlineMissed", self.supervisor_path(id))
+            }
             Cause::Active(id) => self.plan.elements[id.index()].name.clone(),
         }
     }
@@ -314,6 +401,19 @@ impl<'a> View<'a> {
         let end = if node == self.end(FAILED) { "fail" } else { "terminate" };
         self.element(node).map_or(end, |element| &element.name)
     }
+}
+
+/// The events of global supervisors, and missed deadlines, that some element replaces.
+fn replaced(plan: &Plan) -> Vec<(SupervisorId, Option<u16>)> {
+    let mut replaced = Vec::new();
+    for table in plan.elements.iter().flat_map(|element| &element.reactions) {
+        let events = (0..).zip(&table.events).filter(|(_, target)| target.is_some());
+        replaced.extend(events.map(|(event, _)| (table.supervisor, Some(event))));
+        replaced.extend(table.on_miss.map(|_| (table.supervisor, None)));
+    }
+    replaced.sort_unstable();
+    replaced.dedup();
+    replaced
 }
 
 /// Whether an element is an actor or a sub-plan, so that supervisors watch it.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::graph::{
     Component, Element, Entry, EntryKind, Formula, FormulaKind, Graph, Operator, Output, Plan,
-    Supervisor, Target, TemplateId,
+    Reactions, Supervisor, Target, TemplateId,
 };
 use crate::types::text::{self, duration};
 use crate::types::{Conversion, Type};
@@ -95,6 +95,9 @@ impl Dump<'_> {
         };
         let generic = generic(element.generic.as_ref());
         self.line(1, &format!("{keyword} {}: {}{generic}", element.name, named.head));
+        if let Component::Computation(id) = element.component {
+            self.table(id);
+        }
         self.binds(&named, &element.inputs, &element.outputs);
         for (state, target) in named.outcomes.iter().zip(&element.states) {
             if let Some(target) = target {
@@ -106,6 +109,30 @@ impl Dump<'_> {
         }
         for id in &element.supervisors {
             self.supervisor(2, &self.plan.supervisors[id.index()]);
+        }
+        for table in &element.reactions {
+            self.reactions(table);
+        }
+    }
+
+    fn reactions(&mut self, table: &Reactions) {
+        let supervisor = &self.plan.supervisors[table.supervisor.index()];
+        let named = self.of_template(supervisor.template);
+        self.line(2, &format!("on {}", supervisor.name));
+        let events = named.outcomes.iter().zip(&table.events);
+        let events = events.map(|(event, target)| (event.as_str(), *target));
+        for (event, target) in events.chain([("DeadlineMissed", table.on_miss)]) {
+            if let Some(target) = target {
+                self.edge(event, target);
+            }
+        }
+    }
+
+    /// The table that a template reads.
+    fn table(&mut self, id: TemplateId) {
+        let reads = self.graph.template(id).reads_table.as_ref();
+        if let Some(table) = reads.and_then(|reads| reads.table.as_ref()) {
+            self.line(3, &format!("table = {} ({} rows)", table.name, table.rows.len()));
         }
     }
 

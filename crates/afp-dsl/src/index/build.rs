@@ -37,11 +37,8 @@ fn ids() -> impl Iterator<Item = DefinitionId> {
 
 /// The places of the names that refer to each definition, and where those of each definition begin.
 fn uses(names: &[Name], definitions: usize) -> (Vec<u32>, Vec<u32>) {
-    let refers = |(at, name): (u32, &Name)| match name.meaning {
-        Meaning::Refers(id) => Some((id.index(), at)),
-        _ => None,
-    };
-    let referring = || (0..).zip(names).filter_map(refers);
+    let of = |(at, name): (u32, &Name)| name.meaning.referred().map(move |id| (id.index(), at));
+    let referring = || (0..).zip(names).flat_map(of);
     let mut first = vec![0_u32; definitions + 1];
     referring().for_each(|(id, _)| first[id + 1] += 1);
     for id in 0..definitions {
@@ -62,6 +59,9 @@ fn names(
     meanings: &Meanings,
     known: &dyn Fn(Span) -> Option<DefinitionId>,
 ) -> Vec<Name> {
+    let ports = meanings.alone.iter();
+    let ports = ports.filter_map(|(name, port)| Some((key(*name), known(*port)?)));
+    let alone: FxHashMap<u64, DefinitionId> = ports.collect();
     let mut names = Vec::with_capacity(own.len() + meanings.names.len());
     let mut declared = ids().zip(own).peekable();
     for (span, found) in &meanings.names {
@@ -78,9 +78,10 @@ fn names(
             Found::Word(word) => Meaning::Word(*word),
             Found::File(file) => Meaning::File(*file),
             Found::Several(place) => Meaning::Ambiguous(Candidates(*place)),
-            Found::Definition(definition) => {
-                known(*definition).map_or(Meaning::Unknown, Meaning::Refers)
-            }
+            Found::Definition(definition) => match (known(*definition), alone.get(&key(*span))) {
+                (Some(entry), Some(port)) => Meaning::Both { entry, port: *port },
+                (known, _) => known.map_or(Meaning::Unknown, Meaning::Refers),
+            },
         };
         names.push(Name { span: *span, meaning });
     }

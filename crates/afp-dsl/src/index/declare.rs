@@ -2,7 +2,7 @@
 
 use super::DefinitionKind;
 use super::record::{Found, Meanings};
-use crate::outline::{Component, Outline, Plan};
+use crate::outline::{Component, Outline, Plan, Table};
 use crate::toolbox::{DeviceKind, TemplateKind};
 use afp_syntax::ast::{self, DevicePart, Item, Part};
 use afp_syntax::source::Span;
@@ -64,6 +64,7 @@ pub(super) fn of_outline(outline: &Outline, meanings: &Meanings, all: &mut Vec<D
             }
             values(&each.variants, name, all);
         }
+        file.tables.iter().for_each(|table| of_table(table, all));
         for scenario in &file.scenarios {
             if let Some(name) = &scenario.name {
                 let plan = scenario.plan.and_then(|plan| outline.plan(plan).name.as_ref());
@@ -75,6 +76,18 @@ pub(super) fn of_outline(outline: &Outline, meanings: &Meanings, all: &mut Vec<D
     for plan in &outline.plans {
         of_plan(plan, &meant, all);
     }
+}
+
+fn of_table(table: &Table, all: &mut Vec<Declared>) {
+    let owner = table.name.as_ref().map(|name| name.span);
+    if let Some(name) = owner {
+        all.push(Declared::new(DefinitionKind::Table, name, table.span).doc(&table.doc));
+    }
+    all.extend(table.columns.iter().map(|column| {
+        let one = Declared::new(DefinitionKind::Column, column.name.span, column.span);
+        let ty = column.ty.as_ref().and_then(|ty| ty.declaration());
+        one.doc(&column.doc).owner(owner).made_from(ty)
+    }));
 }
 
 fn of_plan(plan: &Plan, meant: &dyn Fn(Span) -> Option<Span>, all: &mut Vec<Declared>) {
@@ -152,7 +165,7 @@ pub(crate) fn of_toolbox(items: &[Item], meanings: &Meanings) -> Vec<Declared> {
             }
             Item::Template(node) => of_template(node, owner, meanings, &mut all),
             Item::Device(node) => of_device(node, owner, &mut all),
-            Item::Use(_) | Item::Plan(_) | Item::Scenario(_) => {}
+            Item::Use(_) | Item::Plan(_) | Item::Scenario(_) | Item::Table(_) => {}
         }
     }
     all

@@ -34,6 +34,8 @@ pub(crate) struct Records {
     pub names: Vec<(Span, Found)>,
     /// The definitions that ambiguous names may mean.
     pub several: Vec<Vec<Span>>,
+    /// Names that are bindings by themselves, each with the name of its port, in no order.
+    pub alone: Vec<(Span, Span)>,
 }
 
 /// Takes down what names mean. It is handed around as a shared reference, since what resolves names
@@ -45,12 +47,18 @@ impl Recorder {
     /// A recorder for a text of so many bytes, which has a name in a dozen of them.
     pub fn for_text(bytes: usize) -> Recorder {
         let names = Vec::with_capacity(bytes / 12);
-        Recorder(RefCell::new(Records { names, several: Vec::new() }))
+        Recorder(RefCell::new(Records { names, ..Records::default() }))
     }
 
     /// A name means the definition whose own name stands at `definition`.
     pub fn definition(&self, name: Span, definition: Span) {
         self.record(name, Found::Definition(definition));
+    }
+
+    /// A name is a binding by itself: beside the entry, which is recorded as any other, it means the port whose own
+    /// name stands at `port`.
+    pub fn alone(&self, name: Span, port: Span) {
+        self.0.borrow_mut().alone.push((name, port));
     }
 
     /// A name may mean any of several definitions.
@@ -93,12 +101,14 @@ pub(crate) struct Meanings {
     pub names: Vec<(Span, Found)>,
     /// The definitions that ambiguous names may mean.
     pub several: Vec<Vec<Span>>,
+    /// Names that are bindings by themselves, each with the name of its port.
+    pub alone: Vec<(Span, Span)>,
 }
 
 impl Meanings {
     /// Puts records in order.
     pub fn new(records: Records) -> Meanings {
-        let Records { mut names, several } = records;
+        let Records { mut names, several, alone } = records;
         sort(&mut names);
         // Of several findings the greatest one counts.
         names.dedup_by(|next, kept| {
@@ -108,7 +118,7 @@ impl Meanings {
             }
             same
         });
-        Meanings { names, several }
+        Meanings { names, several, alone }
     }
 
     /// Adds what is said of files that come behind those so far.
@@ -119,6 +129,7 @@ impl Meanings {
             found => (name, found),
         }));
         self.several.extend(other.several);
+        self.alone.extend(other.alone);
     }
 
     /// What the name at a place means.

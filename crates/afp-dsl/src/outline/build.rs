@@ -2,8 +2,8 @@
 
 use super::read::Reader;
 use super::{
-    Component, Destination, ElementId, Entry, EntryId, Enum, File, Findings, Outline, Plan, PlanId,
-    Scenario, Start, Target, Use, Value,
+    Column, Component, Destination, ElementId, Entry, EntryId, Enum, File, Findings, Outline, Plan,
+    PlanId, Scenario, Start, Table, Target, Use, Value,
 };
 use crate::check::{Member, Members, PlanHead, Program};
 use crate::gather::PlanFile;
@@ -57,11 +57,12 @@ fn file(
     let mut read = File { file: file.index, path: file.path.clone(), ..File::default() };
     let heads = material.program.plans.iter().enumerate();
     read.plans = heads.filter(|(_, h)| h.file == at).map(|(at, _)| PlanId::new(at)).collect();
-    let mut enums = Vec::new();
+    let (mut enums, mut tables) = (Vec::new(), Vec::new());
     for item in file.tree.items() {
         match item {
             ast::Item::Use(line) => read.uses.push(used(material, &line)),
             ast::Item::Enum(node) => enums.push(node),
+            ast::Item::Table(node) => tables.push(node),
             ast::Item::Scenario(node) => {
                 let reference = node.plan().and_then(|plan| plan.name());
                 let found = reference.and_then(|name| material.meanings.get(name.span));
@@ -90,7 +91,30 @@ fn file(
             findings: Findings::default(),
         })
         .collect();
+    read.tables = self::tables(material, &tables);
     read
+}
+
+fn tables(material: &Material<'_>, nodes: &[ast::Table]) -> Vec<Table> {
+    let names: Vec<_> = nodes.iter().map(ast::Table::name).collect();
+    let items = numbered(names.iter().map(Option::as_ref));
+    let known = || material.program.files.iter().flat_map(|file| &file.tables);
+    let known = || known().flat_map(|table| &table.columns);
+    let column = |node: ast::Column| {
+        let name = node.name()?;
+        let ty = known().find(|column| column.span == name.span).and_then(|it| it.ty.clone());
+        Some(Column { name, doc: node.doc(), span: node.span(), ty })
+    };
+    let tables = items.zip(nodes).zip(&names).map(|((item, node), name)| Table {
+        item: Item::table(item),
+        name: name.clone(),
+        doc: node.doc(),
+        note: node.note(),
+        span: node.span(),
+        columns: node.columns().into_iter().filter_map(column).collect(),
+        findings: Findings::default(),
+    });
+    tables.collect()
 }
 
 fn used(material: &Material<'_>, line: &ast::Use) -> Use {
@@ -133,7 +157,10 @@ fn plan(material: &Material<'_>, head: &PlanHead, members: Members, item: String
         elements: elements
             .map(|((node, mut member), own)| {
                 let supervisors = locals(&reader, node, std::mem::take(&mut member.locals), &own);
-                Component { supervisors, ..reader.element(node, member, Item::inner(&item, own)) }
+                let tables = std::mem::take(&mut member.reactions);
+                let reactions = reactions(&reader, node, tables, &own);
+                let element = reader.element(node, member, Item::inner(&item, own));
+                Component { supervisors, reactions, ..element }
             })
             .collect(),
         name: head.name.clone(),
@@ -162,6 +189,22 @@ fn locals(
     let guards = guards.iter().zip(members).zip(items);
     let read = guards.map(|((node, member), own)| {
         reader.guard(node, member, Item::local(reader.plan, owner, own))
+    });
+    read.collect()
+}
+
+/// The reactions of an element.
+fn reactions(
+    reader: &Reader<'_>,
+    node: &ast::Element,
+    members: Vec<Member>,
+    owner: &str,
+) -> Vec<Component> {
+    let items: Vec<_> = numbered(members.iter().map(|member| member.name.as_ref())).collect();
+    let nodes = node.reactions();
+    let nodes = nodes.iter().zip(members).zip(items);
+    let read = nodes.map(|((node, member), own)| {
+        reader.reactions(node, member, Item::reactions(reader.plan, owner, &own))
     });
     read.collect()
 }

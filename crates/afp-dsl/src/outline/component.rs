@@ -37,6 +37,9 @@ pub struct Component {
     pub exits: Vec<Exit>,
     /// Its local supervisors as written.
     pub supervisors: Vec<Component>,
+    /// Its reactions to supervisors of the plan as written: each has the supervisor's name and the
+    /// edges that are written, and goes by `on NAME` in its path.
+    pub reactions: Vec<Component>,
     /// When it is polled; supervisors only.
     pub times: Option<Times>,
     /// The place of the brackets with its bindings.
@@ -58,6 +61,8 @@ pub enum ComponentKind {
     SubPlan,
     /// Watches.
     Supervisor,
+    /// What an element does instead where a supervisor of the plan reports something.
+    Reactions,
 }
 
 /// What a component is made from.

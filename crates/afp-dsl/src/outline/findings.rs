@@ -48,6 +48,9 @@ impl Outline {
             for each in &mut file.enums {
                 see(each.span, &mut each.findings);
             }
+            for table in &mut file.tables {
+                see(table.span, &mut table.findings);
+            }
             for scenario in &mut file.scenarios {
                 see(scenario.span, &mut scenario.findings);
             }
@@ -84,8 +87,8 @@ fn visit(component: &mut Component, see: &mut dyn FnMut(Span, &mut Findings)) {
             see(edge.span, &mut exit.findings);
         }
     }
-    for supervisor in &mut component.supervisors {
-        visit(supervisor, see);
+    for inner in component.supervisors.iter_mut().chain(&mut component.reactions) {
+        visit(inner, see);
     }
 }
 

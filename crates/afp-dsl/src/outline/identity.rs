@@ -1,6 +1,6 @@
 //! From places in the text to items and parts of them, and back.
 
-use super::{Component, Outline, Plan};
+use super::{Component, File, Outline, Plan};
 use afp_syntax::item::Item;
 use afp_syntax::source::Span;
 
@@ -51,11 +51,14 @@ impl Outline {
         let place = Span { file, start: offset, end: offset };
         let covers = |span: Span| span.contains(place);
         let made = |(item, part): (&Item, Part)| Identity { file, item: item.clone(), part };
-        let enums = self.files.iter().filter(|each| each.file == file).flat_map(|each| &each.enums);
-        if let Some(found) = enums.into_iter().find(|each| covers(each.span)) {
-            return Some(made((&found.item, Part::Whole)));
+        let own = self.files.iter().filter(|each| each.file == file);
+        let mut outer = own.flat_map(|each| each.outer_items());
+        if let Some((item, _)) = outer.find(|(_, span)| covers(*span)) {
+            return Some(made((item, Part::Whole)));
         }
-        let plan = self.plans.iter().find(|plan| covers(plan.span))?;
+        // One that stands in another one, where it has no place, begins behind it.
+        let around = self.plans.iter().filter(|plan| covers(plan.span));
+        let plan = around.max_by_key(|plan| plan.span.start)?;
         let starts = (1..).zip(&plan.starts).find(|(_, start)| covers(start.span));
         if let Some((nth, _)) = starts {
             return Some(made((&plan.item, Part::Start(nth))));
@@ -75,9 +78,9 @@ impl Outline {
     /// The place of an item or part: of the whole of it, without comments around it.
     pub fn span_of(&self, identity: &Identity) -> Option<Span> {
         let Identity { file, item, part } = identity;
-        if let Item::Enum { .. } = item {
+        if let Item::Enum { .. } | Item::Table { .. } = item {
             let own = self.files.iter().find(|each| each.file == *file)?;
-            return own.enums.iter().find(|each| each.item == *item).map(|each| each.span);
+            return own.outer_items().find(|(known, _)| *known == item).map(|(_, span)| span);
         }
         let plan = self.plan_of(*file, item)?;
         match part {
@@ -99,6 +102,14 @@ impl Outline {
     pub fn plan_of(&self, file: u16, item: &Item) -> Option<&Plan> {
         let name = item.plan_name();
         self.plans.iter().find(|plan| plan.file() == file && plan.item.name() == name)
+    }
+}
+
+impl File {
+    /// The enums and tables, each with its place.
+    fn outer_items(&self) -> impl Iterator<Item = (&Item, Span)> {
+        let enums = self.enums.iter().map(|each| (&each.item, each.span));
+        enums.chain(self.tables.iter().map(|each| (&each.item, each.span)))
     }
 }
 

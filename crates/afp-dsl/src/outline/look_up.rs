@@ -27,10 +27,11 @@ impl Plan {
         self.span.file
     }
 
-    /// Elements and supervisors: the global supervisors, then each element with its own ones.
+    /// Elements and supervisors: the global supervisors, then each element with its own ones and its
+    /// reactions.
     pub fn components(&self) -> impl Iterator<Item = &Component> {
         let elements = self.elements.iter();
-        let elements = elements.flat_map(|one| std::iter::once(one).chain(&one.supervisors));
+        let elements = elements.flat_map(|one| std::iter::once(one).chain(one.inner()));
         self.supervisors.iter().chain(elements)
     }
 
@@ -42,6 +43,11 @@ impl Plan {
 }
 
 impl Component {
+    /// What stands in its braces besides edges: supervisors and reactions.
+    pub fn inner(&self) -> impl Iterator<Item = &Component> {
+        self.supervisors.iter().chain(&self.reactions)
+    }
+
     /// The template that it is made from, unless it is a plan or unknown.
     pub fn template(&self) -> Option<&Template> {
         match self.template.as_ref()?.made_from.as_ref()? {
@@ -84,6 +90,7 @@ impl ComponentKind {
             ComponentKind::Computation => "computation",
             ComponentKind::SubPlan => "subplan",
             ComponentKind::Supervisor => "supervise",
+            ComponentKind::Reactions => "on",
         }
     }
 }

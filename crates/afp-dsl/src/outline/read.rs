@@ -8,6 +8,7 @@ use super::{
     Binding, Component, ComponentKind, Edge, Exit, ExitKind, Findings, Input, MadeFrom, Output,
     PlanId, Target, TemplateUse, Value,
 };
+use crate::check::bindings;
 use crate::check::edges::{self, WrittenEdge};
 use crate::check::signature::{Signature, SignatureKind};
 use crate::check::{Made, Member};
@@ -31,6 +32,11 @@ impl Reader<'_> {
 
     /// A supervisor.
     pub fn guard(&self, node: &ast::Guard, member: Member, item: Item) -> Component {
+        self.component(member, item, node.frame())
+    }
+
+    /// Reactions to a supervisor.
+    pub fn reactions(&self, node: &ast::Reactions, member: Member, item: Item) -> Component {
         self.component(member, item, node.frame())
     }
 
@@ -61,6 +67,7 @@ impl Reader<'_> {
             outputs,
             exits,
             supervisors: Vec::new(),
+            reactions: Vec::new(),
             times: made.times,
             args_span: frame.args_span,
             end_span: frame.end_span,
@@ -75,7 +82,11 @@ impl Reader<'_> {
             Some(signature) => declared(signature, made.generic.as_ref()),
             None => (Vec::new(), Vec::new()),
         };
-        for bind in binds {
+        let binds = match signature {
+            Some(signature) => bindings::meant(signature, binds),
+            None => binds.into(),
+        };
+        for bind in &*binds {
             let binding = Some(self.binding(bind));
             match bind {
                 Bind::In { port, .. } => {
@@ -136,7 +147,7 @@ impl Reader<'_> {
         edges: Vec<WrittenEdge>,
         signature: Option<&Rc<Signature>>,
     ) -> Vec<Exit> {
-        let supervisor = kind == ComponentKind::Supervisor;
+        let supervisor = matches!(kind, ComponentKind::Supervisor | ComponentKind::Reactions);
         let (usual, special_kind) = match supervisor {
             true => (ExitKind::Event, ExitKind::Missed),
             false => (ExitKind::State, ExitKind::Error),
@@ -223,7 +234,15 @@ fn declared(signature: &Signature, generic: Option<&Type>) -> (Vec<Input>, Vec<O
         ty: actual(&port.ty),
         ..output(port.name.clone())
     });
-    (inputs.collect(), outputs.collect())
+    (table(signature).into_iter().chain(inputs).collect(), outputs.collect())
+}
+
+/// The port that takes a table, which the signature with its columns does not have.
+fn table(signature: &Signature) -> Option<Input> {
+    let reads = signature.template()?.reads_table.as_ref()?;
+    reads.table.as_ref()?;
+    let (name, declared) = (reads.port.name.as_str().into(), Some(reads.port.span));
+    Some(Input { declared, required: true, ..input(name) })
 }
 
 fn input(name: Arc<str>) -> Input {

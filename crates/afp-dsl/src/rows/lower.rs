@@ -40,11 +40,28 @@ fn rows(graph: &Graph, plan: &Plan, children: &[Child]) -> Option<Rows> {
         rows.supervisors.push(row);
     }
     for (supervisor, there) in elsewhere {
-        let wanted = wanted(&plan.supervisors[supervisor.index()], Some(there))?;
-        let row = rows.supervisors[supervisor.index()].clone();
-        rows.supervisors.push(SupervisorRow { wanted, wanted_in_look: wanted, ..row });
+        let row = row_at(&mut rows, plan, supervisor, there)?;
+        rows.supervisors.push(row);
     }
     Some(rows)
+}
+
+/// The row of a global supervisor while an element is active.
+fn row_at(
+    rows: &mut Rows,
+    plan: &Plan,
+    supervisor: SupervisorId,
+    there: ElementId,
+) -> Option<SupervisorRow> {
+    let row = rows.supervisors.get(supervisor.index())?.clone();
+    let targets = plan.events_at(supervisor, there);
+    let wanted = wanted(&targets, Some(there))?;
+    let row = SupervisorRow { wanted, wanted_in_look: wanted, ..row };
+    if plan.elements[there.index()].reactions_to(supervisor).is_none() {
+        return Some(row);
+    }
+    let events = append(&mut rows.edges, targets.into_iter().map(Some))?;
+    Some(SupervisorRow { events, on_miss: plan.miss_at(supervisor, there), ..row })
 }
 
 /// The row of an element, without what the whole plan decides.
@@ -101,7 +118,7 @@ fn add_supervisor(
     index: usize,
 ) -> Option<SupervisorRow> {
     let index = u16::try_from(index).ok()?;
-    let wanted_in_look = wanted(supervisor, supervisor.owner)?;
+    let wanted_in_look = wanted(&supervisor.events, supervisor.owner)?;
     let slot = match supervisor.owner {
         None => index,
         Some(owner) => {
@@ -117,7 +134,7 @@ fn add_supervisor(
         slot,
         events: append(&mut rows.edges, supervisor.events.iter().copied().map(Some))?,
         on_miss: supervisor.on_miss,
-        wanted: wanted(supervisor, None)?,
+        wanted: wanted(&supervisor.events, None)?,
         wanted_in_look,
     })
 }

@@ -21,7 +21,8 @@ pub(crate) enum Table {
     Elements,
     /// Supervisors.
     Supervisors,
-    /// Supervisors, the global ones once more for each element that their events lead to.
+    /// Supervisors, the global ones once more for each element that their events lead to or that
+    /// reacts to them.
     Watches,
     /// States of elements and events of supervisors.
     Edges,
@@ -35,6 +36,8 @@ pub(crate) enum Table {
 pub(crate) fn tables(plan: &Plan) -> [(Table, usize); 7] {
     let states = plan.elements.iter().map(|element| element.states.len());
     let events = plan.supervisors.iter().map(|supervisor| supervisor.events.len());
+    let reactions = plan.elements.iter().flat_map(|element| &element.reactions);
+    let reactions = reactions.map(|table| table.events.len());
     let watched = plan.elements.iter().filter(|element| has_sweep(element.component));
     let polled = watched.map(|element| usize::from(plan.globals) + element.supervisors.len());
     [
@@ -42,7 +45,7 @@ pub(crate) fn tables(plan: &Plan) -> [(Table, usize); 7] {
         (Table::Elements, plan.elements.len()),
         (Table::Supervisors, plan.supervisors.len()),
         (Table::Watches, plan.supervisors.len() + elsewhere(plan).len()),
-        (Table::Edges, states.chain(events).sum()),
+        (Table::Edges, states.chain(events).chain(reactions).sum()),
         (Table::Reasons, plan.reasons.len()),
         (Table::Sweeps, polled.sum()),
     ]

@@ -3,32 +3,33 @@
 //! An event of a global supervisor is not taken where it leads to the element that is active already,
 //! nor is in the look one that would start its own element anew.
 
-use crate::graph::{ElementId, Plan, Supervisor, SupervisorId, Target};
+use crate::graph::{ElementId, Plan, SupervisorId, Target};
 use crate::rows::size::has_sweep;
 
 /// The events that lead to something other than `ignore` and the element `there`; `None` where they are
 /// too many for a set.
-pub(super) fn wanted(supervisor: &Supervisor, there: Option<ElementId>) -> Option<u64> {
+pub(super) fn wanted(events: &[Target], there: Option<ElementId>) -> Option<u64> {
     let mut bits = 0;
     let taken = |target: &Target| match target {
         Target::Ignore => false,
         Target::Element(to) => Some(*to) != there,
         Target::Terminate | Target::Fail(_) | Target::Resume => true,
     };
-    for (index, _) in supervisor.events.iter().enumerate().filter(|(_, target)| taken(target)) {
+    for (index, _) in events.iter().enumerate().filter(|(_, target)| taken(target)) {
         bits |= 1_u64.checked_shl(u32::try_from(index).ok()?)?;
     }
     Some(bits)
 }
 
-/// The global supervisors with each of the elements that events of theirs lead to: while such a one is
-/// active, these are not wanted.
+/// The global supervisors with each of the elements for which they have a row of their own: those that
+/// their events lead to, since these are not wanted there, and those with reactions to them.
 pub(super) fn elsewhere(plan: &Plan) -> Vec<(SupervisorId, ElementId)> {
     let mut pairs = Vec::new();
     let globals = plan.supervisors.iter().take(usize::from(plan.globals));
     for (supervisor, id) in globals.zip((0..).map(SupervisorId)) {
         let mut there: Vec<_> =
             supervisor.events.iter().filter_map(|to| watched(plan, *to)).collect();
+        there.extend(plan.reacting(id).map(|(element, _)| element));
         there.sort_unstable();
         there.dedup();
         pairs.extend(there.into_iter().map(|element| (id, element)));

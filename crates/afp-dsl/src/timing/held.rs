@@ -3,15 +3,15 @@
 
 use crate::flow;
 use crate::flow::view::View;
-use crate::graph::{Component, ElementId, Supervisor, Target, chain};
+use crate::graph::{Component, ElementId, SupervisorId, Target, chain};
 
 use super::cost::Cost;
 
 /// One poll of a supervisor with the longest of its chains.
-pub(super) fn poll(view: &View<'_>, supervisor: &Supervisor) -> Cost {
-    let targets = supervisor.events.iter().chain(&supervisor.on_miss);
-    let chains = targets.fold(Cost::ZERO, |most, target| most.or(&held(view, *target)));
-    Cost::budget(view.model.template(supervisor.template)).and(&chains)
+pub(super) fn poll(view: &View<'_>, id: SupervisorId) -> Cost {
+    let targets = view.plan.targets(id);
+    let chains = targets.fold(Cost::ZERO, |most, target| most.or(&held(view, target)));
+    Cost::budget(view.model.template(view.supervisor(id).template)).and(&chains)
 }
 
 /// Whether an edge of a supervisor can interrupt what it watches.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::flow::view::{Cause, Node, View, takes_time};
-use crate::graph::{Component, Element, Supervisor};
+use crate::graph::{Component, Element, SupervisorId};
 
 use super::StepParts;
 use super::cost::Cost;
@@ -96,7 +96,7 @@ impl Levels {
 
 fn level(view: &View<'_>, inner: &[Level]) -> Level {
     let plan = view.plan;
-    let globals = plan.supervisors[..usize::from(plan.globals)].iter();
+    let globals = (0..plan.globals).map(SupervisorId);
     let mut level = Level {
         globals: sum(view, globals.clone()),
         entering: Cost::ZERO,
@@ -111,12 +111,13 @@ fn level(view: &View<'_>, inner: &[Level]) -> Level {
     let costs = entering(view, inner);
     // Each global supervisor may divert once what is being entered.
     let diverted = diverted(view, &costs);
-    let by_global = behind(view, view.anywhere(), &costs, is_event);
     for (node, element) in view.elements() {
         let own = Own::of(view, element, inner);
         let supervised = locals(view, element);
         if takes_time(element) {
-            let by_event = behind(view, node, &costs, is_event).or(&by_global);
+            let by_event = view.of_globals(node).filter(|edge| is_event(edge.cause));
+            let by_event = by_event.fold(Cost::ZERO, |most, edge| most.or(&costs[edge.to]));
+            let by_event = by_event.or(&behind(view, node, &costs, is_event));
             let step = own.poll.and(&behind(view, node, &costs, is_state));
             let event = own.interrupt.and(&by_event);
             // A fault that nothing is connected to ends the plan.
@@ -149,7 +150,7 @@ fn level(view: &View<'_>, inner: &[Level]) -> Level {
 
 impl Level {
     fn take_demand(&mut self, view: &View<'_>, node: Node, element: &Element, own: &Own) {
-        let of_locals = share(view, local(view, element));
+        let of_locals = share(view, element.supervisors.iter().copied());
         let demand = own.demand + of_locals.0;
         let unknown = own.demand_unknown.clone().or(of_locals.1);
         self.demand_unknown = self.demand_unknown.take().or(unknown);
@@ -159,7 +160,7 @@ impl Level {
         }
     }
 
-    fn add_demand<'a>(&mut self, view: &View<'_>, globals: impl Iterator<Item = &'a Supervisor>) {
+    fn add_demand(&mut self, view: &View<'_>, globals: impl Iterator<Item = SupervisorId>) {
         let (demand, unknown) = share(view, globals);
         self.demand += demand;
         self.demand_unknown = self.demand_unknown.take().or(unknown);
@@ -211,35 +212,29 @@ impl Own {
     }
 }
 
-fn local<'a>(view: &View<'a>, element: &'a Element) -> impl Iterator<Item = &'a Supervisor> {
-    let plan = view.plan;
-    element.supervisors.iter().map(|id| &plan.supervisors[id.index()])
-}
-
 /// One poll of each supervisor of an element.
 pub(super) fn locals(view: &View<'_>, element: &Element) -> Cost {
-    let plan = view.plan;
-    sum(view, element.supervisors.iter().map(|id| &plan.supervisors[id.index()]))
+    sum(view, element.supervisors.iter().copied())
 }
 
-fn sum<'a>(view: &View<'_>, supervisors: impl Iterator<Item = &'a Supervisor>) -> Cost {
-    supervisors.fold(Cost::ZERO, |sum, supervisor| sum.and(&poll(view, supervisor)))
+fn sum(view: &View<'_>, supervisors: impl Iterator<Item = SupervisorId>) -> Cost {
+    supervisors.fold(Cost::ZERO, |sum, id| sum.and(&poll(view, id)))
 }
 
 /// The share of the processor that supervisors ask for.
-fn share<'a>(
+fn share(
     view: &View<'_>,
-    supervisors: impl Iterator<Item = &'a Supervisor>,
+    supervisors: impl Iterator<Item = SupervisorId>,
 ) -> (f64, Option<Arc<str>>) {
-    supervisors.fold((0.0, None), |(demand, unknown), supervisor| {
-        let own = poll(view, supervisor).known();
-        let share = own.as_ref().map_or(0.0, |own| *own as f64 / supervisor.every as f64);
+    supervisors.fold((0.0, None), |(demand, unknown), id| {
+        let (own, every) = (poll(view, id).known(), view.supervisor(id).every);
+        let share = own.as_ref().map_or(0.0, |own| *own as f64 / every as f64);
         (demand + share, unknown.or_else(|| own.err().map(Arc::from)))
     })
 }
 
 fn is_event(cause: Cause) -> bool {
-    matches!(cause, Cause::Event(..) | Cause::Miss(_))
+    matches!(cause, Cause::Event(..) | Cause::Miss(_) | Cause::On(..))
 }
 
 fn is_state(cause: Cause) -> bool {
@@ -259,8 +254,8 @@ fn behind(view: &View<'_>, node: Node, costs: &[Cost], kind: fn(Cause) -> bool) 
 /// What the events of all global supervisors may add to one step, each of them once.
 fn diverted(view: &View<'_>, costs: &[Cost]) -> Cost {
     let mut most: std::collections::BTreeMap<u16, Cost> = Default::default();
-    for edge in view.from(view.anywhere()) {
-        if let Cause::Event(id, _) = edge.cause {
+    for edge in view.of_all_globals() {
+        if let Cause::Event(id, _) | Cause::On(_, id, Some(_)) = edge.cause {
             let known = most.entry(id.0).or_insert(Cost::ZERO);
             *known = known.or(&costs[edge.to]);
         }

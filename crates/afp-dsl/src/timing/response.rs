@@ -26,8 +26,8 @@ pub(super) fn rows(
             if supervisor.owner.is_some_and(|owner| !view.reached[owner.index()]) {
                 continue;
             }
-            let response = response(view, supervisor, &outer.and(&before[at]), longest_step, tick);
-            let interruption = interruption(view, levels, place, supervisor, &response);
+            let response = response(view, id, &outer.and(&before[at]), longest_step, tick);
+            let interruption = interruption(view, levels, place, id, &response);
             rows.push(SupervisorTiming {
                 plan: view.plan.name.clone(),
                 path: view.supervisor_path(id),
@@ -44,12 +44,12 @@ pub(super) fn rows(
 
 fn response(
     view: &View<'_>,
-    supervisor: &Supervisor,
+    id: SupervisorId,
     before: &Cost,
     longest_step: &Cost,
     tick: u64,
 ) -> Result<Response, String> {
-    let own = poll(view, supervisor).known()?;
+    let own = poll(view, id).known()?;
     Ok(Response { tick, step: longest_step.known()?, before: before.known()?, own })
 }
 
@@ -64,7 +64,7 @@ fn before(view: &View<'_>) -> Vec<Cost> {
     for id in polling_order(plan, all) {
         let at = id.index();
         let supervisor = &plan.supervisors[at];
-        let budget = poll(view, supervisor);
+        let budget = poll(view, id);
         match supervisor.owner {
             None => {
                 before[at] = globals.and(&most_locals);
@@ -87,11 +87,11 @@ fn interruption(
     view: &View<'_>,
     levels: &Levels,
     place: usize,
-    supervisor: &Supervisor,
+    id: SupervisorId,
     response: &Result<Response, String>,
 ) -> Option<Interruption> {
-    let mut targets = supervisor.events.iter().chain(&supervisor.on_miss);
-    if !targets.any(|target| interrupts(view, *target)) {
+    let supervisor = view.supervisor(id);
+    if !view.plan.targets(id).any(|target| interrupts(view, target)) {
         return None;
     }
     let (interrupt, stop) = interrupted(view, levels, place, supervisor);

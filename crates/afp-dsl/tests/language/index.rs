@@ -85,6 +85,13 @@ fn dump(compiled: &Compiled) -> String {
                         place(compiled, definition.name)
                     )
                 }
+                Meaning::Both { entry, port } => {
+                    let both = [entry, port].map(|id| index.definition(id));
+                    let both = both.map(|it| {
+                        format!("{} ({})", shown(compiled, it), place(compiled, it.name))
+                    });
+                    both.join(" for ")
+                }
                 Meaning::Ambiguous(candidates) => {
                     let all = index.candidates(candidates).iter();
                     let all = all.map(|id| shown(compiled, index.definition(*id)));
@@ -131,7 +138,10 @@ pub fn examine(text: &str, compiled: &Compiled) {
         assert_eq!(own.meaning, Meaning::Declares(id));
         assert!(definition.span.contains(definition.name), "{definition:?} of\n{text}");
         for used in index.references(id) {
-            assert_eq!(index.name(used).unwrap().meaning, Meaning::Refers(id));
+            match index.name(used).unwrap().meaning {
+                Meaning::Both { entry, port } => assert!([entry, port].contains(&id), "{text}"),
+                meaning => assert_eq!(meaning, Meaning::Refers(id)),
+            }
         }
         if let Some(owner) = definition.owner {
             assert!(index.members(owner).any(|(member, _)| member == id), "{definition:?}");

@@ -1,11 +1,11 @@
-//! One slip of the pen is one error, where it is: single mutations of the shipped plans.
+//! One slip of the pen is one error, where it is: single mutations of the shipped plans and scenarios.
 //!
-//! `AFP_MUTANTS=5000` draws more of them, and shows all that are not answered by one error nearby.
+//! `AFP_MUTANTS=5000` draws more of them, and shows all that are not answered by one error nearby; `AFP_MUTANTS_SEED=7`
+//! draws others.
 
 use std::collections::BTreeMap;
 
 use afp_dsl::Compiled;
-use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
 use afp_syntax::diagnostics::{Diagnostic, Diagnostics, Edit, Severity};
 use afp_syntax::source::Source;
@@ -14,10 +14,12 @@ use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
 use crate::support::{self, files, read};
 
-/// Folders of shipped plans, and toolboxes that some of them use.
-const FOLDERS: [&str; 4] = [
+/// Folders of shipped plans and scenarios, and toolboxes that some of them use.
+const FOLDERS: [&str; 6] = [
     "../../plans",
+    "../../plans/tests",
     "../../examples/vacuum/plans",
+    "../../examples/vacuum/plans/tests",
     "../../examples/embed/plans",
     "../../examples/peers/plans",
 ];
@@ -30,11 +32,23 @@ const TOOLBOXES: [&str; 6] = [
     "../../examples/peers/toolboxes/nav.afp",
 ];
 
-/// How many mutants with an error are drawn.
+/// How many mutants with an error are drawn with each seed.
 const MUTANTS: usize = 500;
+
+/// The seeds that are drawn with unless one is asked for: by day the first, and all where `AFP_BY_NIGHT` is set.
+const SEEDS: [u8; 5] = [13, 1, 2, 3, 4];
+
+fn seeds() -> &'static [u8] {
+    let count = if std::env::var_os("AFP_BY_NIGHT").is_some() { SEEDS.len() } else { 1 };
+    &SEEDS[..count]
+}
+
+/// A file of the corpus: its path, which others are found from, and its text.
+type File = (String, String);
 
 /// Text that somebody got wrong in one place.
 struct Mutant {
+    path: String,
     text: String,
     /// What was done to it.
     what: String,
@@ -65,7 +79,7 @@ fn tokens(text: &str) -> Vec<std::ops::Range<usize>> {
 }
 
 /// Changes one thing in a text.
-fn mutate(text: &str, dice: &mut Dice) -> Mutant {
+fn mutate((path, text): &File, dice: &mut Dice) -> Mutant {
     const SIGNS: [&str; 14] =
         ["{", "}", "(", ")", ",", ":", "=", "=>", "->", ";", ".", "#", "-", "x"];
     const UNITS: [&str; 6] = ["cm", "deg", "s", "m/s", "kg", "parsec"];
@@ -95,7 +109,8 @@ fn mutate(text: &str, dice: &mut Dice) -> Mutant {
     let line = |at: usize| text[..at].matches('\n').count();
     let lines = (line(range.start), line(range.end));
     let what = format!("{:?} -> {new:?}", &text[range.clone()]);
-    Mutant { text: format!("{}{new}{}", &text[..range.start], &text[range.end..]), what, lines }
+    let text = format!("{}{new}{}", &text[..range.start], &text[range.end..]);
+    Mutant { path: path.clone(), text, what, lines }
 }
 
 /// A word with a letter too many, too few, or two swapped.
@@ -113,27 +128,25 @@ fn misspelt(word: &str, dice: &mut Dice) -> String {
     letters.into_iter().collect()
 }
 
-/// The shipped plans, and what they need.
-fn corpus() -> (Vec<(String, String)>, Toolboxes) {
+/// The shipped plans and scenarios, and what they need.
+fn corpus() -> (Vec<File>, Toolboxes) {
     let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     for path in TOOLBOXES {
         let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
         toolboxes.add(Source::new(path.display().to_string(), read(&path)), "extra");
     }
     let paths = FOLDERS.iter().flat_map(|folder| files(folder));
-    let name = |path: &std::path::Path| path.file_name().unwrap().to_string_lossy().into_owned();
-    // Plans alone: the scenarios behind them are no part of what is drawn.
-    let plans = |text: String| text.split("\nscenario ").next().unwrap_or_default().to_owned();
-    let texts: Vec<_> = paths.map(|path| (name(&path), plans(read(&path)))).collect();
-    for (name, text) in &texts {
-        let compiled = compile(text, &toolboxes);
-        assert!(errors(&compiled).is_empty(), "{name}: {}", compiled.render(false));
+    let texts: Vec<_> = paths.map(|path| (path.display().to_string(), read(&path))).collect();
+    for (path, text) in &texts {
+        let compiled = compile(path, text, &toolboxes);
+        assert!(errors(&compiled).is_empty(), "{path}: {}", compiled.render(false));
     }
     (texts, toolboxes)
 }
 
-fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
-    afp_dsl::compile(&Source::new(support::CASE, text), toolboxes, &Texts::default())
+fn compile(path: &str, text: &str, toolboxes: &Toolboxes) -> Compiled {
+    let files = |path: &str| std::fs::read_to_string(path).map_err(|error| error.to_string());
+    afp_dsl::compile(&Source::new(path, text), toolboxes, &files)
 }
 
 fn errors(compiled: &Compiled) -> Vec<&Diagnostic> {
@@ -141,15 +154,17 @@ fn errors(compiled: &Compiled) -> Vec<&Diagnostic> {
 }
 
 /// Mutants with an error, each with what is said about it.
-fn mutants(count: usize) -> Vec<(Mutant, Compiled)> {
-    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[13; 32]);
+fn mutants(
+    seed: u8,
+    count: usize,
+    (files, toolboxes): &(Vec<File>, Toolboxes),
+) -> Vec<(Mutant, Compiled)> {
+    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]);
     let mut dice = Dice(TestRunner::new_with_rng(Config::default(), rng));
-    let (texts, toolboxes) = corpus();
     let mut all = Vec::new();
     while all.len() < count {
-        let (_, text) = &texts[dice.below(texts.len())];
-        let mutant = mutate(text, &mut dice);
-        let compiled = compile(&mutant.text, &toolboxes);
+        let mutant = mutate(&files[dice.below(files.len())], &mut dice);
+        let compiled = compile(&mutant.path, &mutant.text, toolboxes);
         if !errors(&compiled).is_empty() {
             all.push((mutant, compiled));
         }
@@ -159,10 +174,20 @@ fn mutants(count: usize) -> Vec<(Mutant, Compiled)> {
 
 #[test]
 fn one_slip_is_one_error_where_it_is() {
-    let asked = std::env::var("AFP_MUTANTS").ok().and_then(|count| count.parse().ok());
-    let all = mutants(asked.unwrap_or(MUTANTS));
+    let number = |name| std::env::var(name).ok().and_then(|number| number.parse::<usize>().ok());
+    let (asked, seed) = (number("AFP_MUTANTS"), number("AFP_MUTANTS_SEED"));
+    let corpus = corpus();
+    let seeds = seed.map_or(seeds().to_vec(), |seed| vec![seed as u8]);
+    for seed in seeds {
+        let all = mutants(seed, asked.unwrap_or(MUTANTS), &corpus);
+        judge(seed, &all, asked.is_some());
+    }
+}
+
+/// Counts what mutants are answered with.
+fn judge(seed: u8, all: &[(Mutant, Compiled)], show: bool) {
     let (mut numbers, mut far, mut shown) = (BTreeMap::<_, usize>::new(), 0, String::new());
-    for (mutant, compiled) in &all {
+    for (mutant, compiled) in all {
         let errors = errors(compiled);
         *numbers.entry(errors.len()).or_default() += 1;
         let source = &compiled.sources.get(errors[0].span.file).unwrap().text;
@@ -179,13 +204,13 @@ fn one_slip_is_one_error_where_it_is() {
     let one = numbers.get(&1).copied().unwrap_or(0);
     let many: usize = numbers.range(3..).map(|(_, count)| count).sum();
     let account = format!(
-        "{} mutants: {:.1} % one error, {:.1} % more than two, {:.1} % far; {numbers:?}",
+        "seed {seed}, {} mutants: {:.1} % one error, {:.1} % more than two, {:.1} % far; {numbers:?}",
         all.len(),
         share(one),
         share(many),
         share(far)
     );
-    if asked.is_some() {
+    if show {
         println!("{shown}");
     }
     println!("{account}");
@@ -193,10 +218,10 @@ fn one_slip_is_one_error_where_it_is() {
 }
 
 /// What is left to do after a fix.
-fn mended(before: &Compiled, fix: &Edit, toolboxes: &Toolboxes) -> Compiled {
+fn mended(path: &str, before: &Compiled, fix: &Edit, toolboxes: &Toolboxes) -> Compiled {
     let mut text = before.sources.get(fix.span.file).unwrap().text.clone();
     text.replace_range(fix.span.start as usize..fix.span.end as usize, &fix.text);
-    compile(&text, toolboxes)
+    compile(path, &text, toolboxes)
 }
 
 /// Notes ask for nothing.
@@ -206,11 +231,12 @@ fn to_do(compiled: &Compiled) -> usize {
 
 #[test]
 fn a_fix_that_is_applied_leaves_fewer_to_do() {
-    let (_, toolboxes) = corpus();
+    let corpus = corpus();
     let (mut tried, mut wrong) = (0, String::new());
-    for (mutant, before) in mutants(MUTANTS) {
+    let all = seeds().iter().flat_map(|seed| mutants(*seed, MUTANTS, &corpus));
+    for (mutant, before) in all {
         for fix in before.diags.iter().filter_map(|each| each.fix.as_ref()) {
-            let after = mended(&before, fix, &toolboxes);
+            let after = mended(&mutant.path, &before, fix, &corpus.1);
             tried += 1;
             if to_do(&after) >= to_do(&before) {
                 let (before, after) = (before.render(false), after.render(false));
@@ -230,10 +256,10 @@ fn a_fix_of_a_case_mends_what_it_is_for() {
     let one = |text: &str| !text.contains("// file: ") && !text.contains("\ntoolbox ");
     let (mut tried, mut wrong) = (0, String::new());
     for (path, text) in cases.filter(|(_, text)| one(text)) {
-        let before = compile(&text, &toolboxes);
+        let before = compile(support::CASE, &text, &toolboxes);
         for each in before.diags.iter() {
             let Some(fix) = &each.fix else { continue };
-            let after = mended(&before, fix, &toolboxes);
+            let after = mended(support::CASE, &before, fix, &toolboxes);
             tried += 1;
             // Other mistakes may be said now that nothing comes before them.
             let same = |other: &Diagnostic| (other.code, other.span) == (each.code, each.span);

@@ -119,3 +119,39 @@ fn a_line_that_is_wrong_thousands_of_times_is_not_shown_as_often() {
     assert!(shown.ends_with(&format!("... and {} more about line 1", count - 20)), "{count}");
     assert!(shown.len() < 30 * text.len(), "{} bytes", shown.len());
 }
+
+/// The least time of three in which a text of so many pieces is checked and what is wrong with it shown.
+fn answered(piece: &str, count: usize) -> Duration {
+    let (toolboxes, text) = (support::toolboxes(), piece.repeat(count));
+    let run = || {
+        let begin = Instant::now();
+        let compiled = support::compile(&text, &toolboxes);
+        assert!(!compiled.render(false).is_empty());
+        begin.elapsed()
+    };
+    (0..3).map(|_| run()).min().unwrap_or(Duration::ZERO)
+}
+
+/// Files that are one line, wrong at every token, took time by the square of their length; so did many errors, and errors that point
+/// far back, for which the file was read again each time.
+#[test]
+fn sixteen_times_the_junk_takes_about_sixteen_times_as_long() {
+    let pieces = [
+        "{ supervise ",
+        "plan { ",
+        "scenario use ",
+        "table scenario ",
+        "actor Forward ",
+        "=> # ",
+        "( ",
+        "# x = 3\n",
+        "plan P {}\n",
+        "actor a: Forward(\n",
+    ];
+    for piece in pieces {
+        let (short, long) = (answered(piece, 125), answered(piece, 2000));
+        // By the square it would be 256 times; the machine may be busy.
+        let most = short.max(Duration::from_millis(1)) * 90;
+        assert!(long < most, "{piece:?}: {short:?} for 125, {long:?} for 2000");
+    }
+}

@@ -71,6 +71,7 @@ fn begins_item(gap: &Token) -> bool {
         Kind::Start,
         Kind::Element,
         Kind::Guard,
+        Kind::Reactions,
         Kind::Edge,
         Kind::BindIn,
         Kind::BindOut,

@@ -42,6 +42,10 @@ pub(super) enum Place {
     Element(Node),
     /// Edges of a supervisor.
     Supervisor(Node),
+    /// Supervisors of the plan, behind `on`.
+    Watchers(Node),
+    /// Edges of reactions to a supervisor of the plan.
+    Reactions(Node),
     /// What an element or supervisor is made from; behind a point, from that toolbox.
     Made(Node, Option<DefinitionId>),
     /// Times behind the template of a supervisor.
@@ -64,6 +68,8 @@ pub(super) enum Place {
     Member(Option<DefinitionId>),
     /// Lines of a scenario.
     Scenario,
+    /// Lines of a scenario that count from one of its moments.
+    Moment,
     /// What a scenario names, behind a word of it.
     Path(String),
     /// The plan that a scenario is for.
@@ -130,7 +136,7 @@ fn origin(edge: &Node) -> Origin {
         token(element, Kind::Keyword).is_some_and(|keyword| keyword.text() == "computation")
     };
     match edge.parent() {
-        Some(owner) if owner.kind() == Kind::Guard => Origin::Event,
+        Some(owner) if matches!(owner.kind(), Kind::Guard | Kind::Reactions) => Origin::Event,
         Some(owner) if computes(&owner) => Origin::Computation,
         _ => Origin::Other,
     }
@@ -156,6 +162,7 @@ fn behind(view: &View, before: &Token, touched: &Token, same_line: bool, at: u32
             Kind::InPort,
             Kind::OutPort,
             Kind::Amount,
+            Kind::Column,
             Kind::Signal,
             Kind::Element,
             Kind::Guard,
@@ -192,6 +199,10 @@ fn behind(view: &View, before: &Token, touched: &Token, same_line: bool, at: u32
         | Kind::LessEqual
         | Kind::Greater
         | Kind::GreaterEqual => Place::Value(wanted(before)),
+        // The rest of the line is still to come.
+        Kind::Name if same_line && before.text() == "on" && within(&[Kind::Edge]).is_some() => {
+            within(&[Kind::Element]).map_or(Place::Nothing, Place::Watchers)
+        }
         // What has a name and no more yet.
         Kind::Name if same_line && parent.as_ref().is_some_and(names_item) => Place::Nothing,
         _ if same_line && is_head(before) => Place::Times,
@@ -205,6 +216,9 @@ fn keyword(word: &Token, parent: Option<&Node>) -> Option<Place> {
     Some(match (word.text(), kind) {
         ("use", _) => Place::Uses,
         ("start", Kind::Start) => Place::Start,
+        ("on", Kind::Reactions) => {
+            ancestor(word, &[Kind::Element]).map_or(Place::Nothing, Place::Watchers)
+        }
         ("every" | "deadline" | "budget" | "stop", Kind::Timing) => Place::Value(Wanted::Time),
         ("at", Kind::Stimulus) | ("until", _) | ("within" | "before" | "after", Kind::Bound) => {
             Place::Value(Wanted::Time)
@@ -213,6 +227,7 @@ fn keyword(word: &Token, parent: Option<&Node>) -> Option<Place> {
         ("for", _) => Place::Value(Wanted::Time),
         ("expect" | "never" | "of" | "by" | "set", _) => Place::Path(word.text().to_owned()),
         (_, Kind::Action) => Place::Path(word.text().to_owned()),
+        ("from", Kind::Moment) => Place::Path("expect".to_owned()),
         ("from" | "to", Kind::Range) => Place::Value(wanted(word)),
         ("from" | "to" | "heading", _) => Place::Value(Wanted::Unknown),
         // A name or a text of one's own.
@@ -304,8 +319,11 @@ fn ancestor(token: &Token, kinds: &[Kind]) -> Option<Node> {
 
 /// Whether a name directly in that node is the one that it goes by.
 fn names_item(node: &Node) -> bool {
-    use Kind::{Element, Entry, Enum, Guard, Plan, Template, Toolbox, Use};
-    matches!(node.kind(), Element | Entry | Enum | Guard | Plan | Template | Toolbox | Use)
+    use Kind::{Element, Entry, Enum, Guard, Plan, Reactions, Table, Template, Toolbox, Use};
+    matches!(
+        node.kind(),
+        Element | Entry | Enum | Guard | Plan | Reactions | Table | Template | Toolbox | Use
+    )
 }
 
 /// Whether a token ends the head of a supervisor, whose body has not begun.
@@ -330,10 +348,12 @@ fn container(before: &Token, at: u32) -> Place {
             Kind::Plan => Place::Plan(node),
             Kind::Element => Place::Element(node),
             Kind::Guard => Place::Supervisor(node),
+            Kind::Reactions => Place::Reactions(node),
             Kind::Scenario => Place::Scenario,
+            Kind::Moment => Place::Moment,
             Kind::Template | Kind::Device => Place::Toolbox(node.kind()),
             Kind::Args => ports(before),
-            Kind::Enum => Place::Nothing,
+            Kind::Enum | Kind::Table => Place::Nothing,
             _ => continue,
         };
     }

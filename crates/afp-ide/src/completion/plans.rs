@@ -21,6 +21,16 @@ pub(super) fn of_file(list: &mut List) {
     list.keyword("plan", plan.to_vec(), 0);
     let choices = [text("enum "), hole("Name"), text(" { "), hole("first second"), text(" }")];
     list.keyword("enum", choices.to_vec(), 1);
+    let table = [
+        text("table "),
+        hole("name"),
+        text("("),
+        hole("x: length, y: length"),
+        text(") {\n    ("),
+        hole("1 m, 2 m"),
+        text(")\n}"),
+    ];
+    list.keyword("table", table.to_vec(), 1);
     let scenario = [
         text("scenario \""),
         hole("what it shows"),
@@ -151,7 +161,8 @@ fn add_made(list: &mut List, made: &Made, insert: Vec<Piece>, rank: u8) {
 /// The edit that brings a toolbox into view.
 pub(super) fn line_of_use(view: &crate::View, toolbox: &str) -> Vec<TextEdit> {
     let change = Change::AddUse { toolbox: toolbox.to_owned(), alias: None };
-    let mut edits = edit(&[Source::new("", view.text())], 0, &change).unwrap_or_default();
+    let files = [Source::new("", view.text())];
+    let mut edits = edit(&files, view.toolboxes, 0, &change).unwrap_or_default();
     edits.iter_mut().for_each(|edit| edit.span.file = view.file);
     edits
 }
@@ -184,7 +195,6 @@ pub(super) fn times(list: &mut List) {
 /// Edges that are not there yet, and in an element supervisors.
 pub(super) fn of_component(list: &mut List, component: Option<&Component>, is_element: bool) {
     let Some(component) = component else { return };
-    let edge = |name: &str| vec![Piece::Text(format!("{name} -> ")), Piece::Hole(String::new())];
     for exit in component.exits.iter().filter(|exit| exit.known && exit.edge.is_none()) {
         let rank = u8::from(!exit.required);
         match exit.declared.and_then(|span| list.view.index().declared_at(span)) {
@@ -223,6 +233,11 @@ pub(super) fn of_component(list: &mut List, component: Option<&Component>, is_el
     }
 }
 
+/// An edge whose target is still to come.
+pub(super) fn edge(name: &str) -> Vec<Piece> {
+    vec![Piece::Text(format!("{name} -> ")), Piece::Hole(String::new())]
+}
+
 /// Where an edge can lead.
 pub(super) fn targets(list: &mut List, offset: u32, from: Origin) {
     elements(list, offset);
@@ -249,6 +264,15 @@ pub(super) fn plan_names(list: &mut List) {
     let visible = list.view.index().visible(list.view.file, 0);
     for id in visible {
         if list.view.index().definition(id).kind == DefinitionKind::Plan {
+            list.definition(id, 0);
+        }
+    }
+}
+
+/// The tables in view.
+pub(super) fn tables(list: &mut List, offset: u32) {
+    for id in list.view.index().visible(list.view.file, offset) {
+        if list.view.index().definition(id).kind == DefinitionKind::Table {
             list.definition(id, 0);
         }
     }

@@ -5,15 +5,19 @@ use super::bodies::{Piece, plain};
 use afp_dsl::VERBS;
 use afp_dsl::index::{DefinitionId, DefinitionKind};
 
-/// Lines of a scenario.
-pub(super) fn lines(list: &mut List) {
+/// Lines of a scenario, or those of them that may count from one of its moments.
+pub(super) fn lines(list: &mut List, of_whole_run: bool) {
     let line = |start: &str, hole: &str, end: &str| {
         let texts = [Piece::Text(start.to_owned()), Piece::Hole(hole.to_owned())];
         texts.into_iter().chain((!end.is_empty()).then(|| Piece::Text(end.to_owned()))).collect()
     };
     list.keyword("at", line("at ", "1 s", ": "), 0);
     list.keywords(&["expect", "never"], 0);
+    list.keywords(&["from"], 1);
     list.keyword("until", line("until ", "60 s", ""), 1);
+    if !of_whole_run {
+        return;
+    }
     list.keyword("world", line("world \"", "room.toml", "\""), 1);
     list.keyword("seed", line("seed ", "1", ""), 1);
     list.keyword("over seeds", line("over seeds ", "0..20", ""), 1);

@@ -8,9 +8,10 @@ use crate::signature::{input_text, output_text};
 use afp_draw::formula::constant;
 use afp_dsl::graph::EntryKind;
 use afp_dsl::index::DefinitionKind;
-use afp_dsl::outline::{Component, Entry};
+use afp_dsl::outline::{Binding, Component, Entry, MadeFrom};
 use afp_dsl::toolbox::Constant;
 use afp_dsl::types::{Dimension, Type};
+use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 
 /// What a value shall be.
@@ -40,10 +41,24 @@ pub(super) fn wanted(view: &View, wanted: &Wanted, offset: u32) -> Option<Expect
     }
 }
 
-/// Ports that are not bound yet: those that need a value first.
+/// Whether a port takes a table, which is no value.
+pub(super) fn takes_table(view: &View, wanted: &Wanted) -> bool {
+    let Wanted::Port(node, port) = wanted else { return false };
+    let made =
+        view.component(node).and_then(|component| component.template.as_ref()?.made_from.as_ref());
+    let Some(MadeFrom::Template { toolbox, index }) = made else { return false };
+    let reads = toolbox.templates.get(*index).and_then(|template| template.reads_table.as_ref());
+    reads.is_some_and(|reads| reads.port.name == *port)
+}
+
+/// Ports that are not bound yet, but by the word itself: those that need a value first.
 pub(super) fn ports(list: &mut List, component: Option<&Component>) {
     let Some(component) = component else { return };
-    for input in component.inputs.iter().filter(|port| port.binding.is_none()) {
+    let word = list.replaces;
+    let is_open = |binding: &Option<Binding>| {
+        binding.as_ref().is_none_or(|binding| binding.port_span.start == word.start)
+    };
+    for input in component.inputs.iter().filter(|port| is_open(&port.binding)) {
         let insert = vec![Piece::Text(format!("{} = ", input.name)), Piece::Hole(String::new())];
         port(
             list,
@@ -54,7 +69,7 @@ pub(super) fn ports(list: &mut List, component: Option<&Component>) {
             input_text(input),
         );
     }
-    for output in component.outputs.iter().filter(|port| port.binding.is_none()) {
+    for output in component.outputs.iter().filter(|port| is_open(&port.binding)) {
         let insert = vec![Piece::Text(format!("{} => ", output.name)), Piece::Hole(String::new())];
         port(list, &output.name, insert, output.declared, 2, output_text(output));
     }
@@ -64,7 +79,7 @@ fn port(
     list: &mut List,
     name: &str,
     insert: Vec<Piece>,
-    declared: Option<afp_syntax::source::Span>,
+    declared: Option<Span>,
     rank: u8,
     detail: String,
 ) {

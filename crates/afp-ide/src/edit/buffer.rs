@@ -4,7 +4,9 @@
 //! so far. The pieces of the first text that are still there tell the edits at the end.
 
 use std::ops::Range;
+use std::rc::Rc;
 
+use afp_dsl::toolbox::Toolboxes;
 use afp_syntax::diagnostics::{Diagnostics, Edit, Severity};
 use afp_syntax::source::Span;
 use afp_syntax::{Node, parse};
@@ -14,6 +16,8 @@ pub(super) type Splice = (Range<usize>, String);
 
 /// A text in the making.
 pub(super) struct TextBuffer {
+    /// What its components can be made from, besides plans.
+    pub toolboxes: Rc<Toolboxes>,
     text: String,
     root: Node,
     syntax_errors: usize,
@@ -47,10 +51,10 @@ impl Piece {
 
 impl TextBuffer {
     /// Begins with a text.
-    pub fn new(text: &str) -> TextBuffer {
+    pub fn new(text: &str, toolboxes: Rc<Toolboxes>) -> TextBuffer {
         let (root, syntax_errors) = tree(text);
         let pieces = vec![Piece::Kept(0..text.len())];
-        TextBuffer { text: text.to_owned(), root, syntax_errors, pieces }
+        TextBuffer { toolboxes, text: text.to_owned(), root, syntax_errors, pieces }
     }
 
     /// The text so far.
@@ -138,13 +142,15 @@ fn tree(text: &str) -> (Node, usize) {
 
 #[cfg(test)]
 mod tests {
+    use std::rc::Rc;
+
     use super::TextBuffer;
     use crate::edit::apply;
 
     #[test]
     fn steps_come_to_one_list_of_edits() {
         let text = "plan P { start a }";
-        let mut buffer = TextBuffer::new(text);
+        let mut buffer = TextBuffer::new(text, Rc::default());
         buffer.splice(vec![(5..6, "Q".into()), (15..16, "long".into())]);
         buffer.splice(vec![(15..17, "lo".into()), (0..0, "use x ".into())]);
         let after = buffer.text().to_owned();
@@ -155,7 +161,7 @@ mod tests {
 
     #[test]
     fn what_is_cut_leaves_an_edit() {
-        let mut buffer = TextBuffer::new("abc");
+        let mut buffer = TextBuffer::new("abc", Rc::default());
         buffer.splice(vec![(1..3, String::new())]);
         buffer.splice(vec![(0..1, String::new())]);
         let edits = buffer.edits(3, 0);

@@ -63,8 +63,8 @@ fn padded(component: &Node, outcome: &str, text: &str) -> String {
 fn check_target(plan: &Node, component: &Node, to: &str) -> Result<(), Refused> {
     match to {
         "terminate" | "fail" => Ok(()),
-        "ignore" if component.kind() == Kind::Guard => Ok(()),
-        "resume" if component.kind() == Kind::Guard || tree::is_computation(component) => Ok(()),
+        "ignore" if tree::has_events(component) => Ok(()),
+        "resume" if tree::has_events(component) || tree::is_computation(component) => Ok(()),
         "resume" => Err(Refused::new("what has ended cannot be resumed")),
         "ignore" => Err(Refused::new("a state cannot lead to 'ignore'")),
         _ if to.strip_prefix("fail ").is_some_and(is_text) => Ok(()),

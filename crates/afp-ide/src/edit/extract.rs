@@ -30,7 +30,8 @@ pub(super) struct Selection {
 }
 
 impl Selection {
-    fn new(root: &Node, plan: &str, names: &[String]) -> Result<Selection, Refused> {
+    fn new(buffer: &TextBuffer, plan: &str, names: &[String]) -> Result<Selection, Refused> {
+        let root = &buffer.root();
         for name in names {
             tree::element(root, plan, name)?;
         }
@@ -40,7 +41,7 @@ impl Selection {
         if elements.is_empty() {
             return Err(Refused::new("no element is selected"));
         }
-        Ok(Selection { plan, elements, project: Project::alone(root) })
+        Ok(Selection { plan, elements, project: Project::alone(buffer) })
     }
 
     /// Whether a token means a selected element.
@@ -51,6 +52,11 @@ impl Selection {
     /// The name of the entry that a token means.
     pub fn entry(&self, token: &Token) -> Option<String> {
         self.project.entry(0, token)
+    }
+
+    /// Whether a binding takes a value out of its component.
+    pub fn is_output(&self, bind: &Node) -> bool {
+        self.project.is_output(0, bind)
     }
 
     /// Whether an element of that name is selected.
@@ -68,8 +74,9 @@ pub(super) fn run(
     element: &str,
 ) -> Result<(), Refused> {
     let root = buffer.root();
-    let selection = Selection::new(&root, plan, elements)?;
+    let selection = Selection::new(buffer, plan, elements)?;
     check_names(&root, &selection, new_plan, element)?;
+    check_reactions(&selection)?;
     let flow = Flow::of(&selection)?;
     let data = Data::of(&selection, &flow.first)?;
     lead_through(buffer, plan, &selection, &flow, element);
@@ -100,6 +107,15 @@ fn check_names(
         return Err(Refused::new(format!("'{element}' is already there")));
     }
     Ok(())
+}
+
+/// The new plan does not see the supervisors of the old one.
+fn check_reactions(selection: &Selection) -> Result<(), Refused> {
+    let mut elements = selection.elements.iter();
+    let reacts = elements.find(|element| children(element, Kind::Reactions).next().is_some());
+    let Some(element) = reacts else { return Ok(()) };
+    let name = name_of(element).unwrap_or_default();
+    Err(Refused::new(format!("'{name}' reacts to a supervisor that stays in the plan")))
 }
 
 /// The selected elements in the text so far, without the sub-plan that stands for them.

@@ -99,6 +99,11 @@ impl Call {
                 )));
             }
         }
+        if children(&node, Kind::Reactions).next().is_some() {
+            return Err(Refused::new(format!(
+                "'{element}' reacts as a whole to supervisors of '{plan}'; write its reactions into the elements first"
+            )));
+        }
         let start = children(&inner, Kind::Start).next().and_then(|start| name_token(&start));
         let names = new_names(&outer, &inner, element);
         let first = start.and_then(|start| {

@@ -49,6 +49,10 @@ pub(super) fn value(bind: &Node) -> Option<Node> {
 }
 
 fn rebound(text: &str, bind: &Node, sign: &str, new: &str) -> Result<Option<Splice>, Refused> {
+    if bind.kind() == Kind::BindSame {
+        let name = name_token(bind).filter(|name| name.text() != new);
+        return Ok(name.map(|name| (range(&name), format!("{} {sign} {new}", name.text()))));
+    }
     let whole = "the binding is not whole";
     let is_sign = |token: &Token| matches!(token.kind(), Kind::Equal | Kind::FatArrow);
     let tokens = bind.children_with_tokens().filter_map(|each| each.into_token());

@@ -37,7 +37,7 @@ pub fn follow(layout: &mut Layout, change: &Change) {
 fn rename(layout: &mut Layout, item: &Item, to: &str) {
     let renamed = match item {
         Item::Plan { .. } => Item::plan(to),
-        Item::Enum { .. } => return,
+        Item::Enum { .. } | Item::Table { .. } => return,
         Item::Inner { plan, .. } => Item::inner(plan, to),
         Item::Local { plan, owner, .. } => Item::local(plan, owner, to),
     };

@@ -1,10 +1,14 @@
 //! The files of a project: which of them sees what of the others, and a buffer of each.
 
-use super::buffer::TextBuffer;
+use std::rc::Rc;
+
+use super::buffer::{Splice, TextBuffer};
 use super::{Item, Refused, refer, tree};
 use afp_dsl::files::{joined, normalised};
-use afp_dsl::index::Index;
+use afp_dsl::graph::EntryKind;
+use afp_dsl::index::{DefinitionKind, Index, Meaning};
 use afp_dsl::index_files;
+use afp_dsl::toolbox::Toolboxes;
 use afp_syntax::kind::Kind;
 use afp_syntax::source::{Source, Span};
 use afp_syntax::{Node, Token};
@@ -21,9 +25,10 @@ pub(super) struct Workspace {
 
 impl Workspace {
     /// Begins with files, of which `home` must be one.
-    pub fn new(files: &[Source], home: usize) -> Workspace {
+    pub fn new(files: &[Source], toolboxes: &Rc<Toolboxes>, home: usize) -> Workspace {
         let paths = files.iter().map(|file| normalised(&file.name)).collect();
-        let buffers = files.iter().map(|file| TextBuffer::new(&file.text)).collect();
+        let buffers =
+            files.iter().map(|file| TextBuffer::new(&file.text, toolboxes.clone())).collect();
         Workspace { paths, buffers, home }
     }
 
@@ -49,7 +54,8 @@ impl Workspace {
         });
         let sources = self.paths.iter().zip(&self.buffers);
         let sources = sources.map(|(path, buffer)| Source::new(path, buffer.text())).collect();
-        Project::new(sees.collect(), roots, sources)
+        let toolboxes = self.buffers[self.home].toolboxes.clone();
+        Project::new(sees.collect(), roots, sources, toolboxes)
     }
 
     /// Checks that no other file names an item.
@@ -63,13 +69,6 @@ impl Workspace {
             }
         }
     }
-}
-
-/// The place of a token, as the index of a project says it.
-fn span(file: usize, token: &Token) -> Option<Span> {
-    let range = token.text_range();
-    let (start, end) = (range.start().into(), range.end().into());
-    Some(Span { file: u16::try_from(file).ok()?, start, end })
 }
 
 /// The paths behind `use`, as written.
@@ -87,29 +86,45 @@ pub(super) struct Project {
     pub sees: Vec<Vec<usize>>,
     /// What the names in them mean.
     index: Index,
+    /// How many files of toolboxes stand before them in the index.
+    first: usize,
 }
 
 impl Project {
     /// A file by itself.
-    pub fn alone(root: &Node) -> Project {
-        let source = Source::new("", root.text().to_string());
-        Project::new(vec![vec![0]], vec![root.clone()], vec![source])
+    pub fn alone(buffer: &TextBuffer) -> Project {
+        let source = Source::new("", buffer.text());
+        let toolboxes = buffer.toolboxes.clone();
+        Project::new(vec![vec![0]], vec![buffer.root()], vec![source], toolboxes)
     }
 
-    fn new(sees: Vec<Vec<usize>>, roots: Vec<Node>, sources: Vec<Source>) -> Project {
-        Project { sees, roots, index: index_files(&sources) }
+    fn new(
+        sees: Vec<Vec<usize>>,
+        roots: Vec<Node>,
+        sources: Vec<Source>,
+        toolboxes: Rc<Toolboxes>,
+    ) -> Project {
+        let first = toolboxes.sources().len();
+        Project { sees, roots, index: index_files(&sources, &toolboxes), first }
+    }
+
+    /// The place of a token, as the index says it.
+    fn span(&self, file: usize, token: &Token) -> Option<Span> {
+        let range = token.text_range();
+        let (start, end) = (range.start().into(), range.end().into());
+        Some(Span { file: u16::try_from(self.first + file).ok()?, start, end })
     }
 
     /// The tokens that refer to what a name declares, with their files.
     pub fn references(&self, file: usize, name: &Token) -> Vec<(usize, Token)> {
-        let declared = span(file, name).and_then(|span| self.index.declared_at(span));
+        let declared = self.span(file, name).and_then(|span| self.index.declared_at(span));
         let spans = declared.into_iter().flat_map(|id| self.index.references(id));
         spans.filter_map(|span| self.token(span)).collect()
     }
 
     /// The name, with its file, of what a token means.
     pub fn declaration(&self, file: usize, token: &Token) -> Option<(usize, Token)> {
-        let meaning = self.index.name(span(file, token)?)?.meaning;
+        let meaning = self.index.name(self.span(file, token)?)?.meaning;
         self.token(self.index.definition(meaning.definition()?).name)
     }
 
@@ -125,8 +140,34 @@ impl Project {
         tree::name_of(&node).filter(|_| node.kind() == Kind::Entry)
     }
 
+    /// Whether a binding takes a value out of its component.
+    pub fn is_output(&self, file: usize, bind: &Node) -> bool {
+        match bind.kind() {
+            Kind::BindOut => true,
+            Kind::BindSame => tree::name_token(bind).is_some_and(|name| self.is_out(file, &name)),
+            _ => false,
+        }
+    }
+
+    /// Whether a binding that is a name alone is for an output.
+    fn is_out(&self, file: usize, name: &Token) -> bool {
+        let meant = self.span(file, name).and_then(|span| self.index.name(span));
+        let Some(Meaning::Both { port, .. }) = meant.map(|name| name.meaning) else { return false };
+        matches!(
+            self.index.definition(port).kind,
+            DefinitionKind::Output | DefinitionKind::Column | DefinitionKind::Entry(EntryKind::Out)
+        )
+    }
+
+    /// A binding that is a name alone as it is with its sign, around what stands in place of its entry.
+    pub fn spelled_out(&self, file: usize, bind: &Node, entry: &str) -> Option<Splice> {
+        let name = tree::name_token(bind)?;
+        let sign = if self.is_output(file, bind) { "=>" } else { "=" };
+        Some((tree::range(&name), format!("{} {sign} {entry}", name.text())))
+    }
+
     fn token(&self, span: Span) -> Option<(usize, Token)> {
-        let file = usize::from(span.file);
+        let file = usize::from(span.file).checked_sub(self.first)?;
         let found = self.roots.get(file)?.token_at_offset(rowan::TextSize::from(span.start));
         Some((file, found.right_biased()?))
     }

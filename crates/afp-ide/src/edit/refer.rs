@@ -24,8 +24,13 @@ pub(super) fn to_element(project: &Project, home: usize, element: &Item) -> Vec<
 /// The formulas of a plan that read an entry of it.
 pub(super) fn reads_of(project: &Project, home: usize, entry: &Item) -> Vec<Token> {
     let all = to(project, home, entry).into_iter().skip(1);
-    let reads = |token: &Token| parent_kind(token) == Some(Kind::Ref) && scenario(token).is_none();
-    all.map(|(_, token)| token).filter(reads).collect()
+    let reads = |(file, token): &(usize, Token)| {
+        let bind = alone(token);
+        parent_kind(token) == Some(Kind::Ref)
+            && scenario(token).is_none()
+            && !bind.is_some_and(|bind| project.is_output(*file, &bind))
+    };
+    all.filter(reads).map(|(_, token)| token).collect()
 }
 
 /// The sub-plans of a file that are made from a plan of it.
@@ -45,6 +50,11 @@ pub(super) fn in_scenarios(project: &Project, home: usize, items: &[Item]) -> Ve
 /// The scenario that a token stands in.
 pub(super) fn scenario(token: &Token) -> Option<Node> {
     token.parent_ancestors().find(|node| node.kind() == Kind::Scenario)
+}
+
+/// The binding that a name is by itself.
+pub(super) fn alone(name: &Token) -> Option<Node> {
+    name.parent()?.parent().filter(|node| node.kind() == Kind::BindSame)
 }
 
 fn parent_kind(token: &Token) -> Option<Kind> {

@@ -21,6 +21,7 @@ pub(super) fn reorder(
     let list_of = |root: &Node| match item {
         Item::Plan { .. } => Ok(root.clone()),
         Item::Enum { .. } => Err(Refused::new("the order of enums means nothing")),
+        Item::Table { .. } => Err(Refused::new("the order of tables means nothing")),
         Item::Inner { plan, .. } => tree::plan(root, plan),
         Item::Local { plan, owner, .. } => tree::element(root, plan, owner),
     };
@@ -76,8 +77,8 @@ pub(super) fn shift(
     };
     name::check_free(&scope, item.name(), None)?;
     match node.kind() {
-        Kind::Entry => check_unused(&root, item)?,
-        _ if !same_plan => check_entries(&root, &node, &there, plan)?,
+        Kind::Entry => check_unused(buffer, item)?,
+        _ if !same_plan => check_entries(buffer, &node, &there, plan)?,
         _ => {}
     }
     remove::cut_edges_from(buffer, item, &there);
@@ -109,7 +110,7 @@ fn check_kind(
         Item::Local { owner: home, .. } => owner == Some(home.as_str()),
         _ => owner.is_none(),
     };
-    if matches!(node.kind(), Kind::Plan | Kind::Enum) {
+    if matches!(node.kind(), Kind::Plan | Kind::Enum | Kind::Table) {
         return Err(Refused::new("only what stands in a plan can move to another one"));
     }
     if owner.is_some() && !is_guard {
@@ -121,16 +122,21 @@ fn check_kind(
     Ok(())
 }
 
-fn check_unused(root: &Node, item: &Item) -> Result<(), Refused> {
-    match refer::to(&Project::alone(root), 0, item).len() {
+fn check_unused(buffer: &TextBuffer, item: &Item) -> Result<(), Refused> {
+    match refer::to(&Project::alone(buffer), 0, item).len() {
         0 | 1 => Ok(()),
         _ => Err(Refused::new(format!("'{}' is used where it is", item.name()))),
     }
 }
 
 /// Checks that a plan has the entries that a component reads and writes.
-fn check_entries(root: &Node, component: &Node, plan: &Node, name: &str) -> Result<(), Refused> {
-    let project = Project::alone(root);
+fn check_entries(
+    buffer: &TextBuffer,
+    component: &Node,
+    plan: &Node,
+    name: &str,
+) -> Result<(), Refused> {
+    let project = Project::alone(buffer);
     let known: BTreeSet<_> = children(plan, Kind::Entry).filter_map(|e| name_of(&e)).collect();
     let components = below(component, Kind::Element).chain(below(component, Kind::Guard));
     let binds = components.flat_map(|component| binds(&component));

@@ -11,12 +11,11 @@ use afp_syntax::{Node, Token};
 
 /// Removes an item.
 pub(super) fn item(buffer: &mut TextBuffer, item: &Item) -> Result<(), Refused> {
-    let root = buffer.root();
-    let node = tree::find(&root, item)?;
-    let project = Project::alone(&root);
+    let node = tree::find(&buffer.root(), item)?;
+    let project = Project::alone(buffer);
     match node.kind() {
         Kind::Plan => check_unused_plan(&project, item)?,
-        Kind::Enum if refer::to(&project, 0, item).len() > 1 => {
+        Kind::Enum | Kind::Table if refer::to(&project, 0, item).len() > 1 => {
             return Err(Refused::new(format!("'{}' is used in the file", item.name())));
         }
         Kind::Entry => {
@@ -24,11 +23,24 @@ pub(super) fn item(buffer: &mut TextBuffer, item: &Item) -> Result<(), Refused> 
             unbind_all(buffer, &project, item);
         }
         Kind::Element => cut_edges_to(buffer, item),
+        Kind::Guard => drop_reactions(buffer, item),
         _ => {}
     }
     let node = tree::find(&buffer.root(), item)?;
     take_out(buffer, &node);
     Ok(())
+}
+
+/// Takes out what elements do where a supervisor of their plan reports something.
+fn drop_reactions(buffer: &mut TextBuffer, item: &Item) {
+    let reaction = |buffer: &TextBuffer| {
+        let project = Project::alone(buffer);
+        let mut uses = refer::to(&project, 0, item).into_iter().skip(1);
+        uses.find_map(|(_, token)| token.parent().filter(|node| node.kind() == Kind::Reactions))
+    };
+    while let Some(node) = reaction(buffer) {
+        take_out(buffer, &node);
+    }
 }
 
 /// Takes a node out of its list.
@@ -75,7 +87,7 @@ fn check_unread(project: &Project, item: &Item) -> Result<(), Refused> {
 
 /// Removes the outputs that write an entry, and the bindings of sub-plans to it.
 fn unbind_all(buffer: &mut TextBuffer, project: &Project, item: &Item) {
-    let kinds = [Kind::BindIn, Kind::BindOut];
+    let kinds = [Kind::BindIn, Kind::BindOut, Kind::BindSame];
     let uses = refer::to(project, 0, item).into_iter().skip(1);
     let binds = uses.filter_map(|(_, token)| around(&token, &kinds));
     backwards(buffer, binds, &kinds, |buffer, bind| {
@@ -86,7 +98,7 @@ fn unbind_all(buffer: &mut TextBuffer, project: &Project, item: &Item) {
 
 /// Removes the edges of others that lead to an element, and the `start` that names it.
 pub(super) fn cut_edges_to(buffer: &mut TextBuffer, element: &Item) {
-    let project = Project::alone(&buffer.root());
+    let project = Project::alone(buffer);
     let own = tree::find(&project.roots[0], element).ok();
     let tokens = refer::to_element(&project, 0, element).into_iter();
     let others = tokens.filter(|token| token.parent_ancestors().all(|node| Some(node) != own));
@@ -125,7 +137,7 @@ fn backwards(
 /// Removes the edges of a component that lead neither to itself nor to an element that the plan
 /// `there` has, too.
 pub(super) fn cut_edges_from(buffer: &mut TextBuffer, component: &Item, there: &Node) {
-    let project = Project::alone(&buffer.root());
+    let project = Project::alone(buffer);
     let Ok(own) = tree::find(&project.roots[0], component) else { return };
     let is_there = |name: &str| {
         matches!(name, "terminate" | "fail" | "ignore" | "resume")

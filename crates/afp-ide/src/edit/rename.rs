@@ -1,11 +1,11 @@
 //! Another name for an item, wherever the files refer to it.
 
-use super::project::Workspace;
-use super::tree::{self, range, scope_of};
+use super::project::{Project, Workspace};
+use super::tree::{self, name_token, range, scope_of};
 use super::{Item, Refused, name, refer};
 use afp_dsl::types::is_built_in;
-use afp_syntax::Node;
 use afp_syntax::kind::Kind;
+use afp_syntax::{Node, Token};
 
 /// Renames an item.
 pub(super) fn item(workspace: &mut Workspace, item: &Item, to: &str) -> Result<(), Refused> {
@@ -13,7 +13,7 @@ pub(super) fn item(workspace: &mut Workspace, item: &Item, to: &str) -> Result<(
     let node = tree::find(&root, item)?;
     match node.kind() {
         Kind::Element => name::check_element(to)?,
-        Kind::Enum if is_built_in(to) => {
+        Kind::Enum | Kind::Table if is_built_in(to) => {
             return Err(Refused::new(format!("'{to}' is a type of the language")));
         }
         _ => name::check(to)?,
@@ -22,14 +22,60 @@ pub(super) fn item(workspace: &mut Workspace, item: &Item, to: &str) -> Result<(
     if to == item.name() {
         return Ok(());
     }
-    if matches!(node.kind(), Kind::Plan | Kind::Enum) {
+    if matches!(node.kind(), Kind::Plan | Kind::Enum | Kind::Table) {
         check_free_elsewhere(workspace, node.kind(), to)?;
     }
-    let project = workspace.project();
-    let tokens = refer::to(&project, workspace.home, item);
-    if tokens.is_empty() {
+    if name_token(&node).is_none() {
         return Err(Refused::new("it has no name yet"));
     }
+    let home = workspace.home;
+    everywhere(workspace, |project| refer::to(project, home, item), to)
+}
+
+/// Renames a column of a table.
+pub(super) fn column(
+    workspace: &mut Workspace,
+    table: &str,
+    column: &str,
+    to: &str,
+) -> Result<(), Refused> {
+    name::check(to)?;
+    let root = workspace.buffer().root();
+    let node = tree::find(&root, &Item::table(table))?;
+    let columns: Vec<_> = tree::below(&node, Kind::Column).collect();
+    if !columns.iter().any(|each| tree::is_named(each, column)) {
+        return Err(Refused::new(format!("the table '{table}' has no column '{column}'")));
+    }
+    if to == column {
+        return Ok(());
+    }
+    if matches!(to, "table" | "index") {
+        return Err(Refused::new(format!("'{to}' is a port of what reads tables")));
+    }
+    if columns.iter().any(|each| tree::is_named(each, to)) {
+        return Err(Refused::new(format!("'{to}' is already there")));
+    }
+    let home = workspace.home;
+    let tokens = |project: &Project| {
+        let table = tree::find(&project.roots[home], &Item::table(table)).ok();
+        let columns = table.iter().flat_map(|table| tree::below(table, Kind::Column));
+        let name =
+            columns.filter(|each| tree::is_named(each, column)).find_map(|it| name_token(&it));
+        let uses = name.iter().flat_map(|name| project.references(home, name));
+        uses.chain(name.iter().map(|name| (home, name.clone()))).collect()
+    };
+    everywhere(workspace, tokens, to)
+}
+
+/// Writes a name in the place of tokens, which go with their files.
+fn everywhere(
+    workspace: &mut Workspace,
+    tokens: impl Fn(&Project) -> Vec<(usize, Token)>,
+    to: &str,
+) -> Result<(), Refused> {
+    let project = workspace.project();
+    spell_out(workspace, &project, &tokens(&project));
+    let tokens = tokens(&workspace.project());
     for (file, buffer) in workspace.buffers.iter_mut().enumerate() {
         let own = tokens.iter().filter(|(home, _)| *home == file);
         let splices: Vec<_> = own.map(|(_, token)| (range(token), to.to_owned())).collect();
@@ -43,6 +89,20 @@ pub(super) fn item(workspace: &mut Workspace, item: &Item, to: &str) -> Result<(
         }
     }
     Ok(())
+}
+
+/// Tells apart the ports and the entries that one name stands for.
+fn spell_out(workspace: &mut Workspace, project: &Project, tokens: &[(usize, Token)]) {
+    for (file, buffer) in workspace.buffers.iter_mut().enumerate() {
+        let own = tokens.iter().filter(|(home, _)| *home == file);
+        let binds = own.filter_map(|(_, token)| Some((refer::alone(token)?, token)));
+        let splices =
+            binds.filter_map(|(bind, name)| project.spelled_out(file, &bind, name.text()));
+        let splices: Vec<_> = splices.collect();
+        if !splices.is_empty() {
+            buffer.splice(splices);
+        }
+    }
 }
 
 /// Checks that no file that sees the item's file sees something else of the new name.

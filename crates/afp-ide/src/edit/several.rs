@@ -3,9 +3,12 @@
 //! What is added may wish for a name that is taken. It gets another one, and later changes mean it by
 //! the name that was wished for.
 
+use std::rc::Rc;
+
 use super::project::Workspace;
 use super::tree::{self, Scope, children, name_of};
-use super::{Change, Item, Refused, TextEdit, begin, end, fragment, make, name};
+use super::{Change, Item, Refused, TextEdit, begin, edit_with, end, fragment, make, name};
+use afp_dsl::toolbox::Toolboxes;
 use afp_syntax::kind::Kind;
 use afp_syntax::source::Source;
 
@@ -27,8 +30,13 @@ pub struct Made {
 ///
 /// # Errors
 /// One of the changes is refused; then none is made.
-pub fn edit_all(files: &[Source], home: usize, changes: &[Change]) -> Result<Made, Refused> {
-    let mut workspace = begin(files, home)?;
+pub fn edit_all(
+    files: &[Source],
+    toolboxes: &Toolboxes,
+    home: usize,
+    changes: &[Change],
+) -> Result<Made, Refused> {
+    let mut workspace = begin(files, Rc::new(toolboxes.clone()), home)?;
     let errors = workspace.syntax_errors();
     let mut made = Made::default();
     let mut given: Vec<Given> = Vec::new();
@@ -92,7 +100,8 @@ fn add_free(
         let given = name::fresh(wanted, &taken);
         let given = if given == *wanted { given } else { name::fresh(wanted, &others) };
         if given != *wanted {
-            *text = renamed(text, owner.is_some(), wanted, &given)?;
+            let toolboxes = workspace.buffer().toolboxes.clone();
+            *text = renamed(text, toolboxes, owner.is_some(), wanted, &given)?;
             let (plan, owner) = (plan.to_owned(), owner.map(str::to_owned));
             new.given.push(Given { plan, owner, wanted: wanted.clone(), given: given.clone() });
         }
@@ -109,14 +118,20 @@ fn wanted_elsewhere(place: usize, nodes: &[afp_syntax::Node]) -> Vec<String> {
 }
 
 /// The items of a text with another name for one of them, wherever they refer to it.
-fn renamed(text: &str, in_element: bool, wanted: &str, given: &str) -> Result<String, Refused> {
+fn renamed(
+    text: &str,
+    toolboxes: Rc<Toolboxes>,
+    in_element: bool,
+    wanted: &str,
+    given: &str,
+) -> Result<String, Refused> {
     let (before, after, item) = match in_element {
         false => ("plan P {\n", "\n}\n", Item::inner("P", wanted)),
         true => ("plan P {\nactor A: A {\n", "\n}\n}\n", Item::local("P", "A", wanted)),
     };
     let whole = format!("{before}{text}{after}");
     let change = Change::Rename { item, to: given.to_owned() };
-    let edits = super::edit(&[Source::new("", whole.as_str())], 0, &change)?;
+    let edits = edit_with(&[Source::new("", whole.as_str())], toolboxes, 0, &change)?;
     let whole = super::apply(&whole, &edits);
     let inner = whole.strip_prefix(before).and_then(|rest| rest.strip_suffix(after));
     inner.map(str::to_owned).ok_or_else(|| Refused::new(format!("'{wanted}' is taken")))
@@ -164,6 +179,7 @@ impl Given {
             }
             C::Remove { item } => C::Remove { item: self.item(item) },
             C::Rename { item, to } => C::Rename { item: self.item(item), to },
+            C::RenameColumn { .. } => change,
             C::Connect { from, outcome, to } => {
                 let to = self.name(from.plan_name(), to);
                 C::Connect { from: self.item(from), outcome, to }
@@ -192,6 +208,7 @@ impl Given {
                 C::SetEntryValue { entry: self.item(entry), value }
             }
             C::SetDoc { item, text } => C::SetDoc { item: self.item(item), text },
+            C::SetNote { item, text } => C::SetNote { item: self.item(item), text },
             C::Move { item, plan, owner } => {
                 let owner = in_plan(&plan, owner);
                 C::Move { item: self.item(item), plan, owner }

@@ -1,18 +1,25 @@
 //! Each change on a small plan: what becomes of the text, to the byte.
 
+mod alone;
 mod data;
 mod files;
 mod flow;
 mod items;
 mod structure;
+mod tables;
 
 use super::{Binding, Change, Item, Refused, TextEdit, apply};
+use afp_dsl::toolbox::Toolboxes;
 use afp_format::format;
 use afp_syntax::source::Source;
 
+fn toolboxes() -> Toolboxes {
+    afp_toolboxes::sources().collect()
+}
+
 /// The edits of a file by itself.
 fn edit(text: &str, change: &Change) -> Result<Vec<TextEdit>, Refused> {
-    super::edit(&[Source::new("case.afp", text)], 0, change)
+    super::edit(&[Source::new("case.afp", text)], &toolboxes(), 0, change)
 }
 
 /// A plan with comments in many places.

@@ -12,6 +12,8 @@ pub(super) enum Scope {
     File(Node),
     /// The enums of a file.
     Enums(Node),
+    /// The tables of a file.
+    Tables(Node),
     /// Entries, elements and global supervisors of a plan.
     Plan(Node),
     /// The local supervisors of an element.
@@ -24,6 +26,7 @@ impl Scope {
         let (node, kinds): (_, &[Kind]) = match self {
             Scope::File(node) => (node, &[Kind::Plan]),
             Scope::Enums(node) => (node, &[Kind::Enum]),
+            Scope::Tables(node) => (node, &[Kind::Table, Kind::Plan, Kind::Enum]),
             Scope::Plan(node) => (node, &[Kind::Entry, Kind::Element, Kind::Guard]),
             Scope::Element(node) => (node, &[Kind::Guard]),
         };
@@ -37,6 +40,7 @@ pub(super) fn scope_of(root: &Node, item: &Item) -> Result<Scope, Refused> {
     Ok(match item {
         Item::Plan { .. } => Scope::File(root.clone()),
         Item::Enum { .. } => Scope::Enums(root.clone()),
+        Item::Table { .. } => Scope::Tables(root.clone()),
         Item::Inner { plan, .. } => Scope::Plan(self::plan(root, plan)?),
         Item::Local { plan, owner, .. } => Scope::Element(element(root, plan, owner)?),
     })
@@ -64,10 +68,18 @@ pub(super) fn find(root: &Node, item: &Item) -> Result<Node, Refused> {
             let found = pick(children(root, Kind::Enum), name);
             found.ok_or_else(|| Refused::new(format!("there is no enum '{name}'")))
         }
+        Item::Table { name } => {
+            let found = pick(children(root, Kind::Table), name);
+            found.ok_or_else(|| Refused::new(format!("there is no table '{name}'")))
+        }
         Item::Inner { plan, name } => inner(&self::plan(root, plan)?, name)
             .ok_or_else(|| Refused::new(format!("'{plan}' has no '{name}'"))),
         Item::Local { plan, owner, name } => {
             let element = element(root, plan, owner)?;
+            if let Some(watcher) = item.reacts_to() {
+                let found = pick(children(&element, Kind::Reactions), watcher);
+                return found.ok_or_else(|| Refused::new(format!("'{owner}' has no '{name}'")));
+            }
             let found = pick(children(&element, Kind::Guard), name);
             found.ok_or_else(|| Refused::new(format!("'{owner}' has no supervisor '{name}'")))
         }
@@ -78,7 +90,7 @@ pub(super) fn find(root: &Node, item: &Item) -> Result<Node, Refused> {
 pub(super) fn component(root: &Node, item: &Item) -> Result<Node, Refused> {
     let node = find(root, item)?;
     match node.kind() {
-        Kind::Element | Kind::Guard => Ok(node),
+        Kind::Element | Kind::Guard | Kind::Reactions => Ok(node),
         _ => Err(Refused::new(format!("'{}' is no element or supervisor", item.name()))),
     }
 }
@@ -101,7 +113,10 @@ fn pick(mut nodes: impl Iterator<Item = Node>, name: &str) -> Option<Node> {
 
 /// The token that names an item or edge.
 pub(super) fn name_token(node: &Node) -> Option<Token> {
-    tokens(node, Kind::Name).next()
+    match node.kind() {
+        Kind::BindSame => children(node, Kind::Ref).find_map(|name| single(&name)),
+        _ => tokens(node, Kind::Name).next(),
+    }
 }
 
 /// The name of an item or edge.
@@ -143,6 +158,11 @@ pub(super) fn is_subplan(element: &Node) -> bool {
     keyword(element).is_some_and(|token| token.text() == "subplan")
 }
 
+/// Whether edges are of events.
+pub(super) fn has_events(component: &Node) -> bool {
+    matches!(component.kind(), Kind::Guard | Kind::Reactions)
+}
+
 /// Whether an element is a computation.
 pub(super) fn is_computation(element: &Node) -> bool {
     keyword(element).is_some_and(|token| token.text() == "computation")
@@ -162,6 +182,9 @@ pub(super) fn single(reference: &Node) -> Option<Token> {
 
 /// The target of an edge, or the entry of an output.
 pub(super) fn target(node: &Node) -> Option<Token> {
+    if node.kind() == Kind::BindSame {
+        return name_token(node);
+    }
     children(node, Kind::Target).next().and_then(|target| name_token(&target))
 }
 
@@ -195,7 +218,7 @@ pub(super) fn without_outcome(edge: &Node, outcome: &str) -> Option<std::ops::Ra
 pub(super) fn binds(component: &Node) -> Vec<Node> {
     let args = children(component, Kind::Args);
     args.flat_map(|args| args.children())
-        .filter(|child| matches!(child.kind(), Kind::BindIn | Kind::BindOut))
+        .filter(|child| matches!(child.kind(), Kind::BindIn | Kind::BindOut | Kind::BindSame))
         .collect()
 }
 

@@ -11,6 +11,9 @@ pub fn item(path: &str) -> Option<Item> {
     if let Some(name) = path.strip_prefix("enum ") {
         return Some(Item::enumeration(name));
     }
+    if let Some(name) = path.strip_prefix("table ") {
+        return Some(Item::table(name));
+    }
     let names: Vec<_> = path.split('.').collect();
     match names.as_slice() {
         [""] => None,
@@ -25,6 +28,7 @@ pub fn item(path: &str) -> Option<Item> {
 pub fn path(item: &Item) -> String {
     match item {
         Item::Enum { name } => format!("enum {name}"),
+        Item::Table { name } => format!("table {name}"),
         _ => item.to_string(),
     }
 }

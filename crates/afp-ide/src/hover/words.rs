@@ -12,6 +12,7 @@ pub(super) fn help(word: &str, within: Kind) -> Option<&'static str> {
         }
         "scenario" => "A test of a plan: what happens from outside, and what is expected of it.",
         "enum" => "A type whose values are listed.",
+        "table" => "Rows of constants, which 'Row' of 'std' reads one by one.",
         "toolbox" => "Templates, and the devices of a robot, for plans to use.",
         "start" => "The element that is active first.",
         "actor" if in_toolbox => "A template that acts over time and ends in a state.",
@@ -20,6 +21,9 @@ pub(super) fn help(word: &str, within: Kind) -> Option<&'static str> {
         "subplan" => "A plan used like an actor.",
         "supervise" => {
             "Watches while its element is active, or always where it stands in the plan itself; its events interrupt."
+        }
+        "on" if within == Kind::Reactions => {
+            "Where events of a supervisor of the plan lead while this element is active; what is not listed keeps its edge."
         }
         "supervisor" => "A template that watches and reports events.",
         "in" if in_toolbox => "A port that takes a value.",
@@ -31,6 +35,9 @@ pub(super) fn help(word: &str, within: Kind) -> Option<&'static str> {
         "forever" => "The plan is meant to run on until something happens to it.",
         "from" | "to" if within == Kind::Range => {
             "The least and the greatest value that it takes; both belong to the range."
+        }
+        "from" if within == Kind::Moment => {
+            "What stands in its braces counts from the first time that this holds or happens."
         }
         "live" if within == Kind::Entry => "A sub-plan reads it again before each of its steps.",
         "live" => "Read again at every poll.",

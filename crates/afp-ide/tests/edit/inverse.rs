@@ -5,11 +5,13 @@ use std::path::{Path, PathBuf};
 
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::outline::{Component, Outline, Plan};
+use afp_dsl::outline::{Component, ComponentKind, Outline, Plan};
 use afp_dsl::toolbox::Toolboxes;
 use afp_ide::edit::{Binding, Change, apply, edit};
 use afp_syntax::item::Item;
 use afp_syntax::source::Source;
+
+use crate::TOOLBOXES;
 
 /// The plan files of the repository's `plans` and `examples`, with those below.
 fn shipped() -> Vec<PathBuf> {
@@ -32,7 +34,7 @@ fn shipped() -> Vec<PathBuf> {
 
 fn changed(text: &str, change: &Change) -> String {
     let source = Source::new("case.afp", text);
-    match edit(&[source], 0, change) {
+    match edit(&[source], &TOOLBOXES, 0, change) {
         Ok(edits) => apply(text, &edits),
         Err(refused) => panic!("{change:?}: {refused}\n{text}"),
     }
@@ -49,6 +51,7 @@ fn renamed(item: &Item) -> (Change, Change) {
     let there = match item {
         Item::Plan { .. } => Item::plan(new),
         Item::Enum { .. } => Item::enumeration(new),
+        Item::Table { .. } => Item::table(new),
         Item::Inner { plan, .. } => Item::inner(plan, new),
         Item::Local { plan, owner, .. } => Item::local(plan, owner, new),
     };
@@ -61,10 +64,13 @@ fn items(outline: &Outline) -> Vec<Item> {
     let enums = first.enums.iter().map(|each| each.item.clone());
     let plans = first.plans.iter().map(|plan| outline.plan(*plan)).flat_map(|plan| {
         let entries = plan.entries.iter().map(|entry| entry.item.clone());
-        let components = plan.components().map(|component| component.item.clone());
+        // Reactions go by the name of the supervisor that they are to.
+        let named = plan.components().filter(|it| it.kind != ComponentKind::Reactions);
+        let components = named.map(|component| component.item.clone());
         std::iter::once(plan.item.clone()).chain(entries).chain(components).collect::<Vec<_>>()
     });
-    enums.chain(plans).collect()
+    let tables = first.tables.iter().map(|each| each.item.clone());
+    enums.chain(tables).chain(plans).collect()
 }
 
 /// Where all edges of a text lead, by element and name.
@@ -170,6 +176,6 @@ fn items_of_one_name_are_told_apart() {
     );
     let remove = Change::Remove { item: Item::inner("P", "#1") };
     assert_eq!(changed(text, &remove), text.replace("    actor : C { Done -> a }\n", ""));
-    let nameless = edit(&[Source::new("case.afp", text)], 0, &rename("#1"));
+    let nameless = edit(&[Source::new("case.afp", text)], &TOOLBOXES, 0, &rename("#1"));
     assert_eq!(nameless.unwrap_err().reason, "it has no name yet");
 }

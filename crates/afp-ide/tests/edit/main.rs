@@ -9,7 +9,9 @@ mod model;
 mod mutate;
 
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
+use afp_dsl::toolbox::Toolboxes;
 use afp_ide::edit::{Binding, Change, Refused, TextEdit, apply};
 use afp_syntax::item::Item;
 use afp_syntax::source::Source;
@@ -18,9 +20,12 @@ use proptest::prelude::*;
 use changes::{Pick, change};
 use model::{Model, comments};
 
+/// The built-in ones.
+static TOOLBOXES: LazyLock<Toolboxes> = LazyLock::new(|| afp_toolboxes::sources().collect());
+
 /// The edits of a file by itself.
 fn edit(text: &str, change: &Change) -> Result<Vec<TextEdit>, Refused> {
-    afp_ide::edit::edit(&[Source::new("case.afp", text)], 0, change)
+    afp_ide::edit::edit(&[Source::new("case.afp", text)], &TOOLBOXES, 0, change)
 }
 
 const PLANS: &[&str] = &[
@@ -176,7 +181,7 @@ fn any_change(which: u8, words: [&str; 4]) -> Change {
         _ => Item::local("P", "x", &one),
     };
     let plan = "P".to_owned();
-    match which % 21 {
+    match which % 22 {
         0 => Change::AddUse { toolbox: one, alias: some(two) },
         1 => Change::AddPlan { text: format!("plan {one} {{ {two} }}") },
         2 => Change::Add { plan, owner: None, text: format!("var {one}: int"), before: some(two) },
@@ -200,6 +205,7 @@ fn any_change(which: u8, words: [&str; 4]) -> Change {
         17 => Change::SetEntryValue { entry: item, value: some(two) },
         18 => Change::SetDoc { item, text: two },
         19 => Change::Move { item, plan: two, owner: some(three) },
+        20 => Change::SetNote { item, text: two },
         _ => Change::Extract { plan, elements: vec![one, two], new_plan: three, element: four },
     }
 }

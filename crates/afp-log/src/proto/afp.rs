@@ -56,6 +56,14 @@ pub struct PlanEvent {
     /// What came from outside.
     #[prost(message, optional, tag = "24")]
     pub request: ::core::option::Option<Request>,
+    /// The element that was active or being entered when an event was taken, or was not.
+    #[prost(string, tag = "25")]
+    pub element: ::prost::alloc::string::String,
+    #[prost(uint32, tag = "26")]
+    pub element_id: u32,
+    /// Whether that element answered: `target` is one of its `on`, not the supervisor's.
+    #[prost(bool, tag = "27")]
+    pub on: bool,
 }
 /// Nested message and enum types in `PlanEvent`.
 pub mod plan_event {
@@ -273,6 +281,9 @@ pub struct Request {
     pub became: i32,
     #[prost(string, tag = "11")]
     pub why: ::prost::alloc::string::String,
+    /// Where something is put: x and y in metres, heading in radians.
+    #[prost(double, repeated, tag = "12")]
+    pub pose: ::prost::alloc::vec::Vec<f64>,
 }
 /// Nested message and enum types in `Request`.
 pub mod request {
@@ -312,6 +323,10 @@ pub mod request {
         Idle = 6,
         /// The plan is stopped.
         Stop = 7,
+        /// The thing `name` of the world, or the robot where there is none, is put at `pose`.
+        Move = 8,
+        /// Something new of the shape `name` is put at `pose`.
+        Drop = 9,
     }
     impl Kind {
         /// String value of the enum field names used in the ProtoBuf definition.
@@ -328,6 +343,8 @@ pub mod request {
                 Self::Fire => "FIRE",
                 Self::Idle => "IDLE",
                 Self::Stop => "STOP",
+                Self::Move => "MOVE",
+                Self::Drop => "DROP",
             }
         }
         /// Creates an enum from field names used in the ProtoBuf definition.
@@ -341,6 +358,8 @@ pub mod request {
                 "FIRE" => Some(Self::Fire),
                 "IDLE" => Some(Self::Idle),
                 "STOP" => Some(Self::Stop),
+                "MOVE" => Some(Self::Move),
+                "DROP" => Some(Self::Drop),
                 _ => None,
             }
         }
@@ -484,6 +503,21 @@ pub mod plan_table {
         pub outcomes: ::prost::alloc::vec::Vec<Outcome>,
         #[prost(string, repeated, tag = "5")]
         pub inputs: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+        /// Its edges that hold instead of those of supervisors of its plan (`on`).
+        #[prost(message, repeated, tag = "6")]
+        pub reactions: ::prost::alloc::vec::Vec<Reaction>,
+    }
+    #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+    pub struct Reaction {
+        /// By id.
+        #[prost(uint32, tag = "1")]
+        pub supervisor_id: u32,
+        /// By position in its template; 65535 for `DeadlineMissed`.
+        #[prost(uint32, tag = "2")]
+        pub outcome_id: u32,
+        /// Where it leads.
+        #[prost(string, tag = "3")]
+        pub target: ::prost::alloc::string::String,
     }
     #[derive(
         Clone,

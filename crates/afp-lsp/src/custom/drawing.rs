@@ -9,7 +9,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::Document;
-use super::scene::Shown;
+use super::scene::{Facts, Shown};
 use crate::answer::{Answer, Failure, ok};
 use crate::server::Server;
 use crate::uri;
@@ -34,7 +34,7 @@ pub(crate) struct Subscription {
     plan: Option<String>,
     /// The scene, from which the next one is made.
     scene: Scene,
-    shown: Shown,
+    facts: Facts,
     /// What the drawing was made from: the document, and the file of its positions.
     made_from: [u64; 2],
 }
@@ -46,21 +46,14 @@ pub(crate) fn drawing(server: &mut Server, params: Drawing) -> Answer {
     let before = known.as_ref().filter(|known| known.plan == params.plan).map(|known| &known.scene);
     let drawn = draw(server, &path, params.plan.as_deref(), before)?;
     let version = server.workspace.documents.get(&path).map(|document| document.version);
-    let Drawn { scene, shown, plan, plans, symbols, .. } = &drawn;
-    let answer = json!({
-        "version": version,
-        "plan": plan,
-        "plans": plans,
-        "bounds": shown.bounds,
-        "elements": shown.elements.values().collect::<Vec<_>>(),
-        "edges": shown.edges.values().collect::<Vec<_>>(),
-        "entries": shown.entries,
-        "symbols": symbols,
-    });
+    let mut answer = drawn.shown().whole();
+    answer["version"] = json!(version);
+    let Drawn { scene, facts, plan, plans, symbols, made_from } = drawn;
+    answer["plan"] = json!(plan);
+    answer["plans"] = json!(plans);
+    answer["symbols"] = symbols;
     if params.subscribe.unwrap_or(known.is_some()) {
-        let (scene, shown) = (scene.clone(), shown.clone());
-        let made_from = drawn.made_from;
-        let subscription = Subscription { plan: params.plan, scene, shown, made_from };
+        let subscription = Subscription { plan: params.plan, scene, facts, made_from };
         server.subscriptions.insert(path, subscription);
     }
     ok(answer)
@@ -68,11 +61,17 @@ pub(crate) fn drawing(server: &mut Server, params: Drawing) -> Answer {
 
 struct Drawn {
     scene: Scene,
-    shown: Shown,
+    facts: Facts,
     plan: Option<String>,
     plans: Vec<String>,
     symbols: Value,
     made_from: [u64; 2],
+}
+
+impl Drawn {
+    fn shown(&self) -> Shown<'_> {
+        Shown { scene: self.scene.plans.first(), facts: &self.facts }
+    }
 }
 
 fn draw(
@@ -102,15 +101,12 @@ fn draw(
         None => Scene::default(),
     };
     let main: Option<&Plan> = id.map(|id| outline.plan(id));
-    let shown = match (scene.plans.first(), main) {
-        (Some(drawn), Some(plan)) => Shown::new(drawn, plan, outline),
-        _ => Shown::default(),
-    };
+    let facts = main.map(|plan| Facts::new(plan, outline)).unwrap_or_default();
     let own = outline.plans.iter().filter(|plan| plan.file() == analysis.file);
     let plans = own.map(|plan| plan.item.name().to_owned()).collect();
     let symbols = scene.symbols.iter().map(|it| json!({ "id": it.id, "svg": it.svg })).collect();
     let plan = main.map(|plan| plan.item.name().to_owned());
-    Ok(Drawn { scene, shown, plan, plans, symbols, made_from })
+    Ok(Drawn { scene, facts, plan, plans, symbols, made_from })
 }
 
 /// A plan of a file by name, its first one without a name.
@@ -160,12 +156,14 @@ impl Server {
         let known = self.subscriptions.remove(path)?;
         let drawn = draw(self, path, known.plan.as_deref(), Some(&known.scene));
         // A plan that is gone while its name is typed comes back.
-        let Ok(Drawn { scene, shown, plan, plans, symbols, made_from }) = drawn else {
+        let Ok(drawn) = drawn else {
             self.subscriptions.insert(path.to_owned(), known);
             return None;
         };
-        let message = (shown != known.shown).then(|| {
-            let mut params = difference(&known.shown, &shown);
+        let before = Shown { scene: known.scene.plans.first(), facts: &known.facts };
+        let changed = drawn.shown().since(before);
+        let Drawn { scene, facts, plan, plans, symbols, made_from } = drawn;
+        let message = changed.map(|mut params| {
             let document = self.workspace.documents.get(path);
             params["textDocument"] = json!({ "uri": self.workspace.uri(path) });
             params["version"] = json!(document.map(|document| document.version));
@@ -174,26 +172,8 @@ impl Server {
             params["symbols"] = symbols;
             Notification::new("afp/drawingChanged".to_owned(), params).into()
         });
-        let subscription = Subscription { plan: known.plan, scene, shown, made_from };
+        let subscription = Subscription { plan: known.plan, scene, facts, made_from };
         self.subscriptions.insert(path.to_owned(), subscription);
         message
     }
-}
-
-/// What is new or different, and the ids of what is gone.
-fn difference(before: &Shown, after: &Shown) -> Value {
-    let set = |before: &std::collections::BTreeMap<String, Value>,
-               after: &std::collections::BTreeMap<String, Value>| {
-        let new = after.iter().filter(|(id, value)| before.get(*id) != Some(value));
-        new.map(|(_, value)| value.clone()).collect::<Vec<_>>()
-    };
-    let elements = before.elements.keys().filter(|id| !after.elements.contains_key(*id));
-    let edges = before.edges.keys().filter(|id| !after.edges.contains_key(*id));
-    json!({
-        "elements": set(&before.elements, &after.elements),
-        "edges": set(&before.edges, &after.edges),
-        "gone": elements.chain(edges).collect::<Vec<_>>(),
-        "entries": after.entries,
-        "bounds": after.bounds,
-    })
 }

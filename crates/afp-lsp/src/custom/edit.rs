@@ -51,7 +51,7 @@ fn changed(
     let home = files.iter().position(|file| file.name == home_path);
     let home =
         home.ok_or_else(|| Failure::Refused("a toolbox has no plans to change".to_owned()))?;
-    let made = edit_all(&files, home, changes);
+    let made = edit_all(&files, &analysis.set.toolboxes, home, changes);
     let made = made.map_err(|refused| Failure::Refused(refused.reason))?;
     let Made { edits, changes: done, names, added } = made;
     let mut all = server.grouped(&files, edits);
@@ -104,6 +104,7 @@ fn label(changes: &[Change]) -> String {
         Change::Add { .. } | Change::AddPlan { .. } | Change::AddUse { .. } => "add".to_owned(),
         Change::Remove { item } => format!("remove '{}'", item.name()),
         Change::Rename { item, .. } => format!("rename '{}'", item.name()),
+        Change::RenameColumn { column, .. } => format!("rename '{column}'"),
         Change::Connect { outcome, .. } => format!("connect '{outcome}'"),
         Change::Disconnect { outcome, .. } => format!("disconnect '{outcome}'"),
         Change::SetStart { to, .. } => format!("start with '{to}'"),
@@ -117,7 +118,8 @@ fn label(changes: &[Change]) -> String {
         | Change::SetEntryKind { entry: item, .. }
         | Change::SetEntryType { entry: item, .. }
         | Change::SetEntryValue { entry: item, .. }
-        | Change::SetDoc { item, .. } => format!("change '{}'", item.name()),
+        | Change::SetDoc { item, .. }
+        | Change::SetNote { item, .. } => format!("change '{}'", item.name()),
         Change::Extract { new_plan, .. } => format!("make the plan '{new_plan}'"),
         Change::Inline { element, .. } => format!("put the elements in place of '{element}'"),
     }

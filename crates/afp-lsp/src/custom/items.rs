@@ -1,5 +1,6 @@
 //! From places in the text to items and back, so that selection and cursor follow each other.
 
+use afp_dsl::Compiled;
 use afp_dsl::outline::{Identity, Part};
 use afp_ide::edit::{item, path};
 use gen_lsp_types as lsp;
@@ -51,6 +52,37 @@ pub(crate) fn span_of(server: &mut Server, params: SpanOf) -> Answer {
     let identity = Identity { file: analysis.file, item, part };
     let span = analysis.compiled.outline.span_of(&identity);
     ok(span.map(|span| server.places(&analysis).range(span)))
+}
+
+/// An entry of a document.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Uses {
+    text_document: Document,
+    item: String,
+}
+
+/// What of the document reads or writes an entry, each once, in the order of the text.
+pub(crate) fn uses(server: &mut Server, params: Uses) -> Answer {
+    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let item = item(&params.item).ok_or_else(|| no_item(&params.item))?;
+    let Compiled { outline, index, .. } = &analysis.compiled;
+    let entries = outline
+        .plans
+        .iter()
+        .filter(|plan| plan.file() == analysis.file)
+        .flat_map(|plan| &plan.entries);
+    let entry =
+        entries.filter_map(|entry| (entry.item == item).then_some(entry.name.as_ref()?)).next();
+    let Some(definition) = entry.and_then(|name| index.declared_at(name.span)) else {
+        return ok(Value::Array(Vec::new()));
+    };
+    let own = index.references(definition).filter(|span| span.file == analysis.file);
+    let mut found: Vec<_> =
+        own.filter_map(|span| outline.identity_at(analysis.file, span.start)).collect();
+    found.dedup();
+    let found = found.iter().map(|one| json!({ "item": path(&one.item), "part": part(&one.part) }));
+    ok(found.collect::<Vec<_>>())
 }
 
 pub(crate) fn no_item(path: &str) -> Failure {

@@ -1,4 +1,4 @@
-//! A scene in messages, piece by piece.
+//! A scene in messages, piece by piece; after a change, what is new or different alone.
 
 use std::collections::BTreeMap;
 
@@ -7,31 +7,157 @@ use afp_dsl::graph::EntryKind;
 use afp_dsl::outline::{Component, Entry, Outline, Part, Plan};
 use afp_ide::edit::path;
 use afp_syntax::diagnostics::Severity;
+use afp_syntax::item::Item;
 use serde_json::{Value, json};
 
 use super::items::part;
 
-/// Everything of a drawing that a client is told of: elements and edges by their ids.
+/// What a client is told of a plan beside what is drawn.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Shown {
-    pub elements: BTreeMap<String, Value>,
-    pub edges: BTreeMap<String, Value>,
-    pub entries: Value,
-    pub bounds: Value,
+pub(super) struct Facts {
+    elements: BTreeMap<Item, Fact>,
+    entries: Vec<Value>,
 }
 
-impl Shown {
-    pub fn new(scene: &PlanScene, plan: &Plan, outline: &Outline) -> Shown {
-        let element = |one: &ElementScene| {
-            (path(&one.item), element(one, plan.component(&one.item), outline))
-        };
-        Shown {
-            elements: scene.elements.iter().map(element).collect(),
-            edges: scene.edges.iter().map(|one| (id(one), edge(one))).collect(),
+/// What a client is told of an element beside how it is drawn.
+#[derive(Clone, Debug, PartialEq)]
+struct Fact {
+    kind: &'static str,
+    template: Option<String>,
+    /// The plan behind a sub-plan.
+    plan: Option<String>,
+    help: String,
+    note: String,
+}
+
+impl Facts {
+    pub fn new(plan: &Plan, outline: &Outline) -> Facts {
+        let fact = |one: &Component| (one.item.clone(), Fact::new(one, outline));
+        Facts {
+            elements: plan.elements.iter().map(fact).collect(),
             entries: plan.entries.iter().map(entry).collect(),
-            bounds: rect(scene.bounds),
         }
     }
+}
+
+impl Fact {
+    fn new(component: &Component, outline: &Outline) -> Fact {
+        let used = component.sub_plan().map(|id| outline.plan(id));
+        Fact {
+            kind: component.kind.keyword(),
+            template: component.template.as_ref().map(|template| template.text.clone()),
+            plan: used.map(|plan| plan.item.name().to_owned()),
+            help: component.doc.clone(),
+            note: component.note.clone(),
+        }
+    }
+}
+
+/// A plan as it is shown: nothing is drawn where there is none.
+#[derive(Clone, Copy)]
+pub(super) struct Shown<'a> {
+    pub scene: Option<&'a PlanScene>,
+    pub facts: &'a Facts,
+}
+
+impl<'a> Shown<'a> {
+    fn elements(self) -> BTreeMap<&'a Item, &'a ElementScene> {
+        self.scene.iter().flat_map(|it| &it.elements).map(|one| (&one.item, one)).collect()
+    }
+
+    fn edges(self) -> BTreeMap<(&'a Item, &'a Part), &'a EdgeScene> {
+        self.scene
+            .iter()
+            .flat_map(|it| &it.edges)
+            .map(|one| ((&one.item, &one.part), one))
+            .collect()
+    }
+
+    fn element(self, one: &ElementScene) -> (String, Value) {
+        (path(&one.item), element(one, self.facts.elements.get(&one.item)))
+    }
+
+    fn bounds(self) -> Value {
+        self.scene.map_or(Value::Null, |scene| rect(scene.bounds))
+    }
+
+    /// All of it.
+    pub fn whole(self) -> Value {
+        let elements = self.elements().into_values().map(|one| self.element(one));
+        let edges = self.edges().into_values().map(|one| (id(one), edge(one)));
+        json!({
+            "bounds": self.bounds(),
+            "elements": sorted(elements),
+            "edges": sorted(edges),
+            "entries": self.entries(),
+        })
+    }
+
+    /// What is new or different, and the ids of what is gone; `None` where all is as it was.
+    pub fn since(self, before: Shown<'_>) -> Option<Value> {
+        let (old, new) = (before.elements(), self.elements());
+        let same = |one: &ElementScene| {
+            old.get(&one.item).is_some_and(|known| is_same_element(known, one))
+                && before.facts.elements.get(&one.item) == self.facts.elements.get(&one.item)
+        };
+        let elements: Vec<_> =
+            new.values().filter(|one| !same(one)).map(|one| self.element(one)).collect();
+        let (old_edges, new_edges) = (before.edges(), self.edges());
+        let same = |(key, one): &(&(&Item, &Part), &&EdgeScene)| {
+            old_edges.get(*key).is_some_and(|known| is_same_edge(known, one))
+        };
+        let changed = new_edges.iter().filter(|each| !same(each));
+        let edges: Vec<_> = changed.map(|(_, one)| (id(one), edge(one))).collect();
+        let gone = old.keys().filter(|item| !new.contains_key(*item)).map(|item| path(item));
+        let mut gone: Vec<_> = gone.collect();
+        gone.sort();
+        let left = old_edges.iter().filter(|(key, _)| !new_edges.contains_key(*key));
+        let mut left: Vec<_> = left.map(|(_, one)| id(one)).collect();
+        left.sort();
+        gone.extend(left);
+        let calm = elements.is_empty() && edges.is_empty() && gone.is_empty();
+        if calm && self.bounds() == before.bounds() && self.facts.entries == before.facts.entries {
+            return None;
+        }
+        Some(json!({
+            "elements": sorted(elements),
+            "edges": sorted(edges),
+            "gone": gone,
+            "entries": self.entries(),
+            "bounds": self.bounds(),
+        }))
+    }
+
+    fn entries(self) -> Value {
+        if self.scene.is_some() { json!(self.facts.entries) } else { Value::Null }
+    }
+}
+
+/// Whether a client would be told the same of an element: places are told in tenths.
+fn is_same_element(one: &ElementScene, other: &ElementScene) -> bool {
+    let same = |(one, other): (&PieceScene, &PieceScene)| {
+        (&one.item, &one.part, one.severity) == (&other.item, &other.part, other.severity)
+            && tenths(one.rect) == tenths(other.rect)
+    };
+    one.svg == other.svg
+        && [tenths(one.rect), tenths(one.outer)] == [tenths(other.rect), tenths(other.outer)]
+        && one.pieces.len() == other.pieces.len()
+        && one.pieces.iter().zip(&other.pieces).all(same)
+}
+
+/// Whether a client would be told the same of an edge.
+fn is_same_edge(one: &EdgeScene, other: &EdgeScene) -> bool {
+    let told = |edge: &EdgeScene| {
+        edge.points.iter().map(|(x, y)| [tenth(*x), tenth(*y)]).collect::<Vec<_>>()
+    };
+    one.svg == other.svg
+        && (&one.to, one.kind, one.severity) == (&other.to, other.kind, other.severity)
+        && told(one) == told(other)
+}
+
+/// In the order of their ids.
+fn sorted(all: impl IntoIterator<Item = (String, Value)>) -> Vec<Value> {
+    all.into_iter().collect::<BTreeMap<_, _>>().into_values().collect()
 }
 
 /// An edge goes by what it leaves.
@@ -45,19 +171,19 @@ fn id(edge: &EdgeScene) -> String {
     }
 }
 
-fn element(one: &ElementScene, component: Option<&Component>, outline: &Outline) -> Value {
-    let used = component.and_then(|it| it.sub_plan()).map(|id| outline.plan(id));
+/// An element; the start has no facts.
+fn element(one: &ElementScene, fact: Option<&Fact>) -> Value {
     json!({
         "item": path(&one.item),
         "rect": rect(one.rect),
         "outer": rect(one.outer),
         "svg": one.svg,
         "pieces": one.pieces.iter().map(piece).collect::<Vec<_>>(),
-        "kind": component.map(|it| it.kind.keyword()),
-        "template": component.and_then(|it| it.template.as_ref()).map(|template| &template.text),
-        "plan": used.map(|plan| plan.item.name()),
-        "help": component.map(|it| &it.doc),
-        "note": component.map(|it| &it.note),
+        "kind": fact.map(|it| it.kind),
+        "template": fact.and_then(|it| it.template.as_ref()),
+        "plan": fact.and_then(|it| it.plan.as_ref()),
+        "help": fact.map(|it| &it.help),
+        "note": fact.map(|it| &it.note),
     })
 }
 
@@ -102,7 +228,11 @@ fn entry(entry: &Entry) -> Value {
 }
 
 fn rect(rect: Rect) -> Value {
-    json!([rect.x, rect.y, rect.width, rect.height].map(tenth))
+    json!(tenths(rect))
+}
+
+fn tenths(rect: Rect) -> [f64; 4] {
+    [rect.x, rect.y, rect.width, rect.height].map(tenth)
 }
 
 /// Rounded to a tenth of a pixel; no zero has a sign.

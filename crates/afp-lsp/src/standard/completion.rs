@@ -93,6 +93,7 @@ fn kind(kind: CompletionKind) -> lsp::CompletionItemKind {
             Is::Enum => Kind::Enum,
             Is::Value => Kind::EnumMember,
             Is::Entry(_) => Kind::Variable,
+            Is::Table => Kind::Constant,
             Is::Component(_) => Kind::Function,
             _ => Kind::Field,
         },

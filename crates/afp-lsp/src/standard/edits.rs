@@ -17,10 +17,24 @@ use crate::server::Server;
 use crate::uri;
 use crate::workspace::Analysis;
 
-/// What can get another name: the item that is declared, and the path of its file.
+/// What can get another name: what is declared, and the path of its file.
 struct Renamed {
-    item: Item,
+    what: What,
     path: String,
+}
+
+enum What {
+    Item(Item),
+    Column { table: String, column: String },
+}
+
+impl What {
+    fn renamed(self, to: String) -> Change {
+        match self {
+            What::Item(item) => Change::Rename { item, to },
+            What::Column { table, column } => Change::RenameColumn { table, column, to },
+        }
+    }
 }
 
 /// The word that would be renamed.
@@ -48,22 +62,29 @@ fn renamed(analysis: &Analysis, offset: u32) -> Result<Renamed, Failure> {
     }
     let source = analysis.compiled.sources.get(definition.name.file);
     let path = source.map(|source| source.name.clone()).unwrap_or_default();
-    let item = item(analysis, id).ok_or_else(|| refused("this name cannot be changed here"))?;
-    Ok(Renamed { item, path })
+    let what = what(analysis, id).ok_or_else(|| refused("this name cannot be changed here"))?;
+    Ok(Renamed { what, path })
 }
 
-fn item(analysis: &Analysis, id: DefinitionId) -> Option<Item> {
-    let definition = analysis.compiled.index.definition(id);
+fn what(analysis: &Analysis, id: DefinitionId) -> Option<What> {
+    let (index, sources) = (&analysis.compiled.index, &analysis.compiled.sources);
+    let definition = index.definition(id);
     let Span { file, start, .. } = definition.name;
     match definition.kind {
+        DefinitionKind::Column => {
+            let name = |span| sources.text(span).to_owned();
+            let table = name(index.definition(definition.owner?).name);
+            return Some(What::Column { table, column: name(definition.name) });
+        }
         DefinitionKind::Plan
         | DefinitionKind::Enum
+        | DefinitionKind::Table
         | DefinitionKind::Entry(_)
         | DefinitionKind::Component(_) => {}
         _ => return None,
     }
     let found = analysis.compiled.outline.identity_at(file, start)?;
-    (found.part == Part::Whole).then_some(found.item)
+    (found.part == Part::Whole).then_some(What::Item(found.item))
 }
 
 /// Gives something another name, in all plan files that the client works on and in the positions.
@@ -71,12 +92,12 @@ pub(crate) fn rename(server: &mut Server, params: lsp::RenameParams) -> Answer {
     let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
         return Ok(Value::Null);
     };
-    let Renamed { item, path } = renamed(&analysis, offset)?;
-    let change = Change::Rename { item, to: params.new_name };
+    let Renamed { what, path } = renamed(&analysis, offset)?;
+    let change = what.renamed(params.new_name);
     let files = server.sources(&analysis);
     let home = files.iter().position(|file| file.name == path);
     let home = home.ok_or_else(|| Failure::Refused("its file cannot be read".to_owned()))?;
-    let edits = afp_ide::edit::edit(&files, home, &change);
+    let edits = afp_ide::edit::edit(&files, &analysis.set.toolboxes, home, &change);
     let edits = edits.map_err(|refused| Failure::Refused(refused.reason))?;
     let mut all = server.grouped(&files, edits);
     all.extend(server.moved_positions(&path, std::slice::from_ref(&change)));

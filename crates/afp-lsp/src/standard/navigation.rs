@@ -159,6 +159,7 @@ pub(crate) fn kind(kind: DefinitionKind) -> lsp::SymbolKind {
         Is::Toolbox | Is::Alias => Kind::Module,
         Is::Template(_) | Is::Plan => Kind::Class,
         Is::Input | Is::Output => Kind::Property,
+        Is::Table => Kind::Array,
         Is::State | Is::Event => Kind::Event,
         Is::Object => Kind::Struct,
         Is::Enum => Kind::Enum,

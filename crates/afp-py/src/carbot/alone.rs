@@ -99,6 +99,11 @@ impl Carbot {
         sensed.into_bound(py)
     }
 
+    fn __repr__(&self) -> PyResult<String> {
+        let (time, (x, y, _)) = (self.time()?, self.pose()?);
+        Ok(format!("<Carbot at ({x:.2}, {y:.2}) m, {time:.3} s>"))
+    }
+
     fn __reduce__(&self) -> PyResult<()> {
         Err(no_pickle("Carbot", "make it anew from its world and seed"))
     }

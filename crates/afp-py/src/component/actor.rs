@@ -1,7 +1,7 @@
 //! An actor in Python.
 
 use afp::load::{ActorSlot, See};
-use afp_core::rt::{Args, Outputs};
+use afp_core::rt::{Args, BadValue, Outputs};
 use afp_core::{Fault, Instant};
 use afp_session::Simulated;
 use pyo3::prelude::*;
@@ -34,7 +34,7 @@ impl<R: Simulated> ActorSlot<R> for PyActor {
         see: See<'_>,
         env: &mut R,
         _: Instant,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), BadValue> {
         let template = &self.template;
         let inputs = template.inputs(args, see)?;
         let running = template.host.call_with_robot(env, &template.caller, |py| {
@@ -54,7 +54,7 @@ impl<R: Simulated> ActorSlot<R> for PyActor {
         to: &mut dyn Outputs,
         env: &mut R,
         _: Instant,
-    ) -> Result<Option<u16>, Fault> {
+    ) -> Result<Option<u16>, BadValue> {
         let running = self.running.as_ref().ok_or(Fault::INTERNAL)?;
         self.template.poll(&running.poll, args, to, env)
     }

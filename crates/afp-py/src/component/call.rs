@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use afp::load::See;
-use afp_core::rt::{Args, Outputs};
+use afp_core::rt::{Args, BadValue, Outputs, input};
 use afp_core::{Fault, Value, ValueRef};
 use afp_dsl::toolbox::{InPort, Template, Toolbox};
 use afp_dsl::types::Type;
@@ -82,7 +82,7 @@ impl PyTemplate {
     ///
     /// # Errors
     /// The fault of a formula; a number that is not finite or outside of its port's range.
-    pub fn inputs(&self, args: &dyn Args, see: See<'_>) -> Result<Inputs<'_>, Fault> {
+    pub fn inputs(&self, args: &dyn Args, see: See<'_>) -> Result<Inputs<'_>, BadValue> {
         let inputs = self.pull(args, false)?;
         if let Some(see) = see {
             for (port, _, value) in &inputs.0 {
@@ -99,7 +99,7 @@ impl PyTemplate {
     ///
     /// # Errors
     /// As [`PyTemplate::inputs`].
-    pub fn live(&self, args: &dyn Args) -> Result<Inputs<'_>, Fault> {
+    pub fn live(&self, args: &dyn Args) -> Result<Inputs<'_>, BadValue> {
         if !self.has_live {
             return Ok(Inputs(Vec::new()));
         }
@@ -108,9 +108,11 @@ impl PyTemplate {
         Ok(inputs)
     }
 
-    fn pull(&self, args: &dyn Args, live: bool) -> Result<Inputs<'_>, Fault> {
+    fn pull(&self, args: &dyn Args, live: bool) -> Result<Inputs<'_>, BadValue> {
         let ports = (0..).zip(&self.declared()?.inputs).filter(|(_, port)| port.live == live);
-        let pulled = ports.map(|(number, port)| Ok((number, port, pull(args, number, port)?)));
+        let pulled = ports.map(|(number, port)| {
+            Ok((number, port, input(number, || Ok(pull(args, number, port)?))?))
+        });
         pulled.collect::<Result<_, _>>().map(Inputs)
     }
 
@@ -125,7 +127,7 @@ impl PyTemplate {
         args: &dyn Args,
         to: &mut dyn Outputs,
         env: &mut R,
-    ) -> Result<Option<u16>, Fault> {
+    ) -> Result<Option<u16>, BadValue> {
         let live = self.live(args)?;
         let outcome = self.host.call_with_robot(env, &self.caller, |py| {
             let method = method.get(py)?;
@@ -166,17 +168,20 @@ impl PyTemplate {
 pub struct Inputs<'a>(Vec<(u16, &'a InPort, Pulled)>);
 
 impl Inputs<'_> {
-    fn check(&self) -> Result<(), Fault> {
-        for (_, port, value) in &self.0 {
+    fn check(&self) -> Result<(), BadValue> {
+        for (position, port, value) in &self.0 {
+            let wrong = |fault, value| BadValue::number(fault, value).for_input(*position);
             let Pulled::Value(value) = value else { continue };
             let number = match value {
                 Value::Int(int) => *int as f64,
-                Value::Float(float) if !float.is_finite() => return Err(Fault::ARITHMETIC),
+                Value::Float(float) if !float.is_finite() => {
+                    return Err(wrong(Fault::ARITHMETIC, *float));
+                }
                 Value::Float(float) => *float,
                 _ => continue,
             };
             if port.range.is_some_and(|(least, most)| number < least || number > most) {
-                return Err(Fault::RANGE);
+                return Err(wrong(Fault::RANGE, number));
             }
         }
         Ok(())

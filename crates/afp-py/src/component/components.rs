@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 
 use super::{AnyRegistry, Host, register};
 use crate::link::link;
+use crate::pause::attached;
 use crate::toolbox::Toolbox;
 
 /// Components in Python for engines that make plans by themselves: each plan gets a robot of its own.
@@ -32,7 +33,7 @@ impl<'a> Components<'a> {
         if self.toolboxes.is_empty() {
             return;
         }
-        let registered = Python::attach(|py| {
+        let registered = attached(|py| {
             let host = Arc::new(Host::new(link().robot(py)?));
             for toolbox in self.toolboxes {
                 register(py, toolbox.get(), &host, registry)?;

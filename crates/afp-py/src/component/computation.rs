@@ -1,8 +1,7 @@
 //! A computation in Python.
 
 use afp::load::{ComputationSlot, See};
-use afp_core::Fault;
-use afp_core::rt::{Args, Outputs};
+use afp_core::rt::{Args, BadValue, Outputs};
 use pyo3::exceptions::PyTypeError;
 
 use super::call::PyTemplate;
@@ -19,7 +18,12 @@ impl PyComputation {
 }
 
 impl ComputationSlot for PyComputation {
-    fn compute(&self, args: &dyn Args, see: See<'_>, to: &mut dyn Outputs) -> Result<u16, Fault> {
+    fn compute(
+        &self,
+        args: &dyn Args,
+        see: See<'_>,
+        to: &mut dyn Outputs,
+    ) -> Result<u16, BadValue> {
         let template = &self.template;
         let inputs = template.inputs(args, see)?;
         let name = &template.declared()?.name;

@@ -14,6 +14,7 @@ use pyo3::{PyTraverseError, PyVisit};
 
 use super::depth::inside;
 use super::handles::PyHandles;
+use crate::pause::attached;
 use crate::robot::{Caller, Robot};
 
 /// What a plan sees of an exception.
@@ -70,7 +71,7 @@ impl Host {
         call: impl FnOnce(Python<'_>) -> PyResult<T>,
     ) -> Result<T, Fault> {
         let now = env.now();
-        Python::attach(|py| {
+        attached(|py| {
             let robot = self.robot.get();
             robot.exchange(env, Some(caller));
             let done = self.inside(py, call);
@@ -89,7 +90,7 @@ impl Host {
         template: &str,
         call: impl FnOnce(Python<'_>) -> PyResult<T>,
     ) -> Result<T, Fault> {
-        Python::attach(|py| {
+        attached(|py| {
             let done = self.inside(py, call);
             done.map_err(|error| self.keep(py, Instant::ZERO, template, error))
         })

@@ -1,7 +1,7 @@
 //! A supervisor in Python.
 
 use afp::load::{See, SupervisorSlot};
-use afp_core::rt::{Args, Outputs};
+use afp_core::rt::{Args, BadValue, Outputs};
 use afp_core::{Events, Fault, Instant};
 use afp_session::Simulated;
 use pyo3::prelude::*;
@@ -39,7 +39,7 @@ impl<R: Simulated> SupervisorSlot<R> for PySupervisor {
         see: See<'_>,
         env: &mut R,
         _: Instant,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), BadValue> {
         let template = &self.template;
         let inputs = template.inputs(args, see)?;
         let (poll, wanted) = template.host.call_with_robot(env, &template.caller, |py| {
@@ -60,7 +60,7 @@ impl<R: Simulated> SupervisorSlot<R> for PySupervisor {
         to: &mut dyn Outputs,
         env: &mut R,
         _: Instant,
-    ) -> Result<Option<u16>, Fault> {
+    ) -> Result<Option<u16>, BadValue> {
         let watching = self.watching.as_mut().ok_or(Fault::INTERNAL)?;
         if watching.told != wanted {
             let template = &self.template;

@@ -1,11 +1,10 @@
 //! The texts of a plan while it is changed, and what the compiler says of them.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use afp_dsl::files::{Disk, Files};
 use afp_dsl::toolbox::Toolboxes;
 use afp_dsl::{Compiled, compile_plan};
 use afp_project::{CrateLink, ProjectFile, shown};
@@ -32,6 +31,11 @@ pub struct Desk {
 }
 
 impl Desk {
+    /// The toolboxes that it can use.
+    pub fn known(&self) -> &Toolboxes {
+        &self.known
+    }
+
     /// A plan that has been changed by nobody.
     pub fn new(
         text: String,
@@ -111,7 +115,7 @@ impl Desk {
         let source = Source::new(self.file().display().to_string(), &self.text);
         let read = |path: &str| match self.others.get(path) {
             Some(text) => Ok(text.clone()),
-            None => read(path),
+            None => Disk::default().read(path),
         };
         let compiled = compile_plan(&source, &self.known, &read, self.name.as_deref());
         let compiled = Arc::new(compiled);
@@ -140,12 +144,4 @@ impl Desk {
 
 fn write(path: &Path, text: &str) -> PyResult<()> {
     write_whole("cannot write the plan", path, text).map_err(|why| run_error(&why))
-}
-
-/// The text of a file that a plan file uses.
-fn read(path: &str) -> Result<String, String> {
-    fs::read_to_string(path).map_err(|error| match error.kind() {
-        ErrorKind::NotFound => "there is no such file".to_owned(),
-        _ => error.to_string().to_lowercase(),
-    })
 }

@@ -68,6 +68,18 @@ impl Event {
         text(&self.event.supervisor)
     }
 
+    /// The element that was active or being entered when an event was taken.
+    #[getter]
+    fn element(&self) -> Option<&str> {
+        text(&self.event.element)
+    }
+
+    /// Whether that element answered: the target is one of its `on`, not the supervisor's.
+    #[getter]
+    fn on(&self) -> bool {
+        self.event.on
+    }
+
     /// The entry that was written.
     #[getter]
     fn entry(&self) -> Option<&str> {

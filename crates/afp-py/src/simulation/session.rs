@@ -2,7 +2,10 @@
 //!
 //! Between steps anybody may look and write; what a run does depends only on the times at which that was.
 
+use std::mem;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::thread;
 
 use afp::load::{Injection, PlanNames};
 use afp_core::devices::find_signal;
@@ -18,6 +21,7 @@ use afp_session::{
 use pyo3::exceptions::{PyIsADirectoryError, PyKeyError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
+use super::glance::{Glance, Seen};
 use super::keeper::Keeper;
 use crate::component::RAISED;
 use crate::errors::{error, log_error, run_error};
@@ -32,6 +36,8 @@ pub struct Setting<'a> {
     /// Path and text of the plan's file and of those that it uses.
     pub texts: Vec<(String, String)>,
     pub log: Option<&'a Path>,
+    /// Whether the log gets what the camera sees.
+    pub camera: bool,
 }
 
 /// A run.
@@ -41,15 +47,37 @@ pub struct Run {
     pub keeper: Keeper,
     pub track: Track,
     pub stopped_by: Option<&'static str>,
-    pause: Pause,
+    pub pause: Pause,
+    /// What other threads see of it meanwhile.
+    pub seen: Arc<Seen>,
     own_entries: u32,
     log: Option<SessionLog>,
     log_path: Option<PathBuf>,
 }
 
 impl Run {
+    /// A run of which nobody keeps a log.
+    pub fn new(session: Box<dyn AnySession>, graph: &Graph) -> Run {
+        let own_entries = graph.main().entries.len();
+        Run {
+            keeper: Keeper::default(),
+            track: Track::new(session.devices()),
+            session,
+            names: PlanNames::new(graph),
+            stopped_by: None,
+            pause: Pause::of_signals(),
+            seen: Arc::default(),
+            own_entries: u32::try_from(own_entries).unwrap_or(u32::MAX),
+            log: None,
+            log_path: None,
+        }
+    }
+
     /// A run about to start.
-    pub fn new(session: Box<dyn AnySession>, setting: &Setting<'_>, pause: Pause) -> PyResult<Run> {
+    ///
+    /// # Errors
+    /// Its log cannot be written.
+    pub fn logged(session: Box<dyn AnySession>, setting: &Setting<'_>) -> PyResult<Run> {
         if let Some(folder) = setting.log.filter(|path| path.is_dir()) {
             let text = format!("cannot write the log: it is a folder: '{}'", folder.display());
             return Err(PyIsADirectoryError::new_err(text));
@@ -57,20 +85,64 @@ impl Run {
         let world = &setting.world.world;
         let log = setting.log.map(|path| {
             let (about, names) = (about(setting), OwnedNames::new(session.names()));
-            SessionLog::create(path, &about, names, session.devices(), world.scene(), false)
+            SessionLog::create(
+                path,
+                &about,
+                names,
+                session.devices(),
+                world.scene(),
+                setting.camera,
+            )
         });
-        let own_entries = setting.graph.main().entries.len();
-        Ok(Run {
-            keeper: Keeper::default(),
-            track: Track::new(session.devices()),
-            session,
-            names: PlanNames::new(setting.graph),
-            stopped_by: None,
-            pause,
-            own_entries: u32::try_from(own_entries).unwrap_or(u32::MAX),
-            log: log.transpose().map_err(|why| log_error(&why))?,
-            log_path: setting.log.map(Path::to_owned),
+        let log = log.transpose().map_err(|why| log_error(&why))?;
+        let mut run = Run::new(session, setting.graph);
+        (run.log, run.log_path) = (log, setting.log.map(Path::to_owned));
+        Ok(run)
+    }
+
+    /// The same run at this moment, without its log, which goes on by itself; none where a component cannot be copied.
+    pub fn keyframe(&self) -> Option<Run> {
+        let records = self.keeper.records.clone();
+        Some(Run {
+            session: self.session.keyframe()?,
+            names: self.names.clone(),
+            keeper: Keeper { records, refused: None },
+            track: self.track.clone(),
+            stopped_by: self.stopped_by,
+            pause: Pause::of_signals(),
+            seen: Arc::default(),
+            own_entries: self.own_entries,
+            log: None,
+            log_path: None,
         })
+    }
+
+    /// Goes on from another run's moment.
+    ///
+    /// # Errors
+    /// The run is logged: what a log says has happened.
+    pub fn restore(&mut self, mut other: Run) -> PyResult<()> {
+        if self.log_path.is_some() {
+            let text =
+                "the simulation writes a log, which cannot be taken back; restore one without";
+            return Err(PyRuntimeError::new_err(text));
+        }
+        // Who asks it to stop, and who looks at it, stays.
+        mem::swap(&mut self.pause, &mut other.pause);
+        mem::swap(&mut self.seen, &mut other.seen);
+        mem::swap(self, &mut other);
+        Ok(())
+    }
+
+    /// Lets other threads see how far it is.
+    pub fn show(&self) {
+        self.seen.show(Glance {
+            time: self.session.now().as_secs_f64(),
+            pose: self.pose().ok(),
+            ending: self.ending(),
+            active: self.active(),
+            driver: thread::current().id(),
+        });
     }
 
     /// Drives the plan to its end or to `until`, where it is stopped if `stop` is set; whether it still runs.
@@ -134,6 +206,9 @@ impl Run {
             return Err(PyRuntimeError::new_err(text));
         }
         let mut halt = self.pause.look();
+        if self.pause.is_long {
+            self.show();
+        }
         if halt.is_none() {
             self.tell(|session, to| {
                 session.tick(limit, &mut afp_session::Open, to).map(|_: Go| ())
@@ -188,7 +263,7 @@ impl Run {
     pub fn raised(&self) -> impl Iterator<Item = (Instant, &str)> {
         let names = &self.names;
         self.keeper.records.iter().filter_map(|record| match record.get() {
-            Record::Faulted { component, fault } if fault == RAISED => {
+            Record::Faulted { component, fault, .. } if fault == RAISED => {
                 let name = names.component(component);
                 let inner = !matches!(name.kind, Kind::Plan | Kind::SubPlan);
                 inner.then_some((record.at, name.path))
@@ -272,7 +347,7 @@ impl Run {
                 }
             });
         }
-        pose.ok_or_else(|| error("the robot does not say where it is: it declares no 'robot.pose'"))
+        pose.ok_or_else(no_pose)
     }
 
     /// The names of the plan's own entries.
@@ -297,12 +372,15 @@ impl Run {
         }
     }
 
-    /// The fault that ended the plan.
-    pub fn fault(&self) -> Option<Fault> {
-        match self.session.ending() {
-            Some(Ending::Error(fault)) => Some(fault),
+    /// The code and the text of the fault that ended the plan.
+    pub fn fault(&self) -> Option<(&'static str, String)> {
+        let Some(Ending::Error(fault)) = self.session.ending() else { return None };
+        let mut failed = self.keeper.records.iter().rev().filter_map(|record| match record.get() {
+            Record::Faulted { fault: of, detail, .. } if of == fault => Some(detail),
             _ => None,
-        }
+        });
+        let text = fault.explained(failed.next().flatten(), &self.names).to_string();
+        Some((fault.code(), text))
     }
 
     /// What the robot touched: obstacle, first and last time.
@@ -319,6 +397,11 @@ impl Run {
         closed.map_err(|why| log_error(&why))?;
         Ok(self.log_path.clone())
     }
+}
+
+/// What to say of a robot without a pose.
+pub fn no_pose() -> PyErr {
+    error("the robot does not say where it is: it declares no 'robot.pose'")
 }
 
 fn text_file(name: &str, text: &str) -> TextFile {

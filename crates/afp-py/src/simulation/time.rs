@@ -5,12 +5,12 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 /// An instant from seconds.
-pub(super) fn instant(seconds: f64) -> PyResult<Instant> {
+pub fn instant(seconds: f64) -> PyResult<Instant> {
     Ok(Instant::ZERO + duration(seconds)?)
 }
 
 /// A time from seconds.
-pub(super) fn duration(seconds: f64) -> PyResult<Duration> {
+pub fn duration(seconds: f64) -> PyResult<Duration> {
     match seconds.is_finite() && seconds >= 0.0 {
         true => Ok(Duration::from_secs_f64(seconds)),
         false => Err(PyValueError::new_err(format!("{seconds} is no time from 0 on, in seconds"))),

@@ -18,6 +18,10 @@ struct Line<'a> {
     #[serde(skip_serializing_if = "str::is_empty")]
     supervisor: &'a str,
     #[serde(skip_serializing_if = "str::is_empty")]
+    element: &'a str,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    on: bool,
+    #[serde(skip_serializing_if = "str::is_empty")]
     entry: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
     old: Option<serde_json::Value>,
@@ -54,6 +58,8 @@ pub(super) fn line(event: &RunEvent) -> Option<String> {
         outcome: &event.outcome,
         target: &event.target,
         supervisor: &event.supervisor,
+        element: &event.element,
+        on: event.on,
         entry: &event.entry,
         old: event.old.as_ref().map(value),
         new: event.value.as_ref().map(value),

@@ -38,6 +38,9 @@ pub(crate) struct RunFigures {
     ending: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     fault: Option<&'static str>,
+    /// The fault in words: port, value and place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fault_text: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     stopped_by: Option<StoppedBy>,
     time_s: f64,
@@ -128,6 +131,7 @@ impl Ran<'_> {
             seed: self.seed,
             ending,
             fault,
+            fault_text: counts.why(names),
             stopped_by: self.stopped_by,
             time_s: self.end.as_secs_f64(),
             activations: counted(counts, names, |kind, usage| {
@@ -359,11 +363,14 @@ impl Summary {
     }
 
     fn ending(&self) -> String {
-        let RunFigures { ending, fault, stopped_by, time_s, .. } = &self.figures;
+        let RunFigures { ending, fault, fault_text, stopped_by, time_s, .. } = &self.figures;
         let why = match (stopped_by, fault) {
             (Some(StoppedBy::Until), _) => ", its time was up".to_owned(),
             (Some(StoppedBy::Signal), _) => ", asked to stop".to_owned(),
-            (None, Some(fault)) => format!(" ({fault})"),
+            (None, Some(fault)) => match fault_text {
+                Some(text) => format!(": {text}"),
+                None => format!(" ({fault})"),
+            },
             (None, None) => String::new(),
         };
         let style = if fault.is_some() { BAD } else { STRONG };

@@ -37,7 +37,10 @@ pub(super) fn line(event: &RunEvent, template: &str) -> Option<String> {
         Kind::StopRequested => format!("{EVENT}■ stop requested{EVENT:#}"),
         Kind::Injected => format!("{EVENT}◇ {} (injected){EVENT:#}", outcome(component, event)),
         Kind::Missed => missed(event),
-        Kind::Event => format!("{EVENT}⚡ {}{EVENT:#}", outcome(component, event)),
+        Kind::Event => {
+            let answered = answered(event);
+            format!("{EVENT}⚡ {}{EVENT:#}{answered}", outcome(component, event))
+        }
         Kind::AlreadyThere => {
             format!("{QUIET}· {} (already there){QUIET:#}", outcome(component, event))
         }
@@ -64,6 +67,14 @@ fn outcome(path: &str, event: &RunEvent) -> String {
     match &*event.target {
         "" => format!("{path}.{}", event.outcome),
         target => format!("{path}.{} → {target}", event.outcome),
+    }
+}
+
+/// Which element led an event of a global supervisor elsewhere.
+fn answered(event: &RunEvent) -> String {
+    match event.on {
+        true => format!("  {QUIET}by 'on' of {}{QUIET:#}", event.element),
+        false => String::new(),
     }
 }
 

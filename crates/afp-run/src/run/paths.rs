@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::Program;
 use crate::error::RunError;
 use crate::options::{Destination, RunOptions};
-use crate::output::check_writable;
+use crate::output::{check_apart, check_writable, is_same_file};
 use crate::picture::{PictureFormat, Rasterizer};
 
 /// Where logs and pictures go unless told otherwise.
@@ -19,8 +19,12 @@ pub(super) struct Paths {
 }
 
 impl Paths {
-    /// Makes the default folder where it is needed, and finds out now what would fail later.
-    pub(super) fn new(program: &Program<'_>, options: &RunOptions) -> Result<Self, RunError> {
+    /// Makes the default folder where it is needed, and finds out now what would fail later, or cost what is read.
+    pub(super) fn new(
+        program: &Program<'_>,
+        options: &RunOptions,
+        world: Option<&Path>,
+    ) -> Result<Self, RunError> {
         let stem = Path::new(program.file).file_stem().unwrap_or("plan".as_ref());
         let path = |asked: &Option<Destination>, extension| -> Result<_, RunError> {
             match asked {
@@ -36,7 +40,17 @@ impl Paths {
                 }
             }
         };
-        let paths = Paths { log: path(&options.log, ".mcap")?, svg: path(&options.svg, ".svg")? };
+        let mut log = path(&options.log, ".mcap")?;
+        // The log that is repeated lies where logs go unless told otherwise, and stays.
+        let is_repeated =
+            |log: &PathBuf| options.again.as_ref().is_some_and(|it| is_same_file(it, log));
+        if options.log.is_none() && log.as_ref().is_some_and(is_repeated) {
+            log = path(&options.log, ".again.mcap")?;
+        }
+        let paths = Paths { log, svg: path(&options.svg, ".svg")? };
+        let outputs = [&paths.log, &paths.svg].into_iter().flatten().map(PathBuf::as_path);
+        let inputs = [Some(Path::new(program.file)), world, options.again.as_deref()];
+        check_apart(outputs, inputs.into_iter().flatten())?;
         if let Some(path) = &paths.svg {
             check_writable("cannot write the picture", path)?;
         }

@@ -156,9 +156,9 @@ impl Canvas {
     }
 
     /// A symbol where an event was taken; its title tells when.
-    pub(super) fn mark(&mut self, pose: Pose2, kind: usize, at: Instant) {
+    pub(super) fn mark(&mut self, pose: Pose2, kind: usize, size: f64, at: Instant) {
         let (x, y) = self.view.point([pose.x, pose.y]);
-        let symbol = marks::symbol(kind, x, y);
+        let symbol = marks::symbol(kind, x, y, size);
         let secs = at.as_secs_f64();
         self.put(format_args!("<g class=\"mark\"><title>{secs:.3} s</title>{symbol}</g>"));
     }

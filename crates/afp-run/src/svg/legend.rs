@@ -47,7 +47,7 @@ impl Legend {
             if number == 0 {
                 self.section("EVENTS");
             }
-            let symbol = marks::symbol(kind, self.x + 10.0, self.y - 4.5);
+            let symbol = marks::symbol(kind, self.x + 10.0, self.y - 4.5, 1.0);
             self.put(format_args!(r#"<g class="mark">{symbol}</g>"#));
             let times = if count > 1 { format!("  ×{count}") } else { String::new() };
             self.text("name", INDENT, &format!("{name}{times}"));
@@ -91,10 +91,12 @@ impl Legend {
 
     pub(super) fn figures(&mut self, figures: &[(String, String)]) {
         self.section("RUN");
+        let longest = figures.iter().map(|(key, _)| key.chars().count()).max().unwrap_or(0);
+        let column = (longest as f64 * LETTER + 12.0).max(110.0);
         for (key, value) in figures {
             self.text("quiet", 0.0, key);
             self.y -= LINE;
-            self.text("name", 110.0, value);
+            self.text("name", column, value);
         }
     }
 

@@ -20,7 +20,12 @@ pub(super) fn kinds(marks: &[Mark], names: &dyn Names) -> Vec<(ComponentId, u16)
         known.filter(move |event| !matches!(names.target(id, *event), "" | "ignore"))
     };
     let all = supervisors.flat_map(|id| events(id).map(move |event| (id, event)));
-    let all: BTreeSet<_> = all.collect();
+    // Elements may lead them elsewhere.
+    let elements = (0..names.components()).map(ComponentId);
+    let reactions = elements.flat_map(|id| (0..).map_while(move |n| names.reaction(id, n)));
+    let reactions = reactions.filter(|edge| !matches!(edge.target, "" | "ignore"));
+    let reactions = reactions.map(|edge| (edge.supervisor, edge.outcome));
+    let all: BTreeSet<_> = all.chain(reactions).collect();
     let came: BTreeSet<_> = marks.iter().map(|mark| (mark.supervisor, mark.event)).collect();
     match all.len() <= SYMBOLS && came.is_subset(&all) {
         true => all.into_iter().collect(),
@@ -28,11 +33,21 @@ pub(super) fn kinds(marks: &[Mark], names: &dyn Names) -> Vec<(ComponentId, u16)
     }
 }
 
-/// Draws each mark where it was taken, with the symbol of its kind.
+/// A kind that came more often, such as one that resumes each second, has small symbols, so that the path is seen.
+const OFTEN: usize = 12;
+const SMALL: f64 = 0.45;
+
+/// Draws each mark where it was taken, with the symbol of its kind; small ones below others.
 pub(super) fn draw(canvas: &mut Canvas, marks: &[Mark], kinds: &[(ComponentId, u16)]) {
-    for mark in marks {
-        let kind = kinds.iter().position(|kind| *kind == (mark.supervisor, mark.event));
-        canvas.mark(mark.pose, kind.unwrap_or(0), mark.at);
+    let is = |kind: &(ComponentId, u16), mark: &Mark| *kind == (mark.supervisor, mark.event);
+    let count = |kind| marks.iter().filter(|mark| is(kind, mark)).count();
+    let (often, seldom): (Vec<_>, Vec<_>) =
+        kinds.iter().enumerate().partition(|(_, kind)| count(kind) > OFTEN);
+    for (kinds, size) in [(often, SMALL), (seldom, 1.0)] {
+        for (symbol, kind) in kinds {
+            let marks = marks.iter().filter(|mark| is(kind, mark));
+            marks.for_each(|mark| canvas.mark(mark.pose, symbol, size, mark.at));
+        }
     }
 }
 
@@ -50,17 +65,18 @@ pub(super) fn counted<'a>(
     counted.filter(|(_, _, count)| *count > 0)
 }
 
-/// The symbol of a kind, around a point in pixels.
-pub(super) fn symbol(kind: usize, x: f64, y: f64) -> String {
+/// The symbol of a kind, around a point in pixels; `size` is 1 for the usual one.
+pub(super) fn symbol(kind: usize, x: f64, y: f64, size: f64) -> String {
     // After six kinds the shapes come again, filled.
     let fill = if kind / 6 % 2 == 1 { " fill=\"#2b2b2b\"" } else { "" };
     let polygon = |corners: &[(f64, f64)]| {
-        let points = corners.iter().map(|(dx, dy)| format!("{:.1},{:.1}", x + dx, y + dy));
+        let points =
+            corners.iter().map(|(dx, dy)| format!("{:.1},{:.1}", x + size * dx, y + size * dy));
         format!("<polygon{fill} points=\"{}\"/>", points.collect::<Vec<_>>().join(" "))
     };
     match kind % 6 {
         0 => polygon(&[(0.0, -7.0), (7.0, 6.0), (-7.0, 6.0)]),
-        1 => format!("<circle{fill} cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"5.6\"/>"),
+        1 => format!("<circle{fill} cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{:.1}\"/>", 5.6 * size),
         2 => polygon(&[(-5.2, -5.2), (5.2, -5.2), (5.2, 5.2), (-5.2, 5.2)]),
         3 => polygon(&[(0.0, -7.5), (7.5, 0.0), (0.0, 7.5), (-7.5, 0.0)]),
         4 => polygon(&[(0.0, 7.0), (7.0, -6.0), (-7.0, -6.0)]),

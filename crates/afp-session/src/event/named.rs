@@ -30,11 +30,11 @@ impl<N: Names + ?Sized> Namer<'_, N> {
                 missed: Some(Miss { lateness, cause: Some(cause), skipped }),
                 ..self.about(EventKind::Missed, supervisor)
             },
-            Record::Event { supervisor, event } => {
-                self.outcome(EventKind::Event, supervisor, event)
+            Record::Event { supervisor, event, element } => {
+                self.event(EventKind::Event, supervisor, event, element)
             }
-            Record::AlreadyThere { supervisor, event } => {
-                self.outcome(EventKind::AlreadyThere, supervisor, event)
+            Record::AlreadyThere { supervisor, event, element } => {
+                self.event(EventKind::AlreadyThere, supervisor, event, element)
             }
             Record::Interrupted { element } => self.about(EventKind::Interrupted, element),
             Record::Finished { element, state } => {
@@ -61,9 +61,10 @@ impl<N: Names + ?Sized> Namer<'_, N> {
                 supervisor_id: supervisor,
                 ..self.about(EventKind::Resumed, element)
             },
-            Record::Faulted { component, fault } => {
-                self.fault(EventKind::Faulted, component, fault)
-            }
+            Record::Faulted { component, fault, detail } => RunEvent {
+                fault_text: fault.explained(detail, self.names).to_string(),
+                ..self.fault(EventKind::Faulted, component, fault)
+            },
             Record::Ended { plan, ending } => self.ended(plan, ending),
         }
     }
@@ -87,6 +88,26 @@ impl<N: Names + ?Sized> Namer<'_, N> {
             target: self.names.target(id, outcome).to_owned(),
             outcome_id: outcome,
             ..self.about(kind, id)
+        }
+    }
+
+    /// An event, which leads where the element that is active or being entered says.
+    fn event(
+        &self,
+        kind: EventKind,
+        supervisor: ComponentId,
+        event: u16,
+        element: ComponentId,
+    ) -> RunEvent {
+        let mut reactions = (0..u16::MAX).map_while(|n| self.names.reaction(element, n));
+        let own = reactions.find(|each| (each.supervisor, each.outcome) == (supervisor, event));
+        let polled = self.outcome(kind, supervisor, event);
+        RunEvent {
+            target: own.map_or(polled.target, |reaction| reaction.target.to_owned()),
+            on: own.is_some(),
+            element: self.path(element),
+            element_id: element,
+            ..polled
         }
     }
 

@@ -200,10 +200,12 @@ impl Grid {
 
     /// What a picture shows: the walls, patches for these letters in these colours, the body.
     pub fn drawing(&self, radius: f64, colors: &[(char, [u8; 3])]) -> Drawing {
-        let wall = |outline| Thing {
+        let wall = |(number, outline)| Thing {
+            id: format!("wall {number}"),
             name: "wall".to_owned(),
             outline,
             low: false,
+            movable: false,
             labelled: false,
             path: Vec::new(),
         };
@@ -213,7 +215,7 @@ impl Grid {
         Drawing {
             start: self.start,
             body: disc(radius),
-            things: self.outlines(WALL).map(wall).collect(),
+            things: self.outlines(WALL).enumerate().map(wall).collect(),
             patches: patches.collect(),
             lights: Vec::new(),
         }

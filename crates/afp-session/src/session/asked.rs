@@ -15,6 +15,7 @@ use crate::record::Keep;
 use crate::record::Kept;
 use crate::request::{Request, RequestError, RequestId, Waiting};
 use crate::robot::Robot;
+use crate::sample::Pose2;
 use crate::stimulus::Stimulus;
 
 /// What only loaded plans can do, as functions over them.
@@ -90,7 +91,8 @@ where
 
     /// Whether a request can be met at all.
     fn check(&self, request: &Request) -> Result<(), RequestError> {
-        let of_plan = !matches!(request, Request::Press(..) | Request::Break(..));
+        let of_plan =
+            !matches!(request, Request::Press(..) | Request::Break(..) | Request::Put(..));
         if of_plan && self.scheduler.ending().is_some() {
             return Err(RequestError::Ended);
         }
@@ -103,6 +105,10 @@ where
             #[cfg(feature = "load")]
             Request::Inject(_) => self.testing.as_ref().map(|_| ()).ok_or(RequestError::Compiled),
             Request::Idle(_) => self.testing.as_ref().map(|_| ()).ok_or(RequestError::Compiled),
+            Request::Put(_, Pose2 { x, y, heading }) => {
+                let sound = [x, y, heading].into_iter().all(|number| number.is_finite());
+                if sound { Ok(()) } else { Err(RequestError::Nowhere) }
+            }
             Request::Stop => Ok(()),
         }
     }
@@ -171,6 +177,7 @@ where
                     false => Err(RequestError::NoElement),
                 }
             }
+            Request::Put(what, at) => self.robot.put(&what, at),
             Request::Stop => {
                 self.scheduler.request_stop();
                 // It does not wait for the plan's next step.

@@ -58,7 +58,7 @@ pub(super) fn build(world: &World) -> Result<Built, WorldError> {
 }
 
 /// An obstacle's collider; its index in the world is its user data.
-fn collider(obstacle: &Obstacle, shape: SharedShape, i: usize) -> ColliderBuilder {
+pub(super) fn collider(obstacle: &Obstacle, shape: SharedShape, i: usize) -> ColliderBuilder {
     let group = if obstacle.height >= sonar::HEIGHT { HIGH } else { LOW };
     let builder = match obstacle.mobility {
         Mobility::Movable { mass } => ColliderBuilder::new(shape).mass(mass as f32),

@@ -4,19 +4,21 @@ use super::Simulation;
 use crate::devices::{camera, infrared, sonar};
 use crate::vehicle::drive::reduced;
 use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
+use afp_carbot::Path;
 use afp_carbot::devices::{
-    Battery, Beam, Body, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo, Flow,
-    FlowCamera, Frame, Glow, InfraredSensor, Lens, Motion, Navigator, Odometry, Reading,
-    RotatingTelemetry, Rotator, TouchSensor, Ultrasonic,
+    Battery, Beam, Belief, Body, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo, Flow,
+    FlowCamera, Frame, Glow, InfraredSensor, Lens, Localisation, Motion, Navigator, Odometry,
+    PathPlanner, Reading, RotatingTelemetry, Rotator, Signals, TouchSensor, Trip, Ultrasonic,
 };
-use afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
-use afp_core::{Environment, Fault, Instant};
+use afp_core::quantity::{Angle, AngularSpeed, Frequency, Length, Speed};
+use afp_core::{Environment, Fault, Instant, Poll, Ticket};
 use afp_session::parts::Line;
 
 impl Environment for Simulation {
     fn stop(&mut self, now: Instant) {
         self.drive.command(0.0, 0.0, now);
         self.rotator.hold();
+        self.shown = (false, None);
     }
 
     /// Blocks the wheels at once. They and the rotator obey nobody until
@@ -25,6 +27,7 @@ impl Environment for Simulation {
         self.stopped = true;
         self.drive.block();
         self.rotator.hold();
+        self.shown = (false, None);
     }
 }
 
@@ -176,6 +179,31 @@ impl FlowCamera for Simulation {
         let frame = Reading { time, value: value.map(|exposure| exposure.frame()) };
         let sensor = self.flow.get_or_insert_with(|| Box::new(camera::flow_sensor()));
         sensor.look(frame, now)
+    }
+}
+
+impl Localisation for Simulation {
+    fn belief(&mut self, now: Instant) -> Result<Reading<Belief>, Fault> {
+        let motion = Odometry::motion(self);
+        self.locator().belief(motion, now)
+    }
+}
+
+impl PathPlanner for Simulation {
+    fn search(&mut self, trip: &Trip, now: Instant) -> Result<Option<Ticket>, Fault> {
+        self.planner().search(trip, now)
+    }
+
+    fn found(&mut self, ticket: Ticket, now: Instant) -> Result<Poll<Option<Path>>, Fault> {
+        self.planner().found(ticket, now)
+    }
+}
+
+impl Signals for Simulation {
+    fn signal(&mut self, light: bool, tone: Option<Frequency>, _: Instant) {
+        if !self.stopped {
+            self.shown = (light, tone);
+        }
     }
 }
 

@@ -58,6 +58,20 @@ impl Mover {
         Mover { obstacle: i, body, start, way }
     }
 
+    /// The obstacle, by its place in [`World::obstacles`](crate::World).
+    pub(super) fn obstacle(&self) -> usize {
+        self.obstacle
+    }
+
+    pub(super) fn handle(&self) -> RigidBodyHandle {
+        self.body
+    }
+
+    /// Where it was at the start.
+    pub(super) fn start(&self) -> Isometry {
+        self.start
+    }
+
     /// Prepares the step that ends at `now`.
     fn step(&self, body: &mut RigidBody, now: Instant) {
         match &self.way {

@@ -5,16 +5,16 @@ use afp_carbot::table::{Carbot, Control, Fault, signal};
 use afp_core::{Instant, Platform};
 use afp_session::parts::VirtualClock;
 use afp_session::{
-    Active, Figure, FigureValue, Image, Measure, Pose2, Ranging, Refused, Robot, SampleRef,
-    Samples, Shape, Simulated, Span, Transform,
+    Active, Droppable, Figure, FigureValue, Image, Measure, Pose2, Put, Ranging, Refused,
+    RequestError, Robot, SampleRef, Samples, Shape, Simulated, Span, Transform,
 };
 
-use super::{Simulation, Snapshot};
+use super::{Simulation, Snapshot, hand};
 use crate::devices::camera;
 use crate::wall::WallDistance;
 use crate::world::{World, shape};
 
-const WORLD: &str = "world";
+pub(super) const WORLD: &str = "world";
 const BASE: &str = "base_link";
 /// Where the odometry takes the robot to be.
 const BELIEVED: &str = "base_link_by_odometry";
@@ -62,6 +62,10 @@ impl Robot for Simulation {
         Ok(())
     }
 
+    fn put(&mut self, what: &Put, at: Pose2) -> Result<(), RequestError> {
+        self.put_by_hand(what, at)
+    }
+
     fn sample(&self, to: &mut Samples<'_, '_>) {
         self.sample_truth(to);
         self.sample_ranging(to);
@@ -77,9 +81,15 @@ impl Robot for Simulation {
         to.put(signal::BUTTONS_ESCAPE, SampleRef::Bool(self.escape));
         to.put(signal::BATTERY_LEFT, SampleRef::Float(self.battery.charge().left));
         self.sample_light(to);
+        self.sample_localisation(to);
         let (speed, turn) = self.drive.asked();
         to.put(signal::NAVIGATOR_ASKED_SPEED, SampleRef::Float(speed));
         to.put(signal::NAVIGATOR_ASKED_TURN, SampleRef::Float(turn));
+        let (light, tone) = self.shown;
+        to.put(signal::SIGNALS_LIGHT, SampleRef::Bool(light));
+        if let Some(tone) = tone {
+            to.put(signal::SIGNALS_TONE, SampleRef::Float(tone.si()));
+        }
         let eye = Pose2 { x: camera::FORWARD, ..Pose2::default() };
         to.put(signal::CAMERA_FRAME, frame(BASE, CAMERA, eye, camera::HEIGHT));
         if to.wants(signal::CAMERA_PICTURE)
@@ -115,7 +125,7 @@ impl Robot for Simulation {
             let text = format!("at {at:.2} s; nothing stands beyond its edge");
             Figure { name: "left_map", value: FigureValue::Numbers(vec![("at_s", at)]), text }
         });
-        [contacts].into_iter().chain(left_map).collect()
+        [contacts].into_iter().chain(left_map).chain(self.located.figure()).collect()
     }
 }
 
@@ -170,6 +180,7 @@ impl Simulation {
 
 impl Simulated for Simulation {
     type World = World;
+    const DROPS: &'static [Droppable] = &hand::SHAPES;
     const FACTS: &'static [(&'static str, &'static str)] = &[("physics_step_ns", "5000000")];
     const MEASURES: &'static [&'static str] = &[WallDistance::NAME];
 
@@ -185,7 +196,7 @@ impl Simulated for Simulation {
     }
 }
 
-fn frame(
+pub(super) fn frame(
     parent: &'static str,
     child: &'static str,
     pose: Pose2,

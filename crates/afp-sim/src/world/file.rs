@@ -86,6 +86,7 @@ impl Check<'_> {
         self.positive(&key.at("height_m"), &[height])?;
         let look = self.look(key, WALL_COLOR, wall.color, wall.texture)?;
         let echo = self.share(&key.at("echo"), wall.echo)?;
+        let mapped = wall.mapped.unwrap_or(true);
         let at_points = key.at("points_m");
         let mut points = wall.points_m;
         self.near(&at_points, points.as_flattened())?;
@@ -102,7 +103,7 @@ impl Check<'_> {
                 return Err(self.error(&at_points, message));
             };
             let (name, mobility) = (name.clone(), Mobility::Fixed);
-            into.push(Obstacle { name, outline, height, mobility, look, echo });
+            into.push(Obstacle { name, outline, height, mobility, look, echo, mapped });
         }
         Ok(())
     }
@@ -110,6 +111,8 @@ impl Check<'_> {
     fn the_box(&self, key: &Key, i: usize, it: tables::Box) -> Result<Obstacle, WorldError> {
         self.positive(&key.at("size_m"), &it.size_m)?;
         self.positive(&key.at("height_m"), &[it.height_m])?;
+        let mobility = self.mobility(key, it.mass_kg, it.path)?;
+        let mapped = self.mapped(key, it.mapped, &mobility)?;
         Ok(Obstacle {
             name: it.name.unwrap_or_else(|| format!("box {}", i + 1)),
             outline: Outline::Box {
@@ -117,21 +120,25 @@ impl Check<'_> {
                 half: it.size_m.map(|size| size / 2.0),
             },
             height: it.height_m,
-            mobility: self.mobility(key, it.mass_kg, it.path)?,
+            mobility,
             look: self.look(key, BOX_COLOR, it.color, it.texture)?,
             echo: self.share(&key.at("echo"), it.echo)?,
+            mapped,
         })
     }
 
     fn polygon(&self, key: &Key, i: usize, it: tables::Polygon) -> Result<Obstacle, WorldError> {
         self.positive(&key.at("height_m"), &[it.height_m])?;
+        let mobility = self.mobility(key, it.mass_kg, it.path)?;
+        let mapped = self.mapped(key, it.mapped, &mobility)?;
         Ok(Obstacle {
             name: it.name.unwrap_or_else(|| format!("polygon {}", i + 1)),
             outline: Outline::Polygon(self.convex(&key.at("points_m"), it.points_m)?),
             height: it.height_m,
-            mobility: self.mobility(key, it.mass_kg, it.path)?,
+            mobility,
             look: self.look(key, POLYGON_COLOR, it.color, it.texture)?,
             echo: self.share(&key.at("echo"), it.echo)?,
+            mapped,
         })
     }
 
@@ -153,6 +160,20 @@ impl Check<'_> {
                 Err(self.error(&key.at("mass_kg"), message))
             }
         }
+    }
+
+    /// Whether a map shows it: by default what stands still.
+    fn mapped(
+        &self,
+        key: &Key,
+        mapped: Option<bool>,
+        mobility: &Mobility,
+    ) -> Result<bool, WorldError> {
+        let stands = *mobility == Mobility::Fixed;
+        if mapped == Some(true) && !stands {
+            return Err(self.error(&key.at("mapped"), "what moves is on no map"));
+        }
+        Ok(mapped.unwrap_or(stands))
     }
 
     fn path(&self, key: &Key, path: tables::Path) -> Result<Path, WorldError> {

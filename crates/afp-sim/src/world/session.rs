@@ -65,7 +65,7 @@ impl afp_session::World for World {
         Drawing {
             start: self.start,
             body: World::robot_outline(Pose::default()).to_vec(),
-            things: self.obstacles.iter().map(thing).collect(),
+            things: self.obstacles.iter().enumerate().map(|(index, it)| thing(index, it)).collect(),
             patches: self.patches.iter().map(patch).collect(),
             lights: self.lights.iter().map(|light| light.position).collect(),
         }
@@ -84,8 +84,8 @@ pub(crate) fn shape(index: usize, obstacle: &Obstacle) -> Shape {
     }
 }
 
-fn thing(obstacle: &Obstacle) -> Thing {
-    let outline = obstacle.outline.corners();
+fn thing(index: usize, obstacle: &Obstacle) -> Thing {
+    let Shape { id, outline, .. } = shape(index, obstacle);
     let count = outline.len() as f64;
     let sum = outline.iter().fold([0.0, 0.0], |sum, at| [sum[0] + at[0], sum[1] + at[1]]);
     let middle = [sum[0] / count, sum[1] / count];
@@ -100,9 +100,11 @@ fn thing(obstacle: &Obstacle) -> Thing {
         Outline::Polygon(_) => f64::INFINITY,
     };
     Thing {
+        id,
         name: obstacle.name.clone(),
         outline,
         low: obstacle.height < LOW,
+        movable: matches!(obstacle.mobility, Mobility::Movable { .. }),
         labelled: least > ROOM_FOR_NAME,
         path,
     }

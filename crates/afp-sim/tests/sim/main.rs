@@ -4,8 +4,10 @@ mod closed_forms;
 mod determinism;
 mod faults;
 mod late;
+mod locating;
 mod map;
 mod moving;
+mod objects;
 mod random;
 mod ranges;
 mod schema;
@@ -13,6 +15,7 @@ mod seeing;
 mod sensors;
 mod storms;
 mod vehicle;
+mod wanderer;
 mod world;
 
 use afp_carbot::devices::Navigator;

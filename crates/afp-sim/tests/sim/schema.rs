@@ -20,6 +20,7 @@ height_m = 2
 color = "#000000"
 texture = "bricks"
 echo = 0.5
+mapped = false
 [[box]]
 name = "box"
 pose_m_deg = [0, 3, 0]
@@ -29,6 +30,7 @@ path = { by_m = [[1, 0]], speed_m_s = 0.5, closed = true, wait_s = 1, start_s = 
 color = "#000000"
 texture = "plain"
 echo = 0.5
+mapped = false
 [[polygon]]
 name = "polygon"
 points_m = [[-2, 0], [-2, 1], [-3, 1]]
@@ -37,6 +39,7 @@ mass_kg = 1
 color = "#000000"
 texture = "stripes"
 echo = 0.5
+mapped = false
 [[patch]]
 name = "patch"
 points_m = [[-2, 0], [-2, 1], [-3, 1]]

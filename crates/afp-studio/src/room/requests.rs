@@ -9,8 +9,18 @@ use super::document::Keep;
 use super::{ClientId, Out, Room};
 
 /// Requests that the room answers, and not the language server.
-const OURS: [&str; 7] =
-    ["afp/hello", "afp/read", "afp/create", "afp/rename", "afp/remove", "afp/choose", "afp/pen"];
+const OURS: [&str; 10] = [
+    "afp/hello",
+    "afp/read",
+    "afp/create",
+    "afp/rename",
+    "afp/remove",
+    "afp/choose",
+    "afp/pen",
+    "afp/trust",
+    "afp/job",
+    "afp/endJob",
+];
 
 pub(super) fn is_ours(method: &str) -> bool {
     OURS.contains(&method)
@@ -37,6 +47,9 @@ pub(super) fn answer(
         _ if room.pen != Some(client) => {
             Err("somebody else has the pen: take it first, then change things".to_owned())
         }
+        "afp/trust" => trust(room, params),
+        "afp/job" => room.begin_job(client, params),
+        "afp/endJob" => room.end_job(params),
         "afp/create" => create(room, params),
         "afp/rename" => rename(room, params),
         "afp/remove" => remove(room, params),
@@ -66,11 +79,20 @@ fn hello(room: &Room, client: ClientId) -> Value {
         "root": uri_of(&room.folder.root().to_string_lossy()),
         "open": room.open,
         "pen": room.pen == Some(client),
-        "trusted": false,
+        "trusted": room.trust.is_given(),
         "documents": documents.collect::<Vec<_>>(),
         "files": room.listed(),
         "examples": examples.collect::<Vec<_>>(),
     })
+}
+
+/// Whether the folder is trusted, and what of it would run then; gives it that trust where it is asked to.
+fn trust(room: &mut Room, params: &Value) -> Result<Value, String> {
+    if params["give"] == json!(true) {
+        room.trust.give()?;
+    }
+    let folder = room.folder.root().to_string_lossy();
+    Ok(json!({ "trusted": room.trust.is_given(), "folder": folder, "code": room.trust.code() }))
 }
 
 /// The first line of the help of a plan.

@@ -20,11 +20,13 @@ views! {
     Element
     /// A supervisor.
     Guard
+    /// `on keys { Start -> drive }`
+    Reactions
     /// `State -> target`
     Edge
 }
 
-named! { Plan Entry Element Guard }
+named! { Plan Entry Element Guard Reactions }
 
 /// What the keyword in front of an element says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,6 +40,8 @@ pub enum ElementKind {
 }
 
 /// A port bound to a formula or an entry.
+///
+/// A name alone is read as an input, see [`Bind::is_alone`].
 #[derive(Clone, Debug)]
 pub enum Bind {
     /// `port = formula`
@@ -60,6 +64,31 @@ pub enum Bind {
         /// What stands in place of an entry.
         formula: Option<Formula>,
     },
+}
+
+impl Bind {
+    /// The port.
+    pub fn port(&self) -> &Name {
+        let (Bind::In { port, .. } | Bind::Out { port, .. }) = self;
+        port
+    }
+
+    /// Whether it is a name alone, which stands for the port and for the entry: `goal` is `goal = goal`, or
+    /// `goal => goal` where the port is an output.
+    pub fn is_alone(&self) -> bool {
+        match self {
+            Bind::In { port, formula: Some(formula), .. } => formula.span() == port.span,
+            Bind::Out { port, entry: Some(entry), .. } => entry.span == port.span,
+            _ => false,
+        }
+    }
+
+    /// A name alone whose port is an output.
+    #[must_use]
+    pub fn as_output(&self) -> Bind {
+        let port = self.port().clone();
+        Bind::Out { sign: port.span.after(), entry: Some(port.clone()), formula: None, port }
+    }
 }
 
 /// What stands around the parts of an element or supervisor.
@@ -190,6 +219,23 @@ impl Element {
         guards(&self.node, self.file)
     }
 
+    /// What it does instead where supervisors of the plan report something.
+    pub fn reactions(&self) -> Vec<Reactions> {
+        children(&self.node, Kind::Reactions).map(|node| Reactions::new(node, self.file)).collect()
+    }
+
+    /// Its edges as written.
+    pub fn edges(&self) -> Vec<Edge> {
+        edges(&self.node, self.file)
+    }
+
+    /// What stands around its parts.
+    pub fn frame(&self) -> Frame {
+        frame(&self.node, self.file)
+    }
+}
+
+impl Reactions {
     /// Its edges as written.
     pub fn edges(&self) -> Vec<Edge> {
         edges(&self.node, self.file)
@@ -290,7 +336,8 @@ pub(super) fn binds(node: &Node, file: u16) -> Vec<Bind> {
 }
 
 fn bind(node: &Node, file: u16) -> Option<Bind> {
-    let port = token(node, Kind::Name, file)?;
+    let same = child(node, Kind::Ref).filter(|_| node.kind() == Kind::BindSame);
+    let port = token(same.as_ref().unwrap_or(node), Kind::Name, file)?;
     let sign = |kinds: &[Kind]| {
         let sign = kinds.iter().find_map(|kind| span_of(node, *kind, file));
         sign.unwrap_or(port.span.after())
@@ -310,6 +357,9 @@ fn bind(node: &Node, file: u16) -> Option<Bind> {
                 formula: target.and_then(|target| Formula::child_of(&target, file)),
                 port,
             })
+        }
+        Kind::BindSame => {
+            Some(Bind::In { sign: port.span.after(), formula: Formula::child_of(node, file), port })
         }
         _ => None,
     }

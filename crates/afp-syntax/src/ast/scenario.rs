@@ -46,6 +46,8 @@ pub enum LineKind {
         /// Its bounds.
         bounds: Vec<Bound>,
     },
+    /// `from claim { lines }`
+    Moment(Option<Claim>, Vec<Line>),
     /// `until time`
     Until(Option<Formula>),
 }
@@ -121,21 +123,27 @@ impl Scenario {
 
     /// Its lines as written.
     pub fn lines(&self) -> Vec<Line> {
-        let lines = self.node.children().filter(|node| {
-            matches!(
-                node.kind(),
-                Kind::World
-                    | Kind::Seed
-                    | Kind::Over
-                    | Kind::Set
-                    | Kind::Robot
-                    | Kind::Stimulus
-                    | Kind::Expect
-                    | Kind::Until
-            )
-        });
-        lines.map(|node| Line::new(node, self.file)).collect()
+        lines(&self.node, self.file)
     }
+}
+
+/// The lines in a node as written.
+fn lines(node: &Node, file: u16) -> Vec<Line> {
+    let lines = node.children().filter(|node| {
+        matches!(
+            node.kind(),
+            Kind::World
+                | Kind::Seed
+                | Kind::Over
+                | Kind::Set
+                | Kind::Robot
+                | Kind::Stimulus
+                | Kind::Expect
+                | Kind::Moment
+                | Kind::Until
+        )
+    });
+    lines.map(|node| Line::new(node, file)).collect()
 }
 
 impl Line {
@@ -158,10 +166,11 @@ impl Line {
                 first(),
                 child(&self.node, Kind::Action).map(|node| Action::new(node, self.file)),
             ),
+            Kind::Moment => LineKind::Moment(self.claim(), lines(&self.node, self.file)),
             Kind::Until => LineKind::Until(first()),
             _ => LineKind::Expect {
                 never: keyword(&self.node) == "never",
-                claim: child(&self.node, Kind::Claim).map(|node| Claim::new(node, self.file)),
+                claim: self.claim(),
                 bounds: children(&self.node, Kind::Bound)
                     .map(|node| Bound::new(node, self.file))
                     .collect(),
@@ -172,6 +181,10 @@ impl Line {
     /// The word that it begins with.
     pub fn keyword(&self) -> String {
         keyword(&self.node)
+    }
+
+    fn claim(&self) -> Option<Claim> {
+        child(&self.node, Kind::Claim).map(|node| Claim::new(node, self.file))
     }
 
     fn token(&self, kind: Kind) -> Option<Name> {

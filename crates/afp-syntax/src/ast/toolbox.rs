@@ -131,6 +131,12 @@ impl Outcome {
     pub fn keyword(&self) -> Option<Name> {
         token(&self.node, Kind::Keyword, self.file)
     }
+
+    /// Whether `once` says that the event happens, and does not last.
+    pub fn once(&self) -> bool {
+        let words = tokens(&self.node, Kind::Keyword, self.file);
+        words.iter().skip(1).any(|word| word.text == "once")
+    }
 }
 
 impl Timing {

@@ -1,52 +1,38 @@
 //! Diagnostics for tools: one JSON object on a line.
 
-use serde_json::{Value, json};
+use afp_excerpt::place;
+use serde_json::json;
 
+use super::tables::Tables;
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::source::{Sources, Span};
+use crate::source::Sources;
 
 impl Diagnostics {
     /// All diagnostics, one JSON object on each line.
     pub fn json_lines(&self, sources: &Sources) -> String {
-        self.iter().map(|each| each.json(sources) + "\n").collect()
+        let tables = Tables::new(sources);
+        self.iter().map(|each| each.json_by(&tables) + "\n").collect()
     }
 }
 
 impl Diagnostic {
     /// The diagnostic as one JSON object without line breaks.
     ///
-    /// Keys: `code`, `severity`, `message`, `place`, `notes` (each `place` and `text`), `help` and,
-    /// where there is one, `fix` (`place` and `text`). A place has `file`, `start` and `end` in
-    /// bytes, `line` and `column` counted from 1.
+    /// Keys are those of [`afp_excerpt::Report::json`] and, where there is an edit that follows the help, `fix` (`place`
+    /// and `text`).
     pub fn json(&self, sources: &Sources) -> String {
-        let notes: Vec<_> = self
-            .notes
-            .iter()
-            .map(|note| json!({ "place": place(sources, note.span), "text": note.text }))
-            .collect();
-        let mut object = json!({
-            "code": self.code.as_str(),
-            "severity": self.severity.as_str(),
-            "message": self.message,
-            "place": place(sources, self.span),
-            "notes": notes,
-            "help": self.help,
-        });
-        if let Some(fix) = &self.fix {
-            object["fix"] = json!({ "place": place(sources, fix.span), "text": fix.text });
+        self.json_by(&Tables::new(sources))
+    }
+
+    fn json_by(&self, tables: &Tables<'_>) -> String {
+        let mut object = self.report(tables).json();
+        if let Some(fix) = &self.fix
+            && let Some(source) = tables.sources.get(fix.span.file)
+        {
+            let bytes = fix.span.start as usize..fix.span.end as usize;
+            let place = place(&source.name, bytes, tables.line_column(fix.span));
+            object["fix"] = json!({ "place": place, "text": fix.text });
         }
         object.to_string()
     }
-}
-
-fn place(sources: &Sources, span: Span) -> Value {
-    let source = sources.get(span.file);
-    let (line, column) = source.map_or((1, 1), |source| source.line_column(span.start));
-    json!({
-        "file": source.map(|source| source.name.as_str()),
-        "start": span.start,
-        "end": span.end,
-        "line": line,
-        "column": column,
-    })
 }

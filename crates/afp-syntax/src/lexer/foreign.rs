@@ -64,7 +64,15 @@ impl Lexer<'_, '_> {
         }
         let length = rest.find(is_known).unwrap_or(rest.len());
         let length = length.max(rest.chars().next().map_or(1, char::len_utf8));
+        let is_power = |each: char| matches!(each, '²' | '³' | '¹' | '⁰' | '⁴'..='⁹' | '⁻');
+        let behind_word = self.text[..self.at].ends_with(is_word);
         match &rest[..length] {
+            power if power.starts_with(is_power) => {
+                const POWER: &str = "write a product such as 'x * x', or a unit such as 'm/s^2'";
+                let error = self.error(Kind::Unknown, length, POWER);
+                self.diags.push(error);
+            }
+            "?" if behind_word => self.instead(Kind::Unknown, length, "remove it", ""),
             "&&" | "&" | "!" | "?" => {
                 let error = self.error(Kind::Unknown, length, CHOICE);
                 self.diags.push(error);
@@ -87,6 +95,9 @@ impl Lexer<'_, '_> {
         let message = match kind {
             Kind::Comment => "comments do not begin with '#'".to_owned(),
             Kind::Text => "a text stands in double quotes".to_owned(),
+            _ if shown.chars().all(is_invisible) => {
+                format!("'{}' cannot be seen", shown.escape_debug())
+            }
             _ => format!("'{}' has no meaning here", shown.escape_debug()),
         };
         let span = self.push(kind, length);

@@ -20,6 +20,7 @@ const HEADS: &[&str] = &[
     "supervisor",
     "on",
     "scenario",
+    "from",
     "enum",
     "table",
     "device",
@@ -51,6 +52,7 @@ const ITEMS: &[&str] = &[
     "seed",
     "set",
     "at",
+    "from",
     "expect",
     "never",
     "until",
@@ -68,6 +70,8 @@ enum Wrong {
     Missing(usize, usize),
     /// One that opens a body is missing behind a token.
     Unopened(usize),
+    /// One token closes where it should open.
+    Swapped(usize),
 }
 
 /// A line of the text, as far as it has been read.
@@ -105,6 +109,14 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
                 diags.push(stray(tokens[at], file));
                 told.push((tokens[at].start, tokens[at].start));
                 tokens[at].kind = Kind::Unknown;
+                continue;
+            }
+            Wrong::Swapped(at) => {
+                let error =
+                    Diagnostic::new(Code::E0102, span(tokens[at], file), "expected '{', found '}'");
+                diags.push(error.help("write '{'").replace("{"));
+                told.push((tokens[at].start, tokens[at].start));
+                tokens[at].kind = Kind::OpenBrace;
                 continue;
             }
             Wrong::Missing(behind, opener) => {
@@ -240,11 +252,15 @@ impl Reader<'_, '_> {
             ends_line |= token.text.contains('\n');
             !token.kind.is_trivia()
         });
-        let Some(next) = next.filter(|_| !ends_line) else { return true };
+        let Some(next) = next.filter(|_| !ends_line) else { return self.stands_behind_head(at) };
         let mut on_line = behind.take_while(|token| !token.text.contains('\n'));
         let sign = on_line.find(|token| !token.kind.is_trivia()).map(|token| token.kind);
         match next.kind {
             Kind::CloseBrace => true,
+            // The rows of a table.
+            Kind::OpenParen => {
+                self.lines.last().is_some_and(|line| self.tokens[line.first].text == "table")
+            }
             Kind::Name if ITEMS.contains(&next.text) => {
                 self.lines.last().is_none_or(|it| it.first != at)
             }
@@ -253,6 +269,13 @@ impl Reader<'_, '_> {
             }
             _ => false,
         }
+    }
+
+    /// Whether a brace is not alone on its line, or the line before it is a head, which may go on over several lines.
+    fn stands_behind_head(&self, at: usize) -> bool {
+        let [.., before, line] = self.lines.as_slice() else { return true };
+        let is_end = self.tokens[before.last].kind == Kind::CloseParen;
+        line.first != at || before.is_head && !before.opens || is_end
     }
 
     /// Whether names stand in the body, and nothing else.
@@ -273,6 +296,9 @@ impl Reader<'_, '_> {
         {
             return Some(Wrong::Unopened(head));
         }
+        if self.too_many && !leads && self.begins_body(line, at) {
+            return Some(Wrong::Swapped(at));
+        }
         let Some((opener, from)) = self.open.pop() else {
             return self.too_many.then_some(Wrong::Stray(at));
         };
@@ -285,6 +311,17 @@ impl Reader<'_, '_> {
         }
         let is_outer = leads && line.indent < from.indent;
         (is_outer && !self.too_many).then(|| Wrong::Missing(last.unwrap_or(opener), opener))
+    }
+
+    /// Whether a brace that closes ends a head without a body, and what follows is farther to the right.
+    fn begins_body(&self, line: Line, at: usize) -> bool {
+        let mut behind = self.tokens[at + 1..].iter();
+        let Some(space) = behind.next().filter(|token| token.kind.is_trivia()) else {
+            return false;
+        };
+        let Some((_, indent)) = space.text.rsplit_once('\n') else { return false };
+        let is_text = behind.next().is_some_and(|token| token.kind == Kind::Name);
+        line.is_head && !line.opens && is_text && indent.len() > line.indent
     }
 
     /// The end of the line that began, as far to the right, what this line closes, without a brace being opened.

@@ -22,7 +22,7 @@ impl Parser<'_, '_> {
         self.builder.finish_node();
     }
 
-    fn top_item(&mut self) {
+    pub(super) fn top_item(&mut self) {
         self.misplaced &= !self.at_top_item();
         match self.word(0) {
             "use" => self.use_item(),
@@ -30,6 +30,7 @@ impl Parser<'_, '_> {
             "scenario" => self.scenario(),
             "toolbox" => self.toolbox(),
             "enum" => self.enumeration(),
+            "table" => self.table(),
             "object" => self.object(),
             "device" | "sensor" => self.device(),
             "robot" if self.at_device() => self.device(),
@@ -40,7 +41,7 @@ impl Parser<'_, '_> {
             | "start" => self.misplaced(),
             _ => {
                 let help = self.top_help();
-                self.skip("'use', 'plan', 'scenario', 'enum' or 'toolbox'", &help, |p| {
+                self.skip("'use', 'plan', 'scenario', 'enum', 'table' or 'toolbox'", &help, |p| {
                     p.leaves_body() || p.at_tool()
                 });
             }
@@ -72,6 +73,10 @@ impl Parser<'_, '_> {
                 let named = 1 + usize::from(self.nth(1) == Kind::Name);
                 let braces = named + usize::from(self.word(named) == "forever");
                 self.nth(braces) == Kind::OpenBrace
+            }
+            "table" => {
+                self.nth(1) == Kind::Name
+                    && matches!(self.nth(2), Kind::OpenParen | Kind::OpenBrace)
             }
             "toolbox" => self.nth(1) == Kind::Name && !self.word(2).is_empty(),
             _ => false,

@@ -46,6 +46,7 @@ const WORDS_BEHIND_NUMBERS: &[&str] = &[
     "subplan",
     "supervise",
     "supervisor",
+    "table",
     "times",
     "to",
     "until",
@@ -196,11 +197,11 @@ impl Parser<'_, '_> {
     /// `.5`
     fn bare_fraction(&mut self) {
         let here = self.here();
-        self.error(
-            Diagnostic::new(Code::E0115, here, "a number begins with a digit")
-                .help("write '0' before the point")
-                .fix(here.before(), "0"),
-        );
+        let error = Diagnostic::new(Code::E0115, here, "a number begins with a digit");
+        self.error(match self.place(1) == self.place(0) + 1 {
+            true => error.help("write '0' before the point").fix(here.before(), "0"),
+            false => error.help("write '0' before the point, and its digits right behind it"),
+        });
         self.open(Kind::Error);
         self.bump();
         self.number();
@@ -208,7 +209,7 @@ impl Parser<'_, '_> {
     }
 
     /// Reports the nesting once and takes the rest of the brackets flat.
-    fn too_deep(&mut self) {
+    pub(super) fn too_deep(&mut self) {
         let here = self.here();
         self.error(
             Diagnostic::new(
@@ -282,7 +283,7 @@ impl Parser<'_, '_> {
         self.open(Kind::Factor);
         match self.nth(0) {
             Kind::Int => self.bump(),
-            Kind::Name => self.reference(),
+            Kind::Name if self.on_same_line() || !self.begins_item() => self.reference(),
             _ => self.expected(
                 "a type",
                 "write a type such as 'length', 'float' or 'length/duration^2'",

@@ -1,7 +1,11 @@
 //! What is written as in other languages: what to write instead, and where reading goes on.
 
-use super::{MAX_DEPTH, Parser};
-use crate::diagnostics::{Code, Diagnostic, words};
+mod bodies;
+mod edges;
+mod items;
+
+use super::Parser;
+use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 use crate::source::Span;
 
@@ -12,7 +16,7 @@ const CHOICE: &str = "let a computation such as 'Compare' or 'Is' of 'std' choos
 const ARROW_WORDS: &[&str] = &["goto", "to", "then", "next"];
 
 /// The words that items of a file begin with.
-const TOP_WORDS: &[&str] = &["use", "plan", "scenario", "enum", "toolbox"];
+const TOP_WORDS: &[&str] = &["use", "plan", "scenario", "enum", "table", "toolbox"];
 
 /// Words of formulas elsewhere, each with what to write instead.
 const OPERATORS: &[(&str, &str)] = &[
@@ -31,73 +35,6 @@ pub(super) fn is_operator(word: &str) -> bool {
 }
 
 impl Parser<'_, '_> {
-    /// What to write for an item that no plan has.
-    pub(super) fn item_help(&self, items: &[&str]) -> Option<String> {
-        let (word, next) = (self.word(0), self.word(1));
-        let on_line = (1..).take_while(|ahead| !self.begins_line(*ahead));
-        let begins_element = { on_line }
-            .map(|ahead| self.nth(ahead))
-            .take_while(|kind| *kind != Kind::End)
-            .any(|kind| kind == Kind::OpenBrace);
-        Some(match (word, self.nth(1)) {
-            (_, Kind::Colon) if begins_element => {
-                "begin an element with 'actor', 'computation' or 'subplan', a supervisor with 'supervise'"
-                    .to_owned()
-            }
-            (_, Kind::Colon | Kind::Equal) => {
-                format!("begin an entry with 'var', 'const', 'in' or 'out': 'var {word}'")
-            }
-            (_, Kind::Arrow) => "put the edge into the braces of an element or a supervisor".to_owned(),
-            ("int" | "bool" | "float" | "string", Kind::Name) => format!("write 'var {next}: {word}'"),
-            ("double" | "real", Kind::Name) => format!("write 'var {next}: float'"),
-            ("let" | "mut" | "auto" | "local" | "global" | "val" | "def", Kind::Name) => {
-                format!("write 'var {next}'")
-            }
-            ("if" | "else" | "elif" | "switch" | "case" | "when" | "match", _) => CHOICE.to_owned(),
-            ("while" | "for" | "loop" | "do", _) => "lead an edge back to an element".to_owned(),
-            ("import" | "include" | "from", _) => "write 'use' at the top of the file".to_owned(),
-            ("fn" | "func" | "function" | "void" | "class" | "task", _) => {
-                "write a plan of its own, and use it as a 'subplan'".to_owned()
-            }
-            ("every" | "deadline", _) => {
-                "write it behind the supervisor's template, before its '{'".to_owned()
-            }
-            _ => format!("write '{}'", self.meant(items)?),
-        })
-    }
-
-    /// What to write for an item that no file has.
-    pub(super) fn top_help(&self) -> String {
-        match self.word(0) {
-            "import" | "include" | "from" | "using" | "require" => {
-                "write 'use' and the name of a toolbox".to_owned()
-            }
-            word => match words::nearest(word, TOP_WORDS.iter().copied()) {
-                Some(meant) => format!("write '{meant}'"),
-                None => "remove it, or put it into a plan".to_owned(),
-            },
-        }
-    }
-
-    /// Whether a word stands before an edge that edges do not have: `when Done -> home`.
-    pub(super) fn at_word_before_edge(&self) -> bool {
-        let is_word = matches!(self.word(0), "when" | "if" | "case" | "upon" | "once");
-        is_word && self.nth(1) == Kind::Name && !self.begins_line(1) && self.arrow_at(2).is_some()
-    }
-
-    /// The word of an item that was meant.
-    pub(super) fn meant<'a>(&self, items: &[&'a str]) -> Option<&'a str> {
-        if self.nth(1) != Kind::Name {
-            return None;
-        }
-        let usual = match self.word(0) {
-            "state" | "action" | "step" | "node" | "behavior" | "behaviour" => "actor",
-            "supervisor" | "guard" | "watch" | "monitor" => "supervise",
-            other => return words::nearest(other, items.iter().copied()),
-        };
-        items.iter().copied().find(|item| *item == usual)
-    }
-
     /// `start -> go`, `start: go`
     pub(super) fn no_sign_behind_start(&mut self) {
         if matches!(self.nth(0), Kind::Arrow | Kind::FatArrow | Kind::Equal | Kind::Colon) {
@@ -177,30 +114,6 @@ impl Parser<'_, '_> {
         false
     }
 
-    /// Whether an actor, entry or supervisor begins here inside the body of another one, though no brace is missing.
-    pub(super) fn is_nested(&self) -> bool {
-        let begins = self.at_word("supervise") || self.leaves_body() && !self.at_top_item();
-        begins && self.balanced && self.depth < MAX_DEPTH
-    }
-
-    /// Reads an item that stands inside of another one.
-    pub(super) fn nested(&mut self) {
-        let (here, word) = (self.next_span(), self.word(0));
-        if self.depth == 0 {
-            let message = format!("'{word}' stands in braces where it has no place");
-            let help = match word {
-                "supervise" => "move it behind the '}' of the other supervisor",
-                _ => "move it behind the '}' of the element around it",
-            };
-            self.error(Diagnostic::new(Code::E0114, here, message).help(help));
-        }
-        self.depth += 1;
-        self.open(Kind::Error);
-        self.plan_item();
-        self.close();
-        self.depth -= 1;
-    }
-
     /// How many tokens stand there that are an arrow of an edge, or were meant as one.
     pub(super) fn arrow_at(&self, ahead: usize) -> Option<usize> {
         let same_line = |many: usize| (1..=many).all(|more| !self.begins_line(ahead + more));
@@ -222,63 +135,6 @@ impl Parser<'_, '_> {
     /// Whether a word stands here that is written for an arrow.
     pub(super) fn at_arrow_word(&self) -> bool {
         ARROW_WORDS.contains(&self.word(0)) && self.nth(1) == Kind::Name && !self.begins_line(1)
-    }
-
-    /// `fail("why")`, `terminate()`: a word that leads somewhere, with brackets.
-    pub(super) fn no_brackets(&mut self) {
-        let is_word = matches!(self.word(0), "terminate" | "fail" | "ignore" | "resume");
-        let tokens = match (self.nth(1), self.nth(2), self.nth(3)) {
-            (Kind::OpenParen, Kind::CloseParen, _) | (Kind::Colon | Kind::Comma, Kind::Text, _) => {
-                2
-            }
-            (Kind::OpenParen, Kind::Text, Kind::CloseParen) => 3,
-            _ => return,
-        };
-        if !is_word || (1..=tokens).any(|ahead| self.begins_line(ahead)) {
-            return;
-        }
-        let word = self.word(0);
-        let text = (2..=tokens).filter_map(|ahead| self.token(ahead));
-        let better = match { text }.find(|token| token.kind == Kind::Text) {
-            Some(text) => format!("{word} {}", text.text),
-            None => word.to_owned(),
-        };
-        let sign =
-            if self.nth(1) == Kind::OpenParen { "brackets".to_owned() } else { self.found_at(1) };
-        let message = format!("no {sign} behind '{word}'");
-        let help = format!("write '{better}'");
-        let place = self.ahead(tokens + 1);
-        self.error(Diagnostic::new(Code::E0102, place, message).help(help).replace(better));
-    }
-
-    /// Reads past brackets behind a word that leads somewhere; the text in them is its own.
-    pub(super) fn pass_brackets(&mut self) {
-        if self.on_same_line() && self.eat(Kind::OpenParen) {
-            self.eat(Kind::Text);
-            self.eat(Kind::CloseParen);
-        } else if self.on_same_line() && self.nth(1) == Kind::Text && !self.begins_line(1) {
-            let _ = self.eat(Kind::Colon) || self.eat(Kind::Comma);
-        }
-    }
-
-    /// What stands behind a target on its line: `-> go.Done`, `-> go -> home`.
-    pub(super) fn no_more_targets(&mut self) {
-        let more = self.on_same_line() && self.nth(1) == Kind::Name && !self.begins_line(1);
-        let (message, help) = match self.nth(0) {
-            Kind::Dot if more => {
-                ("an edge leads to an element as a whole", "remove the '.' and what follows")
-            }
-            Kind::Arrow if more => (
-                "an edge leads to one element",
-                "write the next edge in the braces of that element",
-            ),
-            _ => return,
-        };
-        let here = self.ahead(2);
-        let error = Diagnostic::new(Code::E0102, here, message).help(help);
-        let is_dot = self.at(Kind::Dot);
-        self.error(if is_dot { error.replace("") } else { error });
-        self.pass(2);
     }
 
     /// Reports what formulas elsewhere have behind their operands, and reads past it.

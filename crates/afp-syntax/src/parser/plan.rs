@@ -1,4 +1,4 @@
-//! Plans: entries, elements, supervisors, edges and bindings.
+//! Plans: entries, elements, supervisors and edges.
 
 use super::Parser;
 use super::recovery::Body;
@@ -10,6 +10,8 @@ const MAX_NAMES: usize = 128;
 /// The words that items of a plan begin with.
 const WORDS: &[&str] =
     &["in", "out", "var", "const", "start", "supervise", "actor", "computation", "subplan"];
+/// What the body of an element holds.
+pub(super) const BODY: &str = "a supervisor, 'on' or an edge";
 const ITEMS: &str = "an item of the plan";
 const ITEM_HELP: &str =
     "write 'in', 'out', 'var', 'const', 'start', 'supervise', 'actor', 'computation' or 'subplan'";
@@ -26,10 +28,13 @@ impl Parser<'_, '_> {
         };
         let body = self.open_body(help, Self::at_plan_item);
         if let Some(body) = body {
-            while !self.at_end() && !self.at(Kind::CloseBrace) && !self.at_top_item() {
+            let ends = |parser: &Self| parser.at_end() || parser.at(Kind::CloseBrace);
+            while !ends(self) && (!self.at_top_item() || self.is_top_inside(&body)) {
                 self.repeat(|parser| {
                     if parser.at_plan_item() {
                         parser.plan_item();
+                    } else if parser.at_top_item() {
+                        parser.top_inside();
                     } else {
                         parser.no_plan_item();
                     }
@@ -47,7 +52,10 @@ impl Parser<'_, '_> {
 
     /// Passes over what is no item of a plan.
     fn no_plan_item(&mut self) {
-        let help = self.item_help(WORDS).unwrap_or_else(|| ITEM_HELP.to_owned());
+        let help = match self.at_reactions() {
+            true => "put it into the braces of the element that reacts so".to_owned(),
+            false => self.item_help(WORDS).unwrap_or_else(|| ITEM_HELP.to_owned()),
+        };
         let is_body = self.begins_body();
         let fix = self.meant(WORDS).filter(|_| self.nth(2) == Kind::Colon);
         self.report_skipped(ITEMS, &help, fix);
@@ -70,7 +78,7 @@ impl Parser<'_, '_> {
     }
 
     /// Whether an edge begins here, which stands in a body alone: its brace is missing.
-    fn begins_body(&self) -> bool {
+    pub(super) fn begins_body(&self) -> bool {
         self.at(Kind::Name) && self.nth(1) == Kind::Arrow
     }
 
@@ -89,6 +97,7 @@ impl Parser<'_, '_> {
                 self.close_item();
             }
             "supervise" => self.guard(),
+            "on" => self.reactions(),
             "actor" | "computation" | "subplan" => self.element(),
             _ => self.entry(),
         }
@@ -128,10 +137,12 @@ impl Parser<'_, '_> {
                 self.repeat(|parser| {
                     if parser.at_word("supervise") {
                         parser.guard();
+                    } else if parser.at_reactions() {
+                        parser.reactions();
                     } else if parser.is_nested() {
                         parser.nested();
                     } else {
-                        parser.edge_or_skip("a supervisor or an edge");
+                        parser.edge_or_skip(BODY);
                     }
                 });
             }
@@ -140,23 +151,18 @@ impl Parser<'_, '_> {
         self.close_item();
     }
 
-    fn guard(&mut self) {
+    pub(super) fn guard(&mut self) {
         self.open_item(Kind::Guard);
-        self.keyword();
+        match self.word(0) {
+            "supervise" => self.keyword(),
+            // Another word, of which something has been said.
+            _ => self.pass(1),
+        }
         self.head("a supervisor's template");
         while self.at_timing() {
             self.timing();
         }
-        let body = self.open_body("put the edges of the events in braces", Self::begins_body);
-        if let Some(body) = body {
-            while !self.ends_body(&body) && (!self.at_word("supervise") || self.is_nested()) {
-                self.repeat(|parser| match parser.is_nested() {
-                    true => parser.nested(),
-                    false => parser.edge_or_skip("an edge"),
-                });
-            }
-            self.close_body(body);
-        }
+        self.events("put the edges of the events in braces");
         self.close_item();
     }
 
@@ -173,7 +179,7 @@ impl Parser<'_, '_> {
             }
         }
         if self.at(Kind::OpenParen) {
-            self.args();
+            self.args(true);
         }
     }
 
@@ -182,7 +188,7 @@ impl Parser<'_, '_> {
     }
 
     /// Whether the body of an element or a supervisor is over.
-    fn ends_body(&self, body: &Body) -> bool {
+    pub(super) fn ends_body(&self, body: &Body) -> bool {
         let leaves = self.leaves_body() && !(body.is_opened() && self.is_nested());
         self.at_end() || self.at(Kind::CloseBrace) || leaves
     }
@@ -220,13 +226,16 @@ impl Parser<'_, '_> {
         element || entry || self.at_top_item()
     }
 
-    fn edge_or_skip(&mut self, what: &str) {
+    pub(super) fn edge_or_skip(&mut self, what: &str) {
         if self.at_word_before_edge() {
             let message = format!("no {} before an edge", self.found());
             return self.instead(1, message, "remove it".to_owned(), "");
         }
         if self.at_edge() {
             return self.edge();
+        }
+        if self.sign_between_states() || self.strange_item(what) {
+            return;
         }
         // Names of states without an arrow: the edge is still being typed.
         let followed_by_edge = self.nth(1) == Kind::Name && !self.leaves_body();
@@ -238,7 +247,7 @@ impl Parser<'_, '_> {
             return self.instead(2, message, format!("write '{}'", self.word(2)), "");
         }
         self.skip(what, "write an edge such as 'State -> target'", |p| {
-            p.at(Kind::CloseBrace) || p.at_word("supervise") || p.leaves_body() || p.at_edge()
+            p.at(Kind::CloseBrace) || p.at_watch() || p.leaves_body() || p.begins_edge()
         });
     }
 
@@ -256,7 +265,7 @@ impl Parser<'_, '_> {
     }
 
     /// Whether names with commas between them stand before an arrow.
-    fn at_edge(&self) -> bool {
+    pub(super) fn at_edge(&self) -> bool {
         let last = self.last_name();
         self.nth(last) == Kind::Name && self.arrow_at(last + 1).is_some()
     }
@@ -274,17 +283,25 @@ impl Parser<'_, '_> {
         while whole && self.eat(Kind::Comma) {
             self.take_name();
         }
+        self.end_of_edge();
+    }
+
+    /// Names behind a sign in the place of a comma, and the end of their edge.
+    pub(super) fn rest_of_edge(&mut self) {
+        self.take_name();
+        self.end_of_edge();
+    }
+
+    /// `"->" target`
+    fn end_of_edge(&mut self) {
         if !self.arrow() {
             return self.close_item();
         }
         if self.at(Kind::Name) && (self.on_same_line() || self.target_of_another_line()) {
-            self.no_brackets();
-            self.target();
+            let brackets = self.no_brackets();
+            self.target(brackets);
             self.no_more_targets();
-        } else if self.at(Kind::Text) && self.on_same_line() {
-            let name = self.found().replace(['"', '\''], "");
-            self.instead(1, "a target has no quotes".to_owned(), format!("write '{name}'"), &name);
-        } else {
+        } else if !self.target_in_signs() {
             let here = self.behind();
             self.error(
                 Diagnostic::new(Code::E0109, here, "no target on the line of its '->'")
@@ -328,18 +345,18 @@ impl Parser<'_, '_> {
     }
 
     /// `NAME`, or `"fail" [STRING]`
-    fn target(&mut self) {
+    fn target(&mut self, brackets: usize) {
         self.open(Kind::Target);
         let fails = self.word(0) == "fail";
         self.take_name();
-        self.pass_brackets();
+        self.pass_tokens(brackets);
         if fails && self.at(Kind::Text) && self.on_same_line() {
             self.bump();
         }
         self.close();
     }
 
-    fn wrong_arrow(&mut self, tokens: usize, message: &str, right: &str) {
+    pub(super) fn wrong_arrow(&mut self, tokens: usize, message: &str, right: &str) {
         let here = self.ahead(tokens);
         self.error(
             Diagnostic::new(Code::E0108, here, message)
@@ -351,83 +368,5 @@ impl Parser<'_, '_> {
             true => self.pass(tokens),
             false => (0..tokens).for_each(|_| self.bump()),
         }
-    }
-
-    /// `"(" {bind [","]} ")"`
-    pub(super) fn args(&mut self) {
-        self.open(Kind::Args);
-        let opened = self.here();
-        self.bump();
-        while !self.ends_args() {
-            self.repeat(|parser| {
-                if parser.at(Kind::Name)
-                    && (parser.names_something(0) || parser.nth(1) == Kind::EqualEqual)
-                {
-                    parser.bind();
-                } else {
-                    parser.unnamed_bind();
-                }
-            });
-        }
-        self.close_bracket(Kind::CloseParen, opened);
-        self.close();
-    }
-
-    fn ends_args(&self) -> bool {
-        matches!(self.nth(0), Kind::End | Kind::CloseParen | Kind::OpenBrace | Kind::CloseBrace)
-            || self.leaves_body()
-            // An edge on a line of its own, whose arrow is no mistake for '=>'.
-            || (!self.on_same_line() && self.at(Kind::Name) && self.nth(1) == Kind::Arrow)
-            || (self.word(0) == "supervise"
-                && self.nth(1) == Kind::Name
-                && self.nth(2) == Kind::Colon)
-    }
-
-    fn bind(&mut self) {
-        let is_value = self.nth(1) == Kind::Arrow && self.nth(2) != Kind::Name;
-        let is_output = matches!(self.nth(1), Kind::FatArrow | Kind::Arrow) && !is_value;
-        self.open_item(if is_output { Kind::BindOut } else { Kind::BindIn });
-        self.take_name();
-        if !is_output {
-            if self.at(Kind::Equal) {
-                self.bump();
-            } else {
-                let assigns = self.at(Kind::Colon) && self.nth(1) == Kind::Equal;
-                self.wrong_arrow(1 + usize::from(assigns), "'=' carries data in to a port", "=");
-            }
-            self.formula();
-            self.no_operators();
-            self.close_item();
-            return;
-        }
-        if !self.eat(Kind::FatArrow) {
-            let message = "'=>' carries data out to an entry; '->' is the flow of action";
-            self.wrong_arrow(1, message, "=>");
-        }
-        // A formula here is an error of its own, reported where outputs are checked.
-        self.open(Kind::Target);
-        if self.at(Kind::Name)
-            && !matches!(
-                self.nth(1),
-                Kind::Plus | Kind::Minus | Kind::Star | Kind::Slash | Kind::Percent | Kind::Dot
-            )
-        {
-            self.name("name the entry that takes the value");
-        } else {
-            self.formula();
-        }
-        self.close();
-        self.close_item();
-    }
-
-    /// A value without a port, or text that is no binding at all.
-    fn unnamed_bind(&mut self) {
-        self.skip("a port", "write the port's name and '=' before the value", |p| {
-            p.ends_args()
-                || p.at(Kind::Comma)
-                || (p.at(Kind::Name)
-                    && matches!(p.nth(1), Kind::Equal | Kind::FatArrow | Kind::Arrow))
-        });
-        self.eat(Kind::Comma);
     }
 }

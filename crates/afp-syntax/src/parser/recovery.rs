@@ -25,14 +25,18 @@ impl Parser<'_, '_> {
     pub(super) fn error(&mut self, diagnostic: Diagnostic) {
         let place = diagnostic.span.start;
         if let Some(cause) = self.told(place) {
-            return self.hidden.push(self.next_line(cause));
+            self.hidden.insert(self.next_line(cause));
+            return;
         }
-        if place < self.quiet {
-            return self.hidden.push(self.next_line(place));
+        let is_arrow = diagnostic.code == Code::E0108;
+        if place < self.quiet || !is_arrow && place < self.behind_arrow {
+            self.hidden.insert(self.next_line(place));
+            return;
         }
-        // What was read as if it had been right has no consequences.
-        if diagnostic.code != Code::E0108 {
-            self.be_quiet(place);
+        // What was read as if it had been right has no consequences, but it may have been no arrow at all.
+        match is_arrow {
+            true => self.behind_arrow = self.next_line(place),
+            false => self.be_quiet(place),
         }
         self.diags.push(diagnostic);
     }
@@ -48,8 +52,10 @@ impl Parser<'_, '_> {
             let is_in_part =
                 each.span.file == file && hidden.contains(&self.next_line(each.span.start));
             // What the lexer mends it mends by itself.
-            let is_of_grammar =
-                matches!(each.code, Code::E0101 | Code::E0102 | Code::E0103 | Code::E0109);
+            let is_of_grammar = matches!(
+                each.code,
+                Code::E0101 | Code::E0102 | Code::E0103 | Code::E0108 | Code::E0109
+            );
             if is_in_part && is_of_grammar {
                 each.fix = None;
             }
@@ -62,24 +68,21 @@ impl Parser<'_, '_> {
         self.quiet = self.quiet.max(self.next_line(place));
     }
 
+    /// Notes lines of which something is said already, each with the place of that.
+    pub(super) fn tell(&mut self, told: &[(u32, u32)]) {
+        for (place, cause) in told {
+            self.told.entry(self.next_line(*place)).or_insert(*cause);
+        }
+    }
+
     /// The place of what is said already of the line of a place.
     pub(super) fn told(&self, place: u32) -> Option<u32> {
-        if self.told.is_empty() {
-            return None;
-        }
-        let line = self.next_line(place);
-        let told = self.told.iter().find(|(told, _)| self.next_line(*told) == line);
-        told.map(|(_, cause)| *cause)
+        self.told.get(&self.next_line(place)).copied()
     }
 
     /// Where the line behind that of a place begins.
     pub(super) fn next_line(&self, place: u32) -> u32 {
-        let at = self.tokens.partition_point(|token| token.start < place);
-        let newline = self.tokens[at.saturating_sub(1)..].iter().find_map(|token| {
-            let ends = token.text.bytes().zip(token.start..);
-            { ends }.find(|(byte, end)| *byte == b'\n' && *end >= place).map(|(_, end)| end)
-        });
-        newline.map_or(u32::MAX, |end| end + 1)
+        self.marks.newline(place).map_or(u32::MAX, |end| end + 1)
     }
 
     /// Reports that something is missing here.
@@ -141,7 +144,8 @@ impl Parser<'_, '_> {
 
     /// Whether a brace stands here that does not end the plan: more of its items follow.
     fn closes_more(&self) -> bool {
-        let ends = matches!(self.word(1), "plan" | "scenario" | "enum" | "toolbox" | "use");
+        let ends =
+            matches!(self.word(1), "plan" | "scenario" | "enum" | "table" | "toolbox" | "use");
         self.at(Kind::CloseBrace) && self.nth(1) != Kind::End && !ends
     }
 
@@ -204,17 +208,7 @@ impl Parser<'_, '_> {
 
     /// Whether the bracket that begins here is closed before any brace.
     pub(super) fn is_closed(&self) -> bool {
-        let mut depth = 0_usize;
-        for ahead in 0.. {
-            match self.nth(ahead) {
-                Kind::OpenParen => depth += 1,
-                Kind::CloseParen if depth == 1 => return true,
-                Kind::CloseParen => depth -= 1,
-                Kind::OpenBrace | Kind::CloseBrace | Kind::End => return false,
-                _ => {}
-            }
-        }
-        false
+        self.marks.is_closed(self.at)
     }
 
     /// Reports the next token as unexpected and skips to where `stop` holds, brackets and braces

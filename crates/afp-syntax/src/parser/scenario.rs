@@ -1,10 +1,10 @@
 //! Scenarios: world, stimuli and expectations.
 
-use super::Parser;
+use super::{MAX_DEPTH, Parser};
 use crate::kind::Kind;
 
 const LINE_HELP: &str =
-    "write 'world', 'seed', 'over', 'set', 'robot', 'at', 'expect', 'never' or 'until'";
+    "write 'world', 'seed', 'over', 'set', 'robot', 'at', 'from', 'expect', 'never' or 'until'";
 
 impl Parser<'_, '_> {
     pub(super) fn scenario(&mut self) {
@@ -16,6 +16,12 @@ impl Parser<'_, '_> {
         } else {
             self.expected("'for'", "write 'for' and the name of a plan");
         }
+        self.lines();
+        self.close_item();
+    }
+
+    /// The lines of a scenario, or those that count from one of its moments.
+    fn lines(&mut self) {
         let opened = self.here();
         if self.expect(Kind::OpenBrace, "put the scenario's lines in braces") {
             while !self.at_end() && !self.at(Kind::CloseBrace) && !self.at_top_item() {
@@ -31,7 +37,6 @@ impl Parser<'_, '_> {
             }
             self.close_bracket(Kind::CloseBrace, opened);
         }
-        self.close_item();
     }
 
     pub(super) fn at_line(&self) -> bool {
@@ -63,6 +68,7 @@ impl Parser<'_, '_> {
                 self.expect(Kind::Colon, "write ':' and what happens then");
                 self.action();
             }
+            "from" => self.moment(),
             "until" => {
                 self.open_item(Kind::Until);
                 self.keyword();
@@ -93,6 +99,21 @@ impl Parser<'_, '_> {
         } else {
             self.expected("'seeds' or 'worlds'", "write 'over seeds 0..20'");
         }
+    }
+
+    /// `from go active { ... }`
+    fn moment(&mut self) {
+        self.open_item(Kind::Moment);
+        self.keyword();
+        self.open(Kind::Claim);
+        self.claim();
+        self.close();
+        if self.depth >= MAX_DEPTH {
+            return self.too_deep();
+        }
+        self.depth += 1;
+        self.lines();
+        self.depth -= 1;
     }
 
     fn set(&mut self) {
@@ -129,7 +150,7 @@ impl Parser<'_, '_> {
             self.keyword();
             self.path();
             if self.at(Kind::OpenParen) {
-                self.args();
+                self.args(false);
             }
             if self.eat_word("for") {
                 self.quantity("write a time such as '500 ms'");
@@ -238,6 +259,6 @@ impl Parser<'_, '_> {
 fn is_line(word: &str) -> bool {
     matches!(
         word,
-        "world" | "seed" | "over" | "set" | "robot" | "at" | "expect" | "never" | "until"
+        "world" | "seed" | "over" | "set" | "robot" | "at" | "from" | "expect" | "never" | "until"
     )
 }

@@ -97,9 +97,12 @@ impl Parser<'_, '_> {
                 self.close_item();
             }
             "state" | "event" => {
+                let is_event = self.at_word("event");
                 self.open_item(Kind::Outcome);
                 self.keyword();
-                self.name("give it a name");
+                if self.name("give it a name") && is_event && self.on_same_line() {
+                    self.eat_word("once");
+                }
                 self.close_item();
             }
             _ => {
@@ -122,6 +125,9 @@ impl Parser<'_, '_> {
 
     /// A value and its bounds, each of which may be missing.
     pub(super) fn value_and_range(&mut self) {
+        if self.at(Kind::Colon) && self.nth(1) == Kind::Equal && self.on_same_line() {
+            self.instead(1, "no ':' before '='".to_owned(), "write '='".to_owned(), "");
+        }
         if self.eat(Kind::Equal) {
             self.formula();
             self.no_operators();

@@ -4,7 +4,8 @@ use std::fmt::Write;
 
 use afp_core::Instant;
 use afp_dsl::graph::Component;
-use afp_dsl::unfold::Goal;
+use afp_dsl::scenario::DEFAULT_UNTIL;
+use afp_dsl::unfold::{Goal, Place};
 
 use super::reach::Way;
 use super::{Generated, Rest};
@@ -32,7 +33,7 @@ pub(super) struct Pair<'a> {
 #[derive(Clone, Copy)]
 struct Point {
     percent: u64,
-    /// Nanoseconds.
+    /// Nanoseconds from the start of the run.
     at: u64,
 }
 
@@ -41,7 +42,8 @@ impl Pair<'_> {
     pub fn add(&self, all: &mut Generated) {
         let Some(place) = self.parts.place(self.supervisor) else { return };
         let points = self.points();
-        for (event, goal) in (0..).zip(&place.outcomes) {
+        for event in (0..).take(place.outcomes.len()) {
+            let goal = self.parts.goal_at(self.element, self.supervisor, event);
             let Some(goal) = goal.filter(|goal| *goal != Goal::Ignore) else { continue };
             let name = self.parts.outcome(self.supervisor, event);
             let computes = |to| self.parts.place(to).is_some_and(|place| place.resumes);
@@ -90,23 +92,30 @@ impl Pair<'_> {
         points
     }
 
+    /// How long the supervisor may take until it is polled, nanoseconds: its polls go on from one element to another, so
+    /// where they are is not the element's.
+    fn wait(&self) -> u64 {
+        let own = |place: &Place| place.owner == Some(self.element);
+        match self.parts.place(self.supervisor).is_some_and(own) {
+            true => 0,
+            false => self.parts.supervisor(self.supervisor).map_or(0, |each| each.every),
+        }
+    }
+
     fn scenario(&self, point: Point, event: u16, goal: Goal, fire: &str, text: &mut String) {
         let Point { percent, at } = point;
+        let since = self.active.from.as_nanos();
         let Some(supervisor) = self.parts.supervisor(self.supervisor) else { return };
         let (parts, element) = (self.parts, self.parts.path(self.element));
         let name = format!("{}.{}", supervisor.name, parts.outcome(self.supervisor, event));
         // It resumes, or would lead a global supervisor to where the plan is already.
         let there = goal == Goal::Resume
             || goal == Goal::Element(self.element) && supervisor.owner.is_none();
-        let (time, within) = (duration(at), duration(supervisor.deadline));
+        let wait = self.wait();
+        let (time, within) = (duration(at - since), duration(wait + supervisor.deadline));
         let soon = format!("within {within} after {time}");
-        let stand = self.standstill(at);
+        let stand = self.standstill(at).map(|stand| stand + wait);
         let mut lines = Vec::new();
-        if self.way.seed != 0 {
-            lines.push(format!("seed {}", self.way.seed));
-        }
-        let before = self.way.stimuli.iter().filter(|stimulus| stimulus.at < at);
-        lines.extend(before.map(|stimulus| stimulus.text.clone()));
         if !there {
             lines.push(format!("at {time}: idle all"));
         }
@@ -125,26 +134,39 @@ impl Pair<'_> {
             lines.extend(self.interrupts(at, &soon));
             lines.extend(self.commits(at, event, goal, &soon));
             if self.rest.halted {
-                lines.push(format!("expect halted always after {time}"));
+                lines.push(format!("expect halted always after {}", duration(at + wait - since)));
             }
             lines.extend(
-                stand
-                    .filter(|_| self.rest.standing)
-                    .map(|stand| format!("expect standing always after {}", duration(stand))),
+                stand.filter(|_| self.rest.standing).map(|stand| {
+                    format!("expect standing always after {}", duration(stand - since))
+                }),
             );
         }
-        lines.push(format!(
-            "until {}",
-            duration(stand.unwrap_or(at + supervisor.deadline) + BEHIND)
-        ));
+        let end = stand.unwrap_or(at + wait + supervisor.deadline) + BEHIND;
+        lines.push(format!("until {}", duration(end - since)));
         let plan = parts.path(0);
         let title = format!("{element}: {name} at {percent} %");
         // Writing to a String cannot fail.
         let _ = write!(text, "\nscenario \"{title}\" for {plan} {{\n");
-        for line in lines {
+        for line in self.setting(at) {
             let _ = writeln!(text, "    {line}");
         }
-        text.push_str("}\n");
+        let _ = writeln!(text, "    from {element} active {{");
+        for line in lines {
+            let _ = writeln!(text, "        {line}");
+        }
+        text.push_str("    }\n}\n");
+    }
+
+    /// The lines that lead up to the element: the seed, what is done on the way, and room for it to take longer.
+    fn setting(&self, at: u64) -> Vec<String> {
+        let seed = (self.way.seed != 0).then(|| format!("seed {}", self.way.seed));
+        let steps = self.way.steps_before(at).map(|step| {
+            let element = self.parts.path(step.active.element);
+            format!("from {element} active {{ at {}: {} }}", duration(step.after()), step.text)
+        });
+        let until = (at > DEFAULT_UNTIL / 2).then(|| format!("until {}", duration(2 * at)));
+        seed.into_iter().chain(steps).chain(until).collect()
     }
 
     /// An element of the same plan by its whole name.
@@ -156,15 +178,18 @@ impl Pair<'_> {
         }
     }
 
-    /// How the outermost plan ends.
+    /// How the outermost plan ends, where nothing but ends of sub-plans lies between.
     fn ending(&self, goal: Goal, soon: &str) -> Option<String> {
-        let outermost = self.parts.place(self.element)?.plan == 0;
-        let how = match goal {
-            Goal::Terminate => "Interrupted",
-            Goal::Fail => "Error",
-            Goal::Element(_) | Goal::Ignore | Goal::Resume => return None,
-        };
-        outermost.then(|| format!("expect end by {how} once {soon}"))
+        let mut how = ended_by(goal, "Interrupted")?;
+        let mut plan = self.parts.place(self.element)?.plan;
+        while plan != 0 {
+            let place = self.parts.place(plan)?;
+            let outcomes = 0..u16::try_from(place.outcomes.len()).ok()?;
+            let mut named = outcomes.filter(|number| self.parts.outcome(plan, *number) == how);
+            how = ended_by(self.parts.goal(plan, named.next()?)?, "OK")?;
+            plan = place.plan;
+        }
+        Some(format!("expect end by {how} once {soon}"))
     }
 
     /// What the event interrupts: the element and what is active inside of it.
@@ -233,5 +258,14 @@ impl Pair<'_> {
             Some(end + self.parts.stop(active.element)?)
         });
         ends.max()
+    }
+}
+
+/// How a plan ends whose edge leads there; `terminated` is what its end by `terminate` is called.
+fn ended_by(goal: Goal, terminated: &'static str) -> Option<&'static str> {
+    match goal {
+        Goal::Terminate => Some(terminated),
+        Goal::Fail => Some("Error"),
+        Goal::Element(_) | Goal::Ignore | Goal::Resume => None,
     }
 }

@@ -1,6 +1,6 @@
 //! Runs of a plan in which its elements become active.
 
-use afp_core::{Duration, Instant};
+use afp_core::Instant;
 use afp_dsl::graph::Component;
 use afp_dsl::scenario::{Action, Scenario, Stimulus};
 use afp_dsl::unfold::Goal;
@@ -9,7 +9,6 @@ use afp_run::RunError;
 use crate::parts::Parts;
 use crate::verdict::Verdict;
 use crate::watch::Activation;
-use afp_dsl::types::text::duration;
 
 /// Seeds that are tried where a run does not reach everything.
 const SEEDS: u64 = 4;
@@ -24,15 +23,34 @@ pub(super) struct Way {
     /// Its seed.
     pub seed: u64,
     /// What somebody does in it.
-    pub stimuli: Vec<Stimulus>,
+    pub steps: Vec<Step>,
     activations: Vec<Activation>,
 }
 
-/// The runs, and where each element is active longest.
+/// What somebody does while an element is active for the first time.
+#[derive(Clone)]
+pub(super) struct Step {
+    /// When the element is active for the first time.
+    pub active: Activation,
+    /// What is done, without its time.
+    pub text: String,
+    stimulus: Stimulus,
+}
+
+/// The runs, and when each element is active for the first time.
 pub(super) struct Reach {
     ways: Vec<Way>,
     /// For each component the run and the stretch of time.
     found: Vec<Option<(usize, Activation)>>,
+}
+
+/// A state or event whose edge a run may take.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Edge {
+    component: u32,
+    outcome: u16,
+    /// The element whose own edge it is, where that reacts to a supervisor of its plan by itself.
+    during: Option<u32>,
 }
 
 type Run<'a> = &'a mut dyn FnMut(&Scenario) -> Result<Verdict, RunError>;
@@ -48,16 +66,16 @@ impl Reach {
         }
         let mut tried = Vec::new();
         while reach.ways.len() < RUNS && !reach.is_whole(parts) {
-            let Some((component, outcome)) = reach.next(parts, &tried) else { break };
-            tried.push((component, outcome));
-            if let Some((seed, stimuli)) = reach.way_behind(parts, quiet, component, outcome) {
-                reach.run(quiet, seed, stimuli, run)?;
+            let Some(edge) = reach.next(parts, &tried) else { break };
+            tried.push(edge);
+            if let Some((seed, steps)) = reach.way_behind(parts, quiet, edge) {
+                reach.run(quiet, seed, steps, run)?;
             }
         }
         Ok(reach)
     }
 
-    /// The run in which an element is active longest, and when.
+    /// The first run in which an element is active, and when it is so for the first time.
     pub fn of(&self, element: u32) -> Option<(&Way, Activation)> {
         let (way, active) = self.found.get(element as usize).copied().flatten()?;
         Some((self.ways.get(way)?, active))
@@ -74,61 +92,66 @@ impl Reach {
         &mut self,
         quiet: &Scenario,
         seed: u64,
-        stimuli: Vec<Stimulus>,
+        steps: Vec<Step>,
         run: Run<'_>,
     ) -> Result<(), RunError> {
-        let scenario = Scenario { seed, stimuli: stimuli.clone(), ..quiet.clone() };
-        let activations = run(&scenario)?.activations;
-        let before = self.found.clone();
-        for active in &activations {
+        let stimuli = steps.iter().map(|step| step.stimulus.clone()).collect();
+        let scenario = Scenario { seed, stimuli, ..quiet.clone() };
+        let mut activations = run(&scenario)?.activations;
+        activations.sort_by_key(|active| active.from);
+        for active in activations.iter().filter(|active| active.to > active.from) {
             let place = active.element as usize;
             if self.found.len() <= place {
                 self.found.resize(place + 1, None);
             }
             // The first run that reaches something is the one with the fewest stimuli.
-            let known = before.get(place).copied().flatten().is_some();
-            let longer = self.found[place].is_none_or(|(_, found)| length(active) > length(&found));
-            if !known && longer && length(active) > Duration::ZERO {
-                self.found[place] = Some((self.ways.len(), *active));
-            }
+            self.found[place].get_or_insert((self.ways.len(), *active));
         }
-        self.ways.push(Way { seed, stimuli, activations });
+        self.ways.push(Way { seed, steps, activations });
         Ok(())
     }
 
     /// An outcome of something that is reached, whose edge leads to what is not; not tried yet.
-    fn next(&self, parts: &Parts<'_>, tried: &[(u32, u16)]) -> Option<(u32, u16)> {
+    fn next(&self, parts: &Parts<'_>, tried: &[Edge]) -> Option<Edge> {
         let reached = |number: u32| self.of(number).is_some();
         let actors = parts.elements().filter(|number| {
             reached(*number) && matches!(parts.component(*number), Some(Component::Actor(_)))
         });
-        let all =
-            actors.flat_map(|actor| std::iter::once(actor).chain(parts.supervisors_over(actor)));
-        let mut edges = all.flat_map(|number| {
-            let count = parts.place(number).map_or(0, |place| place.outcomes.len());
-            (0..count as u16).map(move |outcome| (number, outcome))
+        let mut edges = actors.flat_map(|actor| {
+            let all = std::iter::once(actor).chain(parts.supervisors_over(actor));
+            all.flat_map(move |component| {
+                let count = parts.place(component).map_or(0, |place| place.outcomes.len());
+                (0..count as u16).map(move |outcome| {
+                    let own = parts.place(actor);
+                    let own = own.and_then(|place| place.reaction(component, Some(outcome)));
+                    Edge { component, outcome, during: own.map(|_| actor) }
+                })
+            })
         });
-        edges.find(|(number, outcome)| {
-            let goal = parts.goal(*number, *outcome);
+        edges.find(|edge| {
+            let goal = match edge.during {
+                Some(actor) => parts.goal_at(actor, edge.component, edge.outcome),
+                None => parts.goal(edge.component, edge.outcome),
+            };
+            let home = parts.place(edge.component).map(|place| place.plan);
             let onwards = match goal {
                 Some(Goal::Element(to)) => !reached(to),
                 // It ends a sub-plan, which may lead on.
-                Some(Goal::Terminate) => parts.place(*number).is_some_and(|place| place.plan != 0),
+                Some(Goal::Terminate) => home.is_some_and(|home| home != 0),
                 Some(Goal::Fail | Goal::Ignore | Goal::Resume) | None => false,
             };
-            onwards && !tried.contains(&(*number, *outcome))
+            onwards && !tried.contains(edge)
         })
     }
 
-    /// Seed and stimuli of a run in which a component reports an outcome.
+    /// Seed and steps of a run in which a component reports an outcome.
     fn way_behind(
         &self,
         parts: &Parts<'_>,
         quiet: &Scenario,
-        component: u32,
-        outcome: u16,
-    ) -> Option<(u64, Vec<Stimulus>)> {
-        let owner = parts.place(component)?.owner;
+        Edge { component, outcome, during }: Edge,
+    ) -> Option<(u64, Vec<Step>)> {
+        let owner = parts.place(component)?.owner.or(during);
         let element = match parts.supervisor(component) {
             Some(_) => owner.or_else(|| self.reached_beside(parts, component)),
             None => Some(component),
@@ -138,15 +161,16 @@ impl Reach {
         let at = ((from + to) / 2 / GRAIN * GRAIN).max(from);
         let (injection, text) = parts.injection(component, outcome)?;
         let stimulus = Stimulus {
+            from: None,
             at,
             action: Action::Inject(injection),
-            text: format!("at {}: {text}", duration(at)),
+            text: text.clone(),
             span: quiet.span,
         };
         // What would happen later belongs to the run of before.
-        let mut stimuli: Vec<_> = way.stimuli.iter().filter(|old| old.at < at).cloned().collect();
-        stimuli.push(stimulus);
-        Some((way.seed, stimuli))
+        let mut steps: Vec<_> = way.steps_before(at).cloned().collect();
+        steps.push(Step { active, text, stimulus });
+        Some((way.seed, steps))
     }
 
     /// An element of the same plan as a global supervisor that some run reaches.
@@ -154,6 +178,13 @@ impl Reach {
         let home = parts.place(supervisor)?.plan;
         let beside = |number: &u32| parts.place(*number).is_some_and(|place| place.plan == home);
         parts.elements().filter(beside).find(|number| self.of(*number).is_some())
+    }
+}
+
+impl Step {
+    /// How long after the element's start, nanoseconds.
+    pub fn after(&self) -> u64 {
+        self.stimulus.at - self.active.from.as_nanos()
     }
 }
 
@@ -171,12 +202,13 @@ impl Way {
         active.map(|active| active.element)
     }
 
+    /// What somebody has done up to an instant, nanoseconds.
+    pub fn steps_before(&self, at: u64) -> impl Iterator<Item = &Step> {
+        self.steps.iter().filter(move |step| step.stimulus.at < at)
+    }
+
     /// What has been active, up to an instant.
     pub fn before(&self, at: Instant) -> impl Iterator<Item = &Activation> {
         self.activations.iter().filter(move |active| active.from < at)
     }
-}
-
-fn length(active: &Activation) -> Duration {
-    active.to.since(active.from)
 }

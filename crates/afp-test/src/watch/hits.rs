@@ -2,7 +2,7 @@
 
 use afp::load::PlanNames;
 use afp_core::Instant;
-use afp_core::trace::{Author, ComponentId, Names, Record};
+use afp_core::trace::{Author, ComponentId, DEADLINE_MISSED, Names, Record};
 use afp_dsl::graph::Graph;
 use afp_dsl::unfold::places;
 use afp_log::LogData;
@@ -31,6 +31,8 @@ pub struct Touched {
     pub starts: u64,
     /// How often each of its states was reached or events taken, by position.
     pub outcomes: Vec<u64>,
+    /// How often its own edges for events of global supervisors were taken.
+    pub reactions: Vec<u64>,
     /// How often it or its supervisors failed (an element) or missed a deadline with a consequence (a supervisor).
     pub special: u64,
 }
@@ -55,11 +57,16 @@ impl Hits {
             let owned = self.owners.iter().zip(&self.counts.components);
             let of_supervisors: u64 =
                 owned.filter(|(owner, _)| **owner == Some(number)).map(|(_, its)| its.faults).sum();
-            let special = match self.counts.is_supervisor(ComponentId(number)) {
-                true => usage.deadline_events,
-                false => usage.faults + of_supervisors,
-            };
-            Touched { starts: usage.starts, outcomes: usage.outcomes.clone(), special }
+            let id = ComponentId(number);
+            let reactions = usage.reactions.iter().map(|edge| edge.count).collect();
+            if self.counts.is_supervisor(id) {
+                let own = (0..).take(usage.outcomes.len());
+                let outcomes = own.map(|event| self.counts.by_own_edge(id, event)).collect();
+                let special = self.counts.by_own_edge(id, DEADLINE_MISSED);
+                return Touched { starts: usage.starts, outcomes, reactions, special };
+            }
+            let special = usage.faults + of_supervisors;
+            Touched { starts: usage.starts, outcomes: usage.outcomes.clone(), reactions, special }
         })
     }
 

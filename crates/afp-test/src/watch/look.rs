@@ -1,10 +1,11 @@
 //! One expectation while a scenario runs.
 
 use afp_core::trace::{Author, ComponentId};
-use afp_core::{Ending, Instant};
-use afp_dsl::scenario::{Claim, Expectation, Operand, Subject, Wanted};
+use afp_core::{Ending, Fault, Instant};
+use afp_dsl::scenario::{Claim, Expectation, Operand, Subject, Wanted, Window};
 use afp_dsl::toolbox::Constant;
 
+use super::moments::Moments;
 use super::{Happening, State, ends, fits, leads};
 use crate::verdict::Broken;
 
@@ -32,25 +33,11 @@ impl<'a> Look<'a> {
     }
 
     /// Something happened.
-    pub(super) fn happen(&mut self, at: u64, happening: &Happening) {
-        let fits = match (&self.expectation.claim, happening) {
-            (
-                Claim::Transition { from, to, by },
-                Happening::Edge { from: left, to: goal, by: why },
-            ) => from == left && leads(*to, *goal) && by.is_none_or(|by| fits(&by, *why)),
-            (Claim::Happens(wanted), Happening::Outcome(cause)) => fits(wanted, *cause),
-            (Claim::End(wanted), Happening::End(ending, last)) => ends(*wanted, *ending, *last),
-            (Claim::Interrupt(wanted), Happening::Interrupt(element)) => wanted == element,
-            (Claim::Commit { of, by }, Happening::Commit { entry, author, first }) => {
-                let by = by.is_none_or(|by| *author == Author::Component(ComponentId(by)));
-                by && of.map_or(*first, |of| of == *entry)
-            }
-            _ => false,
-        };
-        if !fits {
+    pub(super) fn happen(&mut self, at: u64, happening: &Happening, moments: &Moments<'_>) {
+        if !happens(&self.expectation.claim, happening) {
             return;
         }
-        match self.expectation.window.contains(at) {
+        match self.window(moments).is_some_and(|window| window.contains(at)) {
             true => {
                 self.held = self.held.or(Some(at));
                 if let Wanted::Times(_) = self.expectation.wanted {
@@ -62,38 +49,21 @@ impl<'a> Look<'a> {
     }
 
     /// A step is over.
-    pub(super) fn settle(&mut self, at: u64, state: &State) {
-        let Some(holds) = self.holds(state) else { return };
-        self.pass(at);
+    pub(super) fn settle(&mut self, at: u64, state: &State, moments: &Moments<'_>) {
+        let Some(holds) = holds(&self.expectation.claim, state) else { return };
+        self.pass(at, moments);
         self.now = Some((at, holds));
     }
 
-    /// Whether the claim holds now; `None` for one that is no matter of the plan's state.
-    fn holds(&self, state: &State) -> Option<bool> {
-        match &self.expectation.claim {
-            Claim::Active(id) => Some(state.active.get(*id as usize) == Some(&true)),
-            Claim::Running => Some(state.ending.is_none()),
-            Claim::Compare { left, comparison, right } => {
-                let left = state.held(left)?;
-                let right = match right {
-                    Operand::Value(value) => Some(value.clone()),
-                    Operand::Subject(other) => state.held(other)?,
-                };
-                let both = left.zip(right);
-                Some(both.is_some_and(|(left, right)| comparison.holds(&left, &right)))
-            }
-            Claim::Transition { .. }
-            | Claim::Happens(_)
-            | Claim::End(_)
-            | Claim::Interrupt(_)
-            | Claim::Commit { .. } => None,
-        }
+    /// The window, once it is known.
+    fn window(&self, moments: &Moments<'_>) -> Option<Window> {
+        Some(self.expectation.window.behind(moments.begin(self.expectation.from)?))
     }
 
     /// Notes what has held from the last step up to `at`, that instant excluded.
-    fn pass(&mut self, at: u64) {
+    fn pass(&mut self, at: u64, moments: &Moments<'_>) {
         let Some((since, held)) = self.now else { return };
-        let window = self.expectation.window;
+        let Some(window) = self.window(moments) else { return };
         let first = since.max(window.from);
         if first >= at || first > window.to {
             return;
@@ -109,11 +79,13 @@ impl<'a> Look<'a> {
         mut self,
         end: u64,
         state: &State,
-        expectation: &Expectation,
+        moments: &Moments<'_>,
     ) -> Option<Broken> {
         // The last state holds to the end of the scenario, even if the run was cut short.
-        self.pass(u64::MAX);
-        let window = expectation.window;
+        self.pass(u64::MAX, moments);
+        let expectation = self.expectation;
+        // That its moment has not come is told of the moment.
+        let window = self.window(moments)?;
         let unsaid = self.now.is_none() && is_about_signal(&expectation.claim);
         let (at, why) = match expectation.wanted {
             _ if unsaid => (window.to.min(end), self.missing(state)),
@@ -163,7 +135,7 @@ impl<'a> Look<'a> {
             }
             (Claim::End(_), None) => match state.ending {
                 None => "the plan did not end".to_owned(),
-                Some(ending) => format!("the plan ended otherwise, as {}", word(ending)),
+                Some(ending) => format!("the plan ended otherwise, as {}", state.word(ending)),
             },
             (Claim::Compare { left, right, .. }, None) => compared(left, right, state),
             _ => "it did not happen".to_owned(),
@@ -175,6 +147,45 @@ impl<'a> Look<'a> {
             Claim::Compare { left, right, .. } => compared(left, right, state),
             _ => "it was otherwise".to_owned(),
         }
+    }
+}
+
+/// Whether a claim is about this.
+pub(super) fn happens(claim: &Claim, happening: &Happening) -> bool {
+    match (claim, happening) {
+        (Claim::Transition { from, to, by }, Happening::Edge { from: left, to: goal, by: why }) => {
+            from == left && leads(*to, *goal) && by.is_none_or(|by| fits(&by, *why))
+        }
+        (Claim::Happens(wanted), Happening::Outcome(cause)) => fits(wanted, *cause),
+        (Claim::End(wanted), Happening::End(ending, last)) => ends(*wanted, *ending, *last),
+        (Claim::Interrupt(wanted), Happening::Interrupt(element)) => wanted == element,
+        (Claim::Commit { of, by }, Happening::Commit { entry, author, first }) => {
+            let by = by.is_none_or(|by| *author == Author::Component(ComponentId(by)));
+            by && of.map_or(*first, |of| of == *entry)
+        }
+        _ => false,
+    }
+}
+
+/// Whether a claim holds now; `None` for one that is no matter of the plan's state.
+pub(super) fn holds(claim: &Claim, state: &State) -> Option<bool> {
+    match claim {
+        Claim::Active(id) => Some(state.active.get(*id as usize) == Some(&true)),
+        Claim::Running => Some(state.ending.is_none()),
+        Claim::Compare { left, comparison, right } => {
+            let left = state.held(left)?;
+            let right = match right {
+                Operand::Value(value) => Some(value.clone()),
+                Operand::Subject(other) => state.held(other)?,
+            };
+            let both = left.zip(right);
+            Some(both.is_some_and(|(left, right)| comparison.holds(&left, &right)))
+        }
+        Claim::Transition { .. }
+        | Claim::Happens(_)
+        | Claim::End(_)
+        | Claim::Interrupt(_)
+        | Claim::Commit { .. } => None,
     }
 }
 
@@ -209,10 +220,16 @@ fn is_about_signal(claim: &Claim) -> bool {
     }
 }
 
-fn word(ending: Ending) -> String {
-    match ending {
-        Ending::Ok => "OK".to_owned(),
-        Ending::Interrupted => "Interrupted".to_owned(),
-        Ending::Error(fault) => format!("Error ({fault})"),
+impl State {
+    /// An ending in words. A plan that fails by an edge of its own has no fault of a component.
+    pub(super) fn word(&self, ending: Ending) -> String {
+        match ending {
+            Ending::Ok => "OK".to_owned(),
+            Ending::Interrupted => "Interrupted".to_owned(),
+            Ending::Error(fault) if fault.code() == Fault::FAILED || self.why.is_empty() => {
+                format!("Error: {fault}")
+            }
+            Ending::Error(_) => format!("Error: {}", self.why),
+        }
     }
 }

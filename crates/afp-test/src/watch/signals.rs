@@ -3,9 +3,9 @@
 use afp_core::devices::{DeviceRow, SignalId, SignalType, find_signal, signals};
 use afp_dsl::scenario::{Claim, Field, Operand, Part, Scenario, Subject};
 use afp_dsl::toolbox::Constant;
-use afp_session::{SampleRef, quantity};
+use afp_session::{Datum, SampleRef};
 
-/// The signals that expectations are about, with what they said last.
+/// The signals that expectations and moments are about, with what they said last.
 #[derive(Default)]
 pub(crate) struct Signals(Vec<Followed>);
 
@@ -28,14 +28,15 @@ enum Said {
 }
 
 impl Signals {
-    /// Those that the expectations of a scenario are about.
+    /// Those that the expectations and moments of a scenario are about.
     ///
     /// # Errors
     /// The first one that the robot has not.
     pub(crate) fn new(scenario: &Scenario, table: &'static [DeviceRow]) -> Result<Signals, Part> {
         let mut all: Vec<Followed> = Vec::new();
-        for (signal, field) in scenario.expectations.iter().flat_map(|each| signals_of(&each.claim))
-        {
+        let expected = scenario.expectations.iter().map(|each| &each.claim);
+        let claims = expected.chain(scenario.moments.iter().map(|each| &each.claim));
+        for (signal, field) in claims.flat_map(signals_of) {
             let known = |each: &Followed| each.signal == *signal && each.field == field;
             if all.iter().any(known) {
                 continue;
@@ -82,7 +83,7 @@ impl Signals {
             Said::Empty => "nothing".to_owned(),
             Said::Value(Constant::Bool(value)) => value.to_string(),
             Said::Value(Constant::Int(number)) => number.to_string(),
-            Said::Value(Constant::Float(number)) => quantity(*number, each.unit),
+            Said::Value(Constant::Float(number)) => Datum::Number(*number).in_unit(each.unit),
             Said::Value(Constant::Text(text)) => format!("\"{text}\""),
             // No signal has values of an enum.
             Said::Value(Constant::Choice(_)) => return None,

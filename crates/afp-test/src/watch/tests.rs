@@ -50,8 +50,9 @@ fn commit(entry: TraceEntryId, author: u32) -> Record<'static> {
 /// What breaks in a trace: the words of each line and why.
 fn broken(records: &[Record<'static>]) -> Vec<String> {
     let scenario = scenario();
-    let mut watch = Watch::new(&scenario, &PlanNames::new(&scenario.graph), Signals::default());
-    records.iter().for_each(|record| watch.hear(Instant::from_nanos(5), record));
+    let names = PlanNames::new(&scenario.graph);
+    let mut watch = Watch::new(&scenario, &names, Signals::default());
+    records.iter().for_each(|record| watch.hear(Instant::from_nanos(5), record, &names));
     let broken = watch.finish(Instant::from_nanos(9));
     broken.into_iter().map(|broken| format!("{}: {}", broken.text, broken.why)).collect()
 }
@@ -105,8 +106,9 @@ fn a_commit_by_who_is_not_to_write_is_noticed() {
 #[test]
 fn an_entry_that_changes_without_a_commit_is_noticed() {
     let scenario = scenario();
-    let mut watch = Watch::new(&scenario, &PlanNames::new(&scenario.graph), Signals::default());
-    sound().iter().for_each(|record| watch.hear(Instant::ZERO, record));
+    let names = PlanNames::new(&scenario.graph);
+    let mut watch = Watch::new(&scenario, &names, Signals::default());
+    sound().iter().for_each(|record| watch.hear(Instant::ZERO, record, &names));
     let (one, two) = (Value::Float(1.0), Value::Float(2.0));
     assert!(watch.differs([one.borrow(), one.borrow()].into_iter()).is_none());
     let found = watch.differs([one.borrow(), two.borrow()].into_iter());

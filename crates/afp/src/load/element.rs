@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use afp_core::rt::{Child, Cx, Flow, Machine, Plan, PlanState, Polled, Started};
+use afp_core::rt::{BadValue, Child, Cx, Flow, Machine, Plan, PlanState, Polled, Started, input};
 use afp_core::trace::{ERROR, Sink};
 use afp_core::{Clock, Environment, Fault};
 use afp_dsl::graph;
@@ -10,7 +10,7 @@ use afp_dsl::graph;
 use super::config::Config;
 use super::inject::{Injected, Injection, NotActive};
 use super::outputs::{Binding, Inputs, Stage};
-use super::plan::LoadedPlan;
+use super::plan::{LoadedPlan, numbered};
 use super::slots::{ActorSlot, ComputationSlot};
 
 /// An element of a loaded plan.
@@ -87,20 +87,21 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
             Running::Actor(actor) => {
                 let args = self.inputs.pull(&config.values);
                 let start = cx.show_inputs(|see, env, now| actor.start(&args, see, env, now));
-                start.map(|()| Started::Running)
+                cx.noted(start).map(|()| Started::Running)
             }
             Running::Computation(computation) => {
                 let args = self.inputs.pull(&config.values);
                 let mut stage = Stage::new(&self.outputs, &mut config.staged);
                 stage.passed = Some(&args);
                 let state = cx.show_inputs(|see, _, _| computation.compute(&args, see, &mut stage));
-                state.and_then(|state| stage.result().map(|()| Started::Done(state)))
+                let state = state.and_then(|state| stage.result().map(|()| state));
+                cx.noted(state).map(Started::Done)
             }
             Running::SubPlan { child, machine } => {
-                pass_inputs(&self.inputs, config, machine.plan_mut()).map(|()| {
+                cx.noted(pass_inputs(&self.inputs, config, machine.plan_mut())).map(|()| {
                     let flow = cx.start_sub_plan(*child, machine);
                     let plan = machine.plan();
-                    Started::sub_plan(flow, || stage_results(plan, &self.outputs, config))
+                    Started::sub_plan(flow, || stage_results(plan, &self.outputs, config), cx)
                 })
             }
         };
@@ -123,9 +124,9 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
                     Ok(None) => Polled::Pending,
                     Ok(Some(state)) => match stage.result() {
                         Ok(()) => Polled::Done(state),
-                        Err(fault) => Polled::Failed(fault),
+                        Err(why) => Polled::Failed(cx.note(why)),
                     },
-                    Err(fault) => Polled::Failed(fault),
+                    Err(why) => Polled::Failed(cx.note(why)),
                 }
             }
             Running::Computation(_) => Polled::Failed(Fault::INTERNAL),
@@ -136,13 +137,14 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
                         plan.commit(to);
                         true
                     }),
-                    Err(fault) => {
+                    Err(why) => {
                         machine.plan_mut().discard();
-                        return Polled::Failed(fault);
+                        return Polled::Failed(cx.note(why));
                     }
                 }
                 let flow: Flow = cx.inside(*child, |cx| machine.step(cx));
-                Polled::sub_plan(flow, || stage_results(machine.plan(), &self.outputs, config))
+                let plan = machine.plan();
+                Polled::sub_plan(flow, || stage_results(plan, &self.outputs, config), cx)
             }
         }
     }
@@ -165,7 +167,7 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
         injected.stage(&mut stage);
         match stage.result() {
             Ok(()) => Polled::Forced(injected.outcome),
-            Err(fault) => Polled::Failed(fault),
+            Err(why) => Polled::Failed(cx.note(why)),
         }
     }
 
@@ -232,11 +234,12 @@ fn pass_inputs<E: Environment + ?Sized + 'static>(
     inputs: &Inputs,
     config: &Config,
     plan: &mut LoadedPlan<E>,
-) -> Result<(), Fault> {
-    for (port, formula) in inputs.formulas().iter().enumerate() {
-        let value = formula.finite(&config.values)?;
+) -> Result<(), BadValue> {
+    for (port, formula) in numbered(inputs.formulas()) {
         let object = formula.entry().and_then(|entry| config.values.cell(entry));
-        plan.pass(port, value, object)?;
+        let value = formula.finite(&config.values);
+        let passed = value.and_then(|value| plan.pass(port.into(), value, object));
+        input(port, || passed)?;
     }
     Ok(())
 }
@@ -246,11 +249,12 @@ fn stage_live<E: Environment + ?Sized + 'static>(
     inputs: &Inputs,
     config: &Config,
     plan: &mut LoadedPlan<E>,
-) -> Result<bool, Fault> {
+) -> Result<bool, BadValue> {
     let mut any = false;
-    for (port, formula) in inputs.formulas().iter().enumerate() {
+    for (port, formula) in numbered(inputs.formulas()) {
         let object = formula.entry().and_then(|entry| config.values.cell(entry));
-        any |= plan.pass_live(port, || formula.finite(&config.values), object)?;
+        let value = || formula.finite(&config.values);
+        any |= input(port, || plan.pass_live(port.into(), value, object))?;
     }
     Ok(any)
 }
@@ -260,7 +264,7 @@ fn stage_results<E: Environment + ?Sized + 'static>(
     plan: &LoadedPlan<E>,
     outputs: &[Binding],
     config: &mut Config,
-) -> Result<(), Fault> {
+) -> Result<(), BadValue> {
     let mut stage = Stage::new(outputs, &mut config.staged);
     for (port, entry) in plan.results() {
         match plan.cell(entry) {

@@ -7,7 +7,7 @@
 
 mod convert;
 
-use afp_core::rt::{int_add, int_mul, int_neg, int_rem, int_sub, join, rem};
+use afp_core::rt::{BadValue, finite, int_add, int_mul, int_neg, int_rem, int_sub, join, rem};
 use afp_core::{Fault, Text, Value};
 use afp_dsl::graph::{self, FormulaKind, Function, Operator};
 use afp_dsl::types::Type;
@@ -232,8 +232,8 @@ impl Formula {
     }
 
     /// The value that an entry may hold: as [`Formula::value`], and finite.
-    pub fn finite(&self, values: &Values) -> Result<Value, Fault> {
-        check_finite(self.value(values)?)
+    pub fn finite(&self, values: &Values) -> Result<Value, BadValue> {
+        finite(self.value(values)?)
     }
 
     fn converted(&self, values: &Values) -> Result<Value, Fault> {
@@ -254,14 +254,6 @@ fn call_with<T: Copy + Default>(
         *place = value(operand)?;
     }
     Ok(values)
-}
-
-/// Refuses numbers that are not finite.
-pub fn check_finite(value: Value) -> Result<Value, Fault> {
-    match value {
-        Value::Float(number) if !number.is_finite() => Err(Fault::ARITHMETIC),
-        value => Ok(value),
-    }
 }
 
 fn shape(ty: &Type) -> Shape {

@@ -1,11 +1,11 @@
 //! From a plan file to a plan that runs: the texts of toolboxes, and the Rust that implements them.
 
 use std::fmt;
-use std::fs;
-use std::io::{self, ErrorKind};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use afp_core::{Environment, Scheduler};
+use afp_dsl::files::{Disk, read_text};
 use afp_dsl::toolbox::Toolboxes;
 use afp_syntax::source::Source;
 
@@ -97,8 +97,7 @@ impl<E: Environment + ?Sized + 'static> Library<E> {
     /// As for [`load`].
     pub fn load(&self, path: impl AsRef<Path>) -> Result<Scheduler<LoadedPlan<E>>, OpenError> {
         let path = path.as_ref();
-        let text = fs::read_to_string(path)
-            .map_err(|why| OpenError::Read { path: path.to_owned(), why })?;
+        let text = read_text(path).map_err(|why| OpenError::Read { path: path.to_owned(), why })?;
         self.load_text(&path.display().to_string(), &text)
     }
 
@@ -108,7 +107,8 @@ impl<E: Environment + ?Sized + 'static> Library<E> {
     /// # Errors
     /// As for [`load`].
     pub fn load_text(&self, file: &str, text: &str) -> Result<Scheduler<LoadedPlan<E>>, OpenError> {
-        let compiled = afp_dsl::compile(&Source::new(file, text), &self.toolboxes, &used);
+        let compiled =
+            afp_dsl::compile(&Source::new(file, text), &self.toolboxes, &Disk::default());
         match &compiled.graph {
             None => Err(OpenError::Plan(compiled.render(false))),
             Some(graph) => {
@@ -116,14 +116,6 @@ impl<E: Environment + ?Sized + 'static> Library<E> {
             }
         }
     }
-}
-
-/// The text of a plan file that another one uses.
-fn used(path: &str) -> Result<String, String> {
-    fs::read_to_string(path).map_err(|why| match why.kind() {
-        ErrorKind::NotFound => "there is no such file".to_owned(),
-        _ => why.to_string().to_lowercase(),
-    })
 }
 
 impl<E: Environment + ?Sized + 'static> Default for Library<E> {

@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use afp_core::trace::{
     ComponentId, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Kind, Names,
-    TraceEntryId,
+    PortName, Reaction, TextPlace, TraceEntryId,
 };
 use afp_dsl::graph::{self, Graph};
 use afp_dsl::types::Type;
-use afp_dsl::unfold::{self, ComponentNames, EntryNames, Unfolded};
+use afp_dsl::unfold::{self, ComponentNames, EntryNames, PortNames, Unfolded};
+use afp_syntax::source::Span;
 
 /// The names behind the ids of a graph's main plan; a copy costs nothing.
 #[derive(Clone, Debug)]
@@ -19,6 +20,8 @@ struct Tables {
     all: Unfolded,
     /// Type and SI unit of each entry.
     types: Vec<(String, String)>,
+    /// The SI units of the inputs and bound outputs of each component.
+    units: Vec<[Vec<String>; 2]>,
 }
 
 impl PlanNames {
@@ -26,11 +29,38 @@ impl PlanNames {
     pub fn new(graph: &Graph) -> Self {
         let all = unfold::unfold(graph);
         let types = all.entries.iter().map(|entry| (entry.ty.to_string(), unit(&entry.ty)));
-        PlanNames(Arc::new(Tables { types: types.collect(), all }))
+        let units = all.components.iter().map(|names| {
+            let inputs = names.inputs.iter().map(|port| unit(&port.ty)).collect();
+            [inputs, names.outputs.iter().map(|(_, port)| unit(&port.ty)).collect()]
+        });
+        PlanNames(Arc::new(Tables { types: types.collect(), units: units.collect(), all }))
     }
 
     fn get(&self, id: ComponentId) -> Option<&ComponentNames> {
         self.0.all.components.get(id.0 as usize)
+    }
+
+    /// A port; its unit is the `place`-th of that kind.
+    fn port<'a>(
+        &'a self,
+        id: ComponentId,
+        kind: usize,
+        place: usize,
+        names: &'a PortNames,
+    ) -> PortName<'a> {
+        let units = self.0.units.get(id.0 as usize).and_then(|units| units.get(kind));
+        PortName {
+            name: &names.name,
+            unit: units.and_then(|units| units.get(place)).map_or("", String::as_str),
+            range: names.range,
+            entry: None,
+            place: self.place(names.span),
+        }
+    }
+
+    fn place(&self, span: Span) -> Option<TextPlace<'_>> {
+        let unfold::TextPlace { file, line, column } = self.0.all.texts.place(span)?;
+        Some(TextPlace { file, line, column })
     }
 
     fn get_entry(&self, id: TraceEntryId) -> Option<(&EntryNames, &(String, String))> {
@@ -82,8 +112,39 @@ impl Names for PlanNames {
         }
     }
 
+    fn reaction(&self, element: ComponentId, n: u16) -> Option<Reaction<'_>> {
+        let (reaction, target) = self.get(element)?.reactions.get(usize::from(n))?;
+        let supervisor = ComponentId(reaction.supervisor);
+        Some(Reaction { supervisor, outcome: reaction.event.unwrap_or(DEADLINE_MISSED), target })
+    }
+
     fn input(&self, id: ComponentId, port: u16) -> &str {
-        self.get(id).and_then(|c| c.inputs.get(usize::from(port))).map_or("", String::as_str)
+        self.get(id).and_then(|c| c.inputs.get(usize::from(port))).map_or("", |port| &port.name)
+    }
+
+    fn input_port(&self, id: ComponentId, port: u16) -> PortName<'_> {
+        let place = usize::from(port);
+        let names = self.get(id).and_then(|names| names.inputs.get(place));
+        names.map_or(PortName::default(), |names| self.port(id, 0, place, names))
+    }
+
+    fn output_port(&self, id: ComponentId, port: u16) -> PortName<'_> {
+        let all = self.get(id).map_or(&[][..], |names| &names.outputs);
+        let bound = all.iter().enumerate().find(|(_, (position, _))| *position == port);
+        bound.map_or(PortName::default(), |(place, (_, names))| PortName {
+            entry: Some(&names.entry),
+            ..self.port(id, 1, place, names)
+        })
+    }
+
+    fn outputs(&self, id: ComponentId) -> u16 {
+        let all = self.get(id).map_or(&[][..], |names| &names.outputs);
+        all.iter().map(|(position, _)| position.saturating_add(1)).max().unwrap_or(0)
+    }
+
+    fn initial(&self, id: TraceEntryId) -> Option<TextPlace<'_>> {
+        let (entry, _) = self.get_entry(id)?;
+        self.place(entry.initial?)
     }
 
     fn entries(&self) -> u32 {

@@ -3,12 +3,12 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use afp_core::rt::{Args, Outputs, limited};
+use afp_core::rt::{Args, BadValue, Outputs, finite, limited};
 use afp_core::{Fault, Text, Value};
 use afp_dsl::graph;
 
 use super::config::{ObjectCell, Staged, Values};
-use super::formula::{Converter, Formula, check_finite};
+use super::formula::{Converter, Formula};
 use super::plan::numbered;
 
 /// The bound formulas of a component, and room for the texts that they make.
@@ -38,7 +38,7 @@ pub struct Stage<'a> {
     bindings: &'a [Binding],
     staged: &'a mut Staged,
     /// The first fault of a conversion or range.
-    fault: Option<Fault>,
+    fault: Option<BadValue>,
     /// What objects that come out of ports of type `any` can be copies of.
     pub passed: Option<&'a Pull<'a>>,
 }
@@ -60,7 +60,7 @@ impl Binding {
 ///
 /// # Errors
 /// [`Fault::RANGE`].
-pub fn limit(range: Option<(f64, f64)>, value: Value) -> Result<Value, Fault> {
+pub fn limit(range: Option<(f64, f64)>, value: Value) -> Result<Value, BadValue> {
     match range {
         Some((least, greatest)) => limited(value, least, greatest),
         None => Ok(value),
@@ -165,13 +165,12 @@ impl<'a> Stage<'a> {
         let Some(binding) = self.binding(port) else { return };
         let converted = match &binding.converter {
             None => Ok(value),
-            Some(converter) => converter.convert(value),
+            Some(converter) => converter.convert(value).map_err(BadValue::from),
         };
-        let fitting =
-            converted.and_then(check_finite).and_then(|value| limit(binding.range, value));
+        let fitting = converted.and_then(finite).and_then(|value| limit(binding.range, value));
         match fitting {
             Ok(value) => self.staged.put(binding.entry, value),
-            Err(fault) => self.fault = self.fault.or(Some(fault)),
+            Err(why) => self.fault = self.fault.or(Some(why.for_output(port))),
         }
     }
 
@@ -187,7 +186,7 @@ impl<'a> Stage<'a> {
     }
 
     /// How it went.
-    pub fn result(self) -> Result<(), Fault> {
+    pub fn result(self) -> Result<(), BadValue> {
         self.fault.map_or(Ok(()), Err)
     }
 }
@@ -221,7 +220,7 @@ impl Outputs for Stage<'_> {
         let Value::Object(number) = value else { return self.put(port, value) };
         match self.passed.and_then(|passed| passed.numbered(number)) {
             Some(cell) => self.put_object(port, |to| to.copy(cell)),
-            None => self.fault = self.fault.or(Some(Fault::INTERNAL)),
+            None => self.fault = self.fault.or(Some(Fault::INTERNAL.into())),
         }
     }
 }

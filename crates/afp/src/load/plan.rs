@@ -7,8 +7,8 @@ mod testing;
 use std::sync::Arc;
 
 use afp_core::rt::{
-    Committer, Cx, Events, Fired, NamedPlan, Plan, Polled, Scale, Slot, Started, Tables, Unit,
-    int_to_float,
+    BadValue, Committer, Cx, Events, Fired, NamedPlan, Plan, Polled, Scale, Slot, Started, Tables,
+    Unit, initial, int_to_float,
 };
 use afp_core::trace::{DEADLINE_MISSED, Sink};
 use afp_core::{Clock, Environment, Fault, PlanState, Value, ValueRef, WriteError};
@@ -132,7 +132,7 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
         port: usize,
         value: Value,
         object: Option<&dyn ObjectCell>,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), BadValue> {
         let mut inputs = numbered(&*self.entries).filter(|(_, entry)| entry.kind == EntryKind::In);
         if let Some((entry, info)) = inputs.nth(port) {
             self.config.values.set(entry, limit(info.range, value)?, object);
@@ -148,9 +148,9 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     pub(super) fn pass_live(
         &mut self,
         port: usize,
-        value: impl FnOnce() -> Result<Value, Fault>,
+        value: impl FnOnce() -> Result<Value, BadValue>,
         object: Option<&dyn ObjectCell>,
-    ) -> Result<bool, Fault> {
+    ) -> Result<bool, BadValue> {
         let mut inputs = numbered(&*self.entries).filter(|(_, entry)| entry.kind == EntryKind::In);
         let Some((entry, info)) = inputs.nth(port).filter(|(_, info)| info.live) else {
             return Ok(false);
@@ -197,7 +197,7 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
         }
         let mut stage = Stage::new(&watch.outputs, &mut self.config.staged);
         injected.stage(&mut stage);
-        Fired::event(injected.outcome, stage.result())
+        Fired::event(injected.outcome, cx.noted(stage.result()))
     }
 
     /// The cell of an object entry.
@@ -257,7 +257,7 @@ impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {
         numbered(&*self.entries).find(missing).map(|(number, _)| number)
     }
 
-    fn initialise(&mut self) -> Result<(), Fault> {
+    fn initialise(&mut self) -> Result<(), BadValue> {
         for (number, entry) in numbered(&*self.entries) {
             if entry.kind != EntryKind::In {
                 self.config.values.clear(number);
@@ -269,7 +269,9 @@ impl<E: ?Sized + 'static> PlanState for LoadedPlan<E> {
             if given {
                 continue;
             }
-            let value = limit(info.range, formula.finite(&self.config.values)?)?;
+            let value = formula.finite(&self.config.values);
+            let value = value.and_then(|value| limit(info.range, value));
+            let value = initial(*entry, || value)?;
             match (formula.entry(), value) {
                 (Some(from), Value::Object(_)) => self.config.values.copy(from, *entry),
                 (_, value) => self.config.values.set(*entry, value, None),
@@ -351,7 +353,8 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
     ) -> Result<(), Fault> {
         let watch = self.supervisors.get_mut(usize::from(supervisor)).ok_or(Fault::INTERNAL)?;
         let args = watch.inputs.pull(&self.config.values);
-        cx.show_inputs(|see, env, now| watch.slot.start(&args, see, env, now))
+        let started = cx.show_inputs(|see, env, now| watch.slot.start(&args, see, env, now));
+        cx.noted(started)
     }
 
     #[inline]
@@ -371,8 +374,8 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
         let args = watch.inputs.pull(&self.config.values);
         match watch.slot.poll(&args, wanted, &mut stage, cx.env, cx.now) {
             Ok(None) => Fired::NOTHING,
-            Ok(Some(event)) => Fired::event(event, stage.result()),
-            Err(fault) => Fired::fault(fault),
+            Ok(Some(event)) => Fired::event(event, cx.noted(stage.result())),
+            Err(why) => Fired::fault(cx.note(why)),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::marker::PhantomData;
 
-use afp_core::rt::{Args, FromArgs, Outcome, Outputs};
+use afp_core::rt::{Args, BadValue, FromArgs, Outcome, Outputs};
 use afp_core::{
     Actor, ActorTemplate, Computation, ComputationTemplate, Events, Fault, Instant, Poll,
     Supervisor, SupervisorTemplate, ValueRef,
@@ -26,7 +26,7 @@ pub trait ActorSlot<E: ?Sized>: Send {
         see: See<'_>,
         env: &mut E,
         now: Instant,
-    ) -> Result<(), Fault>;
+    ) -> Result<(), BadValue>;
     /// The state reached, its outputs handed over.
     ///
     /// # Errors
@@ -37,7 +37,7 @@ pub trait ActorSlot<E: ?Sized>: Send {
         to: &mut dyn Outputs,
         env: &mut E,
         now: Instant,
-    ) -> Result<Option<u16>, Fault>;
+    ) -> Result<Option<u16>, BadValue>;
     /// Gives the stop command.
     ///
     /// # Errors
@@ -63,7 +63,7 @@ pub trait SupervisorSlot<E: ?Sized>: Send {
         see: See<'_>,
         env: &mut E,
         now: Instant,
-    ) -> Result<(), Fault>;
+    ) -> Result<(), BadValue>;
     /// The wanted event seen, its outputs handed over.
     ///
     /// # Errors
@@ -75,7 +75,7 @@ pub trait SupervisorSlot<E: ?Sized>: Send {
         to: &mut dyn Outputs,
         env: &mut E,
         now: Instant,
-    ) -> Result<Option<u16>, Fault>;
+    ) -> Result<Option<u16>, BadValue>;
     /// Drops what watches.
     fn clear(&mut self);
     /// As [`ActorSlot::try_clone`].
@@ -90,7 +90,8 @@ pub trait ComputationSlot: Send {
     ///
     /// # Errors
     /// As [`Computation::compute`].
-    fn compute(&self, args: &dyn Args, see: See<'_>, to: &mut dyn Outputs) -> Result<u16, Fault>;
+    fn compute(&self, args: &dyn Args, see: See<'_>, to: &mut dyn Outputs)
+    -> Result<u16, BadValue>;
     /// As [`ActorSlot::try_clone`].
     fn try_clone(&self) -> Option<Box<dyn ComputationSlot>> {
         None
@@ -110,7 +111,7 @@ impl<T, A> Slot<T, A> {
 }
 
 /// Pulls the inputs, shows them, checks them.
-fn inputs<'a, I: FromArgs<'a>>(args: &'a dyn Args, see: See<'_>) -> Result<I, Fault> {
+fn inputs<'a, I: FromArgs<'a>>(args: &'a dyn Args, see: See<'_>) -> Result<I, BadValue> {
     let inputs = I::from_args(args)?;
     if let Some(see) = see {
         inputs.each(see);
@@ -139,7 +140,7 @@ where
         see: See<'_>,
         env: &mut E,
         now: Instant,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), BadValue> {
         self.running = Some(A::start(inputs(args, see)?, env, now)?);
         Ok(())
     }
@@ -150,7 +151,7 @@ where
         to: &mut dyn Outputs,
         env: &mut E,
         now: Instant,
-    ) -> Result<Option<u16>, Fault> {
+    ) -> Result<Option<u16>, BadValue> {
         let actor = self.running.as_mut().ok_or(Fault::INTERNAL)?;
         match actor.poll(inputs(args, None)?, env, now)? {
             Poll::Pending => Ok(None),
@@ -185,7 +186,7 @@ where
         see: See<'_>,
         env: &mut E,
         now: Instant,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), BadValue> {
         self.running = Some(A::start(inputs(args, see)?, env, now)?);
         Ok(())
     }
@@ -198,7 +199,7 @@ where
         to: &mut dyn Outputs,
         env: &mut E,
         now: Instant,
-    ) -> Result<Option<u16>, Fault> {
+    ) -> Result<Option<u16>, BadValue> {
         let supervisor = self.running.as_mut().ok_or(Fault::INTERNAL)?;
         let event = supervisor.poll(inputs(args, None)?, wanted, env, now)?;
         Ok(event.map(|event| give(event, to)))
@@ -220,8 +221,13 @@ where
     for<'a> T::Inputs<'a>: FromArgs<'a>,
     T::State: Outcome,
 {
-    fn compute(&self, args: &dyn Args, see: See<'_>, to: &mut dyn Outputs) -> Result<u16, Fault> {
-        A::compute(inputs(args, see)?).map(|state| give(state, to))
+    fn compute(
+        &self,
+        args: &dyn Args,
+        see: See<'_>,
+        to: &mut dyn Outputs,
+    ) -> Result<u16, BadValue> {
+        Ok(A::compute(inputs(args, see)?).map(|state| give(state, to))?)
     }
 
     fn try_clone(&self) -> Option<Box<dyn ComputationSlot>> {

@@ -3,18 +3,20 @@
 use std::path::{Path, PathBuf};
 
 use afp_build::cargo::{self, Artifact, Blame, Generated, Job};
-use afp_build::{crate_folder, origin};
-use afp_codegen::{CrateOptions, crate_files};
+use afp_build::{OwnToolbox, crate_folder, origin};
+use afp_codegen::{CrateFile, CrateOptions, crate_files};
 use afp_dsl::graph::Graph;
 use afp_dsl::timing::check_target;
 use afp_project::RobotLink;
-use afp_run::{RunError, say};
+use afp_run::{EXIT_OK, RunError, say};
 use afp_syntax::diagnostics::Diagnostics;
 use clap::Args;
+use serde_json::{Value, json};
 
 use super::print;
 use crate::cli::PlanArgument;
 use crate::plan_file::{NoPlan, PlanFile};
+use crate::reader::Reader;
 use crate::targets;
 use crate::toolchain::{self, Machine};
 
@@ -35,6 +37,10 @@ pub struct Arguments {
     /// Makes a library alone, without the program that runs the plan in simulation
     #[arg(long)]
     lib: bool,
+
+    /// Prints one JSON object for each error, warning and note on standard output, what was built last
+    #[arg(long)]
+    json: bool,
 }
 
 pub const EXAMPLES: &str = "\
@@ -43,33 +49,101 @@ Examples:
   $(afpc build plans/wall_following.afp) --seed 7
   afpc build plans/wall_following.afp --target pi
   afpc build plans/wall_following.afp -o wall --lib
+  afpc build plans/wall_following.afp --json
 
-The last line on standard output is the absolute path of the binary (with --lib, of the crate).
+The last line on standard output is the absolute path of the binary (with --lib, of the crate);
+with --json it is an object with the summary: plan, whether it was built, folder and binary.
 Generated manifests take the afp crates from the checkout that built afpc; [afp] path, git or
 version in afp.toml says otherwise.";
 
 /// Where plans are built unless told otherwise.
 const BUILDS: &str = "target/afp";
 
+/// What has been made, as far as it got.
+#[derive(Default)]
+struct Made {
+    /// The name of the plan.
+    plan: Option<String>,
+    /// The folder of the crate.
+    folder: Option<PathBuf>,
+    /// The program.
+    binary: Option<PathBuf>,
+}
+
 /// Generates and builds.
 ///
 /// # Errors
 /// The plan is wrong, the folder cannot be written, there is no cargo, cargo fails.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
+    let (reader, mut made) = (Reader::of(arguments.json), Made::default());
+    let code = match build(arguments, reader, &mut made) {
+        Ok(()) => EXIT_OK,
+        Err(why) => reader.end(why)?,
+    };
+    match reader {
+        Reader::People => {
+            let made = made.binary.or(made.folder).unwrap_or_default();
+            print(&format!("{}\n", made.display()))?;
+        }
+        Reader::Tools => {
+            print(&format!("{}\n", made.summary(code == EXIT_OK)))?;
+        }
+    }
+    Ok(code)
+}
+
+fn build(arguments: &Arguments, reader: Reader, made: &mut Made) -> Result<(), NoPlan> {
     if arguments.target == Machine::Mcu {
         let message = "'--target mcu' is not in this release";
         let help = "name 'host', 'pi' or 'pi32'; 'mcu' comes with the microcontroller drivers";
         return Err(RunError::usage(message, help).into());
     }
-    let (file, graph) = PlanFile::graph(&arguments.plan.plan)?;
-    is_fast_enough(arguments.target, &file, &graph)?;
+    let (file, graph) = PlanFile::read(&arguments.plan.plan)?.checked_for(reader)?;
+    made.plan = Some(graph.main().name.clone());
+    is_fast_enough(arguments.target, &file, &graph, reader)?;
     let linux = arguments.target.linux();
-    let build = Path::new(BUILDS).join("build");
-    let toolchain = linux.map(|linux| toolchain::find(linux, &build.join("zig"))).transpose()?;
+    let shared = Path::new(BUILDS).join("build");
+    let toolchain = linux.map(|linux| toolchain::find(linux, &shared.join("zig"))).transpose()?;
     let toolboxes = file.own.used_by(&graph)?;
-    let origin = origin::of_afp(&file.own.project)?;
     let stem = file.path.file_stem().unwrap_or("plan".as_ref());
     let folder = arguments.output.clone().unwrap_or_else(|| Path::new(BUILDS).join(stem));
+    let files = generate(&file, &graph, &toolboxes, arguments.lib, &folder)?;
+    made.folder = Some(whole(folder.clone()));
+    let no_cargo = RunError::Missing {
+        message: "there is no cargo to build the crate with".to_owned(),
+        help:
+            "install Rust from https://rustup.rs; with built-in toolboxes alone, 'afpc run' works \
+               without it"
+                .to_owned(),
+    };
+    let generated = Generated { folder: &folder, files: &files, sources: &file.compiled.sources };
+    let object = |object: &Value| match print(&format!("{object}\n")) {
+        Err(NoPlan::File(error)) => Err(error),
+        _ => Ok(()),
+    };
+    let binary = cargo::build(Job {
+        folder: &folder,
+        // Plans beside one another share what they are built from.
+        target: arguments.output.is_none().then_some(&*shared),
+        toolchain: toolchain.as_ref(),
+        artifact: Artifact::Program,
+        blame: Blame { generated: Some(generated), toolboxes: &toolboxes },
+        no_cargo,
+        tools: (reader == Reader::Tools).then_some(&object),
+    })?;
+    made.binary = binary.map(whole);
+    Ok(())
+}
+
+/// Writes the crate of a plan.
+fn generate(
+    file: &PlanFile,
+    graph: &Graph,
+    toolboxes: &[OwnToolbox],
+    lib: bool,
+    folder: &Path,
+) -> Result<Vec<CrateFile>, NoPlan> {
+    let origin = origin::of_afp(&file.own.project)?;
     let robot = file.own.project.robot()?;
     let crates = toolboxes.iter().map(|own| &own.krate);
     let crates = crates.chain(robot.iter().map(|robot| &robot.krate));
@@ -79,43 +153,39 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
         origin: origin.clone(),
         dependencies: crates.map(origin::dependency).collect(),
         robot: robot.as_ref().map(RobotLink::rust_type),
-        lib: arguments.lib,
+        lib,
     };
-    let files = crate_files(&graph, &options);
+    let files = crate_files(graph, &options);
     let texts: Vec<_> = files.iter().map(|file| (&*file.path, &*file.text)).collect();
-    crate_folder::write(&folder, &texts, &origin)?;
+    crate_folder::write(folder, &texts, &origin)?;
     say(format_args!("generated {}", folder.display()));
-    // Plans beside one another share what they are built from.
-    let shared = arguments.output.is_none().then_some(build);
-    let no_cargo = RunError::Missing {
-        message: "there is no cargo to build the crate with".to_owned(),
-        help:
-            "install Rust from https://rustup.rs; with built-in toolboxes alone, 'afpc run' works \
-               without it"
-                .to_owned(),
-    };
-    let generated = Generated { folder: &folder, files: &files, sources: &file.compiled.sources };
-    let binary = cargo::build(Job {
-        folder: &folder,
-        target: shared.as_deref(),
-        toolchain: toolchain.as_ref(),
-        artifact: Artifact::Program,
-        blame: Blame { generated: Some(generated), toolboxes: &toolboxes },
-        no_cargo,
-    })?;
-    let made = binary.unwrap_or(folder);
-    let made = std::path::absolute(&made).unwrap_or(made);
-    print(&format!("{}\n", made.display()))
+    Ok(files)
 }
 
 /// Checks that a machine has the time that the plan needs.
-fn is_fast_enough(machine: Machine, file: &PlanFile, graph: &Graph) -> Result<(), NoPlan> {
+fn is_fast_enough(
+    machine: Machine,
+    file: &PlanFile,
+    graph: &Graph,
+    reader: Reader,
+) -> Result<(), NoPlan> {
     let mut diags = Diagnostics::default();
     for target in targets::choose(&file.own.project.project, Some(machine.name()))? {
         diags.extend(check_target(graph, &target));
     }
-    if !diags.is_empty() {
-        say(diags.render(&file.compiled.sources, true));
-    }
+    reader.tell(&diags, &file.compiled.sources)?;
     if diags.has_errors() { Err(NoPlan::Wrong) } else { Ok(()) }
+}
+
+fn whole(path: PathBuf) -> PathBuf {
+    std::path::absolute(&path).unwrap_or(path)
+}
+
+impl Made {
+    /// The last line for tools.
+    fn summary(&self, built: bool) -> Value {
+        let text = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
+        let (folder, binary) = (text(&self.folder), text(&self.binary));
+        json!({ "summary": { "plan": self.plan, "built": built, "folder": folder, "binary": binary } })
+    }
 }

@@ -8,14 +8,15 @@ use std::path::{Path, PathBuf};
 use afp_dsl::Compiled;
 use afp_dsl::files::normalised;
 use afp_dsl::timing::{Target, check_target, timing};
-use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_USAGE, say};
-use afp_syntax::diagnostics::{Code, Diagnostics};
-use afp_syntax::source::{Sources, Span};
+use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_USAGE};
+use afp_syntax::diagnostics::Code;
+use afp_syntax::source::Span;
 use clap::Args;
 use serde_json::json;
 
 use super::print;
 use crate::plan_file::{NoPlan, PlanFile};
+use crate::reader::Reader;
 use crate::targets;
 use toolbox::ToolboxFile;
 
@@ -26,7 +27,7 @@ pub struct Arguments {
     #[arg(value_name = "FILE", required = true)]
     files: Vec<String>,
 
-    /// Prints one JSON object for each diagnostic on standard output
+    /// Prints one JSON object for each error, warning and note on standard output
     #[arg(long)]
     json: bool,
 
@@ -53,8 +54,12 @@ Examples:
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let mut code = EXIT_OK;
     let mut told = HashSet::new();
+    let reader = Reader::of(arguments.json);
     for name in &arguments.files {
-        code = code.max(check(name, arguments, &mut told)?);
+        match check(name, arguments, &mut told) {
+            Ok(one) => code = code.max(one),
+            Err(why) => return reader.end(why),
+        }
     }
     debug_assert!(code < EXIT_USAGE);
     Ok(code)
@@ -64,16 +69,17 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
 type Told = HashSet<(PathBuf, Span, Code, String)>;
 
 fn check(name: &str, arguments: &Arguments, told: &mut Told) -> Result<u8, NoPlan> {
+    let reader = Reader::of(arguments.json);
     if let Some(file) = ToolboxFile::read(name) {
         let (diags, sources) = (file.toolboxes.diagnostics(), file.toolboxes.sources());
-        show(diags, sources, arguments.json)?;
+        reader.tell(diags, sources)?;
         return conclude(diags.has_errors(), &file.path, arguments.json);
     }
     let mut file = match PlanFile::read(name) {
         Ok(file) => file,
         // The other files are still worth checking.
         Err(error) => {
-            error.report();
+            reader.error(&error)?;
             return Ok(EXIT_FAILED);
         }
     };
@@ -85,23 +91,11 @@ fn check(name: &str, arguments: &Arguments, told: &mut Told) -> Result<u8, NoPla
     }
     let wrong = compiled.diags.has_errors();
     leave_out_told(compiled, told);
-    show(&compiled.diags, &compiled.sources, arguments.json)?;
+    reader.tell(&compiled.diags, &compiled.sources)?;
     if arguments.timing {
         show_timing(&file, &targets, arguments.json)?;
     }
     conclude(wrong, &file.path, arguments.json)
-}
-
-/// Prints what is wrong.
-fn show(diags: &Diagnostics, sources: &Sources, json: bool) -> Result<(), NoPlan> {
-    match json {
-        true => {
-            print(&diags.json_lines(sources))?;
-        }
-        false if diags.is_empty() => {}
-        false => say(diags.render(sources, true)),
-    }
-    Ok(())
 }
 
 /// The exit code of one file, which people read in words, too.

@@ -3,10 +3,9 @@
 use std::fs;
 use std::path::Path;
 
+use afp_dsl::files::{self, Files};
 use afp_lsp::Host;
 use afp_run::write_whole;
-
-use crate::plan_file::read_used;
 
 /// The files of this machine.
 #[derive(Debug)]
@@ -14,7 +13,7 @@ pub struct Disk;
 
 impl Host for Disk {
     fn read(&self, path: &str) -> Result<String, String> {
-        read_used(path)
+        files::Disk::default().read(path)
     }
 
     fn plan_files(&self, folder: &str) -> Vec<String> {

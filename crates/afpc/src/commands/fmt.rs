@@ -1,9 +1,9 @@
 //! `afpc fmt`: plans and toolboxes in canonical form.
 
-use std::fs;
 use std::io::Read;
 use std::path::Path;
 
+use afp_dsl::files::read_text;
 use afp_run::{EXIT_FAILED, EXIT_OK, RunError, say, write_whole};
 use afp_syntax::source::{Source, Sources};
 use clap::Args;
@@ -75,7 +75,7 @@ fn one(name: &str, check: bool) -> Result<u8, NoPlan> {
 
 fn read(name: &str) -> Result<String, RunError> {
     if name != "-" {
-        return fs::read_to_string(name)
+        return read_text(name.as_ref())
             .map_err(RunError::file("cannot read the plan", name.as_ref()));
     }
     let mut text = String::new();

@@ -9,7 +9,7 @@ use afp_draw::{Options, Usage};
 use afp_dsl::graph::Graph;
 use afp_dsl::outline::{Outline, PlanId};
 use afp_dsl::toolbox::Toolbox;
-use afp_run::{EXIT_FAILED, EXIT_OK, PictureFormat, RunError, say, write_whole};
+use afp_run::{EXIT_FAILED, EXIT_OK, PictureFormat, RunError, check_apart, say, write_whole};
 use afp_syntax::source::Source;
 use clap::{Args, ValueEnum};
 
@@ -17,6 +17,7 @@ use super::print;
 use crate::cli::PlanArgument;
 use crate::picture;
 use crate::plan_file::{NoPlan, PlanFile};
+use crate::reader::Reader;
 
 /// Arguments of `afpc graph`.
 #[derive(Args, Debug)]
@@ -93,7 +94,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let format = arguments.format()?;
     arguments.fit(format)?;
     let file = PlanFile::read(&arguments.plan.plan)?;
-    file.report();
+    let sources = file.compiled.plan_sources().map(|source| Path::new(&source.name));
+    check_apart(arguments.output.as_deref(), sources)?;
+    file.report(Reader::People)?;
     let code = if file.compiled.diags.has_errors() { EXIT_FAILED } else { EXIT_OK };
     let positions = positions(&file);
     let icons = |toolbox: &Toolbox, name: &str| file.own.icon(toolbox, name);

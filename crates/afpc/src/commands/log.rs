@@ -7,7 +7,7 @@ mod timeline;
 use std::path::PathBuf;
 
 use afp_log::{doctor, read, recover, recovered_name};
-use afp_run::{EXIT_FAILED, EXIT_OK, RunError, say};
+use afp_run::{EXIT_FAILED, EXIT_OK, RunError, is_same_file, say};
 use clap::{Args, ValueEnum};
 
 use super::print;
@@ -99,7 +99,7 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
 
 fn save(arguments: &Arguments) -> Result<u8, NoPlan> {
     let to = arguments.output.clone().unwrap_or_else(|| recovered_name(&arguments.file));
-    if to == arguments.file {
+    if is_same_file(&to, &arguments.file) {
         let help = "give another name with '-o FILE'";
         return Err(RunError::usage("a log cannot be recovered into itself", help).into());
     }

@@ -1,5 +1,6 @@
 //! `afpc studio`: plans drawn and edited in the browser.
 
+use std::env;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
@@ -43,10 +44,14 @@ Examples:
 It listens on this machine alone, and its address works once: whoever does not know it is not let in.";
 
 /// Plans to begin with: the shipped ones.
-const PLANS: [(&str, &str); 3] = [
+const PLANS: [(&str, &str); 7] = [
     ("wall_following.afp", include_str!("../../../../plans/wall_following.afp")),
     ("patterns.afp", include_str!("../../../../plans/patterns.afp")),
     ("find_infrared.afp", include_str!("../../../../plans/find_infrared.afp")),
+    ("avoid_obstacle.afp", include_str!("../../../../plans/avoid_obstacle.afp")),
+    ("find_object.afp", include_str!("../../../../plans/find_object.afp")),
+    ("navigate_room.afp", include_str!("../../../../plans/navigate_room.afp")),
+    ("patrol.afp", include_str!("../../../../plans/patrol.afp")),
 ];
 
 /// Serves until Ctrl-C; gives the exit code.
@@ -59,6 +64,8 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
         folder,
         open,
         port: arguments.port,
+        program: env::current_exe()
+            .map_err(RunError::file("cannot find", "this program".as_ref()))?,
         origins: arguments.allow_origin.clone(),
         examples: PLANS.map(|(name, text)| (name.to_owned(), text.to_owned())).into(),
     };

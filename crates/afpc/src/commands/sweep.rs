@@ -9,7 +9,9 @@ use std::thread;
 use afp_core::Duration;
 use afp_run::options::{Failure, Press, failure, press};
 use afp_run::{EXIT_OK, EXIT_PLAN_ERROR, RunError, StopFlag, hash};
-use afp_sweep::{Axis, Engine, Findings, Header, Journal, Outcome, Place, Seeds, Setting, Sweep};
+use afp_sweep::{
+    Axis, Engine, Findings, Header, Journal, Outcome, Place, Room, Seeds, Setting, Sweep,
+};
 use clap::Args;
 
 use crate::cli::PlanArgument;
@@ -25,7 +27,7 @@ pub struct Arguments {
     #[command(flatten)]
     plan: PlanArgument,
 
-    /// Seeds of the runs; the last of 0..1000 is 999
+    /// Seeds of the runs; the last of 0..1000 is 999, and there may be several, as in 1,5,20..30
     #[arg(long, value_name = "FROM..TO", default_value = "0", value_parser = afp_sweep::seeds)]
     seeds: Seeds,
 
@@ -112,6 +114,7 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
             .or_else(|| thread::available_parallelism().ok())
             .map_or(1, NonZero::get),
         stop: stop.flag(),
+        watch: None,
     };
     let teller = Teller::new(&sweep, arguments.json);
     teller.head(&place, outcomes.len());
@@ -129,11 +132,14 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
 
 impl Arguments {
     fn sweep(&self) -> Result<Sweep, RunError> {
-        let worlds: Vec<_> =
-            self.world.iter().flat_map(|worlds| worlds.0.iter().cloned().map(Some)).collect();
+        let worlds: Vec<_> = self
+            .world
+            .iter()
+            .flat_map(|worlds| worlds.0.iter().cloned().map(Room::Named))
+            .collect();
         let sweep = Sweep {
             plan: self.plan.plan.clone(),
-            worlds: if worlds.is_empty() { vec![None] } else { worlds },
+            worlds: if worlds.is_empty() { vec![Room::OfPlan] } else { worlds },
             axes: self.vary.clone(),
             seeds: self.seeds.clone(),
             caveat: None,

@@ -56,6 +56,7 @@ fn text(toolboxes: &Toolboxes, name: Option<&str>) -> Result<String, RunError> {
     if let Some(toolbox) = toolboxes.get(name) {
         return Ok(list(toolbox));
     }
+    let asked = name;
     let (of, name) = name.split_once('.').map_or((None, name), |(of, name)| (Some(of), name));
     let all = toolboxes.iter().filter(|toolbox| of.is_none_or(|of| toolbox.name == of));
     let found = all.flat_map(|toolbox| {
@@ -66,13 +67,14 @@ fn text(toolboxes: &Toolboxes, name: Option<&str>) -> Result<String, RunError> {
         found.map(|(toolbox, template)| describe(toolbox, template, toolboxes.sources())).collect();
     match found.is_empty() {
         false => Ok(found.join("\n")),
-        true => Err(unknown(toolboxes, of, name)),
+        true => Err(unknown(toolboxes, of, asked)),
     }
 }
 
 /// Says that nothing has that name, and what may be meant.
-fn unknown(toolboxes: &Toolboxes, of: Option<&str>, name: &str) -> RunError {
-    let message = format!("there is no toolbox or template '{name}'");
+fn unknown(toolboxes: &Toolboxes, of: Option<&str>, asked: &str) -> RunError {
+    let message = format!("there is no toolbox or template '{asked}'");
+    let name = asked.split_once('.').map_or(asked, |(_, name)| name);
     let templates = || {
         let all = toolboxes.iter().filter(|toolbox| of.is_none_or(|of| toolbox.name == of));
         all.flat_map(|toolbox| toolbox.templates.iter().map(|template| &*template.name))
@@ -99,12 +101,18 @@ fn list(toolbox: &Toolbox) -> String {
 fn describe(toolbox: &Toolbox, template: &Template, sources: &Sources) -> String {
     let mut text = format!("{} {} of '{}'\n", kind(template), template.name, toolbox.name);
     let _ = writeln!(text, "  {}\n", line_of(&template.doc));
-    let inputs = template.inputs.iter().map(|port| (port.span, &port.doc));
+    let written = |(span, help): (Span, &String)| (declared(span, sources), line_of(help));
+    let inputs = template.inputs.iter().map(|port| match &template.reads_table {
+        // What no type of a port can say.
+        Some(reads) if reads.port.name == port.name => {
+            (format!("in {}: (a table)", port.name), line_of(&port.doc))
+        }
+        _ => written((port.span, &port.doc)),
+    });
     let outputs = template.outputs.iter().map(|port| (port.span, &port.doc));
     let outcomes = template.outcomes.iter().map(|outcome| (outcome.span, &outcome.doc));
     let states = template.states_of.iter().map(|states| (states.span, &states.doc));
-    let all = inputs.chain(outputs).chain(outcomes).chain(states);
-    let lines: Vec<_> = all.map(|(span, help)| (declared(span, sources), line_of(help))).collect();
+    let lines: Vec<_> = inputs.chain(outputs.chain(outcomes).chain(states).map(written)).collect();
     let width = lines.iter().map(|(line, _)| line.chars().count()).max().unwrap_or(0);
     for (line, help) in lines {
         let _ = writeln!(text, "  {}", format!("{line:width$}  {help}").trim_end());

@@ -124,17 +124,7 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
         return generate::run(&files, output, linked);
     }
     let find::Wanted { files, filters } = find::wanted(&arguments.what)?;
-    let mut code = EXIT_OK;
-    let mut read = Vec::new();
-    for file in &files {
-        let file = PlanFile::read(&file.display().to_string())?;
-        // Scenarios that are wrong fail alone.
-        if file.compiled.diags.has_errors() && file.compiled.unsound.is_empty() {
-            say(file.compiled.render(true));
-            code = EXIT_FAILED;
-        }
-        read.push(file);
-    }
+    let (read, code) = read(&files)?;
     link(&read, linked)?;
     if arguments.mutate {
         if let Some(word) = filters.first() {
@@ -151,6 +141,32 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     }
     let failed = run_all(&cases, arguments, linked)?;
     Ok(if failed { EXIT_PLAN_ERROR } else { code })
+}
+
+/// Reads the files, and gives the exit code that those come to that are wrong.
+///
+/// # Errors
+/// The only one cannot be read; of several, each hides nothing of the others.
+fn read(files: &[PathBuf]) -> Result<(Vec<PlanFile>, u8), NoPlan> {
+    let (mut read, mut code) = (Vec::new(), EXIT_OK);
+    for file in files {
+        let file = match PlanFile::read(&file.display().to_string()) {
+            Ok(file) => file,
+            Err(error) if files.len() > 1 => {
+                say(error.styled());
+                code = EXIT_FAILED;
+                continue;
+            }
+            Err(error) => return Err(error.into()),
+        };
+        // Scenarios that are wrong fail alone.
+        if file.compiled.diags.has_errors() && file.compiled.unsound.is_empty() {
+            say(file.compiled.render(true));
+            code = EXIT_FAILED;
+        }
+        read.push(file);
+    }
+    Ok((read, code))
 }
 
 /// Becomes a program with the toolboxes that the plans of all scenarios use, if some are not linked in.

@@ -4,6 +4,7 @@
 
 mod afp_blocks;
 mod excerpts;
+mod gallery;
 mod grammar;
 mod lists;
 mod pages;

@@ -12,6 +12,9 @@ const PUSHED: Duration = Duration::from_millis(300);
 /// The fastest that the robot goes, metres a second, and what of the weight brakes: the grip of the
 /// two wheels that drive, and the castors.
 const FASTEST: f64 = 0.31;
+/// What friction has to brake of a turn, too, as a speed for each rad/s: the moment of inertia about the turning centre by
+/// mass and half the track, and as much again, since it cannot brake both at once; metres.
+const TURNING: f64 = 0.32;
 const GRIP: f64 = 0.7 * 9.81 / 2.0;
 const ROLLING: f64 = 0.02 * 9.81 / 2.0;
 
@@ -22,6 +25,8 @@ pub(super) struct Stand {
     since: Option<Instant>,
     /// When a command last came.
     commanded: Instant,
+    /// How fast it turned when it was last commanded to move, rad/s.
+    turned: f64,
     /// The time that the templates declare.
     stop: Duration,
     /// When and where it was last looked at.
@@ -37,6 +42,7 @@ impl Stand {
         Stand {
             since: Some(Instant::ZERO),
             commanded: Instant::ZERO,
+            turned: 0.0,
             stop,
             last: (Instant::ZERO, pose),
             slippery: Vec::new(),
@@ -65,14 +71,20 @@ impl Stand {
         let (now, pose) = (sim.now(), sim.truth().pose());
         let (then, before) = std::mem::replace(&mut self.last, (now, pose));
         let seconds = now.since(then).as_secs_f64();
-        let since = self.since.unwrap_or(self.commanded + DEAD_MAN);
-        if seconds == 0.0 || then < since + self.allowed(since) || pushed(sim, then) {
+        if seconds == 0.0 {
             return None;
         }
         let speed = (pose.x - before.x).hypot(pose.y - before.y) / seconds;
         let turned = pose.heading - before.heading;
         let turned = turned - (turned / std::f64::consts::TAU).round() * std::f64::consts::TAU;
         let turn = (turned / seconds).abs();
+        if self.since.is_none() {
+            self.turned = turn;
+        }
+        let since = self.since.unwrap_or(self.commanded + DEAD_MAN);
+        if then < since + self.allowed(since) || pushed(sim, then) {
+            return None;
+        }
         (speed > STANDS.0 || turn > STANDS.1).then(|| {
             let after = now.since(since);
             format!("it moves with {speed:.3} m/s and {turn:.3} rad/s, {after} after the command to stand")
@@ -88,7 +100,9 @@ impl Stand {
             self.slippery.iter().filter(|(from, until, _)| *from < horizon && since < *until);
         let grip = slips.map(|(_, _, grip)| *grip).fold(1.0, f64::min);
         let slide = match grip < 1.0 {
-            true => Duration::from_secs_f64(FASTEST / (GRIP * grip + ROLLING)),
+            true => {
+                Duration::from_secs_f64((FASTEST + TURNING * self.turned) / (GRIP * grip + ROLLING))
+            }
             false => Duration::ZERO,
         };
         heard + self.stop + slide

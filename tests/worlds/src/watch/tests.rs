@@ -3,7 +3,7 @@
 use super::*;
 use afp_carbot::devices::Navigator;
 use afp_core::quantity::{AngularSpeed, Speed};
-use afp_core::trace::{ComponentId, ComponentName, EntryName, TraceEntryId};
+use afp_core::trace::{ComponentId, ComponentName, EntryName, Reaction, TraceEntryId};
 use afp_sim::World;
 
 const ROOM: &str = "version = 1\n[robot]\npose_m_deg = [2, 2, 0]\n[[wall]]\n\
@@ -25,6 +25,9 @@ impl Names for One {
     }
     fn target(&self, _: ComponentId, _: u16) -> &str {
         ""
+    }
+    fn reaction(&self, _: ComponentId, _: u16) -> Option<Reaction<'_>> {
+        None
     }
     fn input(&self, _: ComponentId, _: u16) -> &str {
         ""
@@ -117,7 +120,7 @@ fn a_motion_left_behind_breaks_a_rule() {
         let (_, mut watch) = watched();
         drive(&mut watch, 0, 20);
         let fault = afp_carbot::guard::NO_RANGE;
-        watch.hear(at(20), &Record::Faulted { component: element, fault }, &One);
+        watch.hear(at(20), &Record::Faulted { component: element, fault, detail: None }, &One);
         watch.hear(at(20), &then, &One);
         watch.stepped(at(20));
         breaks(watch, "failed");

@@ -70,7 +70,9 @@ fn check(theme: &BTreeMap<String, &str>) {
                 let line = property(declared, "stroke").or(property(declared, "fill"));
                 hold(selector, line.unwrap(), page, LINE);
             }
-            _ => assert!(matches!(name, "page" | "halo"), "'{selector}' is not measured"),
+            _ => {
+                assert!(matches!(name, "page" | "halo" | "hollow"), "'{selector}' is not measured")
+            }
         }
     }
 }

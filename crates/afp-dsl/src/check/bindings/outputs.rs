@@ -110,5 +110,6 @@ fn output(
         port: u16::try_from(port).ok()?,
         entry: EntryId(u16::try_from(place).ok()?),
         conversion,
+        span: entry.span,
     })
 }

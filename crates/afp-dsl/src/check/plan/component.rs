@@ -10,7 +10,7 @@ use crate::check::edges::{self, Connected, Elements, Origin, WrittenEdge};
 use crate::check::formula::Scope;
 use crate::check::resources::User;
 use crate::check::signature::{Signature, SignatureKind};
-use crate::check::timing;
+use crate::check::{tables, timing};
 use crate::graph::{Element, ElementId, EntryId, Supervisor};
 use crate::outline::Times;
 use crate::toolbox::Template;
@@ -95,18 +95,12 @@ impl Components<'_> {
         let name = node.name();
         let broken = diags.syntax_errors_within(node.span()).next().is_some();
         let site = Site { reference: reference.span(), broken };
-        let mut remarks = Diagnostics::default();
-        let bound = bindings::check(self.scope, &signature, &written.binds, &site, &mut remarks);
-        // Who connects 'Error' has dealt with inputs that fail.
-        let deals = written.edges.iter().any(|edge| edge.name.text == edges::ERROR);
-        remarks.retain(|remark| remark.code != Code::E0208 || !deals);
-        diags.extend(remarks);
-        let signatures = &self.context.program.signatures;
-        let (generic, at) = (bound.generic.as_ref(), reference.span());
-        let Some(signature) = choices::chosen(signatures, &signature, generic, at, diags) else {
-            edges::names_only(&written.edges, &[edges::ERROR], self.elements, diags);
-            let made = Made { signature: Some(signature), generic: bound.generic, times: None };
-            return Checked { built: None, user: None, made, written };
+        let (signature, bound) = match self.ports(signature, &written, &site, diags) {
+            Ok(found) => found,
+            Err(made) => {
+                edges::names_only(&written.edges, &[edges::ERROR], self.elements, diags);
+                return Checked { built: None, user: None, made, written };
+            }
         };
         let span = name.as_ref().map_or_else(|| node.span(), |name| name.span);
         let origin =
@@ -120,6 +114,40 @@ impl Components<'_> {
         };
         let built = self.build_element(node, &signature, name, bound, connected);
         Checked { built, user, made, written }
+    }
+
+    /// The bindings of an element, and what it is made from once these have chosen a table or an enum.
+    ///
+    /// # Errors
+    /// What is known where they choose none, which is reported.
+    fn ports(
+        &self,
+        signature: Rc<Signature>,
+        written: &WrittenParts,
+        site: &Site,
+        diags: &mut Diagnostics,
+    ) -> Result<(Rc<Signature>, bindings::Bound), Made> {
+        let bound = (self.scope, &*written.binds, site);
+        let Some((signature, binds)) = tables::read_by(self.context, &signature, bound, diags)
+        else {
+            return Err(Made { signature: Some(signature), ..Made::default() });
+        };
+        let binds = bindings::meant(&signature, &binds);
+        let mut remarks = Diagnostics::default();
+        let bound = bindings::check(self.scope, &signature, &binds, site, &mut remarks);
+        // Who connects 'Error' has dealt with inputs that fail.
+        let deals = written.edges.iter().any(|edge| edge.name.text == edges::ERROR);
+        remarks.retain(|remark| remark.code != Code::E0208 || !deals);
+        diags.extend(remarks);
+        if let Some((inputs, outputs)) = &bound.sound {
+            tables::fits(self.scope, &signature, (inputs, outputs), &binds, diags);
+        }
+        let signatures = &self.context.program.signatures;
+        let (generic, at) = (bound.generic.as_ref(), site.reference);
+        match choices::chosen(signatures, &signature, generic, at, diags) {
+            Some(chosen) => Ok((chosen, bound)),
+            None => Err(Made { signature: Some(signature), generic: bound.generic, times: None }),
+        }
     }
 
     fn build_element(
@@ -140,6 +168,7 @@ impl Components<'_> {
             states: connected.outcomes,
             on_error: connected.extra,
             supervisors: Vec::new(),
+            reactions: Vec::new(),
             edges: connected.spans,
             span: name.span,
             name: name.text,
@@ -174,7 +203,8 @@ impl Components<'_> {
         let name = node.name();
         let broken = diags.syntax_errors_within(node.span()).next().is_some();
         let site = Site { reference: reference.span(), broken };
-        let bound = bindings::check(self.scope, &signature, &written.binds, &site, diags);
+        let binds = bindings::meant(&signature, &written.binds);
+        let bound = bindings::check(self.scope, &signature, &binds, &site, diags);
         let span = name.as_ref().map_or_else(|| node.span(), |name| name.span);
         let origin =
             Origin { signature: &signature, name: name.as_ref(), span, broken, supervisor: true };
@@ -275,6 +305,17 @@ fn unguarded(node: &ast::Element, diags: &mut Diagnostics) {
                 "a computation takes no time, so nothing can watch it",
             )
             .help("move the supervisor to an actor, or to the plan"),
+        );
+    }
+    for reactions in node.reactions() {
+        let span = reactions.name().map_or_else(|| reactions.span(), |name| name.span);
+        diags.push(
+            Diagnostic::new(
+                Code::E0218,
+                span,
+                "a computation takes no time, so no supervisor is asked meanwhile",
+            )
+            .help("move 'on' to an actor or a sub-plan"),
         );
     }
 }

@@ -22,7 +22,7 @@ impl Checker<'_> {
     pub(super) fn action(&self, node: &ast::Action, diags: &mut Diagnostics) -> Option<Action> {
         let (verb, path) = (node.verb()?, node.path()?);
         let duration = match node.duration() {
-            Some(time) => Some(timing::time(&time, diags)?),
+            Some(time) => Some(timing::time(&time, "ms", diags)?),
             None => None,
         };
         self.only(node, &verb, diags)?;
@@ -40,7 +40,9 @@ impl Checker<'_> {
             "idle" => self.idle(&path, diags),
             _ => {
                 let message = format!("there is no action '{}'", verb.text);
-                let known = VERBS.iter().copied();
+                // Nothing but that is followed by a value.
+                let sets = node.value().is_some();
+                let known = VERBS.iter().copied().filter(|verb| sets == (*verb == "set"));
                 diags.push(unknown(Code::E0606, verb.span, message, &verb.text, known, ""));
                 None
             }
@@ -62,8 +64,9 @@ impl Checker<'_> {
             return None;
         }
         if ["press", "release", "idle"].contains(&verb.text.as_str())
-            && let Some(Bind::In { port, .. } | Bind::Out { port, .. }) = node.binds().first()
+            && let Some(bind) = node.binds().first()
         {
+            let port = bind.port();
             let message = format!("'{}' has nothing that is called '{}'", verb.text, port.text);
             diags
                 .push(Diagnostic::new(Code::E0606, port.span, message).help("remove the brackets"));
@@ -120,7 +123,7 @@ impl Checker<'_> {
         let found = match self.paths.find(self.paths.main(), &names) {
             Ok((found, [])) => found,
             Ok((_, [more, ..])) => {
-                let error = Diagnostic::new(Code::E0602, path.span(), "'idle' is for actors");
+                let error = Diagnostic::new(Code::E0602, more.span, "'idle' is for actors");
                 diags.push(error.help(format!("remove '.{}'", more.text)));
                 return None;
             }
@@ -175,9 +178,10 @@ impl Checker<'_> {
             diags.push(self.no_outcome(found, name));
             return None;
         };
-        let target = self.paths.target(found, outcome);
+        let targets = self.paths.targets(found, outcome);
         let missed = outcome == Outcome::Special && matches!(found.part, Part::Supervisor(_));
-        if target == Some(Target::Ignore) || (missed && target.is_none()) {
+        let ignored = !targets.is_empty() && targets.iter().all(|to| *to == Target::Ignore);
+        if ignored || (missed && targets.is_empty()) {
             let (message, note) = match missed {
                 true => ("leads nowhere, so that nothing would follow", "this has no such edge"),
                 false => ("is ignored, so it is never reported", "ignored here"),
@@ -220,7 +224,7 @@ impl Checker<'_> {
         let mut values: Vec<Option<Constant>> = vec![None; wanted.len()];
         let mut sound = true;
         for bind in binds {
-            let (Bind::In { port, .. } | Bind::Out { port, .. }) = bind;
+            let port = bind.port();
             let place = wanted.iter().position(|(_, known, _)| known.name == port.text);
             let Some(place) = place else {
                 let message =

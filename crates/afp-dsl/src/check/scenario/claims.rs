@@ -1,9 +1,9 @@
 //! What a scenario expects.
 
-use super::Checker;
 use super::often::wanted;
 use super::paths::{Found, Part};
 use super::resolve;
+use super::{Checker, Stretch};
 use crate::check::names::unknown;
 use crate::graph::{Component, Target};
 use crate::scenario::{Cause, Claim, Destination, EndCause, Expectation, Outcome};
@@ -14,19 +14,19 @@ impl Checker<'_> {
     pub(super) fn expectation(
         &self,
         line: &Line,
-        never: bool,
-        node: &ast::Claim,
-        bounds: &[Bound],
+        (never, node, bounds): (bool, &ast::Claim, &[Bound]),
+        stretch: &Stretch,
         diags: &mut Diagnostics,
     ) -> Option<Expectation> {
-        let window = self.window(bounds, diags);
+        let window = stretch.window(bounds, diags);
         let claim = self.claim(node, diags)?;
         let window = window?;
         let wanted = wanted(never, &claim, bounds, diags)?;
-        Some(Expectation { claim, wanted, window, text: line.in_one_line(), span: line.span() })
+        let (from, text, span) = (stretch.from, line.in_one_line(), line.span());
+        Some(Expectation { claim, wanted, from, window, text, span })
     }
 
-    fn claim(&self, node: &ast::Claim, diags: &mut Diagnostics) -> Option<Claim> {
+    pub(super) fn claim(&self, node: &ast::Claim, diags: &mut Diagnostics) -> Option<Claim> {
         match node.kind() {
             ClaimKind::Transition { from, to, by } => {
                 self.transition(&from, &to, by.as_ref(), diags)
@@ -144,7 +144,7 @@ impl Checker<'_> {
         let causes = self.paths.causes(from);
         let leads = |(found, outcome): &&(Found, Outcome)| match (
             target,
-            self.paths.target(*found, *outcome),
+            self.paths.target_at(*found, *outcome, from),
         ) {
             (ClaimTarget::Element(_), Some(Target::Element(id))) => {
                 to.is_some_and(|to| to.part == Part::Element(id))
@@ -205,7 +205,7 @@ impl Checker<'_> {
             Target::Ignore => None,
         };
         let goals =
-            causes.iter().filter_map(|(found, outcome)| self.paths.target(*found, *outcome));
+            causes.iter().filter_map(|(each, outcome)| self.paths.target_at(*each, *outcome, from));
         let goals: std::collections::BTreeSet<_> = goals.filter_map(name).collect();
         match goals.is_empty() {
             true => format!("no edge leads out of '{}'; expect another element", path.text()),
@@ -325,10 +325,10 @@ impl Checker<'_> {
         let declared = u16::try_from(self.paths.outcomes(found).len()).unwrap_or(0);
         let all = (0..declared).map(Outcome::Declared).chain([Outcome::Special]);
         let element = matches!(found.part, Part::Element(_));
-        let ends = |each: Outcome| match self.paths.target(found, each) {
-            Some(Target::Terminate | Target::Fail(_)) => true,
-            None => each == Outcome::Special && element,
-            _ => false,
+        let ends = |each: Outcome| {
+            let targets = self.paths.targets(found, each);
+            let unconnected = targets.is_empty() && each == Outcome::Special && element;
+            unconnected || targets.into_iter().any(ends_plan)
         };
         let main = found.instance == self.paths.main();
         if main && all.filter(|each| outcome.is_none_or(|wanted| wanted == *each)).any(ends) {
@@ -350,9 +350,8 @@ impl Checker<'_> {
         let ending = paths.components().flat_map(|(name, found)| {
             let outcomes = paths.outcomes(found).into_iter().chain([paths.special(found)]);
             outcomes.filter_map(move |outcome| {
-                let target = paths.target(found, paths.outcome(found, outcome)?);
-                let ends = matches!(target, Some(Target::Terminate | Target::Fail(_)));
-                ends.then(|| format!("{name}.{outcome}"))
+                let targets = paths.targets(found, paths.outcome(found, outcome)?);
+                targets.into_iter().any(ends_plan).then(|| format!("{name}.{outcome}"))
             })
         });
         let ending: Vec<_> = ending.collect();
@@ -400,7 +399,9 @@ impl Checker<'_> {
         }
         let outcome = self.outcome(found, rest, diags)?;
         if let Some(outcome) = outcome
-            && self.paths.target(found, outcome) == Some(Target::Ignore)
+            && let targets = self.paths.targets(found, outcome)
+            && !targets.is_empty()
+            && targets.iter().all(|target| *target == Target::Ignore)
         {
             let message = format!("'{}' is ignored, so it is never taken", path.text());
             diags.push(
@@ -412,6 +413,11 @@ impl Checker<'_> {
         }
         Some(Claim::Happens(Cause { component: self.paths.number(found), outcome }))
     }
+}
+
+/// Whether an edge that leads there ends the plan.
+fn ends_plan(target: Target) -> bool {
+    matches!(target, Target::Terminate | Target::Fail(_))
 }
 
 /// A target as a claim names it.

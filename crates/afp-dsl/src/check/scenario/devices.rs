@@ -69,7 +69,7 @@ impl Checker<'_> {
     ) -> Option<Option<f64>> {
         let mut amount = None;
         for bind in binds {
-            let (Bind::In { port, .. } | Bind::Out { port, .. }) = bind;
+            let port = bind.port();
             let known = fault.amount.as_ref().filter(|known| known.name == port.text);
             let (Some(known), Bind::In { formula: Some(formula), .. }) = (known, bind) else {
                 let message = format!("'{}' says nothing of the fault '{}'", port.text, fault.name);

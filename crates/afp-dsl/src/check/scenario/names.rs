@@ -42,6 +42,10 @@ impl Names<'_> {
             LineKind::Robot(formulas) => formulas.iter().for_each(|value| self.formula(value)),
             LineKind::Stimulus(_, Some(action)) => self.action(&action),
             LineKind::Expect { claim: Some(claim), .. } => self.claim(&claim),
+            LineKind::Moment(claim, lines) => {
+                claim.iter().for_each(|claim| self.claim(claim));
+                lines.iter().for_each(|line| self.line(line));
+            }
             _ => {}
         }
     }
@@ -51,7 +55,7 @@ impl Names<'_> {
         let verb = action.verb().map(|verb| verb.text).unwrap_or_default();
         let binds = action.binds();
         for bind in &binds {
-            let (Bind::In { port, .. } | Bind::Out { port, .. }) = bind;
+            let port = bind.port();
             self.record.unknown(port.span);
             match bind {
                 Bind::In { formula: Some(formula), .. } => self.formula(formula),
@@ -197,7 +201,7 @@ impl Names<'_> {
             return;
         };
         for bind in binds {
-            let (Bind::In { port, .. } | Bind::Out { port, .. }) = bind;
+            let port = bind.port();
             let declared = signature.outputs.iter().find(|output| *output.name == *port.text);
             if let Some(declared) = declared {
                 self.record.definition(port.span, declared.span);
@@ -209,7 +213,7 @@ impl Names<'_> {
     fn amounts(&self, path: &Path, binds: &[Bind]) {
         let Found::Row(_, fault, _) = self.robot.find::<Fault>(&path.names()) else { return };
         for bind in binds {
-            let (Bind::In { port, .. } | Bind::Out { port, .. }) = bind;
+            let port = bind.port();
             let amount = fault.amount.as_ref().filter(|amount| amount.name == port.text);
             match amount.map(|amount| amount.span) {
                 Some(Some(span)) => self.record.definition(port.span, span),
@@ -275,6 +279,7 @@ impl Names<'_> {
         let head = self.plan.map(|plan| &self.context.program.plans[plan]);
         let scope = Scope {
             types: &self.context.file.types,
+            tables: &[],
             entries: head.map_or(&[], |head| &head.entries),
             places: head.map_or(&none, |head| &head.places),
             readable: &|_| true,

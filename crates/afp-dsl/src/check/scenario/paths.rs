@@ -204,6 +204,29 @@ impl<'a> Paths<'a> {
         }
     }
 
+    /// The same while an element of the same plan is active, which may react by itself.
+    pub fn target_at(&self, found: Found, outcome: Outcome, active: Found) -> Option<Target> {
+        let own = self.target(found, outcome);
+        let (Part::Supervisor(id), Part::Element(element)) = (found.part, active.part) else {
+            return own;
+        };
+        if found.instance != active.instance {
+            return own;
+        }
+        let element = &self.plan(found.instance).elements[element.index()];
+        let here = element.reactions_to(id).and_then(|table| table.target(event(outcome)));
+        here.or(own)
+    }
+
+    /// Where an outcome leads, whatever is active.
+    pub fn targets(&self, found: Found, outcome: Outcome) -> Vec<Target> {
+        let own = self.target(found, outcome);
+        let Part::Supervisor(id) = found.part else { return own.into_iter().collect() };
+        let others = self.plan(found.instance).reacting(id);
+        let others = others.filter_map(|(_, table)| table.target(event(outcome)));
+        own.into_iter().chain(others).collect()
+    }
+
     /// Where the edge of an outcome stands, or else the component.
     pub fn edge(&self, found: Found, outcome: Outcome) -> Span {
         let plan = self.plan(found.instance);
@@ -248,6 +271,14 @@ impl<'a> Paths<'a> {
         outcome: u16,
     ) -> Vec<(u16, &'a OutPort, crate::types::Type)> {
         outputs(self.graph, found.instance.plan, found.part, outcome)
+    }
+}
+
+/// The event of a supervisor; `None` for its `DeadlineMissed`.
+fn event(outcome: Outcome) -> Option<u16> {
+    match outcome {
+        Outcome::Declared(event) => Some(event),
+        Outcome::Special => None,
     }
 }
 

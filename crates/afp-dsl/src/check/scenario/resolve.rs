@@ -11,8 +11,11 @@ use crate::index::Recorder;
 use crate::outline::ComponentKind;
 use crate::scenario::Outcome;
 use afp_syntax::ast::Name;
-use afp_syntax::diagnostics::{Code, Diagnostic};
+use afp_syntax::diagnostics::{Code, Diagnostic, words};
 use afp_syntax::source::Span;
+
+/// How many paths a help lists at most.
+const MOST_PATHS: usize = 6;
 
 /// The plans of a program, by names.
 #[derive(Clone, Copy)]
@@ -223,15 +226,57 @@ impl<'a> Resolver<'a> {
         let members = &self.members[plan];
         let all = members.elements.iter().chain(&members.globals);
         let known = all.filter_map(|member| Some(member.name.as_ref()?.text.as_str()));
-        let plan = self.plan_name(plan);
-        let message = format!("'{plan}' has no element or supervisor '{}'", name.text);
+        let home = self.plan_name(plan);
+        let message = format!("'{home}' has no element or supervisor '{}'", name.text);
+        if let Some(path) = self.without_point(plan, &name.text) {
+            let error = Diagnostic::new(Code::E0602, name.span, message);
+            return Box::new(error.help(format!("write '{path}'")).replace(path));
+        }
+        let inside = self.one_deeper(plan, &name.text, |element, inner| {
+            let local = || self.local(plan, Part::Element(element), &name.text).is_some();
+            local() || inner.is_some_and(|inner| self.part(inner, &name.text).is_some())
+        });
+        if !inside.is_empty() {
+            return Box::new(meant(Diagnostic::new(Code::E0602, name.span, message), inside));
+        }
         Box::new(unknown(Code::E0602, name.span, message, &name.text, known, "write another name"))
+    }
+
+    /// Two names in one: an element, and something in it.
+    fn without_point(&self, plan: usize, name: &str) -> Option<String> {
+        (0..).zip(&self.members[plan].elements).find_map(|(place, element)| {
+            let (id, outer) = (ElementId(place), &element.name.as_ref()?.text);
+            let inner = name.strip_prefix(outer.as_str())?;
+            let is_local = self.local(plan, Part::Element(id), inner).is_some();
+            let inside = || self.part(self.sub_plan(plan, id)?, inner);
+            (is_local || inside().is_some()).then(|| format!("{outer}.{inner}"))
+        })
+    }
+
+    /// The paths of elements with that name behind them, where `holds` says so of an element and of the plan that it is
+    /// made from.
+    fn one_deeper(
+        &self,
+        plan: usize,
+        name: &str,
+        holds: impl Fn(ElementId, Option<usize>) -> bool,
+    ) -> Vec<String> {
+        let elements = (0..).map(ElementId).zip(&self.members[plan].elements);
+        let holding = elements.filter(|(id, _)| holds(*id, self.sub_plan(plan, *id)));
+        let named = holding.filter_map(|(_, element)| element.name.as_ref());
+        named.map(|outer| format!("{}.{name}", outer.text)).collect()
     }
 
     fn unknown_entry(&self, plan: usize, name: &Name) -> Box<Diagnostic> {
         let entries = self.program.plans[plan].entries.iter();
         let known = entries.map(|entry| entry.name.text.as_str());
         let message = format!("'{}' has no entry '{}'", self.plan_name(plan), name.text);
+        let inside = self.one_deeper(plan, &name.text, |_, inner| {
+            inner.is_some_and(|inner| self.program.plans[inner].places.find(&name.text).is_some())
+        });
+        if !inside.is_empty() {
+            return Box::new(meant(Diagnostic::new(Code::E0209, name.span, message), inside));
+        }
         let none = "declare it in the plan";
         Box::new(unknown(Code::E0209, name.span, message, &name.text, known, none))
     }
@@ -241,10 +286,22 @@ impl<'a> Resolver<'a> {
     }
 }
 
+/// Offers paths in the place of a name: the only one as an edit.
+fn meant(error: Diagnostic, mut paths: Vec<String>) -> Diagnostic {
+    paths.truncate(MOST_PATHS);
+    let error =
+        error.help(format!("write {}", words::list(paths.iter().map(String::as_str), "or")));
+    match paths.as_slice() {
+        [path] => error.replace(path.as_str()),
+        _ => error,
+    }
+}
+
 fn is_called(member: &Member, name: &str) -> bool {
     member.name.as_ref().is_some_and(|known| known.text == name)
 }
 
+/// What is said of a path without a name: nothing, since the grammar has said it.
 fn empty() -> Box<Diagnostic> {
     let error = Diagnostic::new(Code::E0602, Span::default(), "the name is missing");
     Box::new(error.help("write the name of an element or supervisor"))

@@ -69,7 +69,8 @@ impl Checker<'_> {
             }
             Found::Device(device) => {
                 let none = "expect something else; this device signals nothing";
-                let own = device.signals.iter().map(|signal| signal.name.as_str());
+                let own = device.signals.iter().flat_map(written_as).collect::<Vec<_>>();
+                let own = own.iter().map(String::as_str);
                 match names.get(1) {
                     Some(name) => {
                         let message = format!("'{}' has no signal '{}'", device.name, name.text);
@@ -92,6 +93,14 @@ impl Checker<'_> {
         };
         diags.push(error);
         None
+    }
+}
+
+/// How a signal is written to be compared: with each of its parts, where it has some.
+fn written_as(signal: &Signal) -> Vec<String> {
+    match Field::of(signal.ty) {
+        [] => vec![signal.name.clone()],
+        fields => fields.iter().map(|it| format!("{}.{}", signal.name, it.word())).collect(),
     }
 }
 

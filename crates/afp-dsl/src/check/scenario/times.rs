@@ -1,33 +1,56 @@
 //! When things happen and are looked at.
 
-use super::Checker;
 use crate::check::timing;
-use crate::scenario::{DEFAULT_UNTIL, Window};
+use crate::scenario::{DEFAULT_UNTIL, MomentId, Window};
 use crate::types::text::duration;
-use afp_syntax::ast::{Bound, Formula, Line, LineKind};
+use afp_syntax::ast::{Bound, Formula, FormulaKind, Line, LineKind};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 
-/// When a scenario ends, and where it says so.
-pub(super) fn until(lines: &[Line], diags: &mut Diagnostics) -> (u64, Option<Span>) {
-    let written = lines.iter().find_map(|line| match line.kind() {
-        LineKind::Until(time) => Some(time),
-        _ => None,
-    });
-    let Some(Some(written)) = written else { return (DEFAULT_UNTIL, None) };
-    let time = timing::time(&written, diags);
-    (time.unwrap_or(DEFAULT_UNTIL), Some(written.span()))
+/// The whole of a run, or what of it comes after one of its moments: what times in it count from, and when it ends.
+pub(super) struct Stretch {
+    /// What times count from; the start of the run without one.
+    pub from: Option<MomentId>,
+    /// When it ends, nanoseconds.
+    pub until: u64,
+    /// Where that is written.
+    until_span: Option<Span>,
 }
 
-impl Checker<'_> {
+impl Stretch {
+    /// The stretch that some lines are about.
+    pub fn of(lines: &[Line], from: Option<MomentId>, diags: &mut Diagnostics) -> Stretch {
+        let written = lines.iter().find_map(|line| match line.kind() {
+            LineKind::Until(time) => time,
+            _ => None,
+        });
+        let time = written
+            .as_ref()
+            .and_then(|written| timing::time(written, usual_end(written, lines), diags));
+        // How long a run is after a moment that is still to come is not known.
+        let otherwise = from.map_or(DEFAULT_UNTIL, |_| u64::MAX);
+        let until_span = written.map(|written| written.span());
+        Stretch { from, until: time.unwrap_or(otherwise), until_span }
+    }
+
+    /// When it ends, where that is written.
+    pub fn written_end(&self) -> Option<u64> {
+        self.until_span.map(|_| self.until)
+    }
+
     /// An instant of the scenario.
-    pub(super) fn instant(&self, written: &Formula, diags: &mut Diagnostics) -> Option<u64> {
-        let at = timing::time(written, diags)?;
+    pub fn instant(&self, written: &Formula, diags: &mut Diagnostics) -> Option<u64> {
+        let at = timing::time(written, self.usual(written), diags)?;
         if at > self.until {
             diags.push(self.too_late(written.span()));
             return None;
         }
         Some(at)
+    }
+
+    /// The unit in which an instant is most likely meant: in seconds it may lie behind the end.
+    fn usual(&self, written: &Formula) -> &'static str {
+        if as_seconds(written) > self.until as f64 { "ms" } else { "s" }
     }
 
     fn too_late(&self, span: Span) -> Diagnostic {
@@ -42,7 +65,7 @@ impl Checker<'_> {
     }
 
     /// The window of an expectation.
-    pub(super) fn window(&self, bounds: &[Bound], diags: &mut Diagnostics) -> Option<Window> {
+    pub fn window(&self, bounds: &[Bound], diags: &mut Diagnostics) -> Option<Window> {
         let mut seen: Vec<(String, Span)> = Vec::new();
         let mut window = Window { from: 0, to: self.until };
         let mut length = None;
@@ -69,7 +92,8 @@ impl Checker<'_> {
                 continue;
             }
             let written = bound.time()?;
-            let time = timing::time(&written, diags)?;
+            let usual = if word == "within" { "ms" } else { self.usual(&written) };
+            let time = timing::time(&written, usual, diags)?;
             match word.as_str() {
                 "after" => window.from = time,
                 // What happens at that very instant is not before it.
@@ -93,5 +117,29 @@ impl Checker<'_> {
             return None;
         }
         Some(window)
+    }
+}
+
+/// The unit in which an end is most likely meant: in seconds it may lie before what is still to come.
+fn usual_end(written: &Formula, lines: &[Line]) -> &'static str {
+    let times = lines.iter().flat_map(|line| match line.kind() {
+        LineKind::Stimulus(at, _) => at.into_iter().collect(),
+        LineKind::Expect { bounds, .. } => {
+            let instants = bounds.iter().filter(|bound| bound.word() != "within");
+            instants.filter_map(Bound::time).collect()
+        }
+        _ => Vec::new(),
+    });
+    // What is wrong with them is reported where they stand.
+    let mut unread = Diagnostics::default();
+    let latest = times.filter_map(|time| timing::time(&time, "s", &mut unread)).max();
+    if as_seconds(written) < latest.unwrap_or(0) as f64 { "min" } else { "s" }
+}
+
+/// A bare number as if it were seconds, nanoseconds.
+fn as_seconds(written: &Formula) -> f64 {
+    match written.kind() {
+        FormulaKind::Number { number, .. } => number.text.parse::<f64>().unwrap_or_default() * 1e9,
+        _ => 0.0,
     }
 }

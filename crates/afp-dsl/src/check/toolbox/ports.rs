@@ -127,6 +127,7 @@ impl Site<'_> {
     ) -> Option<Constant> {
         let scope = Scope {
             types: self.types,
+            tables: &[],
             entries: &[],
             places: &Places::default(),
             readable: &|_| false,

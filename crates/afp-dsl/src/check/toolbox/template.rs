@@ -30,6 +30,7 @@ pub(super) fn read(
         outputs: Vec::new(),
         outcomes: Vec::new(),
         states_of: None,
+        reads_table: None,
         every: timing::DEFAULT_EVERY,
         deadline: None,
         budget: None,
@@ -169,7 +170,8 @@ fn outcomes(parts: &[Part], template: &mut Template, diags: &mut Diagnostics) {
                     .help("remove it, or choose another name; plans can connect it anyway"),
             );
         }
-        template.outcomes.push(Outcome { name: name.text, doc: node.doc(), span: name.span });
+        let (doc, once) = (node.doc(), node.once());
+        template.outcomes.push(Outcome { name: name.text, doc, once, span: name.span });
     }
 }
 

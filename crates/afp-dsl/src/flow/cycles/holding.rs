@@ -12,7 +12,7 @@ const BELOW: u16 = 0;
 /// Whether an edge can be taken in the look, or by the start of an element.
 pub(super) fn can_hold(view: &View<'_>, cause: Cause) -> bool {
     match cause {
-        Cause::Event(id, _) => !waits(view, view.supervisor(id)),
+        Cause::Event(id, event) => !view.is_once(id, event) && !waits(view, view.supervisor(id)),
         Cause::Error(id) => can_fail(view, &view.plan.elements[id.index()]),
         _ => true,
     }
@@ -20,14 +20,11 @@ pub(super) fn can_hold(view: &View<'_>, cause: Cause) -> bool {
 
 /// Whether a supervisor reports something only after some time.
 fn waits(view: &View<'_>, supervisor: &Supervisor) -> bool {
-    match standard(view, supervisor) {
-        Some("Every" | "Changed") => true,
-        Some("CheckTimeout") => {
-            let time = supervisor.inputs.first().and_then(|time| view.constant(time));
-            matches!(time, Some(Constant::Float(time)) if time > 0.0)
-        }
-        _ => false,
+    if standard(view, supervisor) != Some("CheckTimeout") {
+        return false;
     }
+    let time = supervisor.inputs.first().and_then(|time| view.constant(time));
+    matches!(time, Some(Constant::Float(time)) if time > 0.0)
 }
 
 /// Whether the start of an element can fail: it commands something, or computes what it needs.
@@ -39,33 +36,63 @@ fn can_fail(view: &View<'_>, element: &Element) -> bool {
     computes || !view.model.template(id).uses.is_empty()
 }
 
-/// Whether the conditions of a cycle never hold together: one value above a limit and below another one.
-pub(super) fn contradict(view: &View<'_>, cycle: &[Edge]) -> bool {
-    let limits: Vec<_> = cycle.iter().filter_map(|edge| limit(view, edge.cause)).collect();
-    let is_written = |entry: EntryId| {
-        cycle.iter().any(|edge| view.writes(edge.cause).any(|output| output.entry == entry))
-    };
-    limits.iter().any(|(entry, above, event)| {
-        let below = limits.iter().filter(|(other, ..)| other == entry);
-        let impossible = |(_, below, other): &&(EntryId, f64, u16)| {
-            *event != BELOW && *other == BELOW && *above >= *below
-        };
-        { below }.any(|other| impossible(&other)) && !is_written(*entry)
-    })
+/// What a `CheckValue` compares.
+#[derive(Clone, Copy, PartialEq)]
+enum Term {
+    Entry(EntryId),
+    Number(f64),
 }
 
-/// The entry that a `CheckValue` compares, with what, and which of its events it is.
-fn limit(view: &View<'_>, cause: Cause) -> Option<(EntryId, f64, u16)> {
+/// Whether the conditions of a cycle never hold together: one value above a limit and below another one.
+pub(super) fn contradict(view: &View<'_>, cycle: &[Edge]) -> bool {
+    let is_written = |term: Term| {
+        let mut outputs = cycle.iter().flat_map(|edge| view.writes(edge.cause));
+        matches!(term, Term::Entry(entry) if outputs.any(|output| output.entry == entry))
+    };
+    let all = cycle.iter().filter_map(|edge| less(view, edge.cause));
+    let mut less: Vec<_> = all.filter(|(a, b)| !is_written(*a) && !is_written(*b)).collect();
+    less.dedup();
+    less.iter().any(|(least, _)| is_above(&less, *least))
+}
+
+/// Whether a term would have to be less than itself, or a number than one that is not greater.
+fn is_above(less: &[(Term, Term)], least: Term) -> bool {
+    let (mut known, mut next) = (vec![least], 0);
+    while let Some(term) = known.get(next).copied() {
+        next += 1;
+        for (_, greater) in less.iter().filter(|(smaller, _)| *smaller == term) {
+            let impossible = match (least, *greater) {
+                (Term::Number(least), Term::Number(greater)) => least >= greater,
+                (least, greater) => least == greater,
+            };
+            if impossible {
+                return true;
+            }
+            if !known.contains(greater) {
+                known.push(*greater);
+            }
+        }
+    }
+    false
+}
+
+/// Which of the two that a `CheckValue` compares is less than which, when its event comes.
+fn less(view: &View<'_>, cause: Cause) -> Option<(Term, Term)> {
     let Cause::Event(id, event) = cause else { return None };
     let supervisor = view.supervisor(id);
     standard(view, supervisor).filter(|name| *name == "CheckValue")?;
     let [value, limit] = supervisor.inputs.as_slice() else { return None };
-    let limit = match view.constant(limit)? {
-        Constant::Int(limit) => limit as f64,
-        Constant::Float(limit) => limit,
-        _ => return None,
-    };
-    Some((entry(value)?, limit, event))
+    let (value, limit) = (term(view, value)?, term(view, limit)?);
+    Some(if event == BELOW { (value, limit) } else { (limit, value) })
+}
+
+fn term(view: &View<'_>, formula: &Formula) -> Option<Term> {
+    match view.constant(formula) {
+        Some(Constant::Int(number)) => Some(Term::Number(number as f64)),
+        Some(Constant::Float(number)) => Some(Term::Number(number)),
+        Some(_) => None,
+        None => entry(formula).map(Term::Entry),
+    }
 }
 
 /// The entry that a formula reads, and nothing else.

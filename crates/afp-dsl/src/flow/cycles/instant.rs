@@ -1,7 +1,7 @@
 //! Which endings of a plan can come in the very step that starts it.
 
 use super::ending_of;
-use crate::flow::view::{Cause, Edge, View, takes_time};
+use crate::flow::view::{Cause, Edge, View};
 
 /// `quick` are the edges that take no time. The plan's own global supervisors are started and asked
 /// in the same step, so here their events count.
@@ -23,13 +23,10 @@ pub(super) fn endings(view: &View<'_>, quick: &[Edge]) -> [bool; 2] {
         }
         // Quick edges are grouped by their origin, in the order of the nodes.
         open.extend(quick[first[node]..first[node + 1]].iter().map(|edge| edge.to));
-        if view.element(node).is_some_and(takes_time) {
-            open.push(view.anywhere());
-        }
-        if node == view.anywhere() {
-            let events = view.from(node).iter();
-            open.extend(events.filter(|edge| matches!(edge.cause, Cause::Event(..))).map(|e| e.to));
-        }
+        let events = view
+            .of_globals(node)
+            .filter(|edge| matches!(edge.cause, Cause::Event(..) | Cause::On(_, _, Some(_))));
+        open.extend(events.map(|edge| edge.to));
     }
     ends
 }

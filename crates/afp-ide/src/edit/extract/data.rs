@@ -109,13 +109,14 @@ pub(in crate::edit) fn type_of(entry: &Node) -> Option<String> {
 fn read_by(selection: &Selection, element: &Node) -> BTreeSet<String> {
     let guards = children(element, Kind::Guard).flat_map(|guard| binds(&guard));
     let timings = tree::below(element, Kind::Timing);
-    let all = binds(element).into_iter().chain(guards).chain(timings);
+    let bound = binds(element).into_iter().chain(guards);
+    let all = bound.filter(|bind| !selection.is_output(bind)).chain(timings);
     all.flat_map(|bind| reads(&bind)).filter_map(|token| selection.entry(&token)).collect()
 }
 
 /// The entries that a component's own outputs write.
 fn written_by(selection: &Selection, component: &Node) -> BTreeSet<String> {
-    let outputs = binds(component).into_iter().filter(|bind| bind.kind() == Kind::BindOut);
+    let outputs = binds(component).into_iter().filter(|bind| selection.is_output(bind));
     outputs.filter_map(|bind| selection.entry(&target(&bind)?)).collect()
 }
 

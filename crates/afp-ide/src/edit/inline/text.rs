@@ -7,7 +7,7 @@ use crate::edit::list::{Page, dedented};
 use crate::edit::tree::{
     self, below, children, is_comment, name_of, name_token, own_range, range, target,
 };
-use crate::edit::{Refused, port};
+use crate::edit::{Refused, port, refer};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
@@ -41,7 +41,7 @@ fn splices(call: &Call, data: &Data, element: &Node) -> Result<Vec<Splice>, Refu
     splices.extend(name.and_then(|token| Some((range(&token), renamed(token.text())?))));
     for edge in below(element, Kind::Edge) {
         let Some(token) = target(&edge) else { continue };
-        let event = edge.parent().is_some_and(|parent| parent.kind() == Kind::Guard);
+        let event = edge.parent().is_some_and(|parent| tree::has_events(&parent));
         let new = match token.text() {
             "terminate" if event => interrupted(call)?,
             "terminate" => call.ok.clone(),
@@ -58,8 +58,16 @@ fn splices(call: &Call, data: &Data, element: &Node) -> Result<Vec<Splice>, Refu
         };
         splices.push((range(&token), new));
     }
+    for bind in below(element, Kind::BindSame) {
+        let entry = name_token(&bind).and_then(|name| call.project.entry(call.from, &name));
+        let new = entry.and_then(|entry| match call.project.is_output(call.from, &bind) {
+            true => data.written_to(&entry),
+            false => data.read_as(&entry),
+        });
+        splices.extend(new.and_then(|new| call.project.spelled_out(call.from, &bind, new)));
+    }
     for read in below(element, Kind::Args).chain(below(element, Kind::Timing)) {
-        for token in port::reads(&read) {
+        for token in port::reads(&read).into_iter().filter(|token| refer::alone(token).is_none()) {
             let entry = call.project.entry(call.from, &token);
             let new = entry.and_then(|entry| data.read_as(&entry));
             splices.extend(new.map(|new| (range(&token), new.to_owned())));

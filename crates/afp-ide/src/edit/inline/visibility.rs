@@ -93,7 +93,7 @@ fn named(project: &Project, plan: &Node, from: usize) -> Vec<(Kind, String, usiz
         .flat_map(|reference| tree::tokens(&reference, Kind::Name).collect::<Vec<_>>());
     let meant = names.filter_map(|token| {
         let (file, node) = project.item(from, &token)?;
-        let outer = matches!(node.kind(), Kind::Plan | Kind::Enum);
+        let outer = matches!(node.kind(), Kind::Plan | Kind::Enum | Kind::Table);
         outer.then(|| (node.kind(), token.text().to_owned(), file))
     });
     meant.collect()

@@ -146,3 +146,23 @@ fn help_text_is_set() {
     replaces(doc(back(), "Goes back."), &[]);
     replaces(doc(Item::plan("P"), "Help."), &[("plan P {", "/// Help.\nplan P {")]);
 }
+
+#[test]
+fn notes_are_set() {
+    let note = |item: Item, text: &str| Change::SetNote { item, text: text.into() };
+    replaces(
+        note(go(), "far\nand away"),
+        &[("    // belongs to 'go'\n", "    // far\n    // and away\n")],
+    );
+    replaces(note(go(), ""), &[("    // belongs to 'go'\n", "")]);
+    replaces(note(go(), "belongs to 'go'"), &[]);
+    replaces(
+        note(back(), "as it came"),
+        &[("    /// Goes back.\n", "    // as it came\n    /// Goes back.\n")],
+    );
+    replaces(note(Item::inner("P", "gap"), "free"), &[("    var gap", "    // free\n    var gap")]);
+    replaces(
+        note(touch(), "it"),
+        &[("{\n        supervise", "{\n        // it\n        supervise")],
+    );
+}

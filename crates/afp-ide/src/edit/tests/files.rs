@@ -1,9 +1,9 @@
 //! Changes that reach into other files.
 
+use super::toolboxes;
 use crate::edit::{Change, apply, edit};
 use afp_dsl::compile;
 use afp_dsl::files::{Files, Texts};
-use afp_dsl::toolbox::Toolboxes;
 use afp_syntax::item::Item;
 use afp_syntax::source::Source;
 
@@ -82,7 +82,8 @@ fn files() -> Vec<Source> {
 /// The texts after a change of a file.
 #[track_caller]
 fn after(files: &[Source], home: usize, change: &Change) -> Vec<String> {
-    let edits = edit(files, home, change).unwrap_or_else(|why| panic!("{change:?}: {why}"));
+    let edits =
+        edit(files, &toolboxes(), home, change).unwrap_or_else(|why| panic!("{change:?}: {why}"));
     let text = |(place, file): (usize, &Source)| {
         let own = edits.iter().filter(|edit| usize::from(edit.span.file) == place);
         apply(&file.text, &own.cloned().collect::<Vec<_>>())
@@ -104,16 +105,15 @@ fn replaces(home: usize, change: &Change, wanted: &[(usize, &str, &str)]) {
 
 #[track_caller]
 fn refused(home: usize, change: &Change, why: &str) {
-    assert_eq!(edit(&files(), home, change).unwrap_err().reason, why);
+    assert_eq!(edit(&files(), &toolboxes(), home, change).unwrap_err().reason, why);
 }
 
 /// Checks that the first file compiles with the others.
 #[track_caller]
 fn assert_compiles(texts: &[String]) {
-    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     let mut others = Texts::default();
     PATHS.iter().zip(texts).for_each(|(path, text)| others.add(path, text.as_str()));
-    let compiled = compile(&Source::new(PATHS[0], &*texts[0]), &toolboxes, &others);
+    let compiled = compile(&Source::new(PATHS[0], &*texts[0]), &toolboxes(), &others);
     assert!(compiled.graph.is_some(), "{}", compiled.render(false));
 }
 
@@ -225,6 +225,6 @@ plan Main {
     assert!(texts[0].contains("    expect forth active\n"), "{}", texts[0]);
     assert_eq!(texts[1..], files[1..].iter().map(|file| file.text.clone()).collect::<Vec<_>>());
     files[0].text = files[0].text.replace("use std\n", "use std as c\n");
-    let why = edit(&files, 0, &inline).unwrap_err().reason;
+    let why = edit(&files, &toolboxes(), 0, &inline).unwrap_err().reason;
     assert_eq!(why, "'c' is another toolbox there");
 }

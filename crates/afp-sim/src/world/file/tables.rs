@@ -57,6 +57,7 @@ pub(super) struct Wall {
     pub(super) color: Option<String>,
     pub(super) texture: Option<String>,
     pub(super) echo: Option<f64>,
+    pub(super) mapped: Option<bool>,
 }
 
 #[derive(Deserialize)]
@@ -71,6 +72,7 @@ pub(super) struct Box {
     pub(super) color: Option<String>,
     pub(super) texture: Option<String>,
     pub(super) echo: Option<f64>,
+    pub(super) mapped: Option<bool>,
 }
 
 #[derive(Deserialize)]
@@ -84,6 +86,7 @@ pub(super) struct Polygon {
     pub(super) color: Option<String>,
     pub(super) texture: Option<String>,
     pub(super) echo: Option<f64>,
+    pub(super) mapped: Option<bool>,
 }
 
 #[derive(Deserialize)]

@@ -15,6 +15,7 @@ use crate::load::formula::Formula;
 use crate::load::names::PlanNames;
 use crate::load::outputs::{Binding, Inputs};
 use crate::load::registry::Registry;
+use crate::load::row::RowSlot;
 use crate::load::tables::LoadedTables;
 
 /// Loads a graph, plan by plan.
@@ -75,7 +76,11 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
         let component = match element.component {
             Component::Actor(id) => Running::Actor(self.find(id, Registry::new_actor)?),
             Component::Computation(id) => {
-                Running::Computation(self.find(id, Registry::new_computation)?)
+                let reads = self.graph.template(id).reads_table.as_ref();
+                Running::Computation(match reads.and_then(|reads| reads.table.as_ref()) {
+                    Some(table) => Box::new(RowSlot::new(table)),
+                    None => self.find(id, Registry::new_computation)?,
+                })
             }
             Component::SubPlan(id) => {
                 Running::SubPlan { child, machine: Box::new(Machine::new(self.plan(id)?)) }

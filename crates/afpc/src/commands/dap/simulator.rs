@@ -4,9 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use afp_core::devices::{SignalType, signals};
 use afp_debug::{Host, Launch, LogTarget, Program, SessionTarget, Surroundings, Target};
 use afp_dsl::graph::Graph;
 use afp_run::world;
+use afp_session::{Pose2, Recipe};
 
 use crate::plan_file::PlanFile;
 use crate::{Linked, runner};
@@ -36,6 +38,19 @@ impl<'a> Simulator<'a> {
         let world = launch.world.as_ref().filter(|world| !world.starts_with(world::RANDOM));
         let paths = [Some(&launch.program), launch.log.as_ref(), world].into_iter().flatten();
         paths.filter(|path| !path.is_empty()).try_for_each(|path| self.check(path))
+    }
+
+    /// The world that a log was recorded in.
+    fn world_of_log(&self, log: &Path) -> Result<Surroundings, String> {
+        let Recipe { world, start, .. } =
+            afp_log::read(log).map_err(|why| why.to_string())?.recipe();
+        let found = self.linked.robot.kind().world(&world.text).map_err(|why| why.to_string())?;
+        let found = match start {
+            Some(start) => found.started_at(start)?,
+            None => found,
+        };
+        let worlds = vec![(world.name, "the log")];
+        Ok(Surroundings { drawing: found.drawing(), worlds, ..Surroundings::default() })
     }
 
     fn check(&self, path: &str) -> Result<(), String> {
@@ -68,7 +83,11 @@ impl<'a> Host<'a> for Simulator<'a> {
         }
         let robot = self.linked.robot;
         let asked = launch.world.as_deref().map(Path::new);
-        let found = world::find(asked, &file.path, robot.kind()).map_err(|why| why.to_string())?;
+        let mut found =
+            world::find(asked, &file.path, robot.kind()).map_err(|why| why.to_string())?;
+        if let Some([x, y, heading]) = launch.start {
+            found = found.started_at(Pose2 { x, y, heading })?;
+        }
         let program = program(&graph, &file);
         let launch = launch.clone();
         let make = move || {
@@ -84,11 +103,19 @@ impl<'a> Host<'a> for Simulator<'a> {
 
     fn world(&mut self, launch: &Launch) -> Result<Surroundings, String> {
         self.check_all(launch)?;
+        if let Some(log) = &launch.log {
+            return self.world_of_log(Path::new(log));
+        }
         let path = launch
             .program
             .rsplit_once(".afp:")
             .map_or_else(|| launch.program.clone(), |(file, _)| format!("{file}.afp"));
-        let (path, kind) = (PathBuf::from(absolute(&path)), self.linked.robot.kind());
+        // Before there is a plan, the world is the one that a new plan of the folder would have.
+        let path = match (&*path, &self.folder) {
+            ("", Some(folder)) => folder.join("plan.afp"),
+            _ => PathBuf::from(absolute(&path)),
+        };
+        let kind = self.linked.robot.kind();
         let asked = launch.world.as_deref().map(Path::new);
         let found = world::find(asked, &path, kind).map_err(|why| why.to_string())?;
         let mut worlds = world::all(&path, kind).map_err(|why| why.to_string())?;
@@ -100,7 +127,9 @@ impl<'a> Host<'a> for Simulator<'a> {
             first.clear();
         }
         worlds.retain(|(name, _)| open(name));
-        Ok(Surroundings { drawing: found.world.drawing(), worlds })
+        let drops = kind.drops();
+        let camera = signals(kind.devices()).any(|(.., row)| row.ty == SignalType::Image);
+        Ok(Surroundings { drawing: found.world.drawing(), worlds, drops, camera })
     }
 
     fn path(&self, path: &str) -> String {
@@ -114,7 +143,8 @@ fn recorded(path: &Path) -> Result<LogTarget, String> {
     let file = PlanFile::of_log(&log).map_err(|why| why.to_string())?;
     let shown = file.compiled.render(false);
     let graph = file.compiled.graph.clone().ok_or(shown)?;
-    LogTarget::new(Arc::new(program(&graph, &file)), log.events)
+    let target = LogTarget::new(Arc::new(program(&graph, &file)), log.events)?;
+    Ok(target.with_poses(log.poses))
 }
 
 /// A plan with its places; texts that are not those of files go along.

@@ -1,10 +1,10 @@
 //! The pictures that a log is good for.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use afp_log::{LogData, read};
 use afp_project::ProjectFile;
-use afp_run::RunError;
+use afp_run::{RunError, check_apart};
 use afp_test::Coverage;
 
 use super::Arguments;
@@ -21,6 +21,8 @@ pub(super) fn draw(arguments: &Arguments, linked: &Linked<'_>) -> Result<(), NoP
     if [svg, sonar, film, coverage].iter().all(|picture| picture.is_none()) {
         return Ok(());
     }
+    let all = [svg, sonar, film, coverage].into_iter().flatten().map(PathBuf::as_path);
+    check_apart(all, [&*arguments.file])?;
     let log = read(&arguments.file).map_err(RunError::from)?;
     if svg.is_some() || sonar.is_some() {
         // Only the robot of the project that the run was of can read its world.

@@ -103,7 +103,7 @@ impl<'a> Teller<'a> {
         let mut object = json!(outcome);
         if let Some(map) = object.as_object_mut() {
             map.remove("took_s");
-            map.insert("world".to_owned(), json!(row.world));
+            map.insert("world".to_owned(), json!(row.world.name()));
             map.insert("seed".to_owned(), json!(row.seed));
             let values = row.values.iter().map(|(name, point)| {
                 ((*name).to_owned(), json!({ "text": point.text, "si": point.si }))

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use afp_dsl::files::read_text;
 use afp_project::ProjectFile;
 use afp_run::RunError;
 
@@ -52,17 +53,17 @@ fn below(folder: &Path, deep: bool, files: &mut Vec<PathBuf>) -> Result<(), RunE
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if path.is_dir() && deep && !name.starts_with('.') && name != "target" {
             below(&path, true, files)?;
-        } else if name.ends_with(".afp") && has_scenarios(&path)? {
+        } else if name.ends_with(".afp") && has_scenarios(&path) {
             files.push(path.strip_prefix(".").unwrap_or(&path).to_owned());
         }
     }
     Ok(())
 }
 
-/// Whether a file may have a scenario; the compiler will know.
-fn has_scenarios(path: &Path) -> Result<bool, RunError> {
-    let text = fs::read_to_string(path).map_err(RunError::file("cannot read", path))?;
-    Ok(text.lines().any(|line| line.trim_start().starts_with("scenario ")))
+/// Whether a file may have a scenario; the compiler will know, and why the file cannot be read.
+fn has_scenarios(path: &Path) -> bool {
+    let has = |text: String| text.lines().any(|line| line.trim_start().starts_with("scenario "));
+    read_text(path).map_or(true, has)
 }
 
 /// Why there is nothing to run.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use afp_dsl::graph::{EntryKind, Graph};
 use afp_dsl::scenario::Scenario;
-use afp_run::{EXIT_OK, RunError, write_whole};
+use afp_run::{EXIT_OK, RunError, check_apart, write_whole};
 use afp_session::Loader;
 use afp_test::{Generated, Setting};
 
@@ -37,6 +37,8 @@ pub(super) fn run(
     for file in read {
         let (file, graph) = file.checked()?;
         let path = place(&file.path, output, files.len() > 1)?;
+        let sources = file.compiled.plan_sources().map(|source| Path::new(&source.name));
+        check_apart([&*path], sources)?;
         let made = generate(&file.path, &path, graph, linked.robot)?;
         let text = afp_format::format(&made.text).unwrap_or(made.text);
         write_whole("cannot write the scenarios", &path, text)?;

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use std::io::{IsTerminal, Write as _};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use afp_dsl::files::{Disk, Files};
 use afp_run::{EXIT_OK, EXIT_PLAN_ERROR, RunError, StopFlag};
 use afp_test::mutate::{Bench, Fate, Judged, Mutant, Suite, Tally, mutants};
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
@@ -12,7 +13,7 @@ use serde_json::json;
 
 use crate::Linked;
 use crate::commands::{EXIT_STOPPED, print};
-use crate::plan_file::{NoPlan, PlanFile, read_used};
+use crate::plan_file::{NoPlan, PlanFile};
 
 /// So many scenarios are named in a line of the table.
 const NAMED: usize = 3;
@@ -77,7 +78,8 @@ fn one_plan(
         Some(Suite { file: file.path.clone(), source })
     });
     let mut go_on = || !stop.is_raised();
-    let with = (&toolboxes, &read_used as &(dyn afp_dsl::files::Files + Sync));
+    let disk = Disk::default();
+    let with = (&toolboxes, &disk as &(dyn Files + Sync));
     let Some(bench) = Bench::new(plan, suites.collect(), with, linked.robot, &mut go_on)? else {
         return Ok(None);
     };

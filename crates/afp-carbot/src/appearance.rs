@@ -1,0 +1,117 @@
+//! What an object looks like: the colours that are its own.
+//!
+//! A colour is looked at by its shares of red and green alone, which light and shade leave as they are. What a picture
+//! shows of an object is found by these colours, as in Swain and Ballard's "Color indexing" (1991), with a yes or no
+//! in place of a likelihood.
+
+use crate::devices::Frame;
+use core::array;
+
+/// Shares are told apart in so many steps.
+const STEPS: usize = 32;
+/// A darker pixel, by the sum of its three parts, has no colour that could be relied on.
+const DARKEST: u32 = 48;
+/// A colour is an object's own when it is so much more frequent in it than around it.
+const OWN: u32 = 3;
+/// And when at least one of so many of its pixels has it.
+const RARE: u32 = 64;
+
+/// The colours of an object.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Appearance {
+    /// A bit for each share of green, in a row for each share of red.
+    own: [u32; STEPS],
+}
+
+/// Where the share of red and that of green of a colour are, in steps.
+type Chroma = (usize, usize);
+
+impl Appearance {
+    /// Of an object of one colour, whose shares of red and green may each be off by so much.
+    pub fn of_color([red, green, blue]: [f64; 3], tolerance: f64) -> Self {
+        let sum = (red + green + blue).max(f64::MIN_POSITIVE);
+        let near = |step: usize, part: f64| {
+            let share = (step as f64 + 0.5) / STEPS as f64;
+            (share - part / sum).abs() <= tolerance
+        };
+        let row = |r: usize| {
+            (0..STEPS).filter(|g| near(*g, green)).fold(0, |row, g| row | 1 << g)
+                * u32::from(near(r, red))
+        };
+        Appearance { own: array::from_fn(row) }
+    }
+
+    /// Of what a picture shows in its middle, over a `share` of its width and of its height; none if nothing
+    /// tells that from what is around it.
+    pub fn learnt(frame: &Frame<'_>, share: f64) -> Option<Self> {
+        let (mut inside, mut around) = ([[0_u16; STEPS]; STEPS], [[0_u16; STEPS]; STEPS]);
+        let (mut ins, mut outs) = (0_u32, 0_u32);
+        for y in 0..frame.height {
+            for x in 0..frame.width {
+                let Some((r, g)) = frame.pixel(x, y).and_then(chroma) else { continue };
+                let is_in = middle(x, frame.width, share) && middle(y, frame.height, share);
+                let (counts, sum) =
+                    if is_in { (&mut inside, &mut ins) } else { (&mut around, &mut outs) };
+                counts[r][g] = counts[r][g].saturating_add(1);
+                *sum += 1;
+            }
+        }
+        let is_own = |r: usize, g: usize| {
+            let (seen, beside) = (u64::from(inside[r][g]), u64::from(around[r][g]));
+            let often = seen * u64::from(RARE) >= u64::from(ins).max(1);
+            // Frequencies compared without a division.
+            often && seen * u64::from(outs) >= u64::from(OWN) * beside * u64::from(ins)
+        };
+        let row =
+            |r: usize| (0..STEPS).filter(|g| is_own(r, *g)).fold(0_u32, |row, g| row | 1 << g);
+        let own = array::from_fn(row);
+        own.iter().any(|row| *row != 0).then_some(Appearance { own })
+    }
+
+    /// Whether a pixel has one of its colours.
+    pub fn has(&self, pixel: [u8; 3]) -> bool {
+        chroma(pixel).is_some_and(|(r, g)| self.own[r] >> g & 1 == 1)
+    }
+}
+
+/// Whether a column or row lies in the middle share of them all.
+fn middle(at: usize, of: usize, share: f64) -> bool {
+    let (at, half) = (at as f64 + 0.5, of as f64 / 2.0);
+    (at - half).abs() <= share * half
+}
+
+/// The shares of a pixel's colour; none where it is too dark.
+fn chroma(pixel: [u8; 3]) -> Option<Chroma> {
+    let [red, green, blue] = pixel.map(u32::from);
+    let sum = red + green + blue;
+    // The largest share, of a pure colour, belongs to the last step.
+    let step = |part: u32| (part as usize * STEPS / sum as usize).min(STEPS - 1);
+    (sum >= DARKEST).then(|| (step(red), step(green)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec::Vec;
+
+    #[test]
+    fn light_and_shade_leave_a_colour_as_it_is() {
+        let red = Appearance::of_color([0.69, 0.19, 0.19], 0.08);
+        assert!(red.has([176, 48, 48]) && red.has([88, 24, 24]) && red.has([255, 70, 70]));
+        assert!(!red.has([176, 120, 48]) && !red.has([128, 128, 128]) && !red.has([8, 2, 2]));
+    }
+
+    #[test]
+    fn what_is_learnt_is_what_the_middle_alone_shows() {
+        let picture = |middle: [u8; 3], around: [u8; 3]| -> Vec<u8> {
+            let is_in = |n: usize| (4..12).contains(&(n % 16)) && (4..12).contains(&(n / 16));
+            (0..256).flat_map(|n| if is_in(n) { middle } else { around }).collect()
+        };
+        let learn =
+            |rgb: &[u8]| Appearance::learnt(&Frame { width: 16, height: 16, rgb, number: 1 }, 0.5);
+        let look = learn(&picture([20, 160, 40], [120, 110, 100])).unwrap();
+        assert!(look.has([20, 160, 40]) && look.has([30, 240, 60]) && !look.has([120, 110, 100]));
+        assert_eq!(learn(&picture([120, 110, 100], [120, 110, 100])), None);
+        assert_eq!(learn(&picture([0, 0, 0], [120, 110, 100])), None);
+    }
+}

@@ -1,0 +1,143 @@
+//! A way on the map.
+
+use afp_core::{Fault, Reason};
+use heapless::Vec;
+
+/// So many corners a way has at most.
+pub const MOST: usize = 128;
+
+/// The way has too many corners.
+pub const LONG_PATH: Fault = Fault::new(&Reason {
+    code: "long-path",
+    text: "the way has more than 128 corners: choose a goal on the way to it first",
+});
+
+/// A line of straight pieces in the frame of the map, from where the robot was when it was planned to the goal.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Path {
+    /// Millimetres are exact enough within some kilometres.
+    corners: Vec<[f32; 2], MOST>,
+}
+
+/// The place of a path that is nearest to some place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Nearest {
+    /// How far away it is, metres.
+    pub(crate) off: f64,
+    /// The way left from there to the end, metres.
+    pub(crate) rest: f64,
+}
+
+impl Path {
+    /// Through these places, metres.
+    ///
+    /// # Errors
+    /// [`LONG_PATH`]: there are more than [`MOST`].
+    pub fn new(places: impl IntoIterator<Item = [f64; 2]>) -> Result<Path, Fault> {
+        let mut corners = Vec::new();
+        for [x, y] in places {
+            corners.push([x as f32, y as f32]).map_err(|_| LONG_PATH)?;
+        }
+        Ok(Path { corners })
+    }
+
+    /// Its places from the first to the last, metres.
+    pub fn places(&self) -> impl DoubleEndedIterator<Item = [f64; 2]> + ExactSizeIterator + Clone {
+        self.corners.iter().map(|[x, y]| [f64::from(*x), f64::from(*y)])
+    }
+
+    /// Where it ends; none for a path without places.
+    pub(crate) fn end(&self) -> Option<[f64; 2]> {
+        self.places().next_back()
+    }
+
+    /// What of it is nearest to a place; none for a path without places.
+    pub(crate) fn nearest(&self, [x, y]: [f64; 2]) -> Option<Nearest> {
+        let mut last = self.end()?;
+        let mut best = Nearest { off: libm::hypot(last[0] - x, last[1] - y), rest: 0.0 };
+        let mut beyond = 0.0;
+        for from in self.places().rev().skip(1) {
+            let (along, length) = difference(from, last);
+            let ahead = (x - from[0]) * along[0] + (y - from[1]) * along[1];
+            let share = if length > 0.0 { (ahead / length).clamp(0.0, length) } else { 0.0 };
+            let place = if length > 0.0 {
+                [from[0] + along[0] / length * share, from[1] + along[1] / length * share]
+            } else {
+                from
+            };
+            let off = libm::hypot(place[0] - x, place[1] - y);
+            if off < best.off {
+                best = Nearest { off, rest: beyond + length - share };
+            }
+            (beyond, last) = (beyond + length, from);
+        }
+        Some(best)
+    }
+
+    /// The place from which so much of the way is left; before its first place it is that one, and beyond the end the last
+    /// piece goes straight on.
+    pub(crate) fn place(&self, rest: f64) -> Option<[f64; 2]> {
+        let mut last = self.end()?;
+        let mut beyond = 0.0;
+        for from in self.places().rev().skip(1) {
+            let (along, length) = difference(from, last);
+            if length > 0.0 && rest <= beyond + length {
+                let back = (rest - beyond) / length;
+                return Some([last[0] - along[0] * back, last[1] - along[1] * back]);
+            }
+            (beyond, last) = (beyond + length, from);
+        }
+        Some(last)
+    }
+}
+
+/// From one place to another, and how far that is.
+fn difference(from: [f64; 2], to: [f64; 2]) -> ([f64; 2], f64) {
+    let along = [to[0] - from[0], to[1] - from[1]];
+    (along, libm::hypot(along[0], along[1]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec::Vec;
+
+    /// One metre along x, then two along y.
+    fn corner() -> Path {
+        Path::new([[0.0, 0.0], [1.0, 0.0], [1.0, 2.0]]).unwrap()
+    }
+
+    #[test]
+    fn the_nearest_place_tells_how_far_it_is_and_what_is_left() {
+        let near = |x, y| corner().nearest([x, y]).unwrap();
+        assert_eq!(near(0.25, 0.5), Nearest { off: 0.5, rest: 2.75 });
+        assert_eq!(near(1.5, 1.5), Nearest { off: 0.5, rest: 0.5 });
+        assert_eq!(near(1.0, 2.5), Nearest { off: 0.5, rest: 0.0 });
+        assert_eq!(near(-1.0, 0.0), Nearest { off: 1.0, rest: 3.0 });
+        assert_eq!(Path::default().nearest([0.0, 0.0]), None);
+    }
+
+    #[test]
+    fn a_place_is_counted_from_the_end_and_the_last_piece_goes_on() {
+        let place = |rest| corner().place(rest).unwrap();
+        assert_eq!(place(0.5), [1.0, 1.5]);
+        assert_eq!(place(2.25), [0.75, 0.0]);
+        assert_eq!(place(-0.5), [1.0, 2.5]);
+        assert_eq!(place(9.0), [0.0, 0.0]);
+        assert_eq!(Path::new([[1.0, 1.0]]).unwrap().place(0.5), Some([1.0, 1.0]));
+        assert_eq!(Path::default().place(0.0), None);
+    }
+
+    #[test]
+    fn places_that_are_the_same_are_no_trouble() {
+        let twice = Path::new([[0.0, 0.0], [1.0, 0.0], [1.0, 0.0]]).unwrap();
+        assert_eq!(twice.nearest([0.5, 0.0]), Some(Nearest { off: 0.0, rest: 0.5 }));
+        assert_eq!(twice.place(-0.5), Some([1.5, 0.0]));
+    }
+
+    #[test]
+    fn a_path_with_too_many_corners_is_none() {
+        let places: Vec<_> = (0..=MOST).map(|n| [n as f64, 0.0]).collect();
+        assert_eq!(Path::new(places), Err(LONG_PATH));
+    }
+}

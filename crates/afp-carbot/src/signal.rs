@@ -1,0 +1,101 @@
+//! Show something by light and sound.
+
+use crate::devices::{Navigator, Signals};
+use crate::templates;
+use crate::templates::signal_::{Inputs, Live, State};
+use afp_core::quantity::Frequency;
+use afp_core::{Actor, Duration, Fault, Instant, Poll};
+
+/// Blinks and beeps a number of times, standing still.
+#[derive(Clone, Debug)]
+pub struct Signal {
+    light: bool,
+    tone: Option<Frequency>,
+    half: Duration,
+    /// Changes between on and off that are left, and when the next one is due.
+    left: i64,
+    next: Instant,
+}
+
+impl<E: Navigator + Signals + ?Sized> Actor<templates::Signal, E> for Signal {
+    fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
+        env.halt(now);
+        let half = Duration::from_secs_f64(inputs.period.si() / 2.0);
+        let mut signal = Signal {
+            light: inputs.light,
+            tone: Some(inputs.tone).filter(|_| inputs.sound),
+            half,
+            left: 2 * inputs.times,
+            next: now,
+        };
+        signal.change(env, now);
+        Ok(signal)
+    }
+
+    fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
+        env.halt(now);
+        if now >= self.next {
+            if self.left == 0 {
+                return Ok(Poll::Ready(State::Signalled));
+            }
+            self.change(env, now);
+        }
+        Ok(Poll::Pending)
+    }
+
+    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        env.halt(now);
+        env.signal(false, None, now);
+        Ok(())
+    }
+}
+
+impl Signal {
+    fn change<E: Signals + ?Sized>(&mut self, env: &mut E, now: Instant) {
+        self.left -= 1;
+        self.next = self.next + self.half;
+        let on = self.left % 2 == 1;
+        env.signal(on && self.light, self.tone.filter(|_| on), now);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fake::Fake;
+    use afp_core::quantity::Time;
+
+    fn inputs(light: bool, sound: bool, times: i64) -> Inputs {
+        let (period, tone) = (Time::from_si(0.4), Frequency::from_si(880.0));
+        Inputs { light, sound, tone, times, period }
+    }
+
+    #[test]
+    fn blinks_and_beeps_as_often_as_wanted_and_is_dark_and_silent_then() {
+        let mut robot = Fake::new(&[]);
+        let state = robot.run::<templates::Signal, Signal>(inputs(true, true, 3), || Live {}, 5);
+        assert_eq!(state, Ok(Some(State::Signalled)));
+        let on = (true, Some(Frequency::from_si(880.0)));
+        let off = (false, None);
+        assert_eq!(robot.signals, [on, off, on, off, on, off]);
+        assert_eq!(robot.millis(), 1200);
+    }
+
+    #[test]
+    fn light_alone_and_sound_alone() {
+        for (light, sound) in [(true, false), (false, true)] {
+            let mut robot = Fake::new(&[]);
+            let inputs = inputs(light, sound, 1);
+            robot.run::<templates::Signal, Signal>(inputs, || Live {}, 5).unwrap();
+            let tone = sound.then(|| Frequency::from_si(880.0));
+            assert_eq!(robot.signals, [(light, tone), (false, None)]);
+        }
+    }
+
+    #[test]
+    fn an_interrupt_leaves_it_dark_silent_and_standing() {
+        let mut robot = Fake::new(&[]);
+        let state = robot.run::<templates::Signal, Signal>(inputs(true, true, 100), || Live {}, 1);
+        assert_eq!((state, robot.signals.last()), (Ok(None), Some(&(false, None))));
+    }
+}

@@ -1,0 +1,190 @@
+//! The tables of plan files: rows as statics, and what reads them.
+//!
+//! `Row` of `std` has the columns of the plan's table as outputs, so it is made here, one for each table, in the
+//! shape that `toolbox!` gives every other template.
+
+use std::sync::Arc;
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+
+use super::Module;
+use super::shared::FileEnum;
+use crate::Options;
+use crate::layout::doc;
+use crate::names::{Names, camel, ident, snake};
+use crate::plan::context::path;
+use crate::rust_type::{TypePaths, int, variant};
+use afp_dsl::graph::{Component, Graph};
+use afp_dsl::table::{Cell, Table};
+use afp_dsl::toolbox::{Constant, Template};
+use afp_dsl::types::{Dimension, Enum, Object, Type};
+
+/// A table of a plan file, with the module of what reads it.
+pub type FileTable = (Arc<Table>, Ident);
+
+/// The templates of a graph's computations that read tables.
+fn readers(graph: &Graph) -> impl Iterator<Item = (&Template, &Arc<Table>)> {
+    let elements = graph.plans.iter().flat_map(|plan| &plan.elements);
+    elements.filter_map(|element| {
+        let Component::Computation(id) = element.component else { return None };
+        let template = graph.template(id);
+        Some((template, template.reads_table.as_ref()?.table.as_ref()?))
+    })
+}
+
+/// The tables that some plan reads, in the order of first use.
+pub fn tables_of(graph: &Graph) -> Vec<FileTable> {
+    let mut tables: Vec<FileTable> = Vec::new();
+    let mut names = Names::default();
+    for (_, table) in readers(graph) {
+        if !tables.iter().any(|(known, _)| Arc::ptr_eq(known, table)) {
+            tables.push((table.clone(), ident(&names.unique(snake(&table.name)))));
+        }
+    }
+    tables
+}
+
+/// The types of the columns that some plan reads.
+pub fn types(graph: &Graph, see: &mut dyn FnMut(&Type)) {
+    readers(graph).flat_map(|(reader, _)| &reader.outputs).for_each(|port| see(&port.ty));
+}
+
+/// The module `tables`, where any plan reads one.
+pub fn module(
+    graph: &Graph,
+    (tables, enums): (&[FileTable], &[FileEnum]),
+    options: &Options,
+) -> Option<Module> {
+    let core = &options.core;
+    let choice = &|choices: &Enum| enum_path(graph, enums, choices);
+    // No column holds an object.
+    let object = &|_: &Object| TokenStream::new();
+    let quantity = quote!(#core::quantity::);
+    let home = TypePaths { core: quote!(#core::), quantity, choice, object };
+    let items = tables.iter().filter_map(|(table, name)| {
+        let (template, _) = readers(graph).find(|(_, read)| Arc::ptr_eq(read, table))?;
+        Some(reader(core, &home, (table, name), template))
+    });
+    let items: Vec<_> = items.collect();
+    (!items.is_empty()).then(|| Module {
+        name: ident("tables"),
+        doc: "The tables of the plan files.".to_owned(),
+        imports: TokenStream::new(),
+        sections: vec![("Tables", quote!(#(#items)*))],
+        span: graph.main().span,
+    })
+}
+
+/// The path of an enum, from the module of a table.
+fn enum_path(graph: &Graph, enums: &[FileEnum], choices: &Enum) -> TokenStream {
+    let camel = || ident(&camel(&choices.name));
+    let Some(toolbox) = &choices.toolbox else {
+        let named = enums.iter().find(|(known, _)| **known == *choices);
+        let name = named.map_or_else(camel, |(_, name)| name.clone());
+        return quote!(super::super::enums::#name);
+    };
+    let home = graph.toolboxes.iter().find(|known| known.name == *toolbox);
+    let (home, name) = (path(home.map_or("crate", |home| &home.rust_path)), camel());
+    quote!(#home::templates::#name)
+}
+
+/// What reads one table, in a module of its own.
+fn reader(
+    core: &TokenStream,
+    home: &TypePaths<'_>,
+    (table, name): (&Table, &Ident),
+    template: &Template,
+) -> TokenStream {
+    let about = doc("", &format!("The table `{}`.", table.name));
+    let fields: Vec<_> = template.outputs.iter().map(|port| ident(&snake(&port.name))).collect();
+    let types: Vec<_> = template.outputs.iter().map(|port| &port.ty).collect();
+    let owned = types.iter().map(|ty| home.value(ty));
+    let stored = types.iter().map(|ty| stored(home, ty));
+    let given = types.iter().zip(&fields).map(|(ty, field)| match ty {
+        Type::Text => quote!(#field: #core::Text::try_from(*#field)?),
+        _ => quote!(#field: *#field),
+    });
+    let rows = table.rows.iter().map(|row| {
+        let values = row.iter().zip(&types).map(|(cell, ty)| value(home, ty, cell));
+        quote!((#(#values,)*))
+    });
+    let count = Literal::usize_unsuffixed(table.rows.len());
+    let implemented = implemented(core);
+    quote! {
+        #about
+        pub mod #name {
+            pub use #core::rt::RowInputs as Inputs;
+
+            /// The states, the first one with the columns as outputs.
+            #[derive(Clone, Debug, PartialEq)]
+            pub enum State {
+                /// There is such a row.
+                Row { #(#fields: #owned,)* },
+                /// The index is behind the last row.
+                End,
+            }
+
+            /// Reads a row.
+            #[derive(Clone, Copy, Debug)]
+            pub struct Row;
+
+            static ROWS: [(#(#stored,)*); #count] = [#(#rows,)*];
+
+            #implemented
+
+            impl #core::Computation<Row> for Row {
+                fn compute(inputs: Inputs) -> Result<State, #core::Fault> {
+                    Ok(match #core::rt::row(&ROWS, inputs.index) {
+                        Some((#(#fields,)*)) => State::Row { #(#given,)* },
+                        None => State::End,
+                    })
+                }
+            }
+        }
+    }
+}
+
+/// What says to the scheduler which ports and states there are.
+fn implemented(core: &TokenStream) -> TokenStream {
+    quote! {
+        impl #core::ComputationTemplate for Row {
+            type Inputs<'a> = Inputs;
+            type State = State;
+        }
+
+        impl #core::rt::Outcome for State {
+            fn index(&self) -> u16 {
+                match self {
+                    State::Row { .. } => 0,
+                    State::End => 1,
+                }
+            }
+
+            fn give(self, _: &mut dyn #core::rt::Outputs) {}
+        }
+    }
+}
+
+/// The type of a value in a static.
+fn stored(home: &TypePaths<'_>, ty: &Type) -> TokenStream {
+    match ty {
+        Type::Text => quote!(&str),
+        ty => home.value(ty),
+    }
+}
+
+fn value(home: &TypePaths<'_>, ty: &Type, cell: &Cell) -> TokenStream {
+    match (&cell.value, ty) {
+        (Constant::Bool(value), _) => quote!(#value),
+        (Constant::Int(value), _) => int(*value),
+        (Constant::Float(value), Type::Quantity(dimension)) => home.constant(*dimension, *value),
+        (Constant::Float(value), _) => home.constant(Dimension::NONE, *value),
+        (Constant::Text(text), _) => quote!(#text),
+        (Constant::Choice(place), Type::Enum(choices)) => {
+            let (path, variant) = (home.value(ty), variant(choices, *place));
+            quote!(#path::#variant)
+        }
+        (Constant::Choice(place), _) => int(*place),
+    }
+}

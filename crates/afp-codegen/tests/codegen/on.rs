@@ -1,0 +1,154 @@
+// p.rs
+
+/// Where the scheduler reads the rules of the plan.
+#[derive(Clone, Copy, Debug)]
+pub struct Rules;
+
+impl Tables for Rules {
+    #[inline]
+    fn table(&self) -> PlanTable<'_> {
+        PlanTable {
+            start: WAIT,
+            globals: 1,
+            entries: 0,
+            elements: &ELEMENTS,
+            supervisors: &SUPERVISORS,
+            reasons: &[],
+            edges: &EDGES,
+            sweeps: &SWEEPS,
+        }
+    }
+}
+
+/// Where each state and event leads.
+static EDGES: [Target; 4] = [
+    // wait: Elapsed -> terminate
+    Target::Terminate,
+    // rest: Elapsed -> wait
+    Target::Element(WAIT),
+    // tick: Due -> ignore
+    Target::Ignore,
+    // tick, where an element reacts to it: Due -> rest
+    Target::Element(REST),
+];
+
+/// The elements.
+static ELEMENTS: [ElementRow; 2] = [
+    // actor wait: Wait
+    ElementRow {
+        kind: ElementKind::Actor,
+        period: Duration::from_millis(10),
+        states: Range { first: 0, len: 1 },
+        on_error: Target::None,
+        resumes: false,
+        locals: Range { first: 0, len: 0 },
+        sweep: Range { first: 0, len: 1 },
+        child: Child { components: 0, entries: 0 },
+    },
+    // actor rest: Wait
+    ElementRow {
+        kind: ElementKind::Actor,
+        period: Duration::from_millis(10),
+        states: Range { first: 1, len: 1 },
+        on_error: Target::None,
+        resumes: false,
+        locals: Range { first: 0, len: 0 },
+        sweep: Range { first: 1, len: 1 },
+        child: Child { components: 0, entries: 0 },
+    },
+];
+
+/// The supervisors: global ones, local ones, then global ones for elements of their own.
+static SUPERVISORS: [SupervisorRow; 2] = [
+    // tick: Every
+    SupervisorRow {
+        instance: TICK,
+        period: Duration::from_millis(10),
+        deadline: Duration::from_millis(10),
+        budget: Duration::from_micros(5),
+        slot: 0,
+        events: Range { first: 2, len: 1 },
+        on_miss: Target::None,
+        wanted: Events::from_bits(0b0),
+        wanted_in_look: Events::from_bits(0b0),
+    },
+    // tick: Every, where an element reacts to it
+    SupervisorRow {
+        instance: TICK,
+        period: Duration::from_millis(10),
+        deadline: Duration::from_millis(10),
+        budget: Duration::from_micros(5),
+        slot: 0,
+        events: Range { first: 3, len: 1 },
+        on_miss: Target::Terminate,
+        wanted: Events::from_bits(0b1),
+        wanted_in_look: Events::from_bits(0b1),
+    },
+];
+
+/// Who is polled while an element is active, in order.
+static SWEEPS: [u16; 2] = [
+    // while wait is active
+    1,
+    // while rest is active
+    TICK,
+];
+
+/// The names behind the ids of a trace.
+pub static NAMES: NameTable = NameTable {
+    components: &[
+        ComponentRow::new("P", Kind::Plan, "P", &[], "", &[]),
+        ComponentRow::new(
+                "wait",
+                Kind::Actor,
+                "Wait",
+                &[("Elapsed", "terminate")],
+                "",
+                &[PortRow::new("duration", "s").within(0.0, 3600.0).at("on.afp", 8, 33)],
+            )
+            .reacting(
+                &[
+                    Reaction {
+                        supervisor: ComponentId(3),
+                        outcome: 0,
+                        target: "rest",
+                    },
+                    Reaction {
+                        supervisor: ComponentId(3),
+                        outcome: DEADLINE_MISSED,
+                        target: "terminate",
+                    },
+                ],
+            ),
+        ComponentRow::new(
+            "rest",
+            Kind::Actor,
+            "Wait",
+            &[("Elapsed", "wait")],
+            "",
+            &[PortRow::new("duration", "s").within(0.0, 3600.0).at("on.afp", 12, 33)],
+        ),
+        ComponentRow::new(
+            "tick",
+            Kind::Supervisor,
+            "Every",
+            &[("Due", "ignore")],
+            "",
+            &[PortRow::new("period", "s").within(0.001, 3600.0).at("on.afp", 7, 36)],
+        ),
+    ],
+    entries: &[],
+};
+
+impl NamedPlan for P {
+    type Names = NameTable;
+
+    fn names(&self) -> NameTable {
+        NAMES
+    }
+
+    fn units(&self, _: u16) -> impl Iterator<Item = Unit<'_>> {
+        let units: &[Unit<'static>] = &[];
+        units.iter().copied()
+    }
+}

@@ -1,0 +1,200 @@
+//! Which value a fault is about: what stands beside the fault, and the text that both make.
+//!
+//! A [`Fault`] is one pointer, so that polls stay fast. What says more about it is put together only where
+//! something has failed, from numbers; names, ranges and places are looked up when somebody reads it.
+
+use core::fmt;
+
+use afp_number::{Measured, Quantity};
+
+use super::Fault;
+use crate::trace::{ComponentId, Names, PortName, TextPlace, TraceEntryId};
+
+/// The value that a fault is about.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Detail {
+    /// Whose it is: the innermost component, where sub-plans passed its fault on.
+    pub component: ComponentId,
+    /// What it was for.
+    pub subject: Subject,
+    /// The value, in SI units, where it is a number and there is one.
+    pub value: Option<f64>,
+}
+
+/// What a value was for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Subject {
+    /// An input port, by position in the template; an `in` entry of a sub-plan by position among those.
+    Input(u16),
+    /// An output port, by position in the template; an `out` entry of a sub-plan by position among those.
+    Output(u16),
+    /// The initial value of an entry.
+    Entry(TraceEntryId),
+}
+
+/// A fault with the value that it is about, on its way to the scheduler.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BadValue {
+    /// Why the value will not do.
+    pub fault: Fault,
+    /// What it was for; an entry goes by its position in its plan.
+    pub(crate) port: Option<Port>,
+    /// The value, where it is a number.
+    pub value: Option<f64>,
+}
+
+/// As [`Subject`], seen from a plan that does not know where its ids begin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Port {
+    Input(u16),
+    Output(u16),
+    Entry(u16),
+}
+
+impl From<Fault> for BadValue {
+    fn from(fault: Fault) -> Self {
+        BadValue { fault, port: None, value: None }
+    }
+}
+
+impl BadValue {
+    /// A number that will not do.
+    #[cold]
+    pub const fn number(fault: Fault, value: f64) -> Self {
+        BadValue { fault, port: None, value: Some(value) }
+    }
+
+    /// It was for an input port.
+    #[must_use]
+    pub fn for_input(self, port: u16) -> Self {
+        self.meant_for(Port::Input(port))
+    }
+
+    /// It was for the entry that an output port is bound to.
+    #[must_use]
+    pub fn for_output(self, port: u16) -> Self {
+        self.meant_for(Port::Output(port))
+    }
+
+    /// It was the initial value of an entry, by position in its plan.
+    #[must_use]
+    pub fn for_entry(self, entry: u16) -> Self {
+        self.meant_for(Port::Entry(entry))
+    }
+
+    /// What is known already stays: it is the inner one.
+    fn meant_for(self, port: Port) -> Self {
+        BadValue { port: Some(self.port.unwrap_or(port)), ..self }
+    }
+}
+
+/// A fault as people read it, see [`Fault::explained`].
+pub(super) struct Explained<'a, N: ?Sized> {
+    pub fault: Fault,
+    pub detail: Option<Detail>,
+    pub names: &'a N,
+}
+
+impl<N: Names + ?Sized> fmt::Display for Explained<'_, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(detail) = self.detail else { return write!(f, "{}", self.fault) };
+        let component = self.names.component(detail.component).path;
+        let (name, word) = match detail.subject {
+            Subject::Input(port) => (self.names.input_port(detail.component, port), "formula"),
+            Subject::Output(port) => (self.names.output_port(detail.component, port), "output"),
+            Subject::Entry(entry) => (self.entry(entry), "formula"),
+        };
+        write!(f, "'{}'", name.name)?;
+        if !matches!(detail.subject, Subject::Entry(_)) {
+            write!(f, " of '{component}'")?;
+        }
+        self.value(f, &name, detail.value)?;
+        match name.place {
+            Some(TextPlace { file, line, column }) => {
+                write!(f, "; {word} at {file}:{line}:{column}")
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+impl<'a, N: Names + ?Sized> Explained<'a, N> {
+    fn entry(&self, id: TraceEntryId) -> PortName<'a> {
+        let entry = self.names.entry(id);
+        PortName {
+            name: entry.path,
+            unit: entry.unit,
+            range: entry.range,
+            place: self.names.initial(id),
+            entry: None,
+        }
+    }
+
+    /// What is wrong with the value.
+    fn value(
+        &self,
+        f: &mut fmt::Formatter<'_>,
+        name: &PortName<'_>,
+        value: Option<f64>,
+    ) -> fmt::Result {
+        let shown = |value| Shown { value, unit: name.unit, range: name.range };
+        match (value, name.range) {
+            (Some(value), _) if value.is_nan() => f.write_str(" is not a number"),
+            (Some(value), _) if value.is_infinite() => f.write_str(" is infinite"),
+            (Some(value), Some((least, _))) if value < least => {
+                write!(f, " is {}, at least {}", shown(value), shown(least))
+            }
+            (Some(value), Some((_, greatest))) if value > greatest => {
+                write!(f, " is {}, at most {}", shown(value), shown(greatest))
+            }
+            (Some(value), _) if self.fault == Fault::RANGE => {
+                write!(f, " is {}, out of its range", shown(value))
+            }
+            (Some(value), _) => write!(f, " is {}: {}", shown(value), self.fault),
+            (None, _) => match name.entry {
+                Some(entry) => return write!(f, " does not fit '{entry}': {}", self.fault),
+                None => write!(f, ": {}", self.fault),
+            },
+        }?;
+        name.entry.map_or(Ok(()), |entry| write!(f, " for '{entry}'"))
+    }
+}
+
+/// A value, to the last digit where it would read like a bound that it is not.
+struct Shown<'a> {
+    value: f64,
+    unit: &'a str,
+    range: Option<(f64, f64)>,
+}
+
+impl fmt::Display for Shown<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Shown { value, unit, range } = *self;
+        let told = Measured::new(value, unit);
+        let misleads = |bound: f64| bound != value && Measured::new(bound, unit) == told;
+        if range.is_some_and(|(least, greatest)| misleads(least) || misleads(greatest)) {
+            Quantity { value, unit }.fmt(f)
+        } else {
+            told.fmt(f)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+
+    use std::string::ToString;
+
+    use super::Shown;
+
+    #[test]
+    fn a_value_never_reads_like_the_bound_that_it_breaks() {
+        let shown = |value, unit| Shown { value, unit, range: Some((0.0, 0.3)) }.to_string();
+        assert_eq!(shown(0.301, "m"), "30.1 cm");
+        assert_eq!(shown(0.300_000_1, "m"), "0.3000001 m");
+        assert_eq!(shown(0.3, "m"), "30 cm");
+        assert_eq!(shown(2.0, "rad"), "114.592 deg");
+        assert_eq!(shown(-1e-9, "V"), "-0.000000001 V");
+    }
+}

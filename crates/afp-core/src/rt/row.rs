@@ -1,0 +1,52 @@
+//! Tables of constants: what reads a row of one has ports that the plan's own table gives it, so that no
+//! toolbox implements it.
+
+use crate::fault::BadValue;
+use crate::rt::native::within_int;
+use crate::rt::ports::Ports;
+use crate::value::ValueRef;
+
+/// What is read before a row is: which one.
+#[derive(Clone, Copy, Debug)]
+pub struct RowInputs {
+    /// The number of the row, from 0.
+    pub index: i64,
+}
+
+impl Ports for RowInputs {
+    #[inline]
+    fn check(&self) -> Result<(), BadValue> {
+        within_int(0, self.index, 0, i64::MAX)
+    }
+
+    fn each(&self, see: &mut dyn FnMut(u16, ValueRef<'_>)) {
+        see(0, ValueRef::Int(self.index));
+    }
+}
+
+/// The row of that number, from 0; `None` behind the last one.
+#[inline]
+pub fn row<T>(rows: &[T], index: i64) -> Option<&T> {
+    rows.get(usize::try_from(index).ok()?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Ports, RowInputs, row};
+    use crate::fault::Fault;
+
+    #[test]
+    fn a_row_is_found_by_its_number() {
+        assert_eq!(row(&["a", "b"], 0), Some(&"a"));
+        assert_eq!(row(&["a", "b"], 2), None);
+        assert_eq!(row(&["a", "b"], i64::MAX), None);
+    }
+
+    #[test]
+    fn no_row_has_a_negative_number() {
+        let wrong = RowInputs { index: -1 }.check().map_err(|why| (why.fault, why.value));
+        assert_eq!(wrong, Err((Fault::RANGE, Some(-1.0))));
+        assert_eq!(RowInputs { index: 0 }.check(), Ok(()));
+        assert_eq!(RowInputs { index: i64::MAX }.check(), Ok(()));
+    }
+}

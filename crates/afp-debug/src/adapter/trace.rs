@@ -1,0 +1,98 @@
+//! What happened as records, for timelines: in pieces, as it happens, or all of it at once for a run that is over.
+
+use afp_core::Instant;
+use afp_dsl::unfold::Kind;
+use afp_session::EventKind;
+use serde_json::{Value, json};
+
+use super::{Adapter, Run};
+use crate::program::Program;
+use crate::target::{Advance, Happened, Position};
+
+/// Records in one message.
+const PIECE: usize = 2_000;
+
+impl Adapter<'_> {
+    /// Begins to tell a client what happens, or ends that. Of a run that is over it is told everything.
+    pub(super) fn trace(&mut self, wanted: bool) -> Result<(), String> {
+        let Some(mut run) = self.run.take() else { return Ok(()) };
+        run.traced = (wanted && !run.target.is_recorded()).then(Vec::new);
+        if wanted && run.target.is_recorded() {
+            let all = recorded(&mut run)?;
+            all.chunks(PIECE).for_each(|piece| self.tell("afp/trace", json!({"records": piece})));
+        }
+        self.run = Some(run);
+        Ok(())
+    }
+
+    /// Tells what has happened since the last time.
+    pub(super) fn tell_trace(&mut self, run: &mut Run<'_>) {
+        let Some(records) = run.traced.as_mut().filter(|records| !records.is_empty()) else {
+            return;
+        };
+        let records = std::mem::take(records);
+        self.tell("afp/trace", json!({"records": records}));
+    }
+}
+
+impl Run<'_> {
+    /// Keeps in mind what happened in a step, where a client wants to know.
+    pub(super) fn keep_trace(&mut self, happened: &[Happened]) {
+        let step = self.target.steps();
+        let program = self.target.program();
+        if let Some(records) = &mut self.traced {
+            records.extend(happened.iter().filter_map(|what| record(what, step, program)));
+        }
+    }
+}
+
+/// Everything of a run that is over, which stands where it stood afterwards.
+fn recorded(run: &mut Run<'_>) -> Result<Vec<Value>, String> {
+    let here = run.target.steps();
+    let program = &run.target.program().clone();
+    let mut all = Vec::new();
+    run.target.seek(Position::Step(0))?;
+    loop {
+        let step = run.target.steps() + 1;
+        let advance = run
+            .target
+            .advance(Instant::MAX, &mut |what, _| all.extend(record(what, step, program)))?;
+        if advance != Advance::On {
+            break;
+        }
+    }
+    run.target.seek(Position::Step(here))?;
+    Ok(all)
+}
+
+/// A record; none of what components read and saw.
+fn record(what: &Happened, step: u64, program: &Program) -> Option<Value> {
+    let event = &what.event;
+    let kind = match event.kind {
+        EventKind::Started => "started",
+        EventKind::Finished => "finished",
+        EventKind::Interrupted => "interrupted",
+        EventKind::Diverted => "diverted",
+        EventKind::Event => "event",
+        EventKind::Committed => "committed",
+        EventKind::Missed => "missed",
+        EventKind::Faulted => "faulted",
+        EventKind::Ended => "ended",
+        EventKind::Requested => "requested",
+        _ => return None,
+    };
+    let mut record = json!({
+        "at": event.at.as_secs_f64(), "step": step, "kind": kind, "path": event.component, "text": what.text,
+    });
+    if program.unit(event.component_id).is_some_and(|unit| unit.kind == Kind::Supervisor) {
+        record["supervisor"] = json!(true);
+    }
+    if let Some(request) = &event.request {
+        record["text"] = json!(request.what.to_string());
+    }
+    if event.kind == EventKind::Committed {
+        record["entry"] = json!(event.entry);
+        record["value"] = json!(event.value.as_ref().map(|value| value.in_unit(&event.unit)));
+    }
+    Some(record)
+}

@@ -1,0 +1,73 @@
+//! Bindings that are a name alone: `goal` for `goal = goal`, or for `goal => goal` where the port is an output.
+
+use std::borrow::Cow;
+
+use crate::check::formula::Scope;
+use crate::check::signature::{Input, Signature};
+use afp_syntax::ast::{Bind, Name};
+use afp_syntax::diagnostics::{Code, Diagnostic, words};
+
+/// The bindings, those alone for outputs as outputs.
+pub(crate) fn meant<'b>(signature: &Signature, binds: &'b [Bind]) -> Cow<'b, [Bind]> {
+    let is_output = |bind: &Bind| {
+        let port = &bind.port().text;
+        bind.is_alone()
+            && !signature.inputs.iter().any(|input| *input.name == **port)
+            && signature.outputs.iter().any(|output| *output.name == **port)
+    };
+    if !binds.iter().any(is_output) {
+        return Cow::Borrowed(binds);
+    }
+    let meant = |bind: &Bind| if is_output(bind) { bind.as_output() } else { bind.clone() };
+    binds.iter().map(meant).collect()
+}
+
+/// Reports a name that is no port. It may be meant for one that has no value yet.
+pub(super) fn without_port(
+    scope: &Scope<'_>,
+    signature: &Signature,
+    binds: &[Bind],
+    name: &Name,
+) -> Diagnostic {
+    let message = format!("'{}' has no port '{}'", signature.name, name.text);
+    let error = Diagnostic::new(Code::E0202, name.span, message);
+    let Some(entry) = scope.places.find(&name.text).map(|place| &scope.entries[place]) else {
+        let inputs = signature.inputs.iter().map(|input| &*input.name);
+        let outputs = signature.outputs.iter().map(|output| &*output.name);
+        let near = words::nearest(&name.text, inputs.clone().chain(outputs));
+        return error.help(match near {
+            Some(port) => to_write(port, !inputs.clone().any(|input| input == port)),
+            None => "write the port's name and '=' before the value".to_owned(),
+        });
+    };
+    let is_open = |input: &&Input| !binds.iter().any(|bind| *bind.port().text == *input.name);
+    let open: Vec<&Input> = signature.inputs.iter().filter(is_open).collect();
+    let mut fitting = open.iter().filter(|input| input.ty.is_some() && input.ty == entry.ty);
+    match (fitting.next(), fitting.next()) {
+        (Some(input), None) => {
+            let better = format!("{} = {}", input.name, name.text);
+            error.help(format!("write '{better}'")).replace(better)
+        }
+        _ if open.is_empty() => error.help("remove it"),
+        _ => {
+            let open = words::list(open.iter().map(|input| &*input.name), "or");
+            error.help(format!("write {open} and '=' before it"))
+        }
+    }
+}
+
+/// Reports a port that is bound to an entry of its own name, which is not there.
+pub(super) fn without_entry(bind: &Bind) -> Diagnostic {
+    let Name { text: name, span } = bind.port();
+    let message = format!("there is no entry '{name}' for the port of that name");
+    Diagnostic::new(Code::E0209, *span, message)
+        .help(to_write(name, matches!(bind, Bind::Out { .. })))
+}
+
+/// What a port needs behind its name.
+fn to_write(port: &str, is_output: bool) -> String {
+    match is_output {
+        false => format!("write '{port} = ' and the value"),
+        true => format!("write '{port} => ' and an entry"),
+    }
+}

@@ -1,0 +1,142 @@
+//! `on`: edges of global supervisors that an element replaces.
+//!
+//! Only the edges that are written are replaced, so nothing can be missing.
+
+use crate::check::Member;
+use crate::check::edges::{self, Elements, Origin, WrittenEdge};
+use crate::check::names::unknown;
+use crate::graph::{Reactions, SupervisorId};
+use crate::index::Recorder;
+use afp_syntax::ast::{self, ElementKind, Name};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+
+use super::plan::WrittenParts;
+
+/// What the reactions of a plan are checked against.
+pub(super) struct Watchers<'a> {
+    /// Its global supervisors, as written.
+    pub globals: &'a [Member],
+    /// Its elements.
+    pub elements: &'a Elements<'a>,
+    /// What is found out about names.
+    pub record: &'a Recorder,
+}
+
+impl Watchers<'_> {
+    /// The reactions of an element, and what of them is written.
+    pub fn check(
+        &self,
+        element: &ast::Element,
+        diags: &mut Diagnostics,
+    ) -> (Vec<Reactions>, Vec<Member>) {
+        let nodes = element.reactions();
+        let mut known: Vec<Reactions> = Vec::with_capacity(nodes.len());
+        let mut written = Vec::with_capacity(nodes.len());
+        for node in nodes {
+            let (reactions, member) = self.one(element, &node, diags);
+            written.push(member);
+            let Some(reactions) = reactions else { continue };
+            match known.iter().find(|other| other.supervisor == reactions.supervisor) {
+                Some(first) => diags.push(
+                    Diagnostic::new(Code::E0226, reactions.span, twice(&node))
+                        .note(first.span, "the first one")
+                        .help("write all edges into one of them"),
+                ),
+                None => known.push(reactions),
+            }
+        }
+        if element.kind() == ElementKind::Computation {
+            known.clear();
+        }
+        (known, written)
+    }
+
+    fn one(
+        &self,
+        element: &ast::Element,
+        node: &ast::Reactions,
+        diags: &mut Diagnostics,
+    ) -> (Option<Reactions>, Member) {
+        let (name, edges) = (node.name(), WrittenEdge::read(node.edges()));
+        let place = name.as_ref().and_then(|name| self.find(element, name, diags));
+        let global = place.and_then(|place| self.globals.get(place));
+        let signature = global.and_then(|global| global.made.signature.clone());
+        let mut reactions = None;
+        if let (Some(name), Some(signature), Some(place)) = (&name, &signature, place) {
+            let origin = Origin {
+                signature,
+                name: Some(name),
+                span: name.span,
+                broken: false,
+                supervisor: true,
+            };
+            let (connected, ..) = edges::connect(&origin, &edges, self.elements, diags);
+            to_itself(element, &origin, &edges, diags);
+            reactions = u16::try_from(place).ok().map(|place| Reactions {
+                supervisor: SupervisorId(place),
+                events: connected.outcomes,
+                on_miss: connected.extra,
+                span: name.span,
+                edges: connected.spans,
+            });
+        } else {
+            edges::names_only(&edges, &[edges::DEADLINE_MISSED], self.elements, diags);
+        }
+        let written = WrittenParts { edges, ..WrittenParts::default() };
+        (reactions, Member::reactions(name, written))
+    }
+
+    /// The place of a global supervisor.
+    fn find(&self, element: &ast::Element, name: &Name, diags: &mut Diagnostics) -> Option<usize> {
+        let names = self.globals.iter().map(|global| global.name.as_ref());
+        let found = names.clone().position(|known| known.is_some_and(|it| it.text == name.text));
+        if let Some(definition) = found.and_then(|place| self.globals[place].name.as_ref()) {
+            self.record.definition(name.span, definition.span);
+            return found;
+        }
+        self.record.unknown(name.span);
+        let own =
+            element.guards().iter().filter_map(ast::Guard::name).find(|o| o.text == name.text);
+        diags.push(match own {
+            Some(own) => Diagnostic::new(
+                Code::E0248,
+                name.span,
+                format!("'{}' watches this element alone", name.text),
+            )
+            .note(own.span, "it is the element's own")
+            .help("write the edges into its own braces"),
+            None => {
+                let message = format!("the plan has no supervisor '{}'", name.text);
+                let known = names.flatten().map(|known| known.text.as_str());
+                let none = "add one to the plan: 'supervise ...'";
+                unknown(Code::E0248, name.span, message, &name.text, known, none)
+            }
+        });
+        None
+    }
+}
+
+fn twice(node: &ast::Reactions) -> String {
+    let name = node.name().map(|name| name.text).unwrap_or_default();
+    format!("the element has two 'on {name}'")
+}
+
+/// Reports edges that lead to the element itself, which is active already.
+fn to_itself(
+    element: &ast::Element,
+    watcher: &Origin<'_>,
+    edges: &[WrittenEdge],
+    diags: &mut Diagnostics,
+) {
+    let Some(own) = element.name() else { return };
+    for edge in edges.iter().filter(|edge| watcher.has(&edge.name)) {
+        let Some(target) = edge.target.as_ref().filter(|to| to.text == own.text) else { continue };
+        let (event, own) = (&edge.name.text, &own.text);
+        let message = format!("'{event}' is never taken: '{own}' is active already");
+        diags.push(
+            Diagnostic::new(Code::E0249, target.span, message)
+                .help("write 'ignore', or lead it to another element")
+                .replace("ignore"),
+        );
+    }
+}

@@ -1,0 +1,143 @@
+//! The lines of a scenario, and those that count from one of its moments.
+
+use super::times::Stretch;
+use super::{Checker, seed};
+use crate::graph::EntryKind;
+use crate::scenario::{Moment, MomentId, Scenario, Stimulus};
+use afp_syntax::ast::{self, Line, LineKind};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
+use afp_syntax::unquote;
+
+impl Checker<'_> {
+    pub(super) fn lines(
+        &self,
+        lines: &[Line],
+        stretch: &Stretch,
+        scenario: &mut Scenario,
+        diags: &mut Diagnostics,
+    ) {
+        let mut once: Vec<(String, Span)> = Vec::new();
+        for line in lines {
+            let key = match line.kind() {
+                LineKind::Stimulus(..) | LineKind::Expect { .. } | LineKind::Moment(..) => None,
+                LineKind::Set(path, _) => path.map(|path| format!("set {}", path.text())),
+                LineKind::OverSeeds(..) => Some("over seeds".to_owned()),
+                LineKind::OverWorlds(_) => Some("over worlds".to_owned()),
+                _ => Some(line.keyword()),
+            };
+            if let Some(key) = key {
+                if let Some((known, first)) = once.iter().find(|(known, _)| excludes(known, &key)) {
+                    let message = match *known == key {
+                        true => format!("'{key}' stands twice"),
+                        false => format!("'{key}' does not go with '{known}'"),
+                    };
+                    diags.push(
+                        Diagnostic::new(Code::E0601, line.span(), message)
+                            .note(*first, "first written here")
+                            .help("remove one of the lines"),
+                    );
+                    continue;
+                }
+                once.push((key, line.span()));
+            }
+            match line.kind() {
+                LineKind::Moment(claim, lines) => {
+                    self.moment(claim.as_ref(), lines, stretch, scenario, diags);
+                }
+                _ if stretch.from.is_some() && !counts(line) => diags.push(not_here(line)),
+                _ => self.line(line, stretch, scenario, diags),
+            }
+        }
+    }
+
+    /// A moment of the run, and the lines that count from it.
+    fn moment(
+        &self,
+        node: Option<&ast::Claim>,
+        lines: Vec<Line>,
+        outer: &Stretch,
+        scenario: &mut Scenario,
+        diags: &mut Diagnostics,
+    ) {
+        let Some(node) = node else { return };
+        let is_sound = diags.syntax_errors_within(node.span()).next().is_none();
+        let claim = self.claim(node, diags).filter(|_| is_sound);
+        let from = u16::try_from(scenario.moments.len()).ok().map(MomentId);
+        let lines = sound(lines, diags);
+        let stretch = Stretch::of(&lines, from, diags);
+        // What is wrong with the lines is reported where the claim is wrong, too.
+        let mut rest = Scenario::quiet("", scenario.graph.clone(), "", stretch.until);
+        let into = if claim.is_some() { &mut *scenario } else { &mut rest };
+        into.moments.extend(claim.map(|claim| Moment {
+            claim,
+            from: outer.from,
+            until: stretch.written_end(),
+            text: format!("from {}", node.in_one_line()),
+            span: node.span(),
+        }));
+        self.lines(&lines, &stretch, into, diags);
+    }
+
+    fn line(
+        &self,
+        line: &Line,
+        stretch: &Stretch,
+        scenario: &mut Scenario,
+        diags: &mut Diagnostics,
+    ) {
+        match line.kind() {
+            LineKind::World(file) => scenario.world = file.map(|file| unquote(&file, diags)),
+            LineKind::Seed(number) => {
+                scenario.seed = number.and_then(|number| seed(&number, diags)).unwrap_or_default();
+            }
+            LineKind::Set(Some(path), Some(value)) => {
+                scenario.set.extend(self.set(&path, &value, &[EntryKind::In], diags));
+            }
+            LineKind::Robot(formulas) => scenario.robot = self.robot(&formulas, diags),
+            LineKind::Stimulus(Some(at), Some(action)) => {
+                let at = stretch.instant(&at, diags);
+                let action = self.action(&action, diags);
+                if let (Some(at), Some(action)) = (at, action) {
+                    let (from, text, span) = (stretch.from, line.in_one_line(), line.span());
+                    scenario.stimuli.push(Stimulus { from, at, action, text, span });
+                }
+            }
+            LineKind::Expect { never, claim: Some(claim), bounds } => {
+                let written = (never, &claim, &bounds[..]);
+                scenario.expectations.extend(self.expectation(line, written, stretch, diags));
+            }
+            LineKind::OverSeeds(..) | LineKind::OverWorlds(_) | LineKind::Until(_) => {}
+            LineKind::Moment(..) => {}
+            LineKind::Set(..) | LineKind::Stimulus(..) => {}
+            LineKind::Expect { claim: None, .. } => {}
+        }
+    }
+}
+
+/// The lines without syntax errors; those that count from a moment are looked at one by one.
+pub(super) fn sound(mut lines: Vec<Line>, diags: &Diagnostics) -> Vec<Line> {
+    lines.retain(|line| {
+        matches!(line.kind(), LineKind::Moment(..))
+            || diags.syntax_errors_within(line.span()).next().is_none()
+    });
+    lines
+}
+
+/// Whether a line is about a time.
+fn counts(line: &Line) -> bool {
+    matches!(line.kind(), LineKind::Stimulus(..) | LineKind::Expect { .. } | LineKind::Until(_))
+}
+
+fn not_here(line: &Line) -> Diagnostic {
+    let message =
+        format!("'{}' is about the whole run, not about what comes after", line.keyword());
+    Diagnostic::new(Code::E0601, line.span(), message)
+        .help("write it in the scenario's own braces, outside of those of 'from'")
+}
+
+/// Whether of two lines one alone can stand.
+fn excludes(one: &str, other: &str) -> bool {
+    let both = |a, b| [(a, b), (b, a)].contains(&(one, other));
+    one == other || both("seed", "over seeds") || both("world", "over worlds")
+}

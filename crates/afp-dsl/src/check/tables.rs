@@ -1,0 +1,228 @@
+//! Tables of a file: columns with types, rows of constants.
+//!
+//! `Row` of `std` reads them. Its toolbox declares it once; what stands in the graph has the columns
+//! of the table that is bound as its outputs, so that whoever reads the graph finds ports as everywhere.
+
+mod bound;
+
+use std::sync::Arc;
+
+use crate::check::formula::Scope;
+use crate::check::names::{Names, Places};
+use crate::check::scope::FileScope;
+use crate::check::types::Types;
+use crate::check::{shadows, size};
+use crate::gather::PlanFile;
+use crate::index::Recorder;
+use crate::rows::MAX_ROWS;
+use crate::table::{Cell, Column, Table};
+use crate::toolbox::{OutPort, ReadsTable, Template, Toolbox};
+use crate::types::{Type, is_built_in};
+use afp_syntax::ast::{self, Item, Name};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+
+pub(super) use bound::{fits, read_by};
+
+/// The toolbox and the template that reads tables: no other template can, since its ports are those of the plan's.
+const ROW: (&str, &str) = ("std", "Row");
+/// The ports of that template, which no column can be called.
+const PORTS: [&str; 2] = ["table", "index"];
+
+/// The tables that a file declares.
+pub(super) fn own(
+    file: &PlanFile,
+    types: &Types,
+    record: &Recorder,
+    diags: &mut Diagnostics,
+) -> Vec<Arc<Table>> {
+    let items = file.tree.items();
+    let mut names = Names::default();
+    for item in &items {
+        let other = match item {
+            Item::Plan(node) => node.name(),
+            Item::Enum(node) => node.name(),
+            _ => None,
+        };
+        if let Some(name) = other {
+            // What is wrong with these is said elsewhere.
+            names.declare(&name, &mut Diagnostics::default());
+        }
+    }
+    let places = Places::default();
+    let scope = Scope {
+        types,
+        tables: &[],
+        entries: &[],
+        places: &places,
+        readable: &|_| false,
+        unreadable: "write a value: a table has constants alone",
+        text: &file.source.text,
+        record,
+    };
+    let nodes = items.iter().filter_map(|item| match item {
+        Item::Table(node) => Some(node),
+        _ => None,
+    });
+    let tables = nodes.filter_map(|node| {
+        let table = read(node, &scope, diags)?;
+        let name = Name { text: table.name.clone(), span: table.span };
+        if is_built_in(&name.text) {
+            shadows(&name, diags);
+            return None;
+        }
+        names.declare(&name, diags).then(|| Arc::new(table))
+    });
+    tables.collect()
+}
+
+/// Reads a table; `None` without a name.
+fn read(node: &ast::Table, scope: &Scope<'_>, diags: &mut Diagnostics) -> Option<Table> {
+    let columns = columns(node, scope, diags);
+    let written = node.rows();
+    let spans = written.iter().map(ast::Row::span);
+    size::at_most(MAX_ROWS, ("a table", "rows"), spans, "split it into two tables", diags);
+    let rows = written.iter().filter_map(|row| self::row(row, node, &columns, scope, diags));
+    let rows = rows.collect();
+    let name = node.name()?;
+    if !diags.error_within(node.span()) {
+        if columns.is_empty() {
+            let message = format!("the table '{}' has no columns", name.text);
+            let help = "name at least one in its brackets, such as '(x: length)'";
+            diags.push(Diagnostic::new(Code::E0250, name.span, message).help(help));
+        } else if written.is_empty() {
+            let message = format!("the table '{}' has no rows", name.text);
+            let help = "write rows in its braces; without any, 'Row' goes to 'End' at once";
+            diags.push(Diagnostic::new(Code::E0252, name.span, message).help(help));
+        }
+    }
+    Some(Table { name: name.text, doc: node.doc(), columns, rows, span: name.span })
+}
+
+fn columns(node: &ast::Table, scope: &Scope<'_>, diags: &mut Diagnostics) -> Vec<Column> {
+    let mut names = Names::default();
+    let mut found = Vec::new();
+    for column in node.columns() {
+        let ty = column.ty().and_then(|ty| {
+            let resolved = scope.types.resolve(&ty, scope.record, diags)?;
+            let Type::Object(object) = &resolved else { return Some(resolved) };
+            let message = format!("a table holds no objects such as '{}'", object.name);
+            let help = "only the templates of its toolbox make one: keep it in an entry";
+            diags.push(Diagnostic::new(Code::E0250, ty.span(), message).help(help));
+            None
+        });
+        let Some(name) = column.name() else { continue };
+        names.declare(&name, diags);
+        if PORTS.contains(&name.text.as_str()) {
+            let message = format!("no column is called '{}': 'Row' has such a port", name.text);
+            let help = "give the column another name";
+            diags.push(Diagnostic::new(Code::E0250, name.span, message).help(help));
+        }
+        found.push(Column { name: name.text, doc: column.doc(), ty, span: name.span });
+    }
+    found
+}
+
+/// The values of a row; `None` where something is wrong with it.
+fn row(
+    row: &ast::Row,
+    table: &ast::Table,
+    columns: &[Column],
+    scope: &Scope<'_>,
+    diags: &mut Diagnostics,
+) -> Option<Vec<Cell>> {
+    let cells = row.cells();
+    // What could not be read may have been the values.
+    let whole = diags.syntax_errors_within(table.span()).next().is_none();
+    if whole && cells.len() != columns.len() && !columns.is_empty() {
+        diags.push(misfit(row, &cells, columns));
+    }
+    let types = columns.iter().map(|column| column.ty.as_ref()).chain(std::iter::repeat(None));
+    let values: Vec<_> = cells
+        .iter()
+        .zip(types)
+        .map(|(formula, ty)| {
+            let formula = formula.as_ref()?;
+            let Some(ty) = ty else {
+                scope.names_only(formula);
+                return None;
+            };
+            let (_, value) = scope.check(formula, Some(ty), diags)?;
+            Some(Cell { value: value?, span: formula.span() })
+        })
+        .collect();
+    let values: Option<Vec<_>> = values.into_iter().collect();
+    values.filter(|values| values.len() == columns.len())
+}
+
+/// A row with more or fewer values than there are columns.
+fn misfit(row: &ast::Row, cells: &[Option<ast::Formula>], columns: &[Column]) -> Diagnostic {
+    let count = |count: usize, what: &str| match count {
+        1 => format!("1 {what}"),
+        _ => format!("{count} {what}s"),
+    };
+    let message = format!(
+        "the row has {}, the table {}",
+        count(cells.len(), "value"),
+        count(columns.len(), "column")
+    );
+    let much = cells.get(columns.len()).and_then(Option::as_ref).map(ast::Formula::span);
+    let help = match (much, columns.get(cells.len())) {
+        (None, Some(column)) => format!("write a value for '{}', too", column.name),
+        _ => "remove what has no column, or add a column".to_owned(),
+    };
+    let error = Diagnostic::new(Code::E0251, much.unwrap_or_else(|| row.span()), message);
+    match columns.last() {
+        Some(last) => error.note(columns[0].span.to(last.span), "the columns").help(help),
+        None => error.help(help),
+    }
+}
+
+/// Marks the template that reads tables when its toolbox is read.
+pub(super) fn mark(toolbox: &mut Toolbox) {
+    if toolbox.name != ROW.0 {
+        return;
+    }
+    let is_it = |template: &&mut Template| template.name == ROW.1;
+    let Some(template) = toolbox.templates.iter_mut().find(is_it) else { return };
+    let port = template.inputs.iter().find(|port| port.name == PORTS[0]).cloned();
+    template.reads_table = port.map(|port| ReadsTable { port, table: None });
+}
+
+/// Adds to the toolboxes in use the template that reads each table.
+pub(super) fn specialise(linked: &mut [Arc<Toolbox>], scopes: &[FileScope<'_>]) {
+    let mut tables: Vec<&Arc<Table>> = Vec::new();
+    for table in scopes.iter().flat_map(|scope| &scope.tables) {
+        if !tables.iter().any(|known| Arc::ptr_eq(known, table)) {
+            tables.push(table);
+        }
+    }
+    let readers = |toolbox: &Toolbox| -> Vec<Template> {
+        let open = toolbox.templates.iter().filter(|template| template.reads_table.is_some());
+        open.flat_map(|open| tables.iter().map(|table| of_table(open, table))).collect()
+    };
+    for toolbox in linked {
+        let readers = readers(toolbox);
+        if !readers.is_empty() {
+            Arc::make_mut(toolbox).templates.extend(readers);
+        }
+    }
+}
+
+/// The template with the columns of a table as its outputs on its first state, without the port of the table.
+fn of_table(template: &Template, table: &Arc<Table>) -> Template {
+    let output = |column: &Column| OutPort {
+        name: column.name.clone(),
+        doc: column.doc.clone(),
+        // An unknown type is none of the signature either.
+        ty: column.ty.clone().unwrap_or(Type::FLOAT),
+        on: vec![0],
+        span: column.span,
+    };
+    let mut own = template.clone();
+    own.inputs.retain(|port| port.name != PORTS[0]);
+    own.outputs = table.columns.iter().map(output).collect();
+    if let Some(reads) = &mut own.reads_table {
+        reads.table = Some(table.clone());
+    }
+    own
+}

@@ -1,0 +1,58 @@
+//! How values are compared.
+
+use crate::toolbox::Constant;
+
+/// How two values compare.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Comparison {
+    /// `==`
+    Equal,
+    /// `!=`
+    NotEqual,
+    /// `<`
+    Less,
+    /// `<=`
+    LessEqual,
+    /// `>`
+    Greater,
+    /// `>=`
+    GreaterEqual,
+}
+
+impl Comparison {
+    /// The comparison that is written so.
+    pub fn parse(text: &str) -> Option<Comparison> {
+        Some(match text {
+            "==" => Comparison::Equal,
+            "!=" => Comparison::NotEqual,
+            "<" => Comparison::Less,
+            "<=" => Comparison::LessEqual,
+            ">" => Comparison::Greater,
+            ">=" => Comparison::GreaterEqual,
+            _ => return None,
+        })
+    }
+
+    /// Whether it needs an order.
+    pub fn is_order(self) -> bool {
+        !matches!(self, Comparison::Equal | Comparison::NotEqual)
+    }
+
+    /// Whether two values compare so; an order is known of numbers of one kind alone.
+    pub fn holds(self, left: &Constant, right: &Constant) -> bool {
+        let order = match (left, right) {
+            (Constant::Int(left), Constant::Int(right)) => left.partial_cmp(right),
+            (Constant::Float(left), Constant::Float(right)) => left.partial_cmp(right),
+            _ if left == right => Some(std::cmp::Ordering::Equal),
+            _ => None,
+        };
+        match self {
+            Comparison::Equal => order.is_some_and(|order| order.is_eq()),
+            Comparison::NotEqual => !order.is_some_and(|order| order.is_eq()),
+            Comparison::Less => order.is_some_and(|order| order.is_lt()),
+            Comparison::LessEqual => order.is_some_and(|order| order.is_le()),
+            Comparison::Greater => order.is_some_and(|order| order.is_gt()),
+            Comparison::GreaterEqual => order.is_some_and(|order| order.is_ge()),
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! What the range sensor should hear, wherever it is and wherever it looks.
+//!
+//! Room by room of a grid and direction by direction, computed when first asked for and kept: a filter asks for
+//! thousands of places a second, most of them close to each other. Within a room the distance goes on linearly, so that
+//! the grid can be coarse.
+
+mod cone;
+
+use crate::map::Map;
+use afp_carbot::devices::Beam;
+use cone::Heard;
+use nalgebra::Vector2;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU16, Ordering};
+
+/// The side of a room, metres; larger where a map has too many.
+const CELL: f64 = 0.1;
+/// At most so many rooms: 72 directions of two bytes each make 72 megabytes.
+const MOST: f64 = 500_000.0;
+/// Directions, counted from the x axis.
+pub(crate) const DIRECTIONS: usize = 72;
+const STEP: f64 = TAU / DIRECTIONS as f64;
+
+/// Nothing has been computed yet.
+const UNKNOWN: u16 = u16::MAX;
+const SILENCE: u16 = u16::MAX - 1;
+const SOLID: u16 = u16::MAX - 2;
+/// Millimetres in the low bits, the ray that is heard in the high ones.
+const MILLIMETRES: u16 = 0x0fff;
+const RAY_SHIFT: u32 = 12;
+
+/// What the sensor should hear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Expected {
+    /// An echo from so far away, metres.
+    Echo(f64),
+    /// Nothing: all is far away or mirrors the sound to somewhere else.
+    Silence,
+    /// It cannot be there: something stands there, or the map ends.
+    Solid,
+}
+
+/// What the range sensor hears on a map. Copies share what has been computed.
+#[derive(Clone, Debug)]
+pub struct EchoField {
+    map: Arc<Map>,
+    cells: Arc<[AtomicU16]>,
+    /// Cosine and sine of each direction.
+    directions: Arc<[Vector2<f64>]>,
+    cell: f64,
+    columns: usize,
+    rows: usize,
+    /// Where a room's rays may end, metres, and the cone they make.
+    range: f64,
+}
+
+impl EchoField {
+    /// The field of a sensor on a map. Takes the memory for all of it, and hardly any time.
+    pub fn new(map: Map, beam: &Beam) -> Self {
+        let [low, high] = map.bounds().map(Vector2::from);
+        let size = high - low;
+        let cell = CELL.max(libm::sqrt(size.x * size.y / MOST));
+        let [columns, rows] = [size.x, size.y].map(|side| libm::ceil(side / cell) as usize);
+        let unknown = || AtomicU16::new(UNKNOWN);
+        let cells = (0..columns * rows * DIRECTIONS).map(|_| unknown()).collect();
+        let direction = |n: usize| {
+            let (sin, cos) = libm::sincos(n as f64 * STEP);
+            Vector2::new(cos, sin)
+        };
+        let directions = (0..DIRECTIONS).map(direction).collect();
+        EchoField {
+            map: Arc::new(map),
+            cells,
+            directions,
+            cell,
+            columns,
+            rows,
+            range: beam.max.si(),
+        }
+    }
+
+    /// The map.
+    pub fn map(&self) -> &Map {
+        &self.map
+    }
+
+    /// What a sensor at a place (metres) that looks along a direction (radians against the x axis) should hear.
+    pub fn expected(&self, [x, y]: [f64; 2], direction: f64) -> Expected {
+        let [low, _] = self.map.bounds();
+        let [across, up] = [(x - low[0]) / self.cell, (y - low[1]) / self.cell];
+        let inside = across >= 0.0 && up >= 0.0;
+        let (column, row) = (across as usize, up as usize);
+        if !inside || column >= self.columns || row >= self.rows {
+            return Expected::Solid;
+        }
+        let turns = direction / STEP;
+        let nearest = libm::round(turns) as i64;
+        let towards = nearest.rem_euclid(DIRECTIONS as i64) as usize;
+        let room = (row * self.columns + column) * DIRECTIONS;
+        let entry = match self.read(room + towards) {
+            UNKNOWN => {
+                self.compute(room, self.middle(column, row));
+                self.read(room + towards)
+            }
+            known => known,
+        };
+        match entry {
+            SOLID | UNKNOWN => Expected::Solid,
+            SILENCE => Expected::Silence,
+            echo => {
+                let ray = usize::from(echo >> RAY_SHIFT) + DIRECTIONS - cone::SIDE;
+                let along = self.directions.get((towards + ray) % DIRECTIONS);
+                let off = Vector2::new(x, y) - self.middle(column, row);
+                let nearer = along.map_or(0.0, |along| along.dot(&off));
+                Expected::Echo(f64::from(echo & MILLIMETRES) / 1000.0 - nearer)
+            }
+        }
+    }
+
+    fn read(&self, index: usize) -> u16 {
+        self.cells.get(index).map_or(SOLID, |cell| cell.load(Ordering::Relaxed))
+    }
+
+    fn middle(&self, column: usize, row: usize) -> Vector2<f64> {
+        let [low, _] = self.map.bounds();
+        let at = Vector2::new(column as f64 + 0.5, row as f64 + 0.5) * self.cell;
+        Vector2::from(low) + at
+    }
+
+    /// Computes a room for all directions. Whoever does it at the same time computes the same.
+    fn compute(&self, room: usize, middle: Vector2<f64>) {
+        let Some(entries) = self.cells.get(room..room + DIRECTIONS) else { return };
+        let solid = self.map.is_solid(middle.into());
+        let heard = cone::hear(self.map.faces(), &self.directions, middle, self.range);
+        for (entry, heard) in entries.iter().zip(heard) {
+            let value = match heard {
+                _ if solid => SOLID,
+                None => SILENCE,
+                Some(Heard { range, ray }) => {
+                    let millimetres = libm::round(range * 1000.0) as u16;
+                    millimetres.min(MILLIMETRES) | (ray << RAY_SHIFT)
+                }
+            };
+            entry.store(value, Ordering::Relaxed);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use afp_core::quantity::{Angle, Length};
+
+    pub(super) fn beam() -> Beam {
+        Beam {
+            forward: Length::from_si(0.1),
+            opening: Angle::from_deg(30.0),
+            min: Length::from_si(0.03),
+            max: Length::from_si(4.0),
+        }
+    }
+
+    fn wall(x: [f64; 2], y: [f64; 2]) -> Vec<[f64; 2]> {
+        vec![[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]]
+    }
+
+    #[test]
+    fn a_wall_is_heard_from_where_it_is_nearest() {
+        let map = Map::new([wall([2.0, 2.1], [-2.0, 2.0]), wall([-2.1, -2.0], [-2.0, 2.0])]);
+        let field = EchoField::new(map, &beam());
+        for x in [0.0, 0.03, 0.42, 1.37] {
+            for degrees in [-12.0_f64, 0.0, 9.0] {
+                let Expected::Echo(range) = field.expected([x, 0.1], degrees.to_radians()) else {
+                    panic!("silence at {x}, {degrees}");
+                };
+                assert!((range - (2.0 - x)).abs() < 0.01, "{x} {degrees}: {range}");
+            }
+        }
+        assert_eq!(field.expected([0.0, 0.0], TAU / 4.0), Expected::Silence);
+        assert_eq!(field.expected([2.05, 0.0], 0.0), Expected::Solid);
+        assert_eq!(field.expected([2.5, 0.0], 0.0), Expected::Solid);
+        assert_eq!(field.expected([f64::NAN, 0.0], 0.0), Expected::Solid);
+    }
+
+    #[test]
+    fn a_wall_at_a_slant_sends_its_sound_away() {
+        let map = Map::new([wall([-4.0, 4.0], [1.0, 1.1]), wall([-4.0, 4.0], [-1.1, -1.0])]);
+        let field = EchoField::new(map, &beam());
+        let heard = |degrees: f64| field.expected([0.0, 0.0], degrees.to_radians());
+        assert!(matches!(heard(80.0), Expected::Echo(range) if (range - 1.0).abs() < 0.01));
+        assert!(matches!(heard(-60.0), Expected::Echo(range) if range < 1.1));
+        assert_eq!(heard(20.0), Expected::Silence);
+    }
+}

@@ -1,0 +1,40 @@
+//! Maps: where the robot is on one, and which way leads where.
+//!
+//! ```text
+//!   Map ──▶ EchoField: what the range sensor hears where
+//!                │
+//!   echoes with the odometry's poses ──copied──▶ LocateJob: Filter ──▶ Belief
+//!     in Locator::hear                            on a worker        in Locator::belief
+//! ```
+//!
+//! The filter is a particle filter with a fixed number of particles (Monte Carlo localisation: Thrun, Burgard and Fox,
+//! *Probabilistic Robotics*, 2005, chapter 8). Echoes that the belief does not explain make it look for places that
+//! explain them better and put particles there (sensor resetting: Lenser and Veloso, *Sensor resetting localization for
+//! poorly modelled mobile robots*, ICRA 2000), so that a robot that was carried finds itself again.
+//!
+//! What the map does not explain of echoes and bumps, the [`Planner`] goes round:
+//!
+//! ```text
+//!   Map ──▶ Grid: how much room there is        SearchJob: A* ──▶ Path
+//!                │                               on a worker       in Planner::found
+//!   echoes, bumps at believed poses ──▶ Finds ──copied──┘
+//! ```
+//!
+//! Nothing here knows a simulator: what is true reaches neither map nor filter.
+#![forbid(unsafe_code)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
+mod field;
+mod filter;
+mod found;
+mod grid;
+mod locator;
+mod map;
+mod planner;
+mod search;
+
+pub use field::{EchoField, Expected};
+pub use filter::{Filter, Ping};
+pub use locator::{LocateJob, Locator};
+pub use map::Map;
+pub use planner::{Planner, SearchJob};

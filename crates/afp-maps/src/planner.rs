@@ -1,0 +1,130 @@
+//! Ways on the map: what a platform needs to be a
+//! [`PathPlanner`](afp_carbot::devices::PathPlanner).
+//!
+//! The platform lets it hear each echo and feel each bump, with where the robot takes itself to be; what the map does not
+//! explain is avoided from then on. The search runs as a job.
+
+use crate::field::EchoField;
+use crate::found::{Finds, Heard};
+use crate::grid::Grid;
+use crate::search;
+use afp_carbot::Path;
+use afp_carbot::devices::{Belief, Echo, Trip};
+use afp_core::quantity::Length;
+use afp_core::{Duration, Fault, Instant, Job, Poll, Ticket, Worker};
+use afp_session::Pose2;
+use std::sync::Arc;
+
+/// A robot that knows its place no better than this knows nothing of what it hears, metres.
+const CERTAIN: f64 = 0.25;
+
+/// A search for a way, and what it needs.
+#[derive(Clone, Debug)]
+pub struct SearchJob {
+    map: Arc<Grid>,
+    grid: Grid,
+    found: Vec<[f64; 2]>,
+    from: [f64; 2],
+    to: [f64; 2],
+    near: f64,
+    way: Option<Path>,
+}
+
+impl Job for SearchJob {
+    /// Several times what a core of a desktop computer takes for a map of ten metres by ten that leads nowhere.
+    const TAKES: Duration = Duration::from_millis(60);
+
+    fn run(&mut self) -> Result<(), Fault> {
+        self.grid.clone_room(&self.map);
+        for place in &self.found {
+            self.grid.add(*place);
+        }
+        self.way = search::way(&self.grid, self.from, self.to, self.near)?;
+        Ok(())
+    }
+}
+
+/// Searches for ways on a map.
+#[derive(Clone, Debug)]
+pub struct Planner<W> {
+    worker: W,
+    field: EchoField,
+    finds: Finds,
+    /// From the robot's centre to the range sensor, metres.
+    forward: f64,
+}
+
+impl<W: Worker<SearchJob>> Planner<W> {
+    /// On the map of a field, with a worker that `hire` makes of its jobs.
+    pub fn new(field: EchoField, forward: Length, hire: impl FnOnce(Vec<SearchJob>) -> W) -> Self {
+        /// Two elements of a plan may search at a time.
+        const SLOTS: usize = 2;
+        let map = Arc::new(Grid::new(field.map()));
+        let job = SearchJob {
+            grid: (*map).clone(),
+            map,
+            found: Vec::new(),
+            from: [0.0; 2],
+            to: [0.0; 2],
+            near: 0.0,
+            way: None,
+        };
+        let worker = hire(vec![job; SLOTS]);
+        Planner { worker, field, finds: Finds::new(), forward: forward.si() }
+    }
+
+    /// Takes in an echo that was sent where the robot takes itself to have been.
+    pub fn hear(&mut self, echo: &Echo, robot: &Belief, now: Instant) {
+        let Some(distance) = echo.distance.filter(|_| is_certain(robot)) else { return };
+        let robot = pose(robot);
+        let sensor = robot.beyond(Pose2 { x: self.forward, y: 0.0, heading: echo.bearing.si() });
+        let heard = Heard {
+            sensor: [sensor.x, sensor.y],
+            direction: sensor.heading,
+            distance: distance.si(),
+        };
+        self.finds.hear(&heard, &self.field, now);
+    }
+
+    /// Takes in that the bumper is pressed where the robot takes itself to be.
+    pub fn feel(&mut self, robot: &Belief, now: Instant) {
+        if is_certain(robot) {
+            self.finds.feel(pose(robot), now);
+        }
+    }
+
+    /// As [`PathPlanner::search`](afp_carbot::devices::PathPlanner::search).
+    ///
+    /// # Errors
+    /// Searches have panicked.
+    pub fn search(&mut self, trip: &Trip, now: Instant) -> Result<Option<Ticket>, Fault> {
+        let finds = &self.finds;
+        let mut prepare = |job: &mut SearchJob| {
+            job.found.clear();
+            job.found.extend(finds.places());
+            job.from = [trip.from.0.si(), trip.from.1.si()];
+            job.to = [trip.to.0.si(), trip.to.1.si()];
+            job.near = trip.near.si();
+        };
+        self.worker.begin(now, &mut prepare)
+    }
+
+    /// As [`PathPlanner::found`](afp_carbot::devices::PathPlanner::found).
+    ///
+    /// # Errors
+    /// The search failed, or has been asked after before.
+    pub fn found(&mut self, ticket: Ticket, now: Instant) -> Result<Poll<Option<Path>>, Fault> {
+        Ok(match self.worker.poll(ticket, now)? {
+            Poll::Pending => Poll::Pending,
+            Poll::Ready(job) => Poll::Ready(job.way.clone()),
+        })
+    }
+}
+
+fn is_certain(robot: &Belief) -> bool {
+    robot.spread.si() <= CERTAIN
+}
+
+fn pose(belief: &Belief) -> Pose2 {
+    Pose2 { x: belief.x.si(), y: belief.y.si(), heading: belief.heading.si() }
+}

@@ -1,0 +1,122 @@
+//! `Verdict`: what a scenario came to, and `Broken`: what was not as expected.
+
+use afp_dsl::Compiled;
+use afp_test::Verdict as Came;
+use pyo3::prelude::*;
+
+use super::place;
+use crate::value::Pickled;
+
+/// An expectation that was not met.
+#[pyclass(module = "afp", frozen, get_all, eq, from_py_object)]
+#[derive(Clone, PartialEq)]
+pub struct Broken {
+    /// The line of the scenario.
+    text: String,
+    /// Its file.
+    file: String,
+    /// Its line, from 1.
+    line: usize,
+    /// Its column, from 1.
+    column: usize,
+    /// When it became clear, seconds.
+    time: f64,
+    /// What happened instead.
+    why: String,
+}
+
+/// What a scenario came to.
+#[pyclass(module = "afp", frozen, get_all, eq)]
+#[derive(Clone, PartialEq)]
+pub struct Verdict {
+    /// Whether everything was as expected.
+    passed: bool,
+    /// What was not as expected, in order of time.
+    broken: Vec<Broken>,
+    /// What broke, and the timeline around the first of it, as `afpc test` prints it.
+    report: String,
+    /// How long it ran, seconds.
+    time: f64,
+    /// How the plan ended: `ok`, `interrupted`, `error`; `running` if it did not.
+    ending: String,
+    /// The hash of the trace, as `afpc test --json` tells it.
+    trace_hash: String,
+    /// The timeline.
+    timeline: Vec<String>,
+}
+
+/// What, where, when and why.
+type BrokenFacts = (String, (String, usize, usize), f64, String);
+/// Whether it passed, what broke, report, time, ending, hash, timeline.
+type VerdictFacts = (bool, Vec<Broken>, String, f64, String, String, Vec<String>);
+
+#[pymethods]
+impl Broken {
+    fn __repr__(&self) -> String {
+        let Broken { text, file, line, .. } = self;
+        format!("<Broken {file}:{line}: {text}>")
+    }
+
+    /// As it was pickled.
+    #[staticmethod]
+    fn _again(text: String, place: (String, usize, usize), time: f64, why: String) -> Broken {
+        let (file, line, column) = place;
+        Broken { text, file, line, column, time, why }
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Pickled<'py, BrokenFacts> {
+        let Broken { text, file, line, column, time, why } = self.clone();
+        let again = py.get_type::<Broken>().getattr("_again")?;
+        Ok((again, (text, (file, line, column), time, why)))
+    }
+}
+
+#[pymethods]
+impl Verdict {
+    fn __repr__(&self) -> String {
+        let came = if self.passed { "passed" } else { "failed" };
+        format!("<Verdict {came} after {:.3} s, {} broken>", self.time, self.broken.len())
+    }
+
+    /// As it was pickled.
+    #[staticmethod]
+    fn _again(facts: VerdictFacts) -> Verdict {
+        let (passed, broken, report, time, ending, trace_hash, timeline) = facts;
+        Verdict { passed, broken, report, time, ending, trace_hash, timeline }
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Pickled<'py, (VerdictFacts,)> {
+        let Verdict { passed, broken, report, time, ending, trace_hash, timeline } = self.clone();
+        let again = py.get_type::<Verdict>().getattr("_again")?;
+        Ok((again, ((passed, broken, report, time, ending, trace_hash, timeline),)))
+    }
+}
+
+/// The verdict as Python has it.
+pub fn verdict(compiled: &Compiled, came: Came) -> Verdict {
+    let broken = came.broken.iter().map(|broken| {
+        let (file, line, column) = place(compiled, broken.span);
+        let (text, why) = (broken.text.clone(), broken.why.clone());
+        Broken { text, file, line, column, time: broken.at.as_secs_f64(), why }
+    });
+    let ending = match came.ending {
+        None => "running",
+        Some(afp_core::Ending::Ok) => "ok",
+        Some(afp_core::Ending::Interrupted) => "interrupted",
+        Some(afp_core::Ending::Error(_)) => "error",
+    };
+    Verdict {
+        passed: came.passed(),
+        broken: broken.collect(),
+        report: plain(&came.report()),
+        time: came.length().as_secs_f64(),
+        ending: ending.to_owned(),
+        trace_hash: format!("{:016x}", came.trace),
+        timeline: came.timeline.iter().map(|(_, line)| plain(line)).collect(),
+    }
+}
+
+/// A text without colours.
+fn plain(text: &str) -> String {
+    anstream::adapter::strip_str(text).to_string()
+}

@@ -1,0 +1,86 @@
+//! Who gets hold of a run: one caller at a time, and others look at what it was a moment ago.
+
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+
+use afp_dsl::Compiled;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+
+use super::Runner;
+use super::glance::Glance;
+use super::session::Run;
+use crate::component::{Host, may_run};
+use crate::pause::Pause;
+
+impl Runner {
+    /// Drives a run, whose components in Python share the host.
+    pub fn new(mut run: Run, host: Option<Arc<Host>>, compiled: &Arc<Compiled>) -> Runner {
+        let stop = Arc::new(AtomicBool::new(false));
+        run.pause = Pause::new(host.clone(), Arc::clone(&stop));
+        let seen = Arc::clone(&run.seen);
+        let (session, process) = (Mutex::new(run), std::process::id());
+        Runner { session, host, stop, seen, process, compiled: Arc::clone(compiled) }
+    }
+
+    /// The session, unless it is in use.
+    pub(super) fn lock(&self) -> PyResult<MutexGuard<'_, Run>> {
+        if self.process != std::process::id() {
+            let text =
+                "this simulation belongs to the process that was forked; make a new one here";
+            return Err(PyRuntimeError::new_err(text));
+        }
+        match self.session.try_lock() {
+            Ok(session) => Ok(session),
+            Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(
+                "the simulation is running: another thread drives it, or one of its own components called",
+            )),
+            Err(TryLockError::Poisoned(_)) => Err(PyRuntimeError::new_err(
+                "the simulation broke in an earlier call; make a new one",
+            )),
+        }
+    }
+
+    /// Looks at the robot.
+    #[cfg(feature = "carbot")]
+    pub fn with_robot<T>(&self, look: impl FnOnce(&dyn std::any::Any) -> T) -> PyResult<T> {
+        Ok(look(self.lock()?.session.robot()))
+    }
+
+    /// Looks at the run, or at what it was a moment ago while another thread drives it.
+    pub(super) fn see<T>(
+        &self,
+        now: impl FnOnce(&Run) -> PyResult<T>,
+        before: impl FnOnce(Glance) -> PyResult<T>,
+    ) -> PyResult<T> {
+        match self.lock() {
+            Ok(run) => now(&run),
+            Err(why) if self.session.is_poisoned() || self.process != std::process::id() => {
+                Err(why)
+            }
+            Err(why) => self.seen.glance().map_or(Err(why), before),
+        }
+    }
+
+    /// Drives the session with the interpreter free for others.
+    pub(super) fn drive(
+        &self,
+        py: Python<'_>,
+        drive: impl FnOnce(&mut Run) -> PyResult<bool> + Send,
+    ) -> PyResult<bool> {
+        may_run()?;
+        let mut session = self.lock()?;
+        let session = &mut *session;
+        session.show();
+        let driven = py.detach(|| drive(session));
+        self.after(py, driven)
+    }
+
+    /// What a component raised to end everything counts more than how the run went.
+    pub(super) fn after(&self, py: Python<'_>, driven: PyResult<bool>) -> PyResult<bool> {
+        match self.host.as_ref().and_then(|host| host.aborted(py)) {
+            Some(raised) => Err(raised),
+            None => driven,
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Runs that are kept until their own figures have been taken.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use afp_dsl::Compiled;
+use afp_dsl::graph::Graph;
+use afp_session::{AnySession, Track};
+use afp_sweep::{Drive, Ending, Outcome, Row, Setting, Sweep, Watch};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::errors::run_error;
+use crate::simulation::{Keeper, Run, Runner};
+use crate::world::World;
+
+/// Keeps what has been run.
+pub struct Watching<'a> {
+    pub sweep: &'a Sweep,
+    pub setting: &'a Setting<'a>,
+    pub graph: &'a Graph,
+    pub compiled: &'a Arc<Compiled>,
+    /// What is called with a run, and gives its figures.
+    pub judge: &'a Py<PyAny>,
+    /// The columns that every sweep has.
+    pub columns: Vec<String>,
+    pub kept: Mutex<BTreeMap<u64, Run>>,
+}
+
+impl Watch for Watching<'_> {
+    fn run(
+        &self,
+        row: &Row<'_>,
+        mut session: Box<dyn AnySession>,
+        drive: Drive<'_>,
+    ) -> Option<Outcome> {
+        let (mut keeper, mut track) = (Keeper::default(), Track::new(session.devices()));
+        let outcome = drive(&mut *session, &mut [&mut keeper, &mut track])?;
+        let mut run = Run::new(session, self.graph);
+        (run.keeper, run.track) = (keeper, track);
+        run.stopped_by = (outcome.ending == Ending::TimeLimit).then_some("until");
+        self.lock().insert(row.run, run);
+        Some(outcome)
+    }
+}
+
+impl Watching<'_> {
+    fn lock(&self) -> MutexGuard<'_, BTreeMap<u64, Run>> {
+        // Runs come and go as a whole.
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Adds a run's own figures to its outcome; a run that could not begin has none.
+    ///
+    /// # Errors
+    /// What the judge raises; a figure of a name that there is already.
+    pub fn judge(&self, py: Python<'_>, outcome: &mut Outcome) -> PyResult<()> {
+        let Some(run) = self.lock().remove(&outcome.run) else { return Ok(()) };
+        let row = self.sweep.row(outcome.run);
+        let loaded = self.setting.world(&row).map_err(|why| run_error(&why))?;
+        let runner = Runner::new(run, None, self.compiled);
+        let figures = self.judge.call1(py, (runner, World { loaded }, row.seed))?;
+        let figures: BTreeMap<String, f64> = figures.extract(py)?;
+        if let Some(name) = figures.keys().find(|name| self.columns.contains(name)) {
+            let text = format!("there is a column '{name}' of every run; choose another name");
+            return Err(PyValueError::new_err(text));
+        }
+        if let Some(name) = figures.keys().find(|name| outcome.figures.contains_key(*name)) {
+            let text = format!("there is a figure '{name}' of every run; choose another name");
+            return Err(PyValueError::new_err(text));
+        }
+        outcome.figures.extend(figures);
+        Ok(())
+    }
+}

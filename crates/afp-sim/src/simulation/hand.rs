@@ -1,0 +1,160 @@
+//! A hand that reaches into the world: it carries the robot and what can be pushed elsewhere, and drops what was not there.
+
+use super::Simulation;
+use super::build::collider;
+use super::movers::Mover;
+use crate::truth::Pose;
+use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
+use crate::world::{
+    FARTHEST, Look, Mobility, Obstacle, Outline, Texture, is_beyond, isometry, shape,
+};
+use afp_session::{Droppable, Put, RequestError};
+use rapier2d::math::{Pose as Isometry, Vector};
+use rapier2d::parry::query;
+use rapier2d::parry::shape::{Cuboid, Shape};
+use rapier2d::prelude::RigidBodyHandle;
+
+/// What can be dropped.
+pub(super) const SHAPES: [Droppable; 3] = [
+    Droppable {
+        shape: "crate",
+        outline: &[[0.15, 0.15], [-0.15, 0.15], [-0.15, -0.15], [0.15, -0.15]],
+    },
+    Droppable {
+        shape: "can",
+        outline: &[[0.04, 0.04], [-0.04, 0.04], [-0.04, -0.04], [0.04, -0.04]],
+    },
+    Droppable { shape: "wall", outline: &[[0.03, 0.5], [-0.03, 0.5], [-0.03, -0.5], [0.03, -0.5]] },
+];
+
+/// Their heights, metres, and masses, kilograms.
+const BODIES: [(f64, f64); SHAPES.len()] = [(0.3, 2.0), (0.12, 0.3), (0.4, 30.0)];
+
+/// Things that were dropped are no more than this: each costs time in every step.
+const MOST: usize = 64;
+
+impl Simulation {
+    pub(super) fn put_by_hand(&mut self, what: &Put, at: Pose) -> Result<(), RequestError> {
+        let far = at.x.abs().max(at.y.abs()) > FARTHEST;
+        if far || is_beyond(&self.map, [at.x, at.y]) {
+            return Err(RequestError::Nowhere);
+        }
+        match what {
+            Put::Robot => {
+                self.look_for_room(&robot(), &isometry(at), None)?;
+                self.carry_to(at);
+            }
+            Put::Thing(name) => self.carry(name, at)?,
+            Put::New(shape) => self.drop_new(shape, at)?,
+        }
+        // Rays and pictures of this instant see it there.
+        self.physics.detect_collisions(&(), &());
+        self.note_obstacles();
+        Ok(())
+    }
+
+    /// Carries a thing that can be pushed, by its name or the one that scenes give it: its middle to a place, and turned
+    /// against how it stood at the start.
+    fn carry(&mut self, name: &str, at: Pose) -> Result<(), RequestError> {
+        let unknown = || RequestError::NoThing(name.to_owned());
+        let is_it = |index: usize, it: &Obstacle| {
+            let named = it.name == name || shape(index, it).id == name;
+            named && matches!(it.mobility, Mobility::Movable { .. })
+        };
+        let found = self.movers.iter().find(|mover| {
+            let obstacle = self.obstacles.get(mover.obstacle());
+            obstacle.is_some_and(|it| is_it(mover.obstacle(), it))
+        });
+        let mover = found.ok_or_else(unknown)?;
+        let (index, body) = (mover.obstacle(), mover.handle());
+        let (_, shape) = self.shapes.get(index).cloned().ok_or_else(unknown)?;
+        let to = isometry(at) * isometry(self.middle(index)).inverse() * mover.start();
+        self.look_for_room(&*shape, &to, Some(index))?;
+        self.look_for_robot(&*shape, &to)?;
+        self.set_down(body, to);
+        Ok(())
+    }
+
+    /// The middle of an obstacle at the start.
+    fn middle(&self, index: usize) -> Pose {
+        let corners = self.obstacles.get(index).map_or_else(Vec::new, |it| it.outline.corners());
+        let count = corners.len().max(1) as f64;
+        let sum = corners.iter().fold([0.0, 0.0], |sum, at| [sum[0] + at[0], sum[1] + at[1]]);
+        Pose { x: sum[0] / count, y: sum[1] / count, heading: 0.0 }
+    }
+
+    fn drop_new(&mut self, shape: &str, at: Pose) -> Result<(), RequestError> {
+        let unknown = || RequestError::NoShape(shape.to_owned());
+        let (known, (height, mass)) = SHAPES
+            .iter()
+            .zip(BODIES)
+            .find(|(known, _)| known.shape == shape)
+            .ok_or_else(unknown)?;
+        let half = known.outline.first().copied().ok_or_else(unknown)?;
+        let mut names = (1..=MOST).map(|number| format!("{shape} {number}"));
+        let name = names.find(|name| self.obstacles.iter().all(|it| it.name != *name));
+        let obstacle = Obstacle {
+            name: name
+                .ok_or_else(|| RequestError::NoShape(format!("{shape}: {MOST} are enough")))?,
+            outline: Outline::Box { pose: at, half },
+            height,
+            mobility: Mobility::Movable { mass },
+            look: Look { color: [0xc8, 0x8a, 0x4a], texture: Texture::default() },
+            echo: 1.0,
+            mapped: false,
+        };
+        let (start, body) = obstacle.outline.shape().ok_or_else(unknown)?;
+        self.look_for_room(&*body, &start, None)?;
+        self.look_for_robot(&*body, &start)?;
+        let index = self.obstacles.len();
+        let built = Mover::body(&obstacle, start).ok_or_else(unknown)?;
+        let (handle, _) = self.physics.insert(built, collider(&obstacle, body.clone(), index));
+        self.movers.push(Mover::new(index, handle, (start, &body), &obstacle));
+        self.scene.add(&obstacle);
+        self.shapes.push((start, body));
+        self.obstacles.push(obstacle);
+        Ok(())
+    }
+
+    /// Whether nothing stands where a shape is to stand; `own` is the obstacle that it is.
+    fn look_for_room(
+        &self,
+        shape: &dyn Shape,
+        at: &Isometry,
+        own: Option<usize>,
+    ) -> Result<(), RequestError> {
+        let meets = |other: &Isometry, of: &dyn Shape| {
+            query::intersection_test(at, shape, other, of).is_ok_and(|test| test.intersecting)
+        };
+        let others = self.shapes.iter().zip(&self.obstacles).enumerate();
+        let mut others = others.filter(|(index, _)| Some(*index) != own);
+        if let Some((_, (_, obstacle))) = others.find(|(_, ((other, of), _))| meets(other, &**of)) {
+            return Err(RequestError::Occupied(obstacle.name.clone()));
+        }
+        Ok(())
+    }
+
+    /// Whether the robot does not stand where a shape is to stand.
+    fn look_for_robot(&self, shape: &dyn Shape, at: &Isometry) -> Result<(), RequestError> {
+        let meets = query::intersection_test(at, shape, self.position(), &robot());
+        match meets.is_ok_and(|test| test.intersecting) {
+            true => Err(RequestError::Occupied("the robot".to_owned())),
+            false => Ok(()),
+        }
+    }
+
+    /// Lets a body stand somewhere, at rest.
+    pub(super) fn set_down(&mut self, body: RigidBodyHandle, at: Isometry) {
+        let body = &mut self.physics.bodies[body];
+        body.set_position(at, true);
+        body.set_linvel(Vector::ZERO, true);
+        body.set_angvel(0.0, true);
+    }
+}
+
+fn robot() -> Cuboid {
+    Cuboid::new(Vector::new(HALF_LENGTH as f32, HALF_WIDTH as f32))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,75 @@
+//! What a hand does to a world: things stand where they were put, and nowhere where something stands.
+
+use super::*;
+use crate::world::World;
+use afp_core::Instant;
+use afp_session::Robot;
+
+const ROOM: &str = "version = 1\n[robot]\npose_m_deg = [0, 0, 0]\n\
+    [[box]]\nname = \"bin\"\npose_m_deg = [1, 0, 0]\nsize_m = [0.2, 0.2]\nheight_m = 0.4\nmass_kg = 1\n\
+    [[box]]\nname = \"post\"\npose_m_deg = [0, 2, 0]\nsize_m = [0.2, 0.2]\nheight_m = 0.4\n";
+
+fn at(x: f64, y: f64) -> Pose {
+    Pose { x, y, heading: 0.0 }
+}
+
+fn room() -> Simulation {
+    Simulation::new(&World::parse(ROOM).unwrap(), 1).unwrap()
+}
+
+fn middle(corners: &[[f64; 2]]) -> [i64; 2] {
+    let sum = corners.iter().fold([0.0, 0.0], |sum, at| [sum[0] + at[0], sum[1] + at[1]]);
+    sum.map(|part| (part / corners.len() as f64 * 1000.0).round() as i64)
+}
+
+#[test]
+fn the_robot_stands_where_it_was_put_and_believes_that_it_has_not_moved() {
+    let mut room = room();
+    room.put(&Put::Robot, Pose { heading: 1.0, ..at(-1.0, 0.5) }).unwrap();
+    room.advance_to(Instant::from_nanos(500_000_000));
+    let pose = room.truth().pose();
+    assert!((pose.x + 1.0).abs() < 1e-3 && (pose.heading - 1.0).abs() < 1e-3, "{pose:?}");
+    assert!(room.snapshot().odometry.x.si().abs() < 0.01);
+}
+
+#[test]
+fn what_can_be_pushed_is_carried_and_what_stands_is_not() {
+    let mut room = room();
+    room.put(&Put::Thing("bin".to_owned()), at(-0.5, -0.5)).unwrap();
+    assert_eq!(middle(&room.outline(0)), [-500, -500]);
+    room.put(&Put::Thing("0 bin".to_owned()), at(1.5, 0.0)).unwrap();
+    assert_eq!(middle(&room.outline(0)), [1500, 0]);
+    for name in ["post", "ghost"] {
+        let refused = room.put(&Put::Thing(name.to_owned()), at(1.0, 1.0));
+        assert_eq!(refused, Err(RequestError::NoThing(name.to_owned())));
+    }
+}
+
+#[test]
+fn nothing_is_put_into_something() {
+    let mut room = room();
+    let occupied = |by: &str| Err(RequestError::Occupied(by.to_owned()));
+    assert_eq!(room.put(&Put::Robot, at(1.0, 0.1)), occupied("bin"));
+    assert_eq!(room.put(&Put::Thing("bin".to_owned()), at(0.0, 0.1)), occupied("the robot"));
+    assert_eq!(room.put(&Put::New("crate".to_owned()), at(0.0, 2.0)), occupied("post"));
+    assert_eq!(room.put(&Put::Robot, at(1e6, 0.0)), Err(RequestError::Nowhere));
+}
+
+#[test]
+fn what_is_dropped_is_felt_heard_and_copied() {
+    let mut room = room();
+    room.put(&Put::New("crate".to_owned()), at(0.6, 0.0)).unwrap();
+    room.put(&Put::New("crate".to_owned()), at(-1.0, -1.0)).unwrap();
+    assert_eq!(room.movers().count(), 3);
+    assert_eq!(middle(&room.outline(2)), [600, 0]);
+    let mut copy = room.keyframe().unwrap();
+    for each in [&mut room, &mut copy] {
+        each.advance_to(Instant::from_nanos(1_000_000_000));
+    }
+    let heard = |room: &Simulation| room.snapshot().sonar.and_then(|sonar| sonar.distance);
+    assert!(heard(&room).is_some_and(|distance| distance < 0.5), "{:?}", heard(&room));
+    assert_eq!(heard(&room), heard(&copy));
+    assert_eq!(middle(&copy.outline(3)), [-1000, -1000]);
+    let refused = room.put(&Put::New("piano".to_owned()), at(3.0, 3.0));
+    assert_eq!(refused, Err(RequestError::NoShape("piano".to_owned())));
+}

@@ -1,0 +1,129 @@
+//! The robot finds itself and its ways on its map, and a judge notes how far off it is.
+
+mod located;
+
+pub(super) use located::Located;
+
+use super::Simulation;
+use super::robot::{WORLD, frame};
+use crate::devices::sonar;
+use crate::truth::Pose;
+use crate::world::{Obstacle, World, isometry};
+use afp_carbot::table::signal;
+use afp_maps::{EchoField, Filter, LocateJob, Locator, Map, Planner, SearchJob};
+use afp_session::{SampleRef, Samples, Shape};
+use afp_worker::VirtualWorker;
+use std::f64::consts::TAU;
+
+/// The filter in virtual time.
+pub(super) type SimulatedLocator = Locator<VirtualWorker<LocateJob>>;
+
+/// The search for ways in virtual time.
+pub(super) type SimulatedPlanner = Planner<VirtualWorker<SearchJob>>;
+
+/// Where the robot takes itself to be on its map.
+const LOCATED: &str = "base_link_by_localisation";
+/// Beliefs are drawn as discs so thin, metres, with so many corners.
+const THIN: f64 = 0.01;
+const CORNERS: u32 = 16;
+
+impl Simulation {
+    /// What looks for the robot; it is made for whoever asks first. It is told the map and the start, as somebody who
+    /// puts a robot down tells it, and nothing else that is true.
+    pub(super) fn locator(&mut self) -> &mut SimulatedLocator {
+        let Simulation { locator, obstacles, start, seed, .. } = self;
+        locator.get_or_insert_with(|| {
+            let (map, beam) = (map(obstacles), sonar::beam());
+            let filter = Filter::new(EchoField::new(map, &beam), &beam, *start, *seed);
+            Box::new(Locator::new(VirtualWorker::new([LocateJob::new(filter)]), *start))
+        })
+    }
+
+    /// What searches for ways; it is made for whoever asks first, of the same map.
+    pub(super) fn planner(&mut self) -> &mut SimulatedPlanner {
+        let Simulation { planner, obstacles, .. } = self;
+        planner.get_or_insert_with(|| {
+            let beam = sonar::beam();
+            let field = EchoField::new(map(obstacles), &beam);
+            Box::new(Planner::new(field, beam.forward, VirtualWorker::new))
+        })
+    }
+
+    /// How far the robot is from where it takes itself to be: metres and radians; none while nobody asks.
+    pub fn localisation_error(&self) -> Option<[f64; 2]> {
+        self.located.last()
+    }
+
+    /// Puts the robot down at another place, as somebody does who carries it. No wheel turns meanwhile.
+    pub fn carry_to(&mut self, place: Pose) {
+        self.set_down(self.body, isometry(place));
+    }
+
+    pub(super) fn sample_localisation(&self, to: &mut Samples<'_, '_>) {
+        let (Some(locator), Some([off, turned])) = (&self.locator, self.located.last()) else {
+            return;
+        };
+        to.put(signal::LOCALISATION_OFF, SampleRef::Float(off));
+        to.put(signal::LOCALISATION_HEADING_OFF, SampleRef::Float(turned));
+        let belief = locator.latest(self.lines.odometry.read(self.raw_motion()));
+        let Ok(belief) = belief.value else { return };
+        let pose = Pose { x: belief.x.si(), y: belief.y.si(), heading: belief.heading.si() };
+        to.put(signal::LOCALISATION_POSE, frame(WORLD, LOCATED, pose, 0.0));
+        if to.wants(signal::LOCALISATION_BELIEF) {
+            let radius = belief.spread.si();
+            let shape = Shape {
+                id: "belief".to_owned(),
+                frame: WORLD,
+                outline: circle([pose.x, pose.y], radius),
+                height: THIN,
+                color: [0.55, 0.25, 0.65, 0.4],
+            };
+            to.put(signal::LOCALISATION_BELIEF, SampleRef::Outline(&shape));
+        }
+    }
+
+    /// Lets the filter hear what range sensor and odometry say, by lines that may be broken.
+    pub(super) fn locate(&mut self) {
+        let (now, truth) = (self.now, self.truth().pose());
+        let echo = self.lines.ultrasonic.read(self.echo);
+        let motion = self.lines.odometry.read(self.raw_motion());
+        let touched = self.raw_touched();
+        let Some(locator) = &mut self.locator else { return };
+        locator.hear(echo, motion, now);
+        if let Some(planner) = &mut self.planner {
+            let fresh = echo.value.ok().filter(|_| now.since(echo.time) <= sonar::PERIOD);
+            if let Some((echo, place)) = fresh.zip(locator.belief_at(echo.time)) {
+                planner.hear(&echo, &place, now);
+            }
+            let touched = self.lines.touch.read(touched).value == Ok(true);
+            if let Ok(place) = locator.latest(motion).value
+                && touched
+            {
+                planner.feel(&place, now);
+            }
+        }
+        if let Ok(belief) = locator.latest(motion).value {
+            let believed =
+                Pose { x: belief.x.si(), y: belief.y.si(), heading: belief.heading.si() };
+            self.located.note(truth, believed);
+        }
+    }
+}
+
+impl World {
+    /// The map that the robot has: what it shows and what is high enough for the range sensor.
+    pub fn heard_map(&self) -> Map {
+        map(&self.obstacles)
+    }
+}
+
+fn map(obstacles: &[Obstacle]) -> Map {
+    let heard = obstacles.iter().filter(|it| it.mapped && it.height >= sonar::HEIGHT);
+    Map::new(heard.map(|it| it.outline.corners()))
+}
+
+fn circle(middle: [f64; 2], radius: f64) -> Vec<[f64; 2]> {
+    let corner = |n| libm::sincos(f64::from(n) * TAU / f64::from(CORNERS));
+    let corners = (0..CORNERS).map(corner);
+    corners.map(|(sin, cos)| [middle[0] + radius * cos, middle[1] + radius * sin]).collect()
+}

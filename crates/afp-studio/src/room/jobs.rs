@@ -1,0 +1,164 @@
+//! Jobs of the command line that a client asks for: scenarios run and written, sweeps, builds, new projects.
+//!
+//! The room says what is run, with which arguments; who runs it is not its business.
+
+use std::collections::BTreeMap;
+
+use afp_lsp::path_of;
+use serde_json::{Value, json};
+
+use super::{ClientId, Out, Room, notification};
+
+/// Jobs that go on at once.
+const MOST: usize = 4;
+/// Lines of what a job says that are kept for its end.
+const MOST_LINES: usize = 2_000;
+
+/// Tells jobs apart.
+pub(crate) type JobId = u32;
+
+/// What is to be run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Order {
+    /// The command line with these arguments, in the folder.
+    Begin(JobId, Vec<String>),
+    /// What was begun is to end.
+    End(JobId),
+}
+
+/// A job that goes on.
+#[derive(Debug, Default)]
+pub(super) struct Job {
+    client: ClientId,
+    results: Vec<Value>,
+    said: Vec<String>,
+}
+
+/// Jobs of a room.
+#[derive(Debug, Default)]
+pub(super) struct Jobs {
+    running: BTreeMap<JobId, Job>,
+    orders: Vec<Order>,
+    made: JobId,
+}
+
+impl Room {
+    /// What is to be begun or ended, since it was asked last.
+    pub(crate) fn orders(&mut self) -> Vec<Order> {
+        std::mem::take(&mut self.jobs.orders)
+    }
+
+    pub(super) fn begin_job(&mut self, client: ClientId, params: &Value) -> Result<Value, String> {
+        if self.jobs.running.len() >= MOST {
+            return Err(format!("{MOST} jobs go on: wait until one has ended, or end it"));
+        }
+        let kind = params["kind"].as_str().unwrap_or_default();
+        self.check_trust(kind)?;
+        let arguments = arguments(self, kind, params)?;
+        self.jobs.made += 1;
+        let id = self.jobs.made;
+        self.jobs.running.insert(id, Job { client, ..Job::default() });
+        self.jobs.orders.push(Order::Begin(id, arguments));
+        Ok(json!({ "id": id }))
+    }
+
+    pub(super) fn end_job(&mut self, params: &Value) -> Result<Value, String> {
+        let id = params["id"].as_u64().and_then(|id| JobId::try_from(id).ok());
+        let id = id.filter(|id| self.jobs.running.contains_key(id));
+        self.jobs.orders.push(Order::End(id.ok_or("there is no such job")?));
+        Ok(Value::Null)
+    }
+
+    /// What runs code of the folder waits until it is trusted.
+    fn check_trust(&self, kind: &str) -> Result<(), String> {
+        let runs_code = kind == "build" || (kind != "new" && !self.trust.code().is_empty());
+        match runs_code && !self.trust.is_given() {
+            true => {
+                Err("this would run what lies in the folder: say first that you trust it"
+                    .to_owned())
+            }
+            false => Ok(()),
+        }
+    }
+
+    /// A line that a job has printed: a result, or a text for people.
+    pub(crate) fn job_said(&mut self, id: JobId, line: &str) -> Out {
+        let Some(job) = self.jobs.running.get_mut(&id) else { return Out::new() };
+        if let Ok(result @ Value::Object(_)) = serde_json::from_str(line) {
+            if job.results.len() < MOST_LINES {
+                job.results.push(result);
+            }
+            return Out::new();
+        }
+        if job.said.len() < MOST_LINES {
+            job.said.push(line.to_owned());
+        }
+        vec![(job.client, notification("afp/jobSaid", json!({ "id": id, "text": line })))]
+    }
+
+    /// A job has ended with an exit code; without one it was ended.
+    pub(crate) fn job_done(&mut self, id: JobId, code: Option<i32>) -> Out {
+        let Some(job) = self.jobs.running.remove(&id) else { return Out::new() };
+        let done = json!({
+            "id": id, "ok": code == Some(0), "code": code, "results": job.results, "said": job.said.join("\n"),
+        });
+        vec![(job.client, notification("afp/jobDone", done))]
+    }
+}
+
+/// The arguments of the command line for a job. Files are those of the folder; everything else has its own form.
+fn arguments(room: &Room, kind: &str, params: &Value) -> Result<Vec<String>, String> {
+    let file = || -> Result<String, String> {
+        let uri = params["file"].as_str().ok_or("'file' is missing")?;
+        let path = room.folder.inside(&path_of(uri))?;
+        Ok(path.to_string_lossy().into_owned())
+    };
+    let word = |name: &str, fits: &dyn Fn(char) -> bool| -> Result<Option<String>, String> {
+        let Some(word) = params[name].as_str().filter(|word| !word.is_empty()) else {
+            return Ok(None);
+        };
+        match word.chars().all(fits) && !word.starts_with('-') {
+            true => Ok(Some(word.to_owned())),
+            false => Err(format!("'{word}' cannot be {name}")),
+        }
+    };
+    let plan = |file: String| -> Result<String, String> {
+        let name = word("plan", &|letter| letter.is_alphanumeric() || letter == '_')?;
+        Ok(name.map_or_else(|| file.clone(), |name| format!("{file}:{name}")))
+    };
+    let texts = |texts: &[&str]| texts.iter().map(|it| (*it).to_owned()).collect::<Vec<_>>();
+    Ok(match kind {
+        "test" => {
+            let all = match params["file"].is_null() {
+                true => Vec::new(),
+                false => vec![file()?],
+            };
+            [texts(&["test", "--json", "--coverage"]), all].concat()
+        }
+        "generate" => [texts(&["test", "--generate"]), vec![file()?]].concat(),
+        "sweep" => {
+            let seeds = word("seeds", &|letter| letter.is_ascii_digit() || letter == '.')?;
+            let until = word("until", &|letter| letter.is_ascii_alphanumeric() || letter == '.')?;
+            let vary =
+                word("vary", &|letter| letter.is_alphanumeric() || "_.=:,- %/°".contains(letter))?;
+            let mut all = [texts(&["sweep", "--json"]), vec![plan(file()?)?]].concat();
+            for (option, value) in [("--seeds", seeds), ("--until", until), ("--vary", vary)] {
+                all.extend(value.into_iter().flat_map(|value| [option.to_owned(), value]));
+            }
+            all
+        }
+        "build" => [texts(&["build", "--json"]), vec![plan(file()?)?]].concat(),
+        "new" => {
+            let fits = |letter: char| letter.is_ascii_alphanumeric() || "_-".contains(letter);
+            let name = word("name", &fits)?.ok_or("'name' is missing")?;
+            let with = match params["with"].as_str() {
+                None => None,
+                Some("toolbox") => Some("--toolbox"),
+                Some("robot") => Some("--robot"),
+                Some(other) => return Err(format!("there are no projects with '{other}'")),
+            };
+            [texts(&["new", &name]), texts(&Vec::from_iter(with))].concat()
+        }
+        other => return Err(format!("there is no job '{other}'")),
+    })
+}

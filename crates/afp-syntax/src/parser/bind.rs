@@ -1,0 +1,144 @@
+//! Bindings: what goes into and out of a component.
+
+use super::Parser;
+use crate::kind::Kind;
+
+impl Parser<'_, '_> {
+    /// `"(" {bind [","]} ")"`; in a scenario, whose values are written out, no binding is a name alone.
+    pub(super) fn args(&mut self, alone: bool) {
+        self.open(Kind::Args);
+        let opened = self.here();
+        self.bump();
+        while !self.ends_args() {
+            self.repeat(|parser| {
+                if parser.at(Kind::Name)
+                    && (parser.names_something(0) || parser.nth(1) == Kind::EqualEqual)
+                {
+                    parser.bind();
+                } else if alone && parser.stands_alone() {
+                    parser.bind_alone();
+                } else {
+                    parser.unnamed_bind();
+                }
+            });
+        }
+        self.close_bracket(Kind::CloseParen, opened);
+        self.close();
+    }
+
+    fn ends_args(&self) -> bool {
+        matches!(self.nth(0), Kind::End | Kind::CloseParen | Kind::OpenBrace | Kind::CloseBrace)
+            || self.leaves_body()
+            // An edge on a line of its own, whose arrow is no mistake for '=>'.
+            || (!self.on_same_line() && self.at(Kind::Name) && self.nth(1) == Kind::Arrow)
+            || (!self.on_same_line() && self.at_line() && !self.names_something(0))
+            || (self.word(0) == "supervise"
+                && self.nth(1) == Kind::Name
+                && self.nth(2) == Kind::Colon)
+    }
+
+    /// Whether nothing belongs to the name that is next: what stands before or behind it on its line without a comma
+    /// may be a value whose `=` or sign is missing.
+    fn stands_alone(&self) -> bool {
+        self.at(Kind::Name)
+            && !self.follows_value()
+            && match self.nth(1) {
+                Kind::Comma | Kind::CloseParen | Kind::OpenBrace | Kind::CloseBrace | Kind::End => {
+                    true
+                }
+                Kind::Name => self.begins_line(1) || self.names_something(1),
+                _ => false,
+            }
+    }
+
+    /// `goal` for `goal = goal`, or for `goal => goal`.
+    fn bind_alone(&mut self) {
+        self.open_item(Kind::BindSame);
+        self.reference();
+        self.close_item();
+    }
+
+    fn bind(&mut self) {
+        let is_value = self.nth(1) == Kind::Arrow && self.nth(2) != Kind::Name;
+        let is_output = matches!(self.nth(1), Kind::FatArrow | Kind::Arrow) && !is_value;
+        self.open_item(if is_output { Kind::BindOut } else { Kind::BindIn });
+        self.take_name();
+        if !is_output {
+            self.no_type_before_value();
+            if self.at(Kind::Equal) {
+                self.bump();
+            } else {
+                let assigns = self.at(Kind::Colon) && self.nth(1) == Kind::Equal;
+                self.wrong_arrow(1 + usize::from(assigns), "'=' carries data in to a port", "=");
+            }
+            self.formula();
+            self.no_operators();
+            self.close_item();
+            return;
+        }
+        if !self.eat(Kind::FatArrow) {
+            let message = "'=>' carries data out to an entry; '->' is the flow of action";
+            self.wrong_arrow(1, message, "=>");
+        }
+        // A formula here is an error of its own, reported where outputs are checked.
+        self.open(Kind::Target);
+        if self.at(Kind::Name)
+            && !matches!(
+                self.nth(1),
+                Kind::Plus | Kind::Minus | Kind::Star | Kind::Slash | Kind::Percent | Kind::Dot
+            )
+        {
+            self.name("name the entry that takes the value");
+        } else {
+            self.formula();
+        }
+        self.close();
+        self.close_item();
+    }
+
+    /// `distance: length = 3 m`: the type of a port stands in its toolbox.
+    fn no_type_before_value(&mut self) {
+        let is_type = self.at(Kind::Colon) && self.nth(1) == Kind::Name;
+        if is_type && self.nth(2) == Kind::Equal && self.on_same_line() && !self.begins_line(1) {
+            let message = "a port has its type already".to_owned();
+            self.instead(2, message, "remove the ':' and the type".to_owned(), "");
+        }
+    }
+
+    /// Whether neither a bracket nor a comma nor a line's end stands before the next token.
+    fn follows_value(&self) -> bool {
+        let before = self.at.checked_sub(1).map(|before| self.tokens[self.solid[before] as usize]);
+        before.is_some_and(|token| {
+            !matches!(token.kind, Kind::OpenParen | Kind::Comma) && self.on_same_line()
+        })
+    }
+
+    /// What is missing of a binding.
+    fn bind_help(&self) -> (&'static str, String) {
+        let is_value =
+            matches!(self.nth(1), Kind::Int | Kind::Float | Kind::Text | Kind::OpenParen)
+                || self.nth(1).is_comparison();
+        match self.word(0) {
+            _ if self.follows_value() => {
+                let help = "write ',' and a port before it, or a sign such as '*'";
+                ("',' or ')' behind a value", help.to_owned())
+            }
+            port if !port.is_empty() && is_value => {
+                ("a port and '='", format!("write '{port} = ' and the value"))
+            }
+            _ => ("a port", "write the port's name and '=' before the value".to_owned()),
+        }
+    }
+
+    /// A value without a port, or text that is no binding at all.
+    fn unnamed_bind(&mut self) {
+        let (what, help) = self.bind_help();
+        self.skip(what, &help, |p| {
+            p.ends_args()
+                || p.at(Kind::Comma)
+                || (p.at(Kind::Name)
+                    && matches!(p.nth(1), Kind::Equal | Kind::FatArrow | Kind::Arrow))
+        });
+        self.eat(Kind::Comma);
+    }
+}

@@ -1,0 +1,65 @@
+//! What stands in the braces of an element or a supervisor as other languages have it.
+
+use crate::diagnostics::{Code, Diagnostic};
+use crate::kind::Kind;
+use crate::parser::Parser;
+use crate::parser::plan::BODY;
+
+impl Parser<'_, '_> {
+    /// Whether a word stands before an edge that edges do not have: `when Done -> home`.
+    pub(in crate::parser) fn at_word_before_edge(&self) -> bool {
+        let is_word = matches!(
+            self.word(0),
+            "when"
+                | "if"
+                | "case"
+                | "upon"
+                | "once"
+                | "on"
+                | "event"
+                | "on_event"
+                | "state"
+                | "edge"
+        );
+        is_word && self.nth(1) == Kind::Name && !self.begins_line(1) && self.arrow_at(2).is_some()
+    }
+
+    /// Whether an edge begins here, perhaps with a word before it that edges do not have.
+    pub(in crate::parser) fn begins_edge(&self) -> bool {
+        self.at_edge() || self.at_word_before_edge()
+    }
+
+    /// Reads an item with a word before its name that no body has, or a word of other languages: `supervisor hit: ...`,
+    /// `if (far) { ... }`. Returns whether one stands here.
+    pub(in crate::parser) fn strange_item(&mut self, what: &str) -> bool {
+        let is_item = self.nth(1) == Kind::Name && self.nth(2) == Kind::Colon;
+        if is_item && what == BODY && self.meant(&["supervise"]).is_some() {
+            let here = self.next_span();
+            let error = Diagnostic::new(
+                Code::E0102,
+                here,
+                "a supervisor of an element begins with 'supervise'",
+            );
+            self.error(error.help("write 'supervise'").replace("supervise"));
+            self.guard();
+            return true;
+        }
+        let chooses = matches!(self.word(0), "if" | "else" | "elif" | "switch" | "case" | "match")
+            || matches!(self.word(0), "when" | "while" | "for" | "loop");
+        let chooses =
+            chooses && matches!(self.nth(1), Kind::Name | Kind::OpenParen | Kind::OpenBrace);
+        let help = match self.meant(&["actor", "computation", "subplan", "supervise"]) {
+            _ if chooses => self.item_help(&[]).unwrap_or_default(),
+            Some("supervise") => "move it behind the '}' of this supervisor".to_owned(),
+            Some(word) => format!("write '{word}' behind the '}}' of this element"),
+            None => "write 'supervise' before the name of a supervisor".to_owned(),
+        };
+        if !(is_item || chooses) || self.names_something(0) {
+            return false;
+        }
+        self.skip(what, &help, |p| {
+            p.at(Kind::CloseBrace) || p.at_word("supervise") || p.leaves_body() || p.begins_edge()
+        });
+        true
+    }
+}

@@ -1,0 +1,113 @@
+//! What stands before and behind the arrow of an edge as other languages have it.
+
+use crate::diagnostics::{Code, Diagnostic};
+use crate::kind::Kind;
+use crate::parser::Parser;
+
+impl Parser<'_, '_> {
+    /// `fail("why")`, `terminate()`, `home()`: a target with brackets. Reports them and returns how many tokens they are.
+    pub(in crate::parser) fn no_brackets(&mut self) -> usize {
+        let is_word = matches!(self.word(0), "terminate" | "fail" | "ignore" | "resume");
+        let tokens = match (self.nth(1), self.nth(2), self.nth(3)) {
+            (Kind::OpenParen, Kind::CloseParen, _) => 2,
+            (Kind::Colon | Kind::Comma, Kind::Text, _) if is_word => 2,
+            (Kind::OpenParen, Kind::Text, Kind::CloseParen) if is_word => 3,
+            _ => return 0,
+        };
+        if (1..=tokens).any(|ahead| self.begins_line(ahead)) {
+            return 0;
+        }
+        let word = self.word(0);
+        let text = (2..=tokens).filter_map(|ahead| self.token(ahead));
+        let better = match { text }.find(|token| token.kind == Kind::Text) {
+            Some(text) => format!("{word} {}", text.text),
+            None => word.to_owned(),
+        };
+        let sign =
+            if self.nth(1) == Kind::OpenParen { "brackets".to_owned() } else { self.found_at(1) };
+        let message = format!("no {sign} behind '{word}'");
+        let help = format!("write '{better}'");
+        let place = self.ahead(tokens + 1);
+        self.error(Diagnostic::new(Code::E0102, place, message).help(help).replace(better));
+        tokens
+    }
+
+    /// Reads past tokens behind a target of which something has been said; a text among them is its own.
+    pub(in crate::parser) fn pass_tokens(&mut self, tokens: usize) {
+        (0..tokens).for_each(|_| self.bump());
+    }
+
+    /// `-> "home"`, `-> (home)`, `-> [home]`: reports the signs around a target. Returns whether they stand here.
+    pub(in crate::parser) fn target_in_signs(&mut self) -> bool {
+        if !self.on_same_line() {
+            return false;
+        }
+        if self.at(Kind::Text) {
+            let name = self.found().replace(['"', '\''], "");
+            let help = format!("write '{name}'");
+            self.instead(1, "a target has no quotes".to_owned(), help, &name);
+            return true;
+        }
+        let in_brackets = matches!(
+            (self.nth(0), self.nth(2)),
+            (Kind::OpenParen, Kind::CloseParen) | (Kind::OpenBracket, Kind::CloseBracket)
+        );
+        let name = self.word(1);
+        if in_brackets && !name.is_empty() {
+            let help = format!("write '{name}'");
+            self.instead(3, "a target has no brackets".to_owned(), help, name);
+        }
+        in_brackets && !name.is_empty()
+    }
+
+    /// What stands behind a target on its line: `-> go.Done`, `-> go -> home`, `-> go, home`.
+    pub(in crate::parser) fn no_more_targets(&mut self) {
+        let more = self.on_same_line() && self.nth(1) == Kind::Name && !self.begins_line(1);
+        if !more {
+            return;
+        }
+        let one = "an edge leads to one element";
+        let (message, help) = match self.nth(0) {
+            Kind::Dot => {
+                ("an edge leads to an element as a whole", "remove the '.' and what follows")
+            }
+            Kind::Arrow => (one, "write the next edge in the braces of that element"),
+            Kind::Comma if self.is_second_target() => (one, "remove the ',' and what follows"),
+            Kind::Name if matches!(self.word(0), "and" | "or") && self.is_second_target() => {
+                (one, "remove what follows")
+            }
+            _ => return,
+        };
+        let here = self.ahead(2);
+        let error = Diagnostic::new(Code::E0102, here, message).help(help);
+        let goes_on = self.at(Kind::Arrow);
+        self.error(if goes_on { error } else { error.replace("") });
+        self.pass(2);
+    }
+
+    /// Whether the name behind a sign is that of an element, not that of a state whose edge is still being typed: states
+    /// begin with a capital letter.
+    fn is_second_target(&self) -> bool {
+        let ends = self.nth(2) == Kind::CloseBrace || self.begins_line(2);
+        ends && self.word(1).starts_with(|first: char| first.is_ascii_lowercase())
+    }
+
+    /// `Done | Lost -> home`, `Done or Lost -> home`: reports the sign between the names. Returns whether one stands here.
+    pub(in crate::parser) fn sign_between_states(&mut self) -> bool {
+        let is_sign = matches!(self.nth(1), Kind::Pipe | Kind::Slash | Kind::Plus)
+            || matches!(self.word(1), "or" | "and");
+        let is_edge = self.nth(2) == Kind::Name && self.arrow_at(3).is_some();
+        if !(self.at(Kind::Name) && is_sign && is_edge) || self.begins_line(2) {
+            return false;
+        }
+        let here = self.token(1).map_or_else(|| self.behind(), |token| self.span_of(token));
+        let error = Diagnostic::new(Code::E0102, here, "between the names of states stands a ','");
+        // The blank before it stays.
+        self.error(error.help("write ','").replace(","));
+        self.open_item(Kind::Edge);
+        self.take_name();
+        self.pass(1);
+        self.rest_of_edge();
+        true
+    }
+}

@@ -1,0 +1,64 @@
+//! What the grammar looks far ahead for, found once: ends of lines, braces, brackets that are closed.
+//!
+//! A file may be one line, and wrong at every token; looking through the line each time would take as long as the line
+//! is for each of them.
+
+use crate::kind::Kind;
+use crate::lexer::Token;
+
+/// Places in a file, each list from first to last.
+#[derive(Default)]
+pub(super) struct Marks {
+    /// The line breaks, in bytes.
+    newlines: Vec<u32>,
+    /// The braces that open and those that close, as places among the tokens that are read.
+    open_braces: Vec<u32>,
+    close_braces: Vec<u32>,
+    /// The brackets '(' that are closed before any brace, likewise.
+    closed: Vec<u32>,
+}
+
+impl Marks {
+    /// Finds them; `solid` are the places of the tokens that are read.
+    pub(super) fn new(tokens: &[Token<'_>], solid: &[u32]) -> Marks {
+        let mut marks = Marks::default();
+        for token in tokens {
+            let bytes = token.text.bytes().zip(token.start..);
+            marks.newlines.extend(bytes.filter(|(byte, _)| *byte == b'\n').map(|(_, at)| at));
+        }
+        let mut open = Vec::new();
+        for (place, token) in (0..).zip(solid.iter().filter_map(|at| tokens.get(*at as usize))) {
+            match token.kind {
+                Kind::OpenBrace => marks.open_braces.push(place),
+                Kind::CloseBrace => marks.close_braces.push(place),
+                Kind::OpenParen => open.push(place),
+                Kind::CloseParen => marks.closed.extend(open.pop()),
+                _ => {}
+            }
+            if matches!(token.kind, Kind::OpenBrace | Kind::CloseBrace) {
+                open.clear();
+            }
+        }
+        marks.closed.sort_unstable();
+        marks
+    }
+
+    /// The first line break at a byte or behind it.
+    pub(super) fn newline(&self, from: u32) -> Option<u32> {
+        self.newlines.get(self.newlines.partition_point(|at| *at < from)).copied()
+    }
+
+    /// The first brace of a kind from a place on, among the tokens that are read.
+    pub(super) fn brace(&self, kind: Kind, from: usize) -> Option<usize> {
+        let all = match kind {
+            Kind::OpenBrace => &self.open_braces,
+            _ => &self.close_braces,
+        };
+        all.get(all.partition_point(|place| (*place as usize) < from)).map(|place| *place as usize)
+    }
+
+    /// Whether the bracket at a place is closed before any brace.
+    pub(super) fn is_closed(&self, place: usize) -> bool {
+        u32::try_from(place).is_ok_and(|place| self.closed.binary_search(&place).is_ok())
+    }
+}

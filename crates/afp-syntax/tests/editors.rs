@@ -1,0 +1,140 @@
+//! The grammars of editors colour the words that the parser takes for words of the grammar, and no others.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::kind::Kind;
+use afp_syntax::parse;
+use afp_syntax::units::Unit;
+
+/// Folders of files in which every word of the grammar stands somewhere.
+const FOLDERS: &[&str] = &[
+    "plans",
+    "plans/tests",
+    "crates/afp-toolboxes/toolboxes",
+    "crates/afp-dsl/tests/graph",
+    "crates/afp-dsl/tests/outline",
+    "crates/afp-dsl/tests/errors",
+    "crates/afp-dsl/tests/toolboxes",
+];
+
+/// Words that mean something behind an arrow, and names that need no declaration.
+const NAMES: &[&str] = &[
+    "terminate",
+    "fail",
+    "ignore",
+    "resume",
+    "Error",
+    "DeadlineMissed",
+    "Interrupted",
+    "OK",
+    "true",
+    "false",
+];
+
+/// What the cases have in place of an action: the parser takes any name for one.
+const ACTIONS_OF_NOBODY: &[&str] = &["hit"];
+
+fn path(of: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(of)
+}
+
+/// The words that stand in files as words of the grammar; of wrong files those around the mistakes.
+fn keywords() -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for folder in FOLDERS {
+        for entry in fs::read_dir(path(folder)).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_none_or(|ending| ending != "afp") {
+                continue;
+            }
+            let mut diags = Diagnostics::default();
+            let tree = parse(&fs::read_to_string(&path).unwrap(), 0, &mut diags);
+            let tokens = tree.root().descendants_with_tokens().filter_map(|each| each.into_token());
+            let words = tokens.filter(|token| {
+                let is_wrong = diags
+                    .iter()
+                    .any(|each| each.span.start == u32::from(token.text_range().start()));
+                token.kind() == Kind::Keyword && !is_wrong
+            });
+            found.extend(words.map(|word| word.text().to_owned()));
+        }
+    }
+    found.retain(|word| !ACTIONS_OF_NOBODY.contains(&word.as_str()));
+    found
+}
+
+/// The words in the patterns of the editor's grammar, units not among them.
+fn coloured() -> BTreeSet<String> {
+    let text = fs::read_to_string(path("editors/vscode/syntaxes/afp.tmLanguage.json")).unwrap();
+    let grammar: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let patterns = grammar["patterns"].as_array().unwrap().iter();
+    let of_words = patterns.filter(|pattern| {
+        let first = pattern["captures"]["1"]["name"].as_str();
+        let name = pattern["name"].as_str().or(first).unwrap_or_default();
+        name.starts_with("keyword.") && name != "keyword.operator.afp"
+            || name == "constant.language.afp"
+    });
+    of_words.flat_map(|pattern| words(pattern["match"].as_str().unwrap_or_default())).collect()
+}
+
+/// The words of a pattern, without escapes and classes of characters.
+fn words(pattern: &str) -> Vec<String> {
+    let mut plain = String::new();
+    let mut rest = pattern.chars();
+    while let Some(next) = rest.next() {
+        match next {
+            '\\' => drop(rest.next()),
+            '[' => drop(rest.by_ref().find(|each| *each == ']')),
+            _ if next.is_ascii_alphabetic() => {
+                plain.push(next);
+                continue;
+            }
+            _ => {}
+        }
+        plain.push(' ');
+    }
+    plain.split_whitespace().map(str::to_owned).collect()
+}
+
+/// What stands between double quotes, line by line, behind no sign that begins a comment.
+fn quoted(text: &str, comment: &str) -> BTreeSet<String> {
+    let code = text.lines().map(|line| line.split(comment).next().unwrap_or_default());
+    code.flat_map(|line| line.split('"').skip(1).step_by(2)).map(str::to_owned).collect()
+}
+
+#[test]
+fn visual_studio_code_knows_every_word() {
+    compare(&coloured(), NAMES);
+}
+
+#[test]
+fn tree_sitter_knows_every_word() {
+    let text = fs::read_to_string(path("editors/tree-sitter-afp/queries/highlights.scm")).unwrap();
+    let words = quoted(&text, ";").into_iter().filter(|word| word.starts_with(char::is_alphabetic));
+    // Truth values are nodes of their own there.
+    let names: Vec<_> =
+        NAMES.iter().copied().filter(|name| !["true", "false"].contains(name)).collect();
+    compare(&words.collect(), &names);
+}
+
+#[test]
+fn tree_sitter_knows_every_unit() {
+    let text = fs::read_to_string(path("editors/tree-sitter-afp/src/scanner.c")).unwrap();
+    let (_, list) = text.split_once("SINGLES[] = {").unwrap();
+    let known = quoted(list.split('}').next().unwrap_or_default(), "//");
+    let units: BTreeSet<_> = Unit::symbols().map(str::to_owned).collect();
+    assert_eq!(known, units);
+}
+
+/// Compares the words that an editor colours with those of the language, names that need no declaration among them.
+fn compare(coloured: &BTreeSet<String>, names: &[&str]) {
+    let mut keywords = keywords();
+    keywords.extend(names.iter().map(|name| (*name).to_owned()));
+    let missing: Vec<_> = keywords.difference(coloured).collect();
+    assert!(missing.is_empty(), "the editor's grammar does not know {missing:?}");
+    let strange: Vec<_> = coloured.difference(&keywords).collect();
+    assert!(strange.is_empty(), "the language has no {strange:?}");
+}

@@ -1,0 +1,77 @@
+//! The moments of a scenario: instants that are known once they have come.
+
+use afp_core::Instant;
+use afp_dsl::scenario::{Moment, MomentId};
+
+use super::look::{happens, holds};
+use super::{Happening, State};
+use crate::verdict::Broken;
+
+/// Which moments have come, and when.
+pub(crate) struct Moments<'a> {
+    moments: &'a [Moment],
+    /// When each came, nanoseconds.
+    came: Vec<Option<u64>>,
+    /// Those that nobody has been told of.
+    unreported: Vec<MomentId>,
+}
+
+impl<'a> Moments<'a> {
+    pub(super) fn new(moments: &'a [Moment]) -> Moments<'a> {
+        Moments { moments, came: vec![None; moments.len()], unreported: Vec::new() }
+    }
+
+    /// When what counts from there begins, nanoseconds: at once without a moment, not at all before it has come.
+    pub(super) fn begin(&self, from: Option<MomentId>) -> Option<u64> {
+        from.map_or(Some(0), |from| self.came.get(from.index()).copied().flatten())
+    }
+
+    /// Whether some have come since [`Moments::take`].
+    pub(crate) fn has_news(&self) -> bool {
+        !self.unreported.is_empty()
+    }
+
+    /// Those that have come since the last time, each with its instant.
+    pub(crate) fn take(&mut self) -> Vec<(MomentId, &'a Moment, Instant)> {
+        let all = std::mem::take(&mut self.unreported).into_iter();
+        let told = all.filter_map(|id| {
+            let at = self.begin(Some(id))?;
+            Some((id, self.moments.get(id.index())?, Instant::from_nanos(at)))
+        });
+        told.collect()
+    }
+
+    /// Something happened.
+    pub(super) fn happen(&mut self, at: u64, happening: &Happening) {
+        self.come(at, |moment| happens(&moment.claim, happening));
+    }
+
+    /// A step is over.
+    pub(super) fn settle(&mut self, at: u64, state: &State) {
+        self.come(at, |moment| holds(&moment.claim, state) == Some(true));
+    }
+
+    fn come(&mut self, at: u64, is_now: impl Fn(&Moment) -> bool) {
+        // Those that others count from stand before them.
+        for (number, moment) in (0..).zip(self.moments) {
+            let is_open = self.came[usize::from(number)].is_none();
+            if is_open && self.begin(moment.from).is_some() && is_now(moment) {
+                self.came[usize::from(number)] = Some(at);
+                self.unreported.push(MomentId(number));
+            }
+        }
+    }
+
+    /// What has not come by the end of the run, where it could have.
+    pub(super) fn missed(&self, end: u64) -> impl Iterator<Item = Broken> {
+        let could = |moment: &Moment| self.begin(moment.from).is_some();
+        let all = self.moments.iter().zip(&self.came);
+        let missed = all.filter(move |(moment, came)| came.is_none() && could(moment));
+        missed.map(move |(moment, _)| Broken {
+            text: moment.text.clone(),
+            span: moment.span,
+            at: Instant::from_nanos(end),
+            why: format!("that never came: the run was over at {:.3} s", end as f64 / 1e9),
+        })
+    }
+}

@@ -1,0 +1,12 @@
+[
+  (plan)
+  (element)
+  (guard)
+  (reactions)
+  (enum)
+  (table)
+  (template)
+  (device)
+  (scenario)
+  (moment)
+] @fold

@@ -1,0 +1,104 @@
+// The drawing of a document: asks the language server for it, passes on what changes, and lets selection and cursor follow
+// each other. It knows neither the editor nor the page, so that it is tested against the real server alone.
+import type { Answer, Changed, Part } from "../../../studio/page/drawing/shapes";
+import type { Position, Range } from "../../../studio/page/positions";
+
+/** The language server. */
+export interface Server {
+  request<T>(method: string, params: object): Promise<T>;
+}
+
+/** What a run is at: the paths of what is active, in the plan with that name or in the first one of the file. */
+export interface Run {
+  plan: string | null;
+  stack: readonly string[];
+  held: boolean;
+}
+
+/** To the page. */
+export type ToPage =
+  | { kind: "drawing"; uri: string; answer: Answer }
+  | { kind: "changed"; change: Changed }
+  | { kind: "select"; part: Part | null }
+  | ({ kind: "run" } & Run)
+  | { kind: "nothing"; why: string };
+
+/** From the page. */
+export type FromPage = { kind: "ready" } | { kind: "select"; part: Part } | { kind: "open"; part: Part } | { kind: "plan"; name: string };
+
+export interface Around {
+  server: Server;
+  post(message: ToPage): void;
+  /** Shows a place of the text; with `focus` the text has the keys then. */
+  reveal(range: Range, focus: boolean): void;
+}
+
+export class Drawing {
+  private plan: string | null;
+  private ready = false;
+  /** What was selected here: the cursor that goes there says nothing new. */
+  private own: string | null = null;
+
+  constructor(
+    readonly uri: string,
+    plan: string | null,
+    private readonly around: Around,
+  ) {
+    this.plan = plan;
+  }
+
+  /** Another plan of the same document. */
+  async show(plan: string): Promise<void> {
+    this.plan = plan;
+    await this.ask();
+  }
+
+  /** Asks for all of it: at first, and of a server that has been started again. */
+  async ask(): Promise<void> {
+    if (!this.ready) return;
+    const { server, post } = this.around;
+    const wanted = this.plan;
+    const params = { textDocument: { uri: this.uri }, ...(wanted ? { plan: wanted } : {}), subscribe: true };
+    const message = await server.request<Answer>("afp/drawing", params).then(
+      (answer): ToPage => ({ kind: "drawing", uri: this.uri, answer }),
+      (why: Error): ToPage => ({ kind: "nothing", why: why.message }),
+    );
+    if (this.plan === wanted) post(message);
+  }
+
+  /** `afp/drawingChanged`, of any document. */
+  changed(change: Changed): void {
+    if (change.textDocument.uri === this.uri && this.ready) this.around.post({ kind: "changed", change });
+  }
+
+  /** What a run of this document is at. */
+  run(run: Run): void {
+    this.around.post({ kind: "run", ...run });
+  }
+
+  /** The cursor of the text was moved. */
+  async cursor(position: Position): Promise<void> {
+    const part = await this.around.server.request<Part | null>("afp/itemAt", { textDocument: { uri: this.uri }, position }).catch(() => null);
+    const [key, before] = [JSON.stringify(part), this.own];
+    this.own = null;
+    if (key !== before) this.around.post({ kind: "select", part });
+  }
+
+  async receive(message: FromPage): Promise<void> {
+    if (message.kind === "ready") {
+      this.ready = true;
+      return this.ask();
+    }
+    if (message.kind === "plan") return this.show(message.name);
+    const { item, part } = message.part;
+    const range = await this.around.server.request<Range | null>("afp/spanOf", { textDocument: { uri: this.uri }, item, ...(part ? { part } : {}) });
+    if (!range) return;
+    this.own = JSON.stringify(await this.around.server.request("afp/itemAt", { textDocument: { uri: this.uri }, position: range.start }));
+    this.around.reveal(range, message.kind === "open");
+  }
+
+  /** Ends what the server tells of it. */
+  async end(): Promise<void> {
+    await this.around.server.request("afp/drawing", { textDocument: { uri: this.uri }, subscribe: false }).catch(() => null);
+  }
+}

@@ -1,0 +1,58 @@
+// What a launch means: a configuration as people write it, completed, and the adapter that it needs. Nothing here is of an
+// editor, so that it is tested without one.
+
+/** A configuration of launch.json, or none of it: F5 without a file gives an empty one. */
+export interface Launch {
+  type?: string;
+  request?: string;
+  name?: string;
+  program?: string;
+  log?: string;
+  speed?: number | null;
+  [more: string]: unknown;
+}
+
+/** The file of an editor that is open. */
+export interface Open {
+  path: string;
+  language: string;
+}
+
+/** How fast time passes where nothing else is said: what drives is watched, not computed. */
+const REAL_TIME = 1;
+
+/** What can be launched, or a sentence that says what is missing. */
+export function completed(config: Launch, open: Open | null): Launch | string {
+  const plan = open?.language === "afp" && open.path.endsWith(".afp") ? open.path : null;
+  const isEmpty = !config.type && !config.request && !config.name;
+  if (isEmpty && !plan) return "Open a plan first.";
+  const full: Launch = isEmpty ? { name: "Debug the plan", program: plan! } : { ...config };
+  if (!full.program && !full.log) return "The configuration needs a 'program', the plan's file, or a 'log'.";
+  if (full.program && full.log) return "The configuration has a 'program' and a 'log': it can be one of them.";
+  Object.assign(full, { type: "afp", request: "launch" });
+  if (full.speed === undefined) full.speed = REAL_TIME;
+  // Without it the run is as fast as it can be computed.
+  if (full.speed === null) delete full.speed;
+  return full;
+}
+
+/** The configuration of a lens above a plan, or of a file without one. */
+export const launchOf = (path: string, plan: string | null): Launch => ({
+  type: "afp",
+  request: "launch",
+  name: plan ?? "Debug the plan",
+  program: plan ? `${path}:${plan}` : path,
+  speed: REAL_TIME,
+});
+
+/** A program is a file, perhaps with the name of one of its plans behind it. */
+export function programOf(program: string): { file: string; plan: string | null } {
+  const found = /^(.*\.afp):([A-Za-z_]\w*)$/.exec(program);
+  return found ? { file: found[1]!, plan: found[2]! } : { file: program, plan: null };
+}
+
+/** How the adapter is started: with the plan, so that what its project needs is built before the editor waits. */
+export const adapterOf = (launch: Launch): string[] => (launch.program ? ["dap", launch.program] : ["dap"]);
+
+/** How `afpc` runs a plan or tests a file. */
+export const argumentsOf = (verb: "run" | "test", path: string, plan: string | null): string[] => [verb, verb === "run" && plan ? `${path}:${plan}` : path];

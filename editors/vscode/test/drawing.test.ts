@@ -1,0 +1,74 @@
+// The drawing against the real server: what it asks for, what reaches the page, what moves the cursor.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import type { Range } from "../../../studio/page/positions";
+import { Drawing, type ToPage } from "../src/drawing";
+import { PLAN, serving, there, type Talk } from "./server";
+
+interface Seen {
+  drawing: Drawing;
+  posted: ToPage[];
+  revealed: { range: Range; focus: boolean }[];
+}
+
+function drawn(talk: Talk, plan: string | null = null): Seen {
+  const seen: Omit<Seen, "drawing"> = { posted: [], revealed: [] };
+  const drawing = new Drawing(talk.uri, plan, {
+    server: talk,
+    post: (message) => seen.posted.push(message),
+    reveal: (range, focus) => seen.revealed.push({ range, focus }),
+  });
+  talk.onChange((change) => drawing.changed(change));
+  return { ...seen, drawing };
+}
+
+const of = <K extends ToPage["kind"]>(seen: Seen, kind: K): Extract<ToPage, { kind: K }>[] => seen.posted.filter((message) => message.kind === kind) as Extract<ToPage, { kind: K }>[];
+
+test("nothing is asked before the page is ready, then all of it, then what changes", () =>
+  serving(async (talk) => {
+    const seen = drawn(talk);
+    await seen.drawing.ask();
+    assert.deepEqual(seen.posted, []);
+    await seen.drawing.receive({ kind: "ready" });
+    const [whole] = of(seen, "drawing");
+    assert.deepEqual(whole?.answer.elements.map(({ item }) => item), ["Patrol.back", "Patrol.go", "Patrol.start"]);
+    await talk.type(PLAN.replace("-> terminate", "-> turn").replace(/}\n$/, "    actor turn: Turn { TurnSuccessful -> go }\n}\n"));
+    const { change } = await there(() => of(seen, "changed")[0], "change");
+    assert.ok(change.elements.some(({ item }) => item === "Patrol.turn"));
+    assert.ok(!change.elements.some(({ item }) => item === "Patrol.go"), "what is as it was is not sent again");
+    const other = { ...change, textDocument: { uri: "file:///other.afp" } };
+    seen.drawing.changed(other);
+    assert.equal(of(seen, "changed").length, 1, "changes of other documents are theirs");
+    await seen.drawing.end();
+    await talk.type(PLAN);
+    await talk.request("afp/itemAt", { textDocument: { uri: talk.uri }, position: { line: 0, character: 0 } });
+    assert.equal(of(seen, "changed").length, 1, "whoever has closed it hears nothing");
+  }));
+
+test("what is pressed is selected in the text, and the cursor's item in the drawing", () =>
+  serving(async (talk) => {
+    const seen = drawn(talk);
+    await seen.drawing.receive({ kind: "ready" });
+    await seen.drawing.receive({ kind: "select", part: { item: "Patrol.back" } });
+    const [{ range, focus }] = seen.revealed as [Seen["revealed"][0]];
+    assert.deepEqual([range.start.line, focus], [8, false]);
+    await seen.drawing.cursor(range.start);
+    assert.deepEqual(of(seen, "select"), [], "the cursor that was sent there says nothing new");
+    await seen.drawing.cursor({ line: 5, character: 21 });
+    assert.equal(of(seen, "select")[0]?.part?.item, "Patrol.go.touch");
+    await seen.drawing.cursor(range.start);
+    assert.equal(of(seen, "select")[1]?.part?.item, "Patrol.back", "and later it may go there by itself");
+    await seen.drawing.receive({ kind: "open", part: { item: "Patrol.go", part: { kind: "exit", name: "ForwardSuccessful" } } });
+    assert.deepEqual([seen.revealed[1]?.range.start.line, seen.revealed[1]?.focus], [6, true]);
+  }));
+
+test("another plan of the file is shown, and one that is not there says so", () =>
+  serving(async (talk) => {
+    const seen = drawn(talk, "Other");
+    await seen.drawing.receive({ kind: "ready" });
+    assert.equal(of(seen, "drawing")[0]?.answer.plan, "Other");
+    await seen.drawing.receive({ kind: "plan", name: "Patrol" });
+    assert.equal(of(seen, "drawing")[1]?.answer.plan, "Patrol");
+    await seen.drawing.show("Nowhere");
+    assert.match(of(seen, "nothing")[0]?.why ?? "", /there is no plan 'Nowhere'/);
+  }, `${PLAN}\nplan Other { start go actor go: Turn { TurnSuccessful -> go } }\n`));

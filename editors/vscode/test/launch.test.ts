@@ -1,0 +1,70 @@
+// What a launch means, and that what the extension proposes can be launched: with the client that VS Code's adapters are
+// tested with, against the real adapter.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { test } from "node:test";
+import { DebugClient } from "@vscode/debugadapter-testsupport";
+import { adapterOf, argumentsOf, completed, launchOf, programOf, type Launch } from "../src/launch";
+import { AFPC, serving } from "./server";
+
+const manifest = JSON.parse(readFileSync("package.json", "utf8"));
+const [debuggers] = manifest.contributes.debuggers;
+const open = { path: "/w/a.afp", language: "afp" };
+
+test("F5 without a file of configurations debugs the plan that is open, in real time", () => {
+  assert.deepEqual(completed({}, open), { type: "afp", request: "launch", name: "Debug the plan", program: "/w/a.afp", speed: 1 });
+  assert.equal(completed({}, null), "Open a plan first.");
+  assert.equal(completed({}, { path: "/w/afp.toml", language: "toml" }), "Open a plan first.");
+});
+
+test("a configuration says what it lacks, and may ask for all speed there is", () => {
+  assert.match(completed({ type: "afp", name: "x" }, open) as string, /needs a 'program'/);
+  assert.match(completed({ type: "afp", program: "a", log: "b" }, open) as string, /one of them/);
+  assert.equal((completed({ type: "afp", program: "a", speed: null }, open) as Launch).speed, undefined);
+  assert.equal((completed({ type: "afp", program: "a", speed: 3 }, open) as Launch).speed, 3);
+});
+
+test("a lens names the plan", () => {
+  assert.equal(launchOf("/w/a.afp", "Patrol").program, "/w/a.afp:Patrol");
+  assert.deepEqual(programOf("C:\\w\\a.afp:Patrol"), { file: "C:\\w\\a.afp", plan: "Patrol" });
+  assert.deepEqual(programOf("C:\\w\\a.afp"), { file: "C:\\w\\a.afp", plan: null });
+  assert.deepEqual(argumentsOf("run", "/w/a.afp", "Patrol"), ["run", "/w/a.afp:Patrol"]);
+  assert.deepEqual(argumentsOf("test", "/w/a.afp", "a scenario"), ["test", "/w/a.afp"]);
+});
+
+test("what can be configured is what docs/debug.md says", () => {
+  const page = readFileSync("../../docs/debug.md", "utf8");
+  const table = page.slice(page.indexOf("## What can be launched"), page.indexOf("## A run that is over"));
+  const rows = table.split("\n").filter((line) => line.startsWith("| `"));
+  const named = rows.flatMap((row) => [...row.split("|")[1]!.matchAll(/`(\w+)`/g)].map(([, name]) => name!));
+  // The token is for clients that connect.
+  const documented = named.filter((name) => name !== "token").sort();
+  assert.deepEqual(Object.keys(debuggers.configurationAttributes.launch.properties).sort(), documented);
+});
+
+for (const [nth, config] of [...debuggers.initialConfigurations, ...debuggers.configurationSnippets.slice(0, 2).map((one: { body: Launch }) => one.body)].entries()) {
+  test(`what is proposed can be launched, ${nth + 1}: ${config.name}`, () =>
+    serving(async ({ file }) => {
+      const text = JSON.stringify(config).replaceAll('"^\\"\\\\${file}\\""', '"${file}"').replaceAll("${file}", file);
+      const launch = completed(JSON.parse(text), null) as Launch;
+      // A test waits for nothing.
+      delete launch.speed;
+      const client = new DebugClient(AFPC, "", "afp");
+      const adapter = spawn(AFPC, adapterOf(launch), { stdio: ["pipe", "pipe", "inherit"] });
+      // The client would start it with one argument at most.
+      (client as unknown as { connect(from: object, to: object): void }).connect(adapter.stdout, adapter.stdin);
+      await client.initializeRequest();
+      const ready = client.waitForEvent("initialized");
+      await client.launch({ until: 2, ...launch } as never);
+      await ready;
+      const breakpoints = [{ line: 5 }];
+      const set = await client.setBreakpointsRequest({ source: { path: file }, breakpoints });
+      assert.deepEqual(set.body.breakpoints.map(({ verified, line }) => [verified, line]), [[true, 5]]);
+      const stopped = client.waitForEvent("stopped");
+      await client.configurationDoneRequest();
+      assert.equal((await stopped).body?.reason, launch.stopOnEntry ? "entry" : "breakpoint");
+      await client.disconnectRequest();
+      adapter.kill();
+    }));
+}

@@ -1,0 +1,153 @@
+"""`CarbotEnv`: one robot."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._afp import Courses, World
+from . import picture
+from .screen import Screen
+from .setting import PIXELS, STEP, Faults, Given, Setting, Start, gymnasium, steps_of
+from .tasks import ROAM, Task
+
+__all__ = ["CarbotEnv"]
+
+
+class CarbotEnv(gymnasium.Env):  # type: ignore[misc]
+    """The simulated Carbot; see `afp.gym` for actions, observations, reward and options.
+
+    `world` is a `World` or the path of its file; `None` makes up a room for each episode. `task` is a `Task` or its name;
+    `observe`, `reward` and `ends` take the place of the task's. `point` lets actions point the range sensor, `faults` break
+    in every episode. After `time_limit` seconds it is truncated; `gymnasium.make` does so by `max_episode_steps`.
+
+    `render_mode` is `rgb_array` or `human`, a window or a picture in a notebook, in real time. `view` is what it shows: the
+    room from `top`, or what the robot's own `camera` sees.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": ["human", "rgb_array"], "render_fps": round(1 / STEP)}
+
+    def __init__(
+        self,
+        world: Given = None,
+        *,
+        task: Task | str = ROAM,
+        observe: Sequence[str] | None = None,
+        reward: Mapping[str, float] | None = None,
+        ends: Sequence[str] | None = None,
+        point: bool = False,
+        faults: Faults = (),
+        time_limit: float | None = None,
+        render_mode: str | None = None,
+        view: str = "top",
+    ) -> None:
+        modes = self.metadata["render_modes"]
+        if render_mode not in (None, *modes):
+            raise ValueError(f"no render mode '{render_mode}'; there are: {', '.join(modes)}")
+        if view not in ("top", "camera"):
+            raise ValueError(f"no view '{view}'; there are: top, camera")
+        self._setting = Setting.of(world, task, observe, reward, ends, faults, point, steps_of(time_limit))
+        self._courses: Courses | None = self._setting.courses(1)
+        self.action_space, self.observation_space = self._setting.spaces(self._courses)
+        self.render_mode = render_mode
+        self._view = view
+        self._screen = Screen(STEP) if render_mode == "human" else None
+        self._start: Start | None = None
+        self._world: World | None = None
+        self._background: NDArray[np.uint8] | None = None
+
+    @property
+    def task(self) -> Task:
+        """What is to be done."""
+        return self._setting.task
+
+    @property
+    def world(self) -> World:
+        """The room of this episode."""
+        if self._start is None:
+            raise gymnasium.error.ResetNeeded("call reset() first")
+        if self._world is None:
+            self._world = self._setting.world_at(self._start)
+        return self._world
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[NDArray[np.float32], dict[str, Any]]:
+        """Puts the robot at the start of its world, or of a new one."""
+        super().reset(seed=seed)
+        courses = self._open()
+        start = self._setting.start(self.np_random, options)
+        seen = courses.reset([(0, start)])[0]
+        self._start, self._world, self._background = start, None, None
+        world, target = courses.place(0)
+        info = {**self._info(courses), "world": world}
+        if target is not None:
+            info["target"] = np.array(target)
+        self._show()
+        return seen, info
+
+    def step(self, action: Any) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
+        """Drives for 100 ms."""
+        courses = self._open()
+        if self._start is None:
+            raise gymnasium.error.ResetNeeded("call reset() before step()")
+        actions = np.asarray(action, np.float64).reshape(1, -1)
+        seen, rewards, ended, late = courses.step(actions, [])
+        self._show()
+        return seen[0], float(rewards[0]), bool(ended[0]), bool(late[0]), self._info(courses)
+
+    def render(self) -> NDArray[np.uint8] | None:
+        """The room from above, or what the camera sees; `None` where it is shown at each step, or nothing is."""
+        if self.render_mode is None:
+            gymnasium.logger.warn('render() shows nothing without render_mode="rgb_array" or "human"')
+            return None
+        if self._screen is not None:
+            self._show()
+            return None
+        return self._picture()
+
+    def close(self) -> None:
+        """Lets go of the simulation and closes the window."""
+        self._courses = self._start = None
+        if self._screen is not None:
+            self._screen.close()
+
+    def _open(self) -> Courses:
+        if self._courses is None:
+            self._courses = self._setting.courses(1)
+        return self._courses
+
+    def _show(self) -> None:
+        if self._screen is not None:
+            self._screen.show(self._picture())
+
+    def _picture(self) -> NDArray[np.uint8]:
+        courses = self._open()
+        if self._start is None:
+            raise gymnasium.error.ResetNeeded("call reset() before render()")
+        if self._view == "camera":
+            seen = _camera(courses)
+            return np.zeros((PIXELS, PIXELS, 3), np.uint8) if seen is None else seen
+        if self._background is None:
+            self._background = picture.draw(self.world, courses.place(0)[1], courses.moving(0))
+        pose = courses.info()[1][0].tolist()
+        return picture.with_robot(self._background, self.world, pose, courses.moving(0))
+
+    @staticmethod
+    def _info(courses: Courses) -> dict[str, Any]:
+        times, poses, collisions = courses.info()
+        return {"time": float(times[0]), "pose": poses[0], "collisions": int(collisions[0])}
+
+
+def _camera(courses: Courses) -> NDArray[np.uint8] | None:
+    from .._afp import AfpError
+
+    try:
+        seen: NDArray[np.uint8] | None = courses.sense(0, "camera")
+    except AfpError:
+        # A camera that is broken shows nothing.
+        return None
+    return seen

@@ -1,0 +1,104 @@
+"""Where `render_mode="human"` shows pictures: a cell of a notebook, or a window."""
+
+from __future__ import annotations
+
+import struct
+import sys
+import time
+import zlib
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .setting import gymnasium
+
+__all__ = ["Screen", "png"]
+
+ENLARGED = 2
+"""The window has so many pixels for each of the picture."""
+
+
+class Screen:
+    """Shows pictures one after the other, each for so many seconds."""
+
+    def __init__(self, seconds: float) -> None:
+        self._seconds = seconds
+        self._next = 0.0
+        self._output: Any = None
+
+    def show(self, picture: NDArray[np.uint8]) -> None:
+        """Shows a picture; waits until the one before has been seen for long enough."""
+        left = self._next - time.monotonic()
+        if left > 0:
+            time.sleep(left)
+        self._next = time.monotonic() + self._seconds
+        if self._output is None:
+            self._output = _Cell() if _in_notebook() else _Window()
+        self._output.show(picture)
+
+    def close(self) -> None:
+        """Closes the window; a cell keeps its last picture."""
+        if self._output is not None:
+            self._output.close()
+            self._output = None
+
+
+class _Cell:
+    """The output of a notebook's cell."""
+
+    def __init__(self) -> None:
+        display: Any = sys.modules["IPython"].display
+        self._handle: Any = display.display({"image/png": png(np.zeros((1, 1, 3), np.uint8))}, raw=True, display_id=True)
+
+    def show(self, picture: NDArray[np.uint8]) -> None:
+        self._handle.update({"image/png": png(picture)}, raw=True)
+
+    def close(self) -> None:
+        """It stays."""
+
+
+class _Window:
+    """A window of the system's."""
+
+    def __init__(self) -> None:
+        try:
+            import tkinter
+
+            self._window: Any = tkinter.Tk()
+        except Exception as why:
+            text = f'render_mode="human" needs a display and tkinter ({why}); take "rgb_array" where there is none'
+            raise gymnasium.error.DependencyNotInstalled(text) from why
+        self._tkinter: Any = tkinter
+        self._window.title("Carbot")
+        self._label: Any = tkinter.Label(self._window)
+        self._label.pack()
+        self._image: Any = None
+
+    def show(self, picture: NDArray[np.uint8]) -> None:
+        rows, columns, _ = picture.shape
+        image = self._tkinter.PhotoImage(data=b"P6 %d %d 255\n" % (columns, rows) + picture.tobytes(), format="PPM")
+        self._image = image.zoom(ENLARGED)
+        self._label.configure(image=self._image)
+        self._window.update()
+
+    def close(self) -> None:
+        self._window.destroy()
+
+
+def _in_notebook() -> bool:
+    shell = sys.modules["IPython"].get_ipython() if "IPython" in sys.modules else None
+    return hasattr(shell, "kernel")
+
+
+def png(picture: NDArray[np.uint8]) -> bytes:
+    """A picture as a PNG file."""
+    rows, columns, _ = picture.shape
+    # Each row begins with the number of its filter: none.
+    raw = np.hstack([np.zeros((rows, 1), np.uint8), picture.reshape(rows, -1)]).tobytes()
+
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    head = struct.pack(">IIBBBBB", columns, rows, 8, 2, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(raw, 1)) + chunk(b"IEND", b"")

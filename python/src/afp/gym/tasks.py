@@ -1,0 +1,100 @@
+"""Tasks for whoever learns to drive: what is seen, what it is worth, when it is over."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+__all__ = ["FIND_INFRARED", "REACH_GOAL", "ROAM", "TASKS", "WALL_FOLLOW", "Task", "task_of"]
+
+FAN = tuple(math.radians(bearing) for bearing in (-90.0, -45.0, 0.0))
+"""Where the range sensor looks in turns where a wall at the right counts, radians."""
+AROUND = tuple(math.radians(bearing) for bearing in (-60.0, 0.0, 60.0))
+"""Where it looks in turns where what is ahead counts."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """A task. `reward`, `ends` and `observe` have the names of `afp.gym`."""
+
+    name: str
+    """Its name."""
+    reward: Mapping[str, float]
+    """What each term weighs."""
+    ends: tuple[str, ...] = ("crash",)
+    """The terms that end an episode."""
+    observe: tuple[str, ...] = ("distance", "odometry", "bumper")
+    """What is observed."""
+    reach: str | None = None
+    """What there is to reach: `light`, `goal`, or nothing."""
+    fan: tuple[float, ...] = FAN
+    """Where the range sensor looks in turns if the fan is observed, radians to the left."""
+    seconds: float = 60.0
+    """How long an episode lasts at most."""
+    plan: str | None = None
+    """The plan written by hand for it, a file of the package's."""
+
+    def __reduce__(self) -> tuple[object, ...]:
+        # A mapping that cannot be changed cannot be pickled.
+        parts = (self.name, dict(self.reward), self.ends, self.observe, self.reach, self.fan, self.seconds, self.plan)
+        return Task, parts
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "reward", MappingProxyType(dict(self.reward)))
+
+
+ROAM = Task("Roam", {"ahead": 1.0, "crash": -10.0})
+"""Get as far as possible through a room without running into anything."""
+
+WALL_FOLLOW = Task(
+    "WallFollow",
+    {"wall": 1.0, "crash": -1.0},
+    ends=(),
+    observe=("fan", "motion", "bumper"),
+    plan="wall_following.afp",
+)
+"""Get ahead along a wall, 30 cm to the left of it; a touch costs as much as a metre is worth."""
+
+FIND_INFRARED = Task(
+    "FindInfrared",
+    {"nearer": 1.0, "reached": 10.0, "crash": -1.0},
+    ends=("reached",),
+    observe=("glow", "fan", "motion", "bumper"),
+    reach="light",
+    fan=AROUND,
+    plan="find_infrared.afp",
+)
+"""Find the infrared beacon and get to within half a metre of it."""
+
+REACH_GOAL = Task(
+    "ReachGoal",
+    {"nearer": 1.0, "reached": 10.0, "crash": -1.0},
+    ends=("reached",),
+    observe=("target", "fan", "motion", "bumper"),
+    reach="goal",
+    fan=AROUND,
+    plan="reach_goal.afp",
+)
+"""Drive to a place of which the odometry says where it is, to within 30 cm."""
+
+TASKS: Mapping[str, Task] = MappingProxyType(
+    {
+        "afp/Carbot-v0": ROAM,
+        "afp/CarbotWallFollow-v0": WALL_FOLLOW,
+        "afp/CarbotFindInfrared-v0": FIND_INFRARED,
+        "afp/CarbotReachGoal-v0": REACH_GOAL,
+    }
+)
+"""The tasks by the names of their environments."""
+
+
+def task_of(task: Task | str) -> Task:
+    """A task, or the one of that name."""
+    if isinstance(task, Task):
+        return task
+    names = {known.name: known for known in TASKS.values()}
+    if task not in names:
+        raise ValueError(f"no task '{task}'; there are: {', '.join(names)}")
+    return names[task]

@@ -1,0 +1,37 @@
+"""`Picture`: a drawing that a notebook shows and a file keeps."""
+
+from __future__ import annotations
+
+import os
+
+__all__ = ["Picture"]
+
+
+class Picture:
+    """A drawing as SVG."""
+
+    svg: str
+    """Its text."""
+
+    def __init__(self, svg: str) -> None:
+        self.svg = svg
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes it as an SVG file."""
+        ending = os.path.splitext(os.fspath(path))[1].lower()
+        if ending not in ("", ".svg"):
+            raise ValueError(f"a picture is saved as .svg, not as '{ending}'; 'afpc log' and 'afpc graph' write .png")
+        with open(path, "w", encoding="utf-8", newline="\n") as file:
+            file.write(self.svg)
+
+    def _repr_svg_(self) -> str:
+        return self.svg
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Picture) and other.svg == self.svg
+
+    def __hash__(self) -> int:
+        return hash(self.svg)
+
+    def __repr__(self) -> str:
+        return f"<Picture, {len(self.svg) / 1000:.0f} kB of SVG>"

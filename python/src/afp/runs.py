@@ -1,0 +1,200 @@
+"""The outcomes of a sweep as a table that can be cut, drawn and followed back to its runs."""
+
+from __future__ import annotations
+
+import html
+import json
+import operator
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Any, overload
+
+from . import plots, tables
+from ._afp import Plan, Sweeper, alike
+from .result import Result
+from .simulation import Simulation
+from .units import UNITS
+
+__all__ = ["Runs"]
+
+
+class Runs:
+    """The outcomes of a sweep, a row for each run: `runs[3]` is a row, `runs[:10]` and `runs.where(ending="ok")` are others."""
+
+    columns: dict[str, list[Any]]
+    """The table by column: `run`, `world`, `seed`, what was varied (numbers in SI units as `..._si` too), `ending`,
+    `where`, `why`, measures and metrics, `trace`, `command` (the line that reproduces the run), `took_s`."""
+
+    def __init__(
+        self,
+        plan: str,
+        columns: dict[str, list[Any]],
+        kinds: dict[str, str],
+        units: Mapping[str, str],
+        again: _Again | None = None,
+    ) -> None:
+        self.plan = plan
+        self.columns = columns
+        self._kinds = kinds
+        self._units = units
+        self._again = again
+
+    @classmethod
+    def of(cls, plan: Plan, sweeper: Sweeper, until: float) -> Runs:
+        """What a sweep has done so far."""
+        table = sweeper.columns()
+        columns = {name: cells for name, (cells, _) in table.items()}
+        kinds = {name: kind for name, (_, kind) in table.items()}
+        types = {entry["name"]: entry["type"] for entry in json.loads(plan.json()).get("entries", [])}
+        units = {name: UNITS[type] for name, type in types.items() if type in UNITS}
+        return cls(plan.name, columns, kinds, units, _Again(plan, sweeper, until))
+
+    def __len__(self) -> int:
+        return len(self.columns["run"])
+
+    @overload
+    def __getitem__(self, row: int) -> dict[str, Any]: ...
+
+    @overload
+    def __getitem__(self, row: slice) -> Runs: ...
+
+    def __getitem__(self, row: int | slice) -> dict[str, Any] | Runs:
+        if isinstance(row, slice):
+            return self._only(range(len(self))[row])
+        return {name: cells[row] for name, cells in self.columns.items()}
+
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        return (self[row] for row in range(len(self)))
+
+    def where(self, columns: Mapping[str, Any] | None = None, /, **more: Any) -> Runs:
+        """The runs with these values in these columns: `where(ending="error", seed=3)`.
+
+        Columns whose names are no names of Python go into a dictionary: `where({"world.robot.charge": "0.5"})`.
+        """
+        wanted = {**(columns or {}), **more}
+        for name in wanted:
+            self._column(name)
+        return self.filter(lambda row: all(row[name] == value for name, value in wanted.items()))
+
+    def filter(self, keep: Callable[[dict[str, Any]], Any]) -> Runs:
+        """The runs for whose rows `keep` is true."""
+        return self._only(number for number, row in enumerate(self) if keep(row))
+
+    def _only(self, rows: Iterable[int]) -> Runs:
+        these = list(rows)
+        columns = {name: [cells[row] for row in these] for name, cells in self.columns.items()}
+        return Runs(self.plan, columns, self._kinds, self._units, self._again)
+
+    def _column(self, name: str) -> list[Any]:
+        if name not in self.columns:
+            raise KeyError(f"no column '{name}'; there are: {', '.join(self.columns)}")
+        return self.columns[name]
+
+    @property
+    def endings(self) -> dict[str, int]:
+        """How many runs ended in each way."""
+        endings = self.columns["ending"]
+        return {ending: endings.count(ending) for ending in dict.fromkeys(endings)}
+
+    @property
+    def groups(self) -> list[dict[str, Any]]:
+        """Runs that ended alike: `ending`, `where`, `why`, `count`, and the `run` that was the first; failures last."""
+        of = self.columns
+        groups = alike(list(zip(of["ending"], of["where"], of["why"], of["run"], strict=True)))
+        return [dict(zip(("ending", "where", "why", "count", "run"), group, strict=True)) for group in groups]
+
+    # The runs themselves
+
+    def simulation(self, row: int) -> Simulation:
+        """The run of a row about to begin again, to be watched, drawn or driven otherwise."""
+        if self._again is None:
+            raise RuntimeError("runs that were pickled are a table only: sweep again, or make the simulation from the row")
+        return self._again.simulation(self.columns["run"][operator.index(row)], self.columns["seed"][row])
+
+    def result(self, row: int) -> Result:
+        """The run of a row done again: its path, events and entries, which a table has no place for."""
+        simulation = self.simulation(row)
+        assert self._again is not None
+        return simulation.run(self._again.until)
+
+    # Tables
+
+    def to_pandas(self) -> Any:
+        """The table as a pandas data frame; needs pandas."""
+        kinds = {"count": "uint64", "number": "float64", "text": "string"}
+        types = {name: kinds[kind] for name, kind in self._kinds.items()}
+        return tables.need("pandas").DataFrame(self.columns).astype(types)
+
+    def to_polars(self) -> Any:
+        """The table as a polars data frame; needs polars."""
+        polars = tables.need("polars")
+        types = {"count": polars.UInt64, "number": polars.Float64, "text": polars.String}
+        return polars.DataFrame(self.columns, schema={name: types[kind] for name, kind in self._kinds.items()})
+
+    def to_arrow(self) -> Any:
+        """The table as an Arrow table; needs pyarrow."""
+        arrow = tables.need("pyarrow")
+        types = {"count": arrow.uint64(), "number": arrow.float64(), "text": arrow.string()}
+        schema = arrow.schema([(name, types[kind]) for name, kind in self._kinds.items()])
+        return arrow.table(self.columns, schema=schema)
+
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
+        """The table for whatever reads Arrow; needs pyarrow."""
+        return self.to_arrow().__arrow_c_stream__(requested_schema)
+
+    # Pictures
+
+    def plot(self, x: str, y: str = "time_s", ax: Any = None) -> Any:
+        """Draws a measure of each run over what was varied; needs matplotlib."""
+        x = self._number(x)
+        return plots.runs(self._column(x), self._column(y), self.columns["ending"], (self._label(x), self._label(y), self.plan), ax)
+
+    def plot_map(self, x: str, y: str, value: str = "ending", ax: Any = None) -> Any:
+        """Draws a map over two things that were varied; needs matplotlib.
+
+        `value` is a measure, whose mean each cell shows, or a column of texts: then a cell has the colour of the text that
+        most of its runs have, and says which share of them has it.
+        """
+        names = (self._number(x), self._number(y), value)
+        cells: dict[tuple[Any, Any], list[Any]] = {}
+        for at_x, at_y, found in zip(*(self._column(name) for name in names), strict=True):
+            cells.setdefault((at_x, at_y), []).append(found)
+        return plots.outcome_map(cells, self._kinds[value] == "text", (*map(self._label, names), self.plan), ax)  # type: ignore[arg-type]
+
+    def _label(self, column: str) -> str:
+        return plots.label(column, self._units)
+
+    def _number(self, column: str) -> str:
+        """The column of the numbers of what was varied, where it has numbers."""
+        return f"{column}_si" if f"{column}_si" in self.columns else column
+
+    # As they are shown
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_again": None}
+
+    def __repr__(self) -> str:
+        endings = ", ".join(f"{count} {ending}" for ending, count in self.endings.items())
+        return f"<Runs of {self.plan}: {endings or 'none'}>"
+
+    def _repr_html_(self) -> str:
+        commands = dict(zip(self.columns["run"], self.columns["command"], strict=True))
+        heads = ("count", "ending", "where", "why", "the first")
+        lines = [
+            [*(str(group[key]) for key in heads[:-1]), str(commands[group["run"]])] for group in self.groups
+        ]
+        cells = ["".join(f"<td>{html.escape(cell)}</td>" for cell in line) for line in lines]
+        head = "".join(f"<th>{head}</th>" for head in ("runs", *heads[1:]))
+        return f"<table><tr>{head}</tr>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>"
+
+
+class _Again:
+    """Makes runs of a sweep again."""
+
+    def __init__(self, plan: Plan, sweeper: Sweeper, until: float) -> None:
+        self.until = until
+        self._plan = plan
+        self._sweeper = sweeper
+
+    def simulation(self, run: int, seed: int) -> Simulation:
+        runner, world = self._sweeper.runner(run)
+        return Simulation._of(runner, self._plan, world, seed)

@@ -1,0 +1,94 @@
+"""Moments that are saved, and simulations that are read while another thread drives them."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+import threading
+import time
+from pathlib import Path
+
+import pytest
+
+import afp
+
+STOPPED = 20.0
+
+
+def hash_at_the_end(simulation: afp.Simulation) -> str:
+    return simulation.run(STOPPED).trace_hash
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("at", [0.0, 1.234, 7.5])
+def test_a_run_goes_on_from_a_moment_as_it_would_have(wall_following: afp.Plan, seed: int, at: float) -> None:
+    whole = afp.Simulation(wall_following, seed=seed)
+    whole.bump(at=9.0)
+    wanted = whole.run(STOPPED)
+    simulation = afp.Simulation(wall_following, whole.world, seed=seed)
+    simulation.bump(at=9.0)
+    simulation.run_to(at)
+    saved, twin = simulation.save(), simulation.clone()
+    first = simulation.run(STOPPED)
+    assert saved.time == twin.time < first.time
+    simulation.restore(saved)
+    assert simulation.time == saved.time and simulation.ending == "running"
+    again = simulation.run(STOPPED)
+    for result in (first, again, twin.run(STOPPED), copy.copy(whole).result()):
+        assert result.trace_hash == wanted.trace_hash
+        assert result.timeline == wanted.timeline and (result.path == wanted.path).all()
+
+
+def test_a_moment_may_lead_to_several_futures(wall_following: afp.Plan) -> None:
+    simulation = afp.Simulation(wall_following, seed=1)
+    simulation.run_to(2.0)
+    saved = simulation.save()
+    hashes = []
+    for at in (3.0, 4.0):
+        simulation.restore(saved)
+        simulation.bump(at=at)
+        hashes.append(hash_at_the_end(simulation))
+    assert len(set(hashes)) == 2
+
+
+def test_what_cannot_be_saved_or_restored_says_why(wall_following: afp.Plan, tmp_path: Path) -> None:
+    simulation = afp.Simulation(wall_following)
+    saved = simulation.save()
+    assert "Snapshot of WallFollowing" in repr(saved) and "at 0.000 s" in repr(saved)
+    with pytest.raises(TypeError, match="cannot be pickled"):
+        pickle.dumps(saved)
+    with pytest.raises(TypeError, match="from what save"):
+        simulation.restore(simulation)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="of another simulation"):
+        afp.Simulation(wall_following, simulation.world, seed=1).restore(saved)
+    with afp.Simulation(wall_following, simulation.world, log=tmp_path / "a.mcap") as logged:
+        with pytest.raises(RuntimeError, match="log, which cannot be taken back"):
+            logged.restore(saved)
+    tools = afp.Toolbox("tools")
+
+    @tools.actor(states=["Done"])
+    class Waits:
+        def poll(self) -> None: ...
+
+    plan = afp.Plan("use tools plan P { start go actor go: Waits { Done -> terminate } }", toolboxes=[tools])
+    driven = afp.Simulation(plan)
+    driven.run_to(0.1)
+    with pytest.raises(afp.AfpError, match="cannot be copied"):
+        driven.save()
+
+
+def test_others_read_while_one_drives(wall_following: afp.Plan) -> None:
+    simulation = afp.Simulation(wall_following, seed=3)
+    driving = threading.Thread(target=lambda: simulation.run(5000.0))
+    driving.start()
+    times = [0.0]
+    while driving.is_alive() and len(times) < 50:
+        times.append(simulation.time)
+        assert len(simulation.pose) == 3 and simulation.ending in ("running", "interrupted", "ok")
+        assert simulation.active is None or isinstance(simulation.active, str)
+        assert repr(simulation).startswith("<Simulation of WallFollowing in ")
+        time.sleep(0.005)
+    simulation.request_stop()
+    driving.join()
+    assert times == sorted(times) and times[-1] > 0.0
+    assert simulation.time >= times[-1]

@@ -1,0 +1,76 @@
+// The book inside the page: what a code of a problem means, with the example that has the mistake and the one that has not; and
+// all that there is to say of a template.
+import { signal } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+import { current, text } from "./documents";
+import { templateAt } from "./drawing/anatomy";
+import { nodes } from "./markdown";
+import { report } from "./panes/files";
+import { spanOf } from "./places";
+import { offset, position } from "./positions";
+import { lsp } from "./session";
+import { words } from "./words";
+
+/** The page that is open. */
+const page = signal<{ title: string; text: string } | null>(null);
+
+/** Opens the page of a code. */
+async function explain(code: string): Promise<void> {
+  try {
+    const { text } = await lsp().request<{ text: string }>("afp/explain", { code });
+    page.value = { title: words.meaning(code), text };
+  } catch (why) {
+    report(why);
+  }
+}
+
+/** Opens what there is to say of the template of an element or supervisor: its ports, states and bounds. */
+async function explainTemplate(item: string, template: string): Promise<void> {
+  const uri = current.peek();
+  try {
+    const range = await spanOf(uri, { item });
+    const whole = text(uri);
+    const from = range && offset(whole, range.start);
+    const at = from === null ? null : templateAt(whole.slice(from));
+    if (from === null || at === null) return;
+    type Answer = { contents: { value: string } };
+    const found = await lsp().request<Answer | null>("textDocument/hover", { textDocument: { uri }, position: position(whole, from + at) });
+    if (found) page.value = { title: words.about(template), text: found.contents.value };
+  } catch (why) {
+    report(why);
+  }
+}
+
+/** The code of a problem, which opens its page. */
+export const Code = ({ of: code }: { of: string }) => (
+  <button type="button" class="code" aria-label={words.meaning(code)} title={words.meaning(code)} onClick={() => void explain(code)}>{code}</button>
+);
+
+/** Opens the page of the template of an item. */
+export const AllAbout = ({ item, template }: { item: string; template: string }) => (
+  <button type="button" class="quiet" onClick={() => void explainTemplate(item, template)}>{words.about(template)}</button>
+);
+
+export function Book() {
+  return page.value && <Page of={page.value} key={page.value.title} />;
+}
+
+function Page({ of: { title, text } }: { of: { title: string; text: string } }) {
+  const dialog = useRef<HTMLDialogElement>(null);
+  const body = useRef<HTMLDivElement>(null);
+  const close = (): void => void (page.value = null);
+  useEffect(() => {
+    const before = document.activeElement;
+    body.current!.replaceChildren(nodes(text));
+    dialog.current!.showModal();
+    return () => before instanceof HTMLElement && before.focus();
+  }, []);
+  return (
+    <dialog class="book" ref={dialog} aria-label={title} onCancel={close}>
+      <div class="book-page" ref={body} tabIndex={0} />
+      <div class="choices">
+        <button class="main" onClick={close}>{words.closePage}</button>
+      </div>
+    </dialog>
+  );
+}

@@ -1,0 +1,36 @@
+// Logs of runs that are over: opened like runs, with the plan that ran, where the folder has it.
+import { effect } from "@preact/signals";
+import { drawing, trail, wanted } from "../drawing/model";
+import { show } from "../panes/files";
+import { show as showPane } from "../layout";
+import { files } from "../session";
+import { launched, openLog, pathOf, phase, seek } from "./run";
+
+/** Shows a log at a moment of it. */
+export async function openLogAt(uri: string, at: number): Promise<void> {
+  await showLog(uri);
+  await begun();
+  seek(at);
+}
+
+/** Waits until a run stands still or goes on, or has failed to. */
+const begun = (): Promise<void> =>
+  new Promise((done) => {
+    const ends = effect(() => {
+      if (phase.value === "starting") return;
+      queueMicrotask(() => ends());
+      done();
+    });
+  });
+
+/** Shows a log and its plan. */
+export async function showLog(uri: string): Promise<void> {
+  await openLog(pathOf(uri));
+  const begun = launched.peek();
+  if (!begun) return;
+  showPane("timeline");
+  const file = files.peek().find((each) => pathOf(each.uri) === begun.file);
+  if (!file) return;
+  await show(file.uri);
+  if (drawing.peek()?.plan !== begun.plan) [trail.value, wanted.value] = [[], begun.plan];
+}

@@ -1,0 +1,39 @@
+// What a debugger tells of a run.
+
+export type Phase = "idle" | "starting" | "running" | "held" | "over";
+
+export interface Forced {
+  path: string;
+  value?: string;
+  /** Seconds of the run. */
+  until: number;
+}
+
+/** What is the case, as the debugger says it some twenty times a second. */
+export interface State {
+  at: number;
+  stack: string[];
+  watching: string[];
+  entries: Record<string, string>;
+  held: boolean;
+  /** Where the robot is, metres and radians; null for one that does not say so. */
+  pose: readonly [number, number, number] | null;
+  /** What is held in place, and until when; without a value it is a state or event. */
+  forced: readonly Forced[];
+  /** Where things are that move, by their ids. */
+  moving: readonly { id: string; outline: readonly (readonly [number, number])[] }[];
+}
+
+export interface Ended {
+  ending: string;
+  at: number;
+  sentences: string[];
+}
+
+/** A line of what happened, and where the text says so. */
+export interface Said {
+  text: string;
+  kind: string;
+  path: string | null;
+  line: number;
+}

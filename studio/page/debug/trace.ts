@@ -1,0 +1,136 @@
+// What has happened in a run, kept as records for the timeline: rows of what was active, what watched, what was written.
+
+export interface Record {
+  at: number;
+  step: number;
+  kind: string;
+  path: string;
+  text: string;
+  /** Whether it is about a supervisor. */
+  supervisor?: boolean;
+  entry?: string;
+  value?: string;
+}
+
+export interface Bar {
+  from: number;
+  /** Where it ends; null while it lasts. */
+  to: number | null;
+  label: string;
+}
+
+export interface Mark {
+  at: number;
+  label: string;
+}
+
+export interface Row {
+  /** What it is about: the flow of a plan, a supervisor, an entry, deadlines. */
+  kind: "flow" | "supervisor" | "entry" | "misses";
+  name: string;
+  bars: Bar[];
+  marks: Mark[];
+}
+
+/** Records that are kept; the oldest go first. */
+const MOST = 50_000;
+
+/** The records after some more have come. A run that was moved back and goes on alike changes nothing; one that goes on in
+ * another way takes the place of what had happened from there on. */
+export function extended(before: readonly Record[], more: readonly Record[]): readonly Record[] {
+  const first = more[0];
+  if (!first) return before;
+  const known = (before.at(-1)?.step ?? -1) < first.step ? before.length : before.findIndex(({ step }) => step >= first.step);
+  const alike = more.every((record, at) => !before[known + at] || same(record, before[known + at]!));
+  if (alike && known + more.length <= before.length) return before;
+  return [...before.slice(0, known), ...more].slice(-MOST);
+}
+
+const same = (one: Record, other: Record): boolean => one.step === other.step && one.kind === other.kind && one.path === other.path && one.text === other.text;
+
+/** What ends what was active. */
+const ENDS = ["finished", "interrupted", "diverted", "ended"];
+
+/** Of an element, the plan that it is in. */
+const planOf = (path: string): string => path.split(".").slice(0, -1).join(".");
+const nameOf = (path: string): string => path.split(".").at(-1)!;
+
+/** Rows for all records: plans first, outermost first, then supervisors, entries, missed deadlines. */
+export function rows(records: readonly Record[]): Row[] {
+  const all = new Map<string, Row>();
+  const row = (kind: Row["kind"], name: string): Row => {
+    const key = `${kind} ${name}`;
+    const found = all.get(key) ?? { kind, name, bars: [], marks: [] };
+    all.set(key, found);
+    return found;
+  };
+  for (const record of records) {
+    const { kind, path, at, text } = record;
+    if (kind === "committed" && record.entry !== undefined) row("entry", record.entry).marks.push({ at, label: record.value ?? "" });
+    else if (kind === "missed") row("misses", "").marks.push({ at, label: text });
+    else if (path) follow(record, record.supervisor ? row("supervisor", path) : row("flow", planOf(path)));
+    if (ENDS.includes(kind)) for (const [, inner] of all) if (inner.name.startsWith(`${path}.`) || (inner.name === path && inner.kind === "flow")) close(inner, at);
+  }
+  const order = ["flow", "supervisor", "entry", "misses"];
+  return [...all.values()].filter(({ bars, marks }) => bars.length + marks.length).sort((a, b) => order.indexOf(a.kind) - order.indexOf(b.kind) || depth(a) - depth(b));
+}
+
+const depth = ({ kind, name }: Row): number => (kind === "flow" && name ? name.split(".").length : 0);
+
+function follow({ kind, path, at, text }: Record, row: Row): void {
+  const label = nameOf(path);
+  if (kind === "started") row.bars.push({ from: at, to: null, label });
+  else if (kind === "event" || kind === "faulted") row.marks.push({ at, label: text });
+  if (ENDS.includes(kind)) {
+    const open = row.bars.findLast((bar) => bar.to === null && bar.label === label);
+    if (open) open.to = at;
+  }
+}
+
+/** What watches or runs inside of an element ends with it. */
+function close({ bars }: Row, at: number): void {
+  const open = bars.at(-1);
+  if (open?.to === null) open.to = at;
+}
+
+/** The moments at which something happened, in order, each once. */
+export const moments = (records: readonly Record[]): number[] => [...new Set(records.map(({ at }) => at))].sort((a, b) => a - b);
+
+/** The moment before or after another one; null where there is none. */
+export function beside(all: readonly number[], at: number, by: -1 | 1): number | null {
+  const near = 1e-6;
+  const found = by > 0 ? all.find((each) => each > at + near) : all.findLast((each) => each < at - near);
+  return found ?? null;
+}
+
+/** The part of a run that is in sight: seconds. */
+export interface Window {
+  from: number;
+  to: number;
+}
+
+/** Seconds that are in sight at least. */
+const LEAST = 0.05;
+
+/** The window zoomed around a moment, within the run. */
+export function zoomed({ from, to }: Window, around: number, factor: number, end: number): Window {
+  const length = Math.max(LEAST, Math.min((to - from) * factor, Math.max(end, LEAST)));
+  const share = to > from ? (around - from) / (to - from) : 0;
+  return within({ from: around - share * length, to: around - share * length + length }, end);
+}
+
+/** The window moved so that it lies within the run. */
+export function within({ from, to }: Window, end: number): Window {
+  const length = to - from;
+  const begin = Math.max(0, Math.min(from, Math.max(0, end - length)));
+  return { from: begin, to: begin + length };
+}
+
+/** Where lines of a scale stand: some eight of them, at round seconds. */
+export function scale({ from, to }: Window): number[] {
+  const rough = (to - from) / 8;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((each) => each * power).find((each) => each >= rough)!;
+  const first = Math.ceil(from / step);
+  return Array.from({ length: Math.floor(to / step) - first + 1 }, (_, at) => Number(((first + at) * step).toFixed(9)));
+}

@@ -1,0 +1,68 @@
+// The whole drawing in a corner, with a frame around what is in sight: pressed or dragged, it shows what is there.
+import { computed } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+import { step } from "../guide";
+import { colours } from "./far";
+import { drawing } from "./model";
+import { paint } from "./paint";
+import { size, view } from "./stage";
+import { centred, fitted, sight, toPane, toPlan } from "./view";
+
+/** In CSS pixels. */
+const MAP = { width: 168, height: 112 };
+/** A pane that is smaller needs its room for the drawing. */
+const LEAST = { width: 560, height: 400 };
+
+/** The whole plan in the map. */
+const whole = computed(() => fitted(drawing.value?.bounds ?? [0, 0, 1, 1], MAP, 0, 4));
+
+/** Whether something of the drawing is out of sight, and there is room for the map. */
+const needed = computed(() => {
+  const drawn = drawing.value;
+  // The card of the guide stands there.
+  if (!drawn?.plan || step.value !== null || size.value.width < LEAST.width || size.value.height < LEAST.height) return false;
+  const [x, y, width, height] = sight(view.value, size.value);
+  const [left, top, wide, high] = drawn.bounds;
+  return left < x || top < y || left + wide > x + width || top + high > y + height;
+});
+
+export function Minimap() {
+  return needed.value ? <Map /> : null;
+}
+
+function Map() {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  useEffect(() => {
+    if (canvas.current && drawing.value && colours.value) paint(canvas.current, drawing.value, whole.value, MAP, colours.value);
+  }, [drawing.value, colours.value, whole.value]);
+  const go = (event: PointerEvent & { currentTarget: HTMLElement }): void => {
+    const { left, top } = event.currentTarget.getBoundingClientRect();
+    view.value = centred(view.peek(), toPlan(whole.peek(), [event.clientX - left, event.clientY - top]), size.peek());
+  };
+  const down = (event: PointerEvent & { currentTarget: HTMLElement }): void => {
+    event.currentTarget.setPointerCapture(event.pointerId);
+    go(event);
+  };
+  const move = (event: PointerEvent & { currentTarget: HTMLElement }): void => {
+    if (event.buttons & 1) go(event);
+  };
+  return (
+    <div class="over minimap" aria-hidden="true" onPointerDown={down} onPointerMove={move}>
+      <canvas ref={canvas} />
+      <Frame />
+    </div>
+  );
+}
+
+/** What is in sight. */
+function Frame() {
+  const [x, y, width, height] = sight(view.value, size.value);
+  const [left, top] = toPane(whole.value, [x, y]);
+  const [right, bottom] = toPane(whole.value, [x + width, y + height]);
+  const place = (node: HTMLElement | null): void => {
+    node?.style.setProperty("transform", `translate(${left}px, ${top}px)`);
+    node?.style.setProperty("width", `${right - left}px`);
+    node?.style.setProperty("height", `${bottom - top}px`);
+  };
+  return <div class="minimap-frame" ref={place} />;
+}

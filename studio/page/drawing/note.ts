@@ -1,0 +1,25 @@
+// The note of an item, the comment above it, while it is written; `notefield.tsx` shows the field.
+import { signal } from "@preact/signals";
+import * as actions from "./actions";
+import * as ask from "./ask";
+import { refuse } from "./say";
+import type { Point } from "./shapes";
+import { words } from "./words";
+
+export const noting = signal<{ item: string; text: string; at: Point | null } | null>(null);
+
+/** Opens the note of what is selected; of a part, that of its item. */
+export async function write(): Promise<void> {
+  const part = actions.focused();
+  if (!part) return refuse(words.selectFirst);
+  const { item } = part;
+  const text = await ask.note(item).catch(() => null);
+  if (text !== null) noting.value = { item, text, at: actions.below({ item }) };
+}
+
+/** Takes a note over, unless it says what it said. */
+export async function take(text: string): Promise<void> {
+  const before = noting.peek();
+  noting.value = null;
+  if (before && text.trimEnd() !== before.text) await ask.edit([{ setNote: { item: before.item, text: text.trimEnd() } }], {}, [{ item: before.item }]);
+}

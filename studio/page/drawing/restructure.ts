@@ -1,0 +1,54 @@
+// Elements into a plan of their own, and the elements of a plan in place of it.
+import { askLine } from "../dialogs";
+import { select, selected } from "../selection";
+import * as actions from "./actions";
+import * as ask from "./ask";
+import { taken } from "./offers";
+import { isName } from "./rename";
+import { refuse } from "./say";
+import { holderOf, nameOf } from "./shapes";
+import { words } from "./words";
+
+/** The elements that are selected: of a supervisor, the one that it belongs to. */
+export function chosen(): string[] {
+  const at = actions.here();
+  const found = at ? selected.peek().map((part) => holderOf(at.drawn, part.item)) : [];
+  return [...new Set(found.flatMap((element) => (element && element.kind !== null ? [element.item] : [])))];
+}
+
+/** A name that is free: the one that is wished for, or with the least number behind it. */
+function free(wished: string, names: ReadonlySet<string>): string {
+  for (let nth = 1; ; nth++) {
+    const name = nth === 1 ? wished : `${wished}${nth}`;
+    if (!names.has(name)) return name;
+  }
+}
+
+/** Makes a plan of the selected elements and puts a sub-plan in their place. */
+export async function extract(): Promise<void> {
+  const at = actions.here();
+  const elements = chosen();
+  if (!at || elements.length === 0) return refuse(words.selectFirst);
+  const plans = new Set(at.drawn.plans);
+  const wrong = (name: string): string | null => (!isName(name) ? words.nameHint : plans.has(name) ? words.planTaken(name) : null);
+  const newPlan = await askLine(words.extract, words.extractHint(elements.length), free("Part", plans), words.extractDone, wrong);
+  if (newPlan === null) return;
+  const element = free(newPlan.charAt(0).toLowerCase() + newPlan.slice(1), taken(at.drawn));
+  await ask.edit([{ extract: { plan: at.plan, elements: elements.map(nameOf), newPlan, element } }], {}, [{ item: `${at.plan}.${element}` }]);
+}
+
+/** Whether one sub-plan is selected. */
+export function isSubPlan(): boolean {
+  const [item, more] = chosen();
+  return item !== undefined && more === undefined && actions.here()?.drawn.elements.get(item)?.plan != null;
+}
+
+/** Puts the elements of the selected sub-plan in its place. */
+export async function inline(): Promise<void> {
+  const at = actions.here();
+  const [item] = chosen();
+  if (!at || !item || !isSubPlan()) return refuse(words.noSubPlan);
+  const before = new Set(at.drawn.elements.keys());
+  if (!(await ask.edit([{ inline: { plan: at.plan, element: nameOf(item) } }], {}, []))) return;
+  select([...(actions.here()?.drawn.elements.keys() ?? [])].filter((known) => !before.has(known)).map((item) => ({ item })), "drawing");
+}

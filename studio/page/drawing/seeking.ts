@@ -1,0 +1,55 @@
+// What is looked for in the drawing: the parts whose names or texts hold it, one after the other selected.
+import { computed } from "@preact/signals";
+import { select, selected } from "../selection";
+import { sought } from "../seek";
+import { drawing } from "./model";
+import { reading } from "./navigate";
+import { reveal } from "./reveal";
+import { say, spoken } from "./say";
+import { nameOf, same, type Drawing, type Element, type Part } from "./shapes";
+import { words } from "./words";
+
+const texts = new WeakMap<Element, string>();
+
+/** Everything that stands in an element, in small letters. */
+function textOf(element: Element): string {
+  const known = texts.get(element);
+  if (known !== undefined) return known;
+  const text = `${nameOf(element.item)} ${element.svg.replace(/<[^>]*>/g, " ")}`.toLowerCase();
+  texts.set(element, text);
+  return text;
+}
+
+/** The parts of an element whose names hold a text in small letters; the element, where it is told by something else. */
+function within(element: Element, wanted: string): Part[] {
+  if (!textOf(element).includes(wanted)) return [];
+  const named = element.pieces.filter(({ item, part }) => (part.kind === "whole" ? nameOf(item) : (part.name ?? "")).toLowerCase().includes(wanted));
+  const parts = named.map(({ item, part }): Part => (part.kind === "whole" ? { item } : { item, part }));
+  return parts.length ? parts : [{ item: element.item }];
+}
+
+/** The parts of a drawing that hold a text, in reading order. */
+export function found(drawing: Drawing, text: string): Part[] {
+  const wanted = text.trim().toLowerCase();
+  return wanted ? reading(drawing).flatMap((element) => within(element, wanted)) : [];
+}
+
+export const hits = computed(() => (drawing.value && sought.value !== null ? found(drawing.value, sought.value) : []));
+
+/** Which of the hits is selected; -1 for none. */
+export const nth = computed(() => {
+  const last = selected.value.at(-1);
+  return last ? hits.value.findIndex((hit) => same(hit, last)) : -1;
+});
+
+/** Selects the next hit, or the one before. */
+export function next(by: 1 | -1): void {
+  const all = hits.peek();
+  const drawn = drawing.peek();
+  const at = nth.peek();
+  const to = all[(at < 0 ? (by === 1 ? 0 : all.length - 1) : at + by + all.length) % all.length];
+  if (!to || !drawn) return say(words.nothingFound);
+  select([to], "drawing");
+  reveal(to);
+  say(spoken(drawn, to));
+}

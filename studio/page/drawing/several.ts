@@ -1,0 +1,11 @@
+// Selecting several things with a finger: while it is on, taps add to the selection and a drag of the ground draws a box.
+import { signal } from "@preact/signals";
+import { say } from "./say";
+import { words } from "./words";
+
+export const several = signal(false);
+
+export function toggle(on = !several.peek()): void {
+  several.value = on;
+  say(on ? words.severalOn : words.severalOff);
+}

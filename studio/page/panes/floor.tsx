@@ -1,0 +1,115 @@
+// The floor from above: what stands on it, the robot at its pose, the path that it has driven; the robot and what is loose can
+// be dragged.
+import { useEffect, useRef, useState } from "preact/hooks";
+import { start } from "../debug/arranged";
+import { active, state } from "../debug/run";
+import { frame, placeOf, points, scaleIn, short, viewBox, type Point, type Pose, type Thing } from "../world/geometry";
+import { grab, nudged } from "../world/grab";
+import { ghost, held, poseNow, putDown, reach, robotAt, standing, takeAway, type Held } from "../world/hand";
+import { shown, towards, type Motion } from "../world/motion";
+import { path, type Surroundings } from "../world/surroundings";
+import { words } from "../words";
+
+/** Pixels of a name: its height, and the width of a letter. */
+const TALL = 11;
+const LETTER = 6;
+
+export function Floor({ world }: { world: Surroundings }) {
+  const host = useRef<SVGSVGElement>(null);
+  const [scale, setScale] = useState(100);
+  const box = frame(world);
+  useEffect(() => {
+    const measure = new ResizeObserver(([entry]) => entry && setScale(scaleIn(box, entry.contentRect.width, entry.contentRect.height) || 1));
+    measure.observe(host.current!);
+    return () => measure.disconnect();
+  }, [world]);
+  const pixels = (number: number): string => short(number / scale);
+  const things = standing.value;
+  return (
+    <svg class="floor" viewBox={viewBox(box)} role="group" aria-label={words.seenFromAbove(robotAt(world))} ref={host}>
+      <g class="metres" transform="scale(1 -1)">
+        <rect class="ground" x={short(box.x)} y={short(box.y)} width={short(box.width)} height={short(box.height)} />
+        {world.patches.map(({ corners, color }, at) => <polygon class="patch" points={points(corners)} fill={`rgb(${color.join()})`} key={at} />)}
+        {things.map((thing) => <Obstacle thing={thing} world={world} key={thing.id} />)}
+        {world.lights.map(([x, y], at) => <circle class="light" cx={short(x)} cy={short(y)} r={pixels(6)} key={at} />)}
+        <Driven />
+        {things.filter(({ labelled }) => labelled).map(({ name, outline, id }) => <Label name={name} at={placeOf(outline, box, [(name.length * LETTER) / scale, TALL / scale])} size={pixels(TALL)} key={id} />)}
+        <Robot world={world} />
+        <Ghost world={world} />
+      </g>
+    </svg>
+  );
+}
+
+/** What makes something on the floor a thing to hold: by pointer, and by arrows where it has the focus. */
+const grip = (what: Held, name: string, world: Surroundings) => ({
+  tabindex: 0,
+  role: "button" as const,
+  "aria-label": words.grip(name),
+  onPointerDown: (event: PointerEvent) => grab(event, what, world),
+  onKeyDown: (event: KeyboardEvent) => {
+    const to = nudged(poseNow(what, world), event.key, event.shiftKey);
+    if (event.key === "Delete") takeAway(what);
+    if (!to) return;
+    event.preventDefault();
+    event.stopPropagation();
+    reach();
+    putDown(what, to);
+  },
+});
+
+function Obstacle({ thing, world }: { thing: Thing; world: Surroundings }) {
+  const { id, name, outline, low, movable, path } = thing;
+  return (
+    <>
+      {path.length > 1 && <polyline class="course" points={points(path)} />}
+      <polygon class={`thing${low ? " low" : ""}${movable ? " loose" : ""}`} points={points(outline)} {...(movable ? grip({ id }, name, world) : {})} />
+    </>
+  );
+}
+
+const Label = ({ name, at: [x, y], size }: { name: string; at: Point; size: string }) => (
+  <text class="label" transform={`translate(${short(x)} ${short(y)}) scale(1 -1)`} font-size={size} dy=".35em">{name}</text>
+);
+
+/** In pieces, so that an hour of driving costs no more a frame than the first minute. */
+const Driven = () => <>{path.value.map((piece, at) => <polyline class="driven" points={points(piece)} key={at} />)}</>;
+
+/** Where what is held would be put. */
+const Ghost = ({ world }: { world: Surroundings }) => (held.value ? <polygon class="ghost" points={points(ghost(held.value, world))} /> : null);
+
+const isStill = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;
+
+/** The robot, moved by one attribute at every frame while there is a way to go; at its nose it is turned. */
+function Robot({ world }: { world: Surroundings }) {
+  const host = useRef<SVGGElement>(null);
+  useEffect(() => {
+    let motion: Motion | null = null;
+    let waiting = 0;
+    const set = ([x, y, heading]: Pose): void => host.current!.setAttribute("transform", `translate(${short(x)} ${short(y)}) rotate(${short((heading * 180) / Math.PI)})`);
+    const move = (): void => {
+      waiting = 0;
+      const now = performance.now();
+      set(shown(motion!, now));
+      if (now < motion!.end) waiting = requestAnimationFrame(move);
+    };
+    const told = (): void => {
+      const now = state.value;
+      motion = towards(now ? motion : null, now?.pose ?? start.value ?? world.start, performance.now(), isStill());
+      waiting ||= requestAnimationFrame(move);
+    };
+    const ends = [state.subscribe(told), start.subscribe(told)];
+    return () => {
+      ends.forEach((end) => end());
+      cancelAnimationFrame(waiting);
+    };
+  }, [world]);
+  const nose = Math.max(0.05, ...world.body.map(([x]) => x));
+  return (
+    <g class="robot" ref={host} {...grip("robot", words.robot, world)}>
+      <polygon points={points(world.body)} />
+      <path d={`M0 0H${short(nose)}`} />
+      {!active.value && <circle class="nose" cx={short(nose)} cy="0" r={short(nose / 4)} onPointerDown={(event) => { event.stopPropagation(); grab(event, "robot", world, true); }} />}
+    </g>
+  );
+}

@@ -1,0 +1,187 @@
+// What scenarios, sweeps and builds of the page came to: kept until the next ones.
+import { computed, signal } from "@preact/signals";
+import { openLogAt } from "./debug/logs";
+import { current, nameOf, onText } from "./documents";
+import { drawing } from "./drawing/model";
+import { run } from "./jobs";
+import { mistakes, type Mistake, type Place } from "./mistakes";
+import { report, trouble } from "./panes/files";
+import { itemAt } from "./places";
+import type { Position } from "./positions";
+import { hello } from "./session";
+import { words } from "./words";
+
+/** An expectation that was not met. */
+export interface Broken {
+  text: string;
+  at_s: number;
+  why: string;
+}
+
+export interface Result {
+  scenario: string;
+  plan: string;
+  file: string;
+  line: number;
+  passed: boolean;
+  log: string | null;
+  simulated_s?: number;
+  broken?: readonly Broken[];
+  /** What is wrong with the scenario itself. */
+  error?: string;
+}
+
+/** How often something was used by scenarios: its path in the plan. */
+export interface Part {
+  kind: string;
+  name: string;
+  count: number;
+}
+
+export const results = signal<readonly Result[] | null>(null);
+export const coverage = signal<readonly { coverage: string; parts: readonly Part[] }[]>([]);
+/** Whether the drawing shows what was used. */
+export const shown = signal(true);
+/** Which scenarios go on. */
+export const busy = signal("");
+
+export interface Row {
+  [name: string]: unknown;
+}
+
+/** The runs of the last sweep. */
+export const swept = signal<readonly Row[]>([]);
+/** An error with its document, if it has a place, and the item of that document's drawing that it is about. */
+export interface Wrong extends Mistake {
+  uri: string | null;
+  item: string | null;
+}
+
+/** What the last build came to, and what is wrong. */
+export const built = signal<{ ok: boolean; wrong: readonly Wrong[] } | null>(null);
+
+async function doing<T>(what: string, work: () => Promise<T>): Promise<T | null> {
+  if (busy.peek()) return null;
+  busy.value = what;
+  trouble.value = null;
+  try {
+    return await work();
+  } catch (why) {
+    report(why);
+    return null;
+  } finally {
+    busy.value = "";
+  }
+}
+
+/** Writes scenarios for the plan that is shown. */
+export const writeSome = () =>
+  doing(words.writing, async () => {
+    const done = await run(words.writeSome, { kind: "generate", file: current.peek() });
+    if (done && !done.ok) throw new Error(plain(done.said) || words.jobFailed);
+    return done !== null;
+  });
+
+/** Runs all scenarios of the folder. */
+export const runAll = () =>
+  doing(words.runningScenarios, async () => {
+    const done = await run(words.runScenarios, { kind: "test" });
+    if (!done) return;
+    const all = done.results.filter((one): one is Result => typeof one.scenario === "string");
+    coverage.value = done.results.filter((one) => typeof one.coverage === "string");
+    results.value = [...all.filter(({ passed }) => !passed), ...all.filter(({ passed }) => passed)];
+    if (!all.length) throw new Error(plain(done.said) || words.jobFailed);
+  });
+
+export const sweep = (seeds: string, vary: string, until: string) =>
+  doing(words.sweeping, async () => {
+    const done = await run(words.sweep, { kind: "sweep", file: current.peek(), plan: drawing.peek()?.plan ?? "", seeds, vary, until });
+    if (!done) return;
+    swept.value = done.results;
+    if (!done.results.length) throw new Error(plain(done.said) || words.jobFailed);
+  });
+
+export const build = () =>
+  doing(words.building, async () => {
+    const done = await run(words.build, { kind: "build", file: current.peek(), plan: drawing.peek()?.plan ?? "" });
+    if (!done) return;
+    built.value = { ok: done.ok, wrong: await Promise.all(mistakes(done.results).map(placed)) };
+    textsChange ??= onText(outdate);
+  });
+
+let textsChange: (() => void) | null = null;
+
+/** Of a text that has changed since, nothing is known any more of what its errors are about. */
+function outdate(uri: string): void {
+  const last = built.peek();
+  if (!last?.wrong.some((one) => one.uri === uri && one.item)) return;
+  built.value = { ...last, wrong: last.wrong.map((one) => (one.uri === uri ? { ...one, item: null } : one)) };
+}
+
+/** A mistake with its document and what it is about there. */
+async function placed(mistake: Mistake): Promise<Wrong> {
+  const { place } = mistake;
+  if (!place) return { ...mistake, uri: null, item: null };
+  const uri = uriOf(place.file);
+  const found = uri.endsWith(".afp") ? await itemAt(uri, placeOf(place)).catch(() => null) : null;
+  return { ...mistake, uri, item: found?.item ?? null };
+}
+
+/** Where the text shows it. */
+export const placeOf = ({ line, column }: Place): Position => ({ line: line - 1, character: column - 1 });
+
+/** A text of the command line without its colours. */
+export const plain = (text: string): string => text.replace(/\x1b\[[0-9;]*m/g, "").trim();
+
+/** A path of the command line as a document of the folder. */
+export function uriOf(path: string): string {
+  const root = hello.peek()!.root.replace(/\/$/, "");
+  const parts = path.split("/").map(encodeURIComponent).join("/");
+  return path.startsWith("/") ? `${root.slice(0, root.indexOf("/", 7))}${parts}`.replace(/^file:\/\/[^/]*/, "file://") : `${root}/${parts}`;
+}
+
+/** Shows the moment at which a scenario failed. */
+export async function showFailure({ log, broken, file }: Result): Promise<void> {
+  if (!log) {
+    trouble.value = words.noLog(nameOf(uriOf(file)));
+    return;
+  }
+  await openLogAt(uriOf(log), broken?.[0]?.at_s ?? 0);
+}
+
+/** The items of a plan that a text names by their paths: the longest ones. */
+export function named(text: string, plan: string, items: Iterable<string>): string[] {
+  const known = new Set(items);
+  const words = text.match(/[A-Za-z_][\w.]*/g) ?? [];
+  const found = words.flatMap((word) => {
+    const parts = word.split(".");
+    for (let length = parts.length; length > 0; length--) {
+      const item = [plan, ...parts.slice(0, length)].join(".");
+      if (known.has(item)) return [item];
+    }
+    return [];
+  });
+  return [...new Set(found)];
+}
+
+/** The items of the drawing: elements, and what hangs on them. */
+export const itemsOf = (drawn: { elements: ReadonlyMap<string, { item: string; pieces: readonly { item: string }[] }> }): Set<string> =>
+  new Set([...drawn.elements.values()].flatMap(({ item, pieces }) => [item, ...pieces.map((piece) => piece.item)]));
+
+/** How many failed scenarios and errors of the last build are about each item of the drawing, and which items no scenario made use of. */
+export const onDrawing = computed<{ failed: ReadonlyMap<string, number>; unused: ReadonlySet<string> }>(() => {
+  const [drawn, all, wrong] = [drawing.value, results.value, built.value?.wrong ?? []];
+  const failed = new Map<string, number>();
+  if (!drawn?.plan) return { failed, unused: new Set() };
+  const items = itemsOf(drawn);
+  for (const { uri, item } of wrong) if (uri === drawn.uri && item && items.has(item)) failed.set(item, (failed.get(item) ?? 0) + 1);
+  if (!all || !shown.value) return { failed, unused: new Set() };
+  for (const { plan, passed, broken } of all) {
+    if (passed || plan !== drawn.plan) continue;
+    const found = new Set((broken ?? []).flatMap(({ text }) => named(text, plan, items)));
+    for (const item of found) failed.set(item, (failed.get(item) ?? 0) + 1);
+  }
+  const parts = coverage.value.find(({ coverage }) => coverage === drawn.plan)?.parts ?? [];
+  const unused = parts.filter(({ count, kind }) => count === 0 && kind === "elements").map(({ name }) => `${drawn.plan}.${name}`);
+  return { failed, unused: new Set(unused.filter((item) => items.has(item))) };
+});

@@ -1,0 +1,42 @@
+// What the robot's camera sees: asked for again as soon as the last picture is there, so that no picture waits.
+import { signal } from "@preact/signals";
+import { active, ask } from "../debug/run";
+
+export interface Picture {
+  at: number;
+  width: number;
+  height: number;
+  /** A byte for each of red, green and blue. */
+  rgb: string;
+}
+
+/** Whether the picture is shown. */
+export const watched = signal(false);
+/** Milliseconds between two questions. */
+const PERIOD = 150;
+
+/** The picture as a canvas takes it. */
+export function pixels({ width, height, rgb }: Picture): ImageData {
+  const bytes = Uint8Array.from(atob(rgb), (letter) => letter.charCodeAt(0));
+  const image = new ImageData(width, height);
+  for (let at = 0; at < width * height; at++) image.data.set([bytes[3 * at]!, bytes[3 * at + 1]!, bytes[3 * at + 2]!, 255], 4 * at);
+  return image;
+}
+
+/** Shows pictures on a canvas until the answer is called. */
+export function show(canvas: HTMLCanvasElement): () => void {
+  let over = false;
+  const look = async (): Promise<void> => {
+    const picture = active.peek() ? await ask<Picture>("afp/picture") : null;
+    if (over) return;
+    if (picture) {
+      [canvas.width, canvas.height] = [picture.width, picture.height];
+      canvas.getContext("2d")!.putImageData(pixels(picture), 0, 0);
+    }
+    setTimeout(() => void look(), PERIOD);
+  };
+  void look();
+  return () => {
+    over = true;
+  };
+}

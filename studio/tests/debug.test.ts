@@ -1,0 +1,165 @@
+// Looking into a run: the timeline, why something runs, conditions, what is forced, going back.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import AxeBuilder from "@axe-core/playwright";
+import type { Page } from "playwright-core";
+import { beside, extended, rows, scale, within, zoomed, type Record } from "../page/debug/trace";
+import { inBrowser, shows } from "./browser";
+
+const PLAN = `use std
+
+plan Blink {
+    in  pause: duration = 1 s
+    var left:  int = 0
+
+    start dark
+
+    actor dark: Wait(duration = pause) { Elapsed -> count }
+    computation count: Count(value = left, limit = 3, next => left) {
+        Again -> light
+        Done  -> terminate
+    }
+    actor light: Wait(duration = 5 s) {
+        Elapsed -> dark
+        supervise tired: CheckTimeout(duration = 2 s) { TimedOut -> dark }
+    }
+}
+`;
+
+const record = (step: number, at: number, kind: string, path: string, more: Partial<Record> = {}): Record => ({ at, step, kind, path, text: `${path} ${kind}`, ...more });
+
+test("records become rows: what was active, what watched, what was written", () => {
+  const found = rows([
+    record(1, 0, "started", "go"),
+    record(1, 0, "started", "go.touch", { supervisor: true }),
+    record(2, 1, "event", "go.touch", { supervisor: true }),
+    record(2, 1, "interrupted", "go"),
+    record(2, 1, "started", "work"),
+    record(3, 1.5, "started", "work.first"),
+    record(3, 1.5, "committed", "work", { entry: "left", value: "1" }),
+    record(4, 2, "missed", "go.touch", { supervisor: true }),
+  ]);
+  assert.deepEqual(found.map(({ kind, name }) => `${kind} ${name}`), ["flow ", "flow work", "supervisor go.touch", "entry left", "misses "]);
+  assert.deepEqual(found[0]!.bars, [{ from: 0, to: 1, label: "go" }, { from: 1, to: null, label: "work" }]);
+  assert.deepEqual(found[2]!.bars, [{ from: 0, to: 1, label: "touch" }]);
+  assert.deepEqual(found[2]!.marks.map(({ at }) => at), [1]);
+  assert.deepEqual(found[3]!.marks, [{ at: 1.5, label: "1" }]);
+});
+
+test("what happens again after a step back takes the place of what had happened", () => {
+  const before = [record(1, 0, "started", "a"), record(2, 1, "finished", "a"), record(3, 1, "started", "b")];
+  assert.equal(extended(before, []), before);
+  assert.deepEqual(extended(before, [record(2, 1, "interrupted", "a")]).map(({ kind }) => kind), ["started", "interrupted"]);
+  assert.equal(extended(before, [record(2, 1, "finished", "a")]), before);
+  assert.equal(extended(before, [before[2]!, record(4, 2, "finished", "b")]).length, 4);
+});
+
+test("windows stay within the run; a scale has round seconds", () => {
+  assert.deepEqual(within({ from: -2, to: 2 }, 10), { from: 0, to: 4 });
+  assert.deepEqual(within({ from: 8, to: 12 }, 10), { from: 6, to: 10 });
+  const half = zoomed({ from: 0, to: 10 }, 5, 0.5, 10);
+  assert.deepEqual(half, { from: 2.5, to: 7.5 });
+  assert.deepEqual(scale({ from: 0, to: 8 }), [0, 1, 2, 3, 4, 5, 6, 7, 8]);
+  assert.deepEqual(scale({ from: 0.05, to: 0.85 }), [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8]);
+  assert.equal(beside([0, 1, 2], 1, 1), 2);
+  assert.equal(beside([0, 1, 2], 0, -1), null);
+});
+
+async function clean(page: Page, within: string): Promise<void> {
+  const { violations } = await new AxeBuilder({ page }).include(within).analyze();
+  assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(" ")}`), []);
+}
+
+const begun = async (page: Page): Promise<void> => {
+  await page.locator(".count", { hasText: /ready|warning/ }).waitFor();
+  await page.getByLabel("Speed").selectOption("20");
+  await page.keyboard.press("F5");
+};
+
+const clock = async (page: Page): Promise<number> => Number.parseFloat((await page.locator(".clock").textContent())!);
+
+inBrowser("a timeline shows the run; a moment of it is gone to by mouse and keys", { "plan.afp": PLAN }, async ({ page }) => {
+  await begun(page);
+  await page.locator(".end-card").waitFor();
+  await page.keyboard.press("Control+Shift+Y");
+  await page.locator(".lane.flow rect").first().waitFor();
+  assert.ok((await page.locator(".lane.flow rect").count()) >= 5);
+  assert.ok((await page.locator(".lane.supervisor circle").count()) >= 2);
+  await shows(page.locator(".timeline .names"), /the plan[^]*light\.tired[^]*left/);
+  await clean(page, ".bottom");
+  await page.locator(".timeline .tool").nth(4).click();
+  const ruler = (await page.locator(".ruler").boundingBox())!;
+  await page.mouse.click(ruler.x + ruler.width / 2, ruler.y + 12);
+  await page.locator(".clock.held").waitFor();
+  const middle = await clock(page);
+  assert.ok(middle > 2 && middle < 6, `${middle}`);
+  await page.locator(".ruler").focus();
+  await page.keyboard.press("Home");
+  await page.waitForFunction(() => document.querySelector(".clock")!.textContent === "0.0 s");
+  await page.keyboard.press("ArrowRight");
+  await page.waitForFunction(() => document.querySelector(".clock")!.textContent === "1.0 s");
+  await page.locator(".lane.supervisor circle").first().click();
+  await page.waitForFunction(() => document.querySelector(".clock")!.textContent === "3.0 s");
+  await page.keyboard.press("Shift+F10");
+  await page.waitForFunction(() => Number.parseFloat(document.querySelector(".clock")!.textContent!) < 3);
+});
+
+inBrowser("why something runs is said; what is forced is shown until it ends", { "plan.afp": PLAN }, async ({ page }) => {
+  await page.locator('.node [data-item="Blink.light"] text.name').first().click({ force: true });
+  await begun(page);
+  await page.locator(".clock.running").waitFor();
+  await page.keyboard.press("F8");
+  await page.locator(".clock.held").waitFor();
+  await page.locator('.node [data-item="Blink.dark"] text.name').first().click({ force: true });
+  await page.keyboard.press("w");
+  const card = page.locator(".why-card");
+  await card.waitFor();
+  await shows(card, /Why dark\?[^]*What leads to it[^]*light\.Elapsed[^]*light\.tired\.TimedOut/);
+  await card.getByRole("button", { name: "Let it happen" }).last().click();
+  await page.locator(".forced-bar", { hasText: "light.tired.TimedOut" }).waitFor();
+  await page.keyboard.press("Control+Shift+U");
+  await page.getByRole("button", { name: "Force pause" }).click();
+  await page.getByLabel("Value of pause").fill("100 ms");
+  await page.getByRole("button", { name: "Force", exact: true }).click();
+  await page.locator(".forced-bar", { hasText: "pause = 100 ms" }).waitFor();
+  await clean(page, ".studio");
+  await page.getByRole("button", { name: "Release" }).first().click();
+  await page.waitForFunction(() => document.querySelectorAll(".forced-bar .one").length === 1);
+  await page.locator(".forced-bar .stop").click();
+  await page.locator(".end-card").waitFor();
+  assert.equal(await page.locator(".forced-bar").count(), 0);
+});
+
+inBrowser("a stop has a condition, may speak instead, and stands at exits and supervisors", { "plan.afp": PLAN }, async ({ page }) => {
+  await page.locator('.node [data-item="Blink.dark"] text.name').first().click({ force: true });
+  await page.keyboard.press("F9");
+  await page.locator("circle.breakpoint").waitFor();
+  await page.locator('.node text:text-is("tired")').first().click({ force: true });
+  await page.keyboard.press("F9");
+  await page.waitForFunction(() => document.querySelectorAll("circle.breakpoint").length === 2);
+  await page.keyboard.press("Control+Shift+U");
+  await page.getByLabel("Condition at line 9").fill("left > 1");
+  await page.keyboard.press("Tab");
+  await page.locator(".breakpoint-sign").waitFor();
+  await page.getByLabel("Said at line 16 in place").fill("tired at {left}");
+  await page.keyboard.press("Tab");
+  await page.locator("path.breakpoint").waitFor();
+  await begun(page);
+  await page.locator(".clock.held").waitFor();
+  await shows(page.locator(".run-pane dl"), /left\s+2/);
+  await page.locator(".run-pane li", { hasText: "tired at 1" }).waitFor();
+  await page.getByLabel("Stop at line 9", { exact: true }).uncheck();
+  await page.locator("circle.breakpoint.off").waitFor();
+});
+
+inBrowser("the outline has everything as buttons, and says what is active", { "plan.afp": PLAN }, async ({ page }) => {
+  await page.getByRole("button", { name: "Outline" }).click();
+  const outline = page.locator("[data-when=outline]");
+  await outline.getByRole("button", { name: /^actor light/ }).waitFor();
+  await shows(outline, /plan Blink[^]*pause[^]*dark[^]*Elapsed[^]*light[^]*tired/);
+  await outline.getByRole("button", { name: /^actor light/ }).click();
+  assert.equal(await outline.locator("[aria-pressed=true]").count(), 1);
+  await begun(page);
+  await outline.locator("button.active").first().waitFor();
+  await clean(page, "[data-when=outline]");
+});

@@ -1,0 +1,173 @@
+// The paper's plan from an empty file by fingers, names, help and formulas typed. It ends in the words of the plan.
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import type { Page } from "playwright-core";
+import { inBrowser } from "./browser";
+
+const PLAN = "WallFollowing";
+const fingers = { hasTouch: true, viewport: { width: 1180, height: 820 } };
+
+inBrowser("the paper's plan from an empty file by fingers", { "plan.afp": `use carbot\n\nplan ${PLAN} {\n}\n` }, async ({ page, read }) => {
+  await page.locator(`.node [data-item="${PLAN}.start"]`).waitFor();
+  const hand = new Fingers(page, () => read("plan.afp"));
+  await search(hand);
+  await follow(hand);
+  const words = (text: string): string => text.replace(/\s+/g, " ");
+  const paper = await readFile(new URL("../../plans/wall_following.afp", import.meta.url), "utf8");
+  assert.equal(words(await read("plan.afp")), words(paper));
+  await page.locator(".count", { hasText: "ready" }).waitFor();
+}, fingers);
+
+async function search(hand: Fingers): Promise<void> {
+  await hand.help("Find the next wall, then drive parallel to it until the escape button is pressed.");
+  await hand.entry("in walldist: length = 30 cm");
+  await hand.help("Distance to keep to the wall.");
+  await hand.entry("var wallangle: angle");
+  await hand.ground();
+  await hand.add("CheckEscapeButton", "escape");
+  await hand.connect("EscapeButtonPressed", "end the plan");
+  await hand.ground();
+  await hand.add("Forward", "searchFirstWall");
+  await hand.value("distance", "10000 cm");
+  await hand.add("CheckTouchSensor", "touch");
+  await hand.timing("1 ms");
+  await hand.create("TouchSensorPressed", "Forward", "backupCollision");
+  await hand.value("distance", "-walldist");
+  await hand.create("ForwardSuccessful", "SearchWall", "findWallAngle");
+  await hand.write("angle", "wallangle");
+  await hand.on("searchFirstWall");
+  await hand.add("CheckDrivingLane", "checkLane");
+  for (const [port, value] of [["distance", "walldist"], ["clearance", "10 cm"], ["margin", "10 cm"], ["halfwidth", "25 cm"]] as const) await hand.value(port, value);
+  await hand.connect("LaneNotFree", "findWallAngle");
+  await hand.on("searchFirstWall");
+  await hand.connect("ForwardSuccessful", "searchFirstWall");
+}
+
+async function follow(hand: Fingers): Promise<void> {
+  await hand.on("findWallAngle");
+  await hand.create("WallFound", "Turn", "parallelToWall");
+  await hand.value("angle", "wallangle");
+  await hand.create("TurnSuccessful", "WallForward", "followWall");
+  for (const [port, value] of [["walldist", "walldist"], ["lanedist", "walldist"], ["gain", "1"], ["tolerance", "20 cm"], ["step", "500 cm"]] as const) await hand.value(port, value);
+  await hand.add("CheckTouchSensor", "wallTouch");
+  await hand.connect("TouchSensorPressed", "backupCollision");
+  await hand.on("followWall");
+  await hand.connect("ForwardSuccessful", "followWall");
+  await hand.connect("LaneNotFree", "findWallAngle");
+  await hand.create("WallLost", "Turn", "turnAfterWallLost");
+  await hand.value("angle", "-60 deg");
+  await hand.connect("TurnSuccessful", "searchFirstWall");
+  await hand.on("findWallAngle");
+  await hand.connect("NoWallFound", "turnAfterWallLost");
+}
+
+/** What a person does with fingers; what is typed comes from the keyboard on the screen. */
+class Fingers {
+  constructor(private readonly page: Page, private readonly read: () => Promise<string>) {}
+
+  private async has(wanted: string): Promise<void> {
+    const end = Date.now() + 5000;
+    while (!new RegExp(wanted).test(await this.read()) && Date.now() < end) await new Promise((done) => setTimeout(done, 20));
+    assert.match(await this.read(), new RegExp(wanted));
+  }
+
+  /** Waits until something is selected. */
+  private async stands(name: string | RegExp): Promise<void> {
+    await this.page.locator(".inspector-head strong", { hasText: name instanceof RegExp ? name : new RegExp(`^${name}$`) }).waitFor();
+  }
+
+  /** Selects an element in the drawing, all of which is brought into sight before. */
+  async on(name: string): Promise<void> {
+    await this.page.getByRole("button", { name: "Show the whole plan" }).tap();
+    const box = (await this.page.locator(`.node [data-item="${PLAN}.${name}"] text.name`).first().boundingBox())!;
+    await this.page.touchscreen.tap(box.x + box.width / 2, box.y + box.height / 2);
+    await this.stands(name);
+  }
+
+  /** Taps the ground: nothing is selected. */
+  async ground(): Promise<void> {
+    await this.page.getByRole("button", { name: "Show the whole plan" }).tap();
+    const board = (await this.page.locator(".board").boundingBox())!;
+    await this.page.touchscreen.tap(board.x + 20, board.y + board.height - 90);
+    await this.stands(PLAN);
+  }
+
+  /** A field of the form. */
+  private async field(label: string, text: string, wanted: string): Promise<void> {
+    await this.page.locator(".inspector").getByLabel(label, { exact: true }).fill(text);
+    await this.page.keyboard.press("Enter");
+    await this.has(wanted);
+  }
+
+  help = (text: string): Promise<void> => this.field("Help", text, text);
+  timing = (every: string): Promise<void> => this.field("every", every, `every ${every}`);
+
+  /** The menu of the start has it; a finger that rests opens the menu. */
+  async entry(line: string): Promise<void> {
+    const start = (await this.page.locator(`.node [data-item="${PLAN}.start"] text.start`).boundingBox())!;
+    await this.rest(start.x + start.width / 2, start.y + start.height / 2);
+    await this.page.getByRole("menuitem", { name: "Add an entry" }).tap();
+    await this.page.getByRole("dialog").getByRole("textbox").fill(line);
+    await this.page.getByRole("dialog").getByRole("button", { name: "Add an entry" }).tap();
+    await this.has(line);
+    await this.stands(/(\w+):/.exec(line)![1]!);
+  }
+
+  private async rest(x: number, y: number): Promise<void> {
+    const client = await this.page.context().newCDPSession(this.page);
+    await client.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [{ x, y }] });
+    await this.page.locator(".context-menu").waitFor();
+    await client.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+    await client.detach();
+  }
+
+  private async rename(template: string, name: string): Promise<void> {
+    await this.stands(new RegExp(`^${template.charAt(0).toLowerCase()}${template.slice(1)}\\d*$`));
+    await this.field("Name", name, `\\b${name}: `);
+    await this.stands(name);
+  }
+
+  async add(template: string, name: string): Promise<void> {
+    const button = this.page.locator(`[data-template=${template}]`);
+    await button.scrollIntoViewIfNeeded();
+    await button.tap();
+    await this.rename(template, name);
+  }
+
+  private async then(exit: string, choice: string): Promise<void> {
+    await this.page.locator(".inspector .row", { hasText: new RegExp(`^${exit}`) }).tap();
+    const list = this.page.locator(".chooser");
+    await list.getByRole("combobox").fill(choice);
+    await list.locator(".choice-label", { hasText: new RegExp(`^${choice}$`) }).tap();
+    await list.waitFor({ state: "detached" });
+  }
+
+  /** Leads an exit to a new element. */
+  async create(exit: string, template: string, name: string): Promise<void> {
+    await this.then(exit, `new: ${template}`);
+    await this.rename(template, name);
+  }
+
+  async connect(exit: string, to: string): Promise<void> {
+    await this.then(exit, to);
+    await this.has(`${exit}\\s+-> ${to === "end the plan" ? "terminate" : to}\\b`);
+  }
+
+  private async port(name: string): Promise<void> {
+    await this.page.locator(".inspector .port > .row", { hasText: new RegExp(`^${name}`) }).tap();
+  }
+
+  async value(port: string, value: string): Promise<void> {
+    await this.port(port);
+    await this.page.locator(".inspector .value input[type=text]").fill(value);
+    await this.page.locator(".inspector .value").getByRole("button", { name: "Set" }).tap();
+    await this.has(`${port} = ${value}`);
+  }
+
+  /** Writes an output into an entry. */
+  async write(port: string, entry: string): Promise<void> {
+    await this.port(port);
+    await this.page.locator(".inspector .value .entry-chip", { hasText: entry }).tap();
+    await this.has(`${port} => ${entry}`);
+  }
+}

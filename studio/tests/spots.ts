@@ -1,0 +1,17 @@
+// Where things of the drawing are on the screen, for tests that press on them.
+import assert from "node:assert/strict";
+import type { Page } from "playwright-core";
+
+export type Spot = [x: number, y: number];
+
+/** The middle of something drawn. */
+export async function middle(page: Page, selector: string): Promise<Spot> {
+  const box = await page.locator(selector).first().boundingBox();
+  assert.ok(box, selector);
+  return [box.x + box.width / 2, box.y + box.height / 2];
+}
+
+/** The name of an item. */
+export const name = (item: string): string => `.node [data-item="${item}"] text.name`;
+/** An exit of an item. */
+export const exit = (item: string, label: string): string => `.node [data-item="${item}"] text:text-is("${label}")`;
