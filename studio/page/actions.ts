@@ -50,14 +50,17 @@ function step(by: number): void {
   enter(panes[(start + by + panes.length) % panes.length] ?? null);
 }
 
-/** Puts the focus into a pane that is about to appear. */
-function enterSoon(name: string, frames = 120): void {
+/** Puts the focus into a pane that is about to appear, unless it has gone elsewhere before. */
+function enterSoon(name: string, before = document.activeElement, end = performance.now() + ENTERED_WITHIN): void {
   const pane = document.querySelector(`[data-when=${name}]`);
   // The editor comes a frame after its pane.
   const early = !pane || (name === "text" && !pane.querySelector(".cm-content"));
   if (!early) enter(pane);
-  else if (frames > 0) requestAnimationFrame(() => enterSoon(name, frames - 1));
+  else if (document.activeElement === before && performance.now() < end) requestAnimationFrame(() => enterSoon(name, before, end));
 }
+
+/** So many milliseconds a pane may take to appear: the text's editor is loaded when it is first wanted. */
+const ENTERED_WITHIN = 10_000;
 
 /** What of a pane takes the focus, the first one that is there. */
 const ENTRIES = [".cm-content", "[role=application]", ".body input", ".body button", ".body", "button"];

@@ -1,10 +1,11 @@
 // The book inside the page: what a code of a problem means, with the example that has the mistake and the one that has not; and
 // all that there is to say of a template.
 import { signal } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
+import { useRef } from "preact/hooks";
 import { current, text } from "./documents";
 import { templateAt } from "./drawing/anatomy";
 import { nodes } from "./markdown";
+import { useModal } from "./modal";
 import { report } from "./panes/files";
 import { spanOf } from "./places";
 import { offset, position } from "./positions";
@@ -56,15 +57,9 @@ export function Book() {
 }
 
 function Page({ of: { title, text } }: { of: { title: string; text: string } }) {
-  const dialog = useRef<HTMLDialogElement>(null);
   const body = useRef<HTMLDivElement>(null);
   const close = (): void => void (page.value = null);
-  useEffect(() => {
-    const before = document.activeElement;
-    body.current!.replaceChildren(nodes(text));
-    dialog.current!.showModal();
-    return () => before instanceof HTMLElement && before.focus();
-  }, []);
+  const dialog = useModal(() => body.current!.replaceChildren(nodes(text)));
   return (
     <dialog class="book" ref={dialog} aria-label={title} onCancel={close}>
       <div class="book-page" ref={body} tabIndex={0} />

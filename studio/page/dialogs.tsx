@@ -1,6 +1,6 @@
 // Questions that stand before everything else: choices, and one line to be written.
 import { signal } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
+import { useModal } from "./modal";
 import { words } from "./words";
 
 interface Question {
@@ -41,13 +41,7 @@ export function Dialogs() {
 }
 
 function Shown({ question }: { question: Question }) {
-  const dialog = useRef<HTMLDialogElement>(null);
-  useEffect(() => {
-    const before = document.activeElement;
-    dialog.current?.showModal();
-    dialog.current?.querySelector("input")?.select();
-    return () => before instanceof HTMLElement && before.focus();
-  }, []);
+  const dialog = useModal((open) => open.querySelector("input")?.select());
   const { line } = question;
   const wrong = line?.wrong(value.value) ?? null;
   const answer = (choice: string): void => {

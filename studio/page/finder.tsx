@@ -4,6 +4,7 @@ import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { commands, isEnabled, keysOf, type Command } from "./commands";
 import { nameOf } from "./documents";
+import { useModal } from "./modal";
 import { report } from "./panes/files";
 import { reveal, symbols } from "./places";
 import { matching } from "./ranking";
@@ -23,13 +24,8 @@ export function Finder() {
   );
 }
 
-function modal(close: () => void) {
-  const dialog = useRef<HTMLDialogElement>(null);
-  useEffect(() => {
-    const before = document.activeElement;
-    dialog.current?.showModal();
-    return () => before instanceof HTMLElement && before.focus();
-  }, []);
+function useClosing(close: () => void) {
+  const dialog = useModal();
   // A click beside the dialog is one on its ground.
   const click = (event: MouseEvent): void => {
     if (event.target === dialog.current) close();
@@ -58,7 +54,7 @@ function Picker({ label, hint, nothing, find }: Given) {
   const [chosen, setChosen] = useState(0);
   const list = useRef<HTMLUListElement>(null);
   const close = (): void => void (finding.value = null);
-  const given = modal(close);
+  const given = useClosing(close);
   const found = find(typed);
   const at = Math.min(chosen, found.length - 1);
   useEffect(() => list.current?.querySelector("[aria-selected=true]")?.scrollIntoView({ block: "nearest" }), [at]);
@@ -125,7 +121,7 @@ function Keys() {
   const close = (): void => {
     showingKeys.value = false;
   };
-  const given = modal(close);
+  const given = useClosing(close);
   const all = commands.value.filter((each) => keysOf(each).length > 0);
   return (
     <dialog class="keys" aria-labelledby="keys" {...given}>

@@ -1,6 +1,6 @@
 // A button that opens a list below itself: arrows walk, `Escape` and a click elsewhere close it.
 import type { ComponentChildren } from "preact";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
 
 interface Given {
   label: string;
@@ -17,7 +17,7 @@ export function Menu({ label, class: name = "", button, children }: Given) {
     setOpen(false);
     whole.current?.querySelector("button")?.focus();
   };
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (!open) return;
     (items().find((each) => each.ariaChecked === "true") ?? items()[0])?.focus();
     const away = (event: Event): void => {

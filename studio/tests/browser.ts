@@ -35,7 +35,7 @@ export interface Studio {
 }
 
 /** What is read once it is as wanted, or when patience has ended. */
-async function settled(read: () => Promise<string>, isWanted: (now: string) => boolean): Promise<string> {
+export async function settled(read: () => Promise<string>, isWanted: (now: string) => boolean): Promise<string> {
   const end = Date.now() + PATIENCE;
   for (;;) {
     const now = await read();

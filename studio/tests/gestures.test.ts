@@ -1,7 +1,7 @@
 // Gestures of the drawing, by mouse and by keys, each ending in the bytes of the files.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
-import { inBrowser } from "./browser";
+import { inBrowser, settled } from "./browser";
 import { exit, middle, name, type Spot } from "./spots";
 
 const PLAN = `use carbot
@@ -198,8 +198,8 @@ inBrowser("items are copied as text with their toolbox, cut and pasted, a superv
   await page.keyboard.press("ArrowRight");
   await page.keyboard.press("Control+c");
   const copied = () => page.evaluate(() => navigator.clipboard.readText());
-  await page.waitForFunction(async () => (await navigator.clipboard.readText()).includes("supervise"));
-  assert.equal(await copied(), "use carbot\nsupervise touch: CheckTouchSensor { TouchSensorPressed -> turn }\n");
+  const wanted = "use carbot\nsupervise touch: CheckTouchSensor { TouchSensorPressed -> turn }\n";
+  assert.equal(await settled(copied, (now) => now === wanted), wanted);
   await page.keyboard.press("ArrowLeft");
   await page.keyboard.press("ArrowDown");
   await page.keyboard.press("Control+v");

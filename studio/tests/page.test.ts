@@ -184,6 +184,22 @@ inBrowser("a template has a page with all of its ports and states", { "plan.afp"
   await book.waitFor({ state: "detached" });
 });
 
+/** What has the focus after a key and before the next frame. */
+const focusAfter = (page: Page, init: { key: string; ctrlKey?: boolean }): Promise<string | null> =>
+  page.evaluate(async (init) => {
+    document.activeElement!.dispatchEvent(new KeyboardEvent("keydown", { ...init, bubbles: true, cancelable: true }));
+    await new Promise((done) => queueMicrotask(() => queueMicrotask(() => done(null))));
+    return document.activeElement!.getAttribute("role");
+  }, init);
+
+inBrowser("what is opened by a key takes the next one, however fast it comes", { "plan.afp": PLAN }, async ({ page }) => {
+  await page.locator(".count", { hasText: "ready" }).waitFor();
+  assert.equal(await focusAfter(page, { key: "k", ctrlKey: true }), "combobox");
+  await page.keyboard.press("Escape");
+  await page.locator(".board").focus();
+  assert.equal(await focusAfter(page, { key: "a" }), "combobox");
+});
+
 inBrowser("keys reach every pane; commands are found by name", { "plan.afp": PLAN }, async ({ page }) => {
   await page.locator(".count", { hasText: "ready" }).waitFor();
   await page.keyboard.press("Control+k");

@@ -1,7 +1,7 @@
 // The pane with the drawing: puts stage, pointers, keys and popups together and shows what the signals hold.
 import { effect, untracked } from "@preact/signals";
 import { render } from "preact";
-import { useEffect, useRef } from "preact/hooks";
+import { useRef } from "preact/hooks";
 import { discs, marks as runMarks } from "../debug/marks";
 import { isForField, keyName } from "../commands";
 import { origin, selected } from "../selection";
@@ -203,7 +203,6 @@ function Tip() {
   const drawn = drawing.value;
   const found = drawn ? tip() : null;
   useInSight(found && [found.at[0] + 14, found.at[1] + 16], popup, found?.texts.length);
-  useEffect(() => undefined);
   if (!found || found.texts.length === 0) return null;
   return (
     <div class="over tip-box" ref={popup} role="tooltip">

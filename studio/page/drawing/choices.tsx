@@ -1,5 +1,5 @@
 // Shows the list to choose from, the name that is written anew, and what is said at the pointer.
-import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { filtered, question, type Choice, type Question } from "./choose";
 import { icon } from "./fragment";
 import { isName, renaming } from "./rename";
@@ -34,30 +34,44 @@ export function Chooser() {
   return asked ? <List key={asked.title} asked={asked} /> : null;
 }
 
+/** What fits of a list: at once where the page has it, else what was answered last, which may be to less than was typed. */
+function useFound({ list }: Question, typed: string): { found: readonly Choice[]; isLate: boolean } {
+  const [answered, setAnswered] = useState<{ to: string | null; all: readonly Choice[] }>({ to: null, all: [] });
+  useEffect(() => {
+    if (typeof list !== "function") return;
+    let wanted = true;
+    void list(typed).then((all) => wanted && setAnswered({ to: typed, all }), () => {});
+    return () => void (wanted = false);
+  }, [list, typed]);
+  const here = useMemo(() => (typeof list === "function" ? null : filtered(list, typed)), [list, typed]);
+  return here ? { found: here, isLate: false } : { found: answered.all, isLate: answered.to !== typed };
+}
+
 function List({ asked }: { asked: Question }) {
   const [typed, setTyped] = useState("");
-  const [found, setFound] = useState<readonly Choice[]>(typeof asked.list === "function" ? [] : asked.list);
-  const [at, setAt] = useState(0);
+  const { found, isLate } = useFound(asked, typed);
+  const [entered, setEntered] = useState(false);
+  const [chosen, setAt] = useState<number | null>(null);
+  const at = chosen ?? Math.max(0, found.findIndex((choice) => !choice.refused));
   const popup = useRef<HTMLDivElement>(null);
   const field = useRef<HTMLInputElement>(null);
-  useEffect(() => {
-    const { list } = asked;
-    if (typeof list !== "function") return setFound(filtered(list, typed));
-    let wanted = true;
-    void list(typed).then((all) => wanted && setFound(all), () => {});
-    return () => void (wanted = false);
-  }, [asked, typed]);
-  useEffect(() => setAt(Math.max(0, found.findIndex((choice) => !choice.refused))), [found]);
-  useEffect(() => field.current?.focus(), [asked]);
+  useLayoutEffect(() => field.current?.focus(), [asked]);
+  useLayoutEffect(() => setAt(null), [found]);
   useEffect(() => popup.current?.querySelector(`#choice-${at}`)?.scrollIntoView({ block: "nearest" }), [at]);
   useInSight(asked.at, popup, found.length);
   const take = (choice: Choice | undefined): void => {
     if (choice && !choice.refused) asked.answer(choice);
   };
+  // Who types fast and enters means what was typed.
+  useLayoutEffect(() => {
+    if (!entered || isLate) return;
+    setEntered(false);
+    take(found[at]);
+  }, [entered, isLate]);
   const key = (event: KeyboardEvent): void => {
     const by = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 }[event.key];
     if (by !== undefined) setAt(Math.max(0, Math.min(found.length - 1, at + by)));
-    else if (event.key === "Enter") take(found[at]);
+    else if (event.key === "Enter") setEntered(true);
     else if (event.key === "Escape" || event.key === "Tab") asked.answer(null);
     else return;
     event.preventDefault();
@@ -87,7 +101,7 @@ function List({ asked }: { asked: Question }) {
 export function Rename() {
   const asked = renaming.value;
   const field = useRef<HTMLInputElement>(null);
-  useEffect(() => {
+  useLayoutEffect(() => {
     const input = field.current;
     if (!input || !asked) return;
     const [x, y, width] = asked.rect;

@@ -1,5 +1,5 @@
 // Shows the menu of what was pressed: arrows walk, letters jump, `Escape` and a press elsewhere close it.
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import { keysOf, type Command } from "../commands";
 import { useInSight } from "./choices";
 import { menu } from "./context";
@@ -9,7 +9,7 @@ export function ContextMenu() {
   const popup = useRef<HTMLDivElement>(null);
   const open = menu.value;
   useInSight(open?.at ?? null, popup, open);
-  useEffect(() => popup.current?.querySelector("button")?.focus(), [open]);
+  useLayoutEffect(() => popup.current?.querySelector("button")?.focus(), [open]);
   if (!open) return null;
   const close = (): void => void (menu.value = null);
   const run = (one: Command): void => {

@@ -1,5 +1,5 @@
 // The field in which a note is written: it is taken over when it is left, put back with `Escape`.
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import { useInSight } from "./choices";
 import { noting, take } from "./note";
 import { nameOf } from "./shapes";
@@ -10,7 +10,7 @@ export function NoteField() {
   const field = useRef<HTMLTextAreaElement>(null);
   const open = noting.value;
   useInSight(open?.at ?? null, popup, open);
-  useEffect(() => field.current?.focus(), [open]);
+  useLayoutEffect(() => field.current?.focus(), [open]);
   if (!open) return null;
   const end = (keep: boolean): void => {
     if (noting.peek() === open) void take(keep ? (field.current?.value ?? "") : open.text);

@@ -1,5 +1,5 @@
 // The field of what is looked for: `Enter` goes to the next place, `Shift+Enter` to the one before, `Escape` ends it.
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import { Tool } from "../bar";
 import { sought } from "../seek";
 import { hits, next, nth } from "./seeking";
@@ -11,7 +11,7 @@ export function SeekBar() {
 
 function Field() {
   const field = useRef<HTMLInputElement>(null);
-  useEffect(() => {
+  useLayoutEffect(() => {
     // The text has a field of its own, from which this one may have been opened.
     if (document.activeElement?.closest(".cm-editor")) return;
     field.current?.focus();
