@@ -3,7 +3,7 @@
 use super::scene::Point;
 
 /// Width by height that a picture should have: that of a screen or a slide.
-const WANTED: f64 = 4.0 / 3.0;
+pub(super) const WANTED: f64 = 4.0 / 3.0;
 
 /// A picture that was arranged before stays so as long as neither side is more than so many times the other.
 const MOST: f64 = 2.0;

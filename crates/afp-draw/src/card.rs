@@ -18,7 +18,7 @@ use super::view::{Input, View, name};
 use afp_dsl::outline::{Component, ComponentKind, Part};
 use afp_syntax::diagnostics::Severity;
 use afp_syntax::item::Item;
-use parts::{ROW, exit_below, exit_width, inflow, outflow, pill_width};
+use parts::{ROW, exit_below, exit_width, inflow, outflow, part, pill_width};
 
 pub(super) use start::start;
 
@@ -61,8 +61,13 @@ const REACH: f64 = 24.0;
 /// Distance between neighbouring exits below a box.
 const EXIT_GAP: f64 = 10.0;
 
-/// The card of an element.
-pub(super) fn element<'a>(view: &View<'a>, element: &'a Component) -> Card<'a> {
+/// The card of an element. `towards` says of its states on which side of the others they shall stand; without that they stand
+/// as the template declares them.
+pub(super) fn element<'a>(
+    view: &View<'a>,
+    element: &'a Component,
+    towards: &dyn Fn(&Part) -> Option<f64>,
+) -> Card<'a> {
     let mut card = Card::empty(element.item.clone());
     let (inputs, outputs) = (shown(view.inputs(element)), view.outputs(element));
     let data = inputs.iter().map(|input| pill_width(input.shown()));
@@ -91,10 +96,15 @@ pub(super) fn element<'a>(view: &View<'a>, element: &'a Component) -> Card<'a> {
     }
     let mut x = left + (rect.width - (exits - 16.0 - EXIT_GAP)) / 2.0;
     card.height = rect.bottom();
-    for exit in &states {
-        let width = exit_width(exit);
-        exit_below(&mut card, element, (x + width / 2.0, rect.bottom()), exit);
+    let mut middles = vec![0.0; states.len()];
+    let wishes: Vec<_> = states.iter().map(|exit| towards(&part(exit))).collect();
+    for place in from_left_to_right(&wishes) {
+        let width = exit_width(&states[place]);
+        middles[place] = x + width / 2.0;
         x += width + EXIT_GAP;
+    }
+    for (exit, middle) in states.iter().zip(middles) {
+        exit_below(&mut card, element, (middle, rect.bottom()), exit);
     }
     card.entry = (rect.x + 20.0, rect.right() - 20.0);
     card.width = rect.right();
@@ -105,6 +115,19 @@ pub(super) fn element<'a>(view: &View<'a>, element: &'a Component) -> Card<'a> {
     card.sketch.mark(severity, (rect.x + 2.0, rect.y + 2.0));
     stack.attach(view, &mut card, rect);
     card
+}
+
+/// The order in which things stand: those that have a wish by that, in the places that they have together.
+fn from_left_to_right(wishes: &[Option<f64>]) -> Vec<usize> {
+    let places: Vec<usize> = (0..wishes.len()).filter(|place| wishes[*place].is_some()).collect();
+    let wish = |place: &usize| wishes[*place].unwrap_or_default();
+    let mut sorted = places.clone();
+    sorted.sort_by(|a, b| wish(a).total_cmp(&wish(b)));
+    let mut order: Vec<usize> = (0..wishes.len()).collect();
+    for (place, which) in places.into_iter().zip(sorted) {
+        order[place] = which;
+    }
+    order
 }
 
 impl Card<'_> {

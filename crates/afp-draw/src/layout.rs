@@ -10,6 +10,7 @@
 //! around them.
 
 mod channel;
+mod fold;
 mod grid;
 mod layers;
 mod order;
@@ -44,6 +45,8 @@ pub(super) struct Link {
     pub(super) to: usize,
     /// The place on `from`.
     pub(super) exit: Exit,
+    /// Edges of one kind may become one in front of their target.
+    pub(super) kind: &'static str,
 }
 
 /// Where an edge leaves its box, from the box's upper left corner.
@@ -81,16 +84,42 @@ pub(super) struct LaidOut {
 /// How often boxes give way to edges.
 const ROUNDS: usize = 4;
 
-/// Lays out the nodes; `links` out of a node count in their order, and node 0 comes first.
-pub(super) fn layout(nodes: &[Node], links: &[Link]) -> LaidOut {
-    if nodes.is_empty() {
-        return LaidOut::default();
-    }
+/// The nodes in layers, each where it is best from left to right.
+fn arranged(nodes: &[Node], links: &[Link]) -> Grid {
     let layers = layers::assign(nodes.len(), links);
     let mut grid = Grid::new(nodes, links, &layers);
     order::improve(&mut grid);
     place::place(&mut grid);
-    let mut rows = Rows::new(&grid, nodes);
+    grid
+}
+
+/// The abscissa that each link goes towards from its node, where all places are left to the layout.
+pub(super) fn towards(nodes: &[Node], links: &[Link]) -> Vec<f64> {
+    if links.is_empty() {
+        return Vec::new();
+    }
+    let grid = arranged(nodes, links);
+    let first =
+        |chain: &Vec<usize>| chain.first().map_or(0.0, |net| grid.x(&grid.nets[*net].ends[1]));
+    grid.chains.iter().map(first).collect()
+}
+
+/// Lays out the nodes; `links` out of a node count in their order, and node 0 comes first.
+fn layout(nodes: &[Node], links: &[Link]) -> LaidOut {
+    if nodes.is_empty() {
+        return LaidOut::default();
+    }
+    let grid = arranged(nodes, links);
+    let rows = Rows::new(&grid, nodes);
+    if let Some(corners) = fold::fold(&grid, nodes, &rows.corners(&grid, nodes)) {
+        let found = router::route(&bounds(nodes, &corners), &wires(nodes, links, &corners), &[]);
+        return LaidOut::new(nodes, corners, found.corners);
+    }
+    unfolded(nodes, links, grid, rows)
+}
+
+/// The layers one below the other, with as much room as the edges need.
+fn unfolded(nodes: &[Node], links: &[Link], mut grid: Grid, mut rows: Rows) -> LaidOut {
     let mut round = 1;
     let mut effort = 0;
     loop {
@@ -129,7 +158,8 @@ fn wires(nodes: &[Node], links: &[Link], corners: &[Point]) -> Vec<Wire> {
         };
         let (left, right) = nodes[link.to].entry;
         let arrival = (to_x + left, to_x + right.max(left));
-        Wire { from: link.from, to: link.to, start, heading, arrival, tip: to_y }
+        let Link { from, to, kind, .. } = *link;
+        Wire { from, to, start, heading, arrival, tip: to_y, kind }
     };
     links.iter().map(wire).collect()
 }
@@ -157,7 +187,7 @@ mod tests {
     /// The least time of two for boxes one below the other.
     fn chain(count: usize) -> Duration {
         let nodes = vec![Node { width: 100.0, height: 60.0, entry: (20.0, 80.0) }; count];
-        let link = |to: usize| Link { from: to - 1, to, exit: Exit::Below(50.0, 60.0) };
+        let link = |to: usize| Link { from: to - 1, to, exit: Exit::Below(50.0, 60.0), kind: "" };
         let links: Vec<_> = (1..count).map(link).collect();
         let run = || {
             let begin = Instant::now();

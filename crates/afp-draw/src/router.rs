@@ -9,6 +9,7 @@
 
 mod gaps;
 mod lines;
+mod merge;
 mod queue;
 mod search;
 mod sequence;
@@ -19,6 +20,7 @@ mod tree;
 mod tests;
 
 use lines::Lines;
+use merge::{Join, merged};
 use search::Search;
 use spread::Spread;
 
@@ -73,6 +75,8 @@ pub(super) struct Wire {
     pub(super) arrival: (f64, f64),
     /// The ordinate of its tip.
     pub(super) tip: f64,
+    /// Edges of one kind may become one in front of their target.
+    pub(super) kind: &'static str,
 }
 
 /// What came out.
@@ -187,17 +191,20 @@ pub(super) fn route(boxes: &[Bounds], wires: &[Wire], kept: &[Option<Vec<Point>>
     for points in corners.iter().filter(|points| !points.is_empty()) {
         search.occupy(points);
     }
-    let mut joins = vec![false; wires.len()];
+    let mut joins = vec![Join::None; wires.len()];
     for wire in &order {
-        joins[*wire] = search.is_full(&wires[*wire]);
-        corners[*wire] = search.route(&wires[*wire], &boxes, joins[*wire]);
+        let full = search.is_full(&wires[*wire]);
+        joins[*wire] = if full { Join::Nearest } else { Join::None };
+        corners[*wire] = search.route(&wires[*wire], &boxes, full);
     }
     let fixed: Vec<bool> = (0..wires.len()).map(|wire| kept_of(wire).is_some()).collect();
-    let spread = |corners: &[Vec<Point>], joins: &[bool]| {
+    let spread = |corners: &[Vec<Point>], joins: &[Join]| {
         let mut corners = corners.to_vec();
         let crowded = Spread { boxes: &boxes, wires, fixed: &fixed, joins }.apply(&mut corners);
         Routes { corners, crowded, effort: 0 }
     };
+    let apart = spread(&corners, &joins);
+    merged(wires, &apart.corners, &fixed, &mut joins);
     let mut best = spread(&corners, &joins);
     let mut tried = vec![false; wires.len()];
     for _ in 0..DETOURS {
@@ -207,9 +214,9 @@ pub(super) fn route(boxes: &[Bounds], wires: &[Wire], kept: &[Option<Vec<Point>>
         }
         for narrow in &detours {
             search.avoid(narrow);
-            joins[narrow.edge] |= narrow.arrives;
-            let joins = joins[narrow.edge];
-            corners[narrow.edge] = search.route(&wires[narrow.edge], &boxes, joins);
+            let full = narrow.arrives || joins[narrow.edge] == Join::Nearest;
+            joins[narrow.edge] = if full { Join::Nearest } else { Join::None };
+            corners[narrow.edge] = search.route(&wires[narrow.edge], &boxes, full);
         }
         let found = spread(&corners, &joins);
         if squeezed(&found) < squeezed(&best) {

@@ -16,7 +16,7 @@ use super::sketch::{Arrow, Rect, Sketch};
 use super::svg::paint::Painter;
 use super::usage::Class;
 use super::view::View;
-use afp_dsl::outline::{Outline, Part};
+use afp_dsl::outline::{Component, Outline, Part};
 use afp_syntax::diagnostics::Severity;
 use afp_syntax::item::Item;
 
@@ -207,19 +207,12 @@ impl<'a> Drawn<'a> {
 
 impl<'a> DrawnPlan<'a> {
     fn new(view: View<'a>, before: Option<&PlanScene>) -> DrawnPlan<'a> {
-        let elements = view.plan.elements.iter().map(|element| card::element(&view, element));
-        let cards: Vec<Card> = std::iter::once(card::start(&view)).chain(elements).collect();
-        let node = |card: &Card| Node { width: card.width, height: card.height, entry: card.entry };
-        let nodes: Vec<_> = cards.iter().map(node).collect();
-        let exits: Vec<(usize, &Leaving)> = cards
-            .iter()
-            .enumerate()
-            .flat_map(|(from, card)| card.exits.iter().map(move |exit| (from, exit)))
-            .collect();
-        // The start tag is node 0, so elements count from 1.
-        let link =
-            |(from, exit): &(usize, &Leaving)| Link { from: *from, to: exit.to + 1, exit: exit.at };
-        let links: Vec<_> = exits.iter().map(link).collect();
+        let cards = match before {
+            Some(before) => as_before(&view, before),
+            None => where_they_lead(&view),
+        };
+        let (nodes, exits) = (nodes(&cards), exits(&cards));
+        let links = links(&exits);
         let placement = placement(&view, &cards, &exits, before);
         let placed = layout::layout_around(&nodes, &links, placement);
         let edges = exits.iter().zip(placed.routes).map(|((_, exit), points)| DrawnEdge {
@@ -297,6 +290,58 @@ impl<'a> DrawnPlan<'a> {
             edges,
         }
     }
+}
+
+/// The cards of the start tag and the elements, with states by what they wish.
+fn cards<'a>(view: &View<'a>, towards: &dyn Fn(&Item, &Part) -> Option<f64>) -> Vec<Card<'a>> {
+    let card = |element: &'a Component| {
+        let item = &element.item;
+        card::element(view, element, &|part| towards(item, part))
+    };
+    std::iter::once(card::start(view)).chain(view.plan.elements.iter().map(card)).collect()
+}
+
+/// The cards with states where they have been; new ones come behind them.
+fn as_before<'a>(view: &View<'a>, before: &PlanScene) -> Vec<Card<'a>> {
+    let pieces = before.elements.iter().flat_map(|element| &element.pieces);
+    let known: BTreeMap<_, _> =
+        pieces.map(|piece| ((&piece.item, &piece.part), piece.rect.x)).collect();
+    cards(view, &|item, part| Some(known.get(&(item, part)).copied().unwrap_or(f64::INFINITY)))
+}
+
+/// The cards with states on the side to which they lead, so that few edges cross.
+fn where_they_lead<'a>(view: &View<'a>) -> Vec<Card<'a>> {
+    let declared = cards(view, &|_, _| None);
+    let exits = exits(&declared);
+    let wishes = layout::towards(&nodes(&declared), &links(&exits));
+    let wishes: BTreeMap<_, _> = exits
+        .iter()
+        .zip(wishes)
+        .map(|((_, exit), wish)| ((&exit.item, &exit.part), wish))
+        .collect();
+    cards(view, &|item, part| wishes.get(&(item, part)).copied())
+}
+
+fn nodes(cards: &[Card]) -> Vec<Node> {
+    let node = |card: &Card| Node { width: card.width, height: card.height, entry: card.entry };
+    cards.iter().map(node).collect()
+}
+
+/// What leads to elements, each with the card that it leaves.
+fn exits<'c>(cards: &'c [Card]) -> Vec<(usize, &'c Leaving)> {
+    let of = |(from, card): (usize, &'c Card)| card.exits.iter().map(move |exit| (from, exit));
+    cards.iter().enumerate().flat_map(of).collect()
+}
+
+/// The start tag is node 0, so elements count from 1.
+fn links(exits: &[(usize, &Leaving)]) -> Vec<Link> {
+    let link = |(from, exit): &(usize, &Leaving)| Link {
+        from: *from,
+        to: exit.to + 1,
+        exit: exit.at,
+        kind: exit.class.name,
+    };
+    exits.iter().map(link).collect()
 }
 
 /// Where cards have to be, where they were, and which routes there were.

@@ -197,6 +197,7 @@ mod tests {
             from: *from,
             to: *to,
             exit: Exit::Below(0.0, 0.0),
+            kind: "",
         };
         assign(count, &edges.iter().map(link).collect::<Vec<_>>())
     }

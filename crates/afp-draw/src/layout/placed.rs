@@ -4,7 +4,7 @@
 //! downwards. Edges then find their ways through the gaps that are left.
 
 use super::super::router::{self, Bounds, Point, Wire};
-use super::{LaidOut, Link, Node, Placement, bounds, layout, wires};
+use super::{LaidOut, Link, Node, Placement, Rows, arranged, bounds, layout, wires};
 
 /// Least distance between a box that gives way and the next one.
 const GAP: f64 = 48.0;
@@ -82,7 +82,9 @@ fn places(nodes: &[Node], links: &[Link], placement: &Placement) -> Vec<Point> {
     if corners.iter().all(Option::is_some) {
         return corners.into_iter().flatten().collect();
     }
-    let automatic = layout(nodes, links).corners;
+    // Not folded: what is new shall stand beside what it belongs to.
+    let grid = arranged(nodes, links);
+    let automatic = Rows::new(&grid, nodes).corners(&grid, nodes);
     let fixed = corners.clone();
     let mut free: Vec<_> = (0..nodes.len()).filter(|node| fixed[*node].is_none()).collect();
     free.sort_by(|a, b| automatic[*a].1.total_cmp(&automatic[*b].1));

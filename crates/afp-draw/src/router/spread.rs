@@ -5,6 +5,7 @@
 //! the boxes beside it, in its place of the [`sequence`](super::sequence), [`PITCH`] away from its
 //! neighbours or, where a gap is too narrow for that, as far as it can be.
 
+use super::merge::Join;
 use super::sequence::{Part, REACH, sequence};
 use super::tree::Maxima;
 use super::{Axis, Bounds, Crowded, PITCH, Point, Wire, without_straight_corners};
@@ -28,8 +29,8 @@ pub(super) struct Spread<'a> {
     pub(super) wires: &'a [Wire],
     /// Which edges stay as they are.
     pub(super) fixed: &'a [bool],
-    /// Which edges join another one at their target.
-    pub(super) joins: &'a [bool],
+    /// What edges do in front of their target.
+    pub(super) joins: &'a [Join],
 }
 
 impl Spread<'_> {
@@ -74,18 +75,24 @@ impl Spread<'_> {
         }
     }
 
-    /// Leads edges into the nearest one that arrives at their target from above.
+    /// Leads edges into those that they join, or into the nearest one that arrives at their target from above.
     fn join(&self, corners: &mut [Vec<Point>]) {
         let arrives_at = |points: &[Point]| points.last().map(|tip| tip.0);
-        let trunks = (0..corners.len()).filter(|edge| !self.joins[*edge]);
-        let trunks: Vec<(usize, f64)> = trunks
+        let ends = |edge: usize| self.joins[edge] == Join::None;
+        let trunks: Vec<(usize, f64)> = (0..corners.len())
+            .filter(|edge| ends(*edge))
             .filter_map(|edge| Some((self.wires[edge].to, arrives_at(&corners[edge])?)))
             .collect();
-        for edge in (0..corners.len()).filter(|edge| self.joins[*edge]) {
+        for edge in (0..corners.len()).filter(|edge| !ends(*edge)) {
             let [.., before, turn, _] = corners[edge][..] else { continue };
             let own = trunks.iter().filter(|(to, _)| *to == self.wires[edge].to);
             let distance = |x: f64| (x - before.0).abs();
-            let nearest = own.map(|(_, x)| *x).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+            let nearest =
+                || own.map(|(_, x)| *x).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+            let nearest = match self.joins[edge] {
+                Join::Edge(trunk) if ends(trunk) => arrives_at(&corners[trunk]),
+                _ => nearest(),
+            };
             let last = corners[edge].len() - 2;
             self.put(Axis::Upright, corners, (edge, last), nearest.unwrap_or(turn.0));
         }
@@ -99,7 +106,7 @@ impl Spread<'_> {
                 let [a, b] = pair else { continue };
                 let upright = (a.0 - b.0).abs() < (a.1 - b.1).abs();
                 let arrives = first + 2 == points.len();
-                if upright != (axis == Axis::Upright) || self.joins[edge] && arrives {
+                if upright != (axis == Axis::Upright) || arrives && self.joins[edge] != Join::None {
                     continue;
                 }
                 let at = axis.across(*a);

@@ -14,6 +14,7 @@ fn down(boxes: &[Bounds], from: usize, to: usize) -> Wire {
         heading: Heading::Down,
         arrival: (two.left + 20.0, two.right - 20.0),
         tip: two.top,
+        kind: "",
     }
 }
 

@@ -1,0 +1,45 @@
+//! Edges that become one in front of their target.
+//!
+//! Who comes from the side takes the way of the next edge of its kind for the last bit, so that several edges to one box end in
+//! one tip. Nothing of another kind lies between them, so that none is crossed for that.
+
+use super::{PITCH, Point, TIP, Wire};
+
+/// What an edge does in front of its target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Join {
+    /// It has a tip of its own.
+    None,
+    /// It joins the nearest one there: the box is too narrow for more.
+    Nearest,
+    /// It joins this one.
+    Edge(usize),
+}
+
+/// Lets the edges of one kind that arrive side by side from the side join one of them: one that comes from above where there is
+/// one.
+pub(super) fn merged(wires: &[Wire], corners: &[Vec<Point>], fixed: &[bool], joins: &mut [Join]) {
+    let tip = |edge: &usize| corners[*edge].last().map_or(0.0, |tip| tip.0);
+    let mut arrivals: Vec<usize> =
+        (0..wires.len()).filter(|edge| joins[*edge] == Join::None).collect();
+    arrivals.sort_by(|a, b| wires[*a].to.cmp(&wires[*b].to).then(tip(a).total_cmp(&tip(b))));
+    let alike =
+        |a: &usize, b: &usize| (wires[*a].to, wires[*a].kind) == (wires[*b].to, wires[*b].kind);
+    for run in arrivals.chunk_by(alike).filter(|run| run.len() > 1) {
+        let joins_in = |edge: &usize| !fixed[*edge] && comes_from_the_side(&corners[*edge]);
+        let straight: Vec<usize> = run.iter().copied().filter(|edge| !joins_in(edge)).collect();
+        let middle = [run[run.len() / 2]];
+        let trunks = if straight.is_empty() { &middle[..] } else { &straight[..] };
+        for edge in run.iter().filter(|edge| !trunks.contains(edge)) {
+            let far = |trunk: &&usize| (tip(trunk) - tip(edge)).abs();
+            let nearest = trunks.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
+            joins[*edge] = nearest.map_or(Join::None, |trunk| Join::Edge(*trunk));
+        }
+    }
+}
+
+/// Whether an edge turns down only where there must be room for its tip.
+fn comes_from_the_side(points: &[Point]) -> bool {
+    let [.., before, turn, tip] = points else { return false };
+    (before.1 - turn.1).abs() < 0.5 && tip.1 - turn.1 <= TIP + PITCH
+}
