@@ -4,9 +4,10 @@
 //! an editor has not saved yet, or texts that a program carries along.
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{Error, ErrorKind, Read};
-use std::path::{Path, PathBuf};
+use std::io::ErrorKind;
+use std::path::PathBuf;
+
+pub use afp_output::read_text;
 
 /// Where the texts of used plan files come from.
 pub trait Files {
@@ -37,23 +38,6 @@ impl Files for Disk {
             _ => error.to_string().to_lowercase(),
         })
     }
-}
-
-/// The greatest length of a file that is read, in bytes: what is longer is no plan, or has no end.
-const MOST: u64 = 64 << 20;
-
-/// The text of a file.
-///
-/// # Errors
-/// It cannot be read, is no text in UTF-8, or longer than 64 MiB.
-pub fn read_text(path: &Path) -> Result<String, Error> {
-    let mut bytes = Vec::new();
-    File::open(path)?.take(MOST + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > MOST {
-        return Err(Error::new(ErrorKind::FileTooLarge, "it is longer than 64 MiB"));
-    }
-    String::from_utf8(bytes)
-        .map_err(|_| Error::new(ErrorKind::InvalidData, "it is no text in UTF-8"))
 }
 
 /// Texts by path; without any, a plan file has only itself.

@@ -25,7 +25,7 @@ use level::{Levels, Outside};
 
 pub(crate) use check::check_everywhere;
 pub use check::check_target;
-pub use target::{BUILT_IN, Target};
+pub use target::{BUILT_IN, Budgets, BuiltIn, Target};
 
 /// What is known of the time behaviour of a plan and its sub-plans.
 #[derive(Clone, Debug)]
@@ -40,9 +40,22 @@ pub struct Timing {
     /// The greatest share of the processor that is ever asked for (1 is all of it), and the path of
     /// the element that is active then. `Err` names the declaration that is missing.
     pub demand: Result<(f64, String), String>,
+    /// What the budgets are.
+    pub basis: Basis,
     /// Every supervisor that can run, sub-plans last. One in a sub-plan stands for all uses of it,
     /// at its worst.
     pub supervisors: Vec<SupervisorTiming>,
+}
+
+/// Where the budgets come from that everything rests on; none of them is measured here.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Basis {
+    /// The target that they hold for.
+    pub target: Option<String>,
+    /// How many times what is declared.
+    pub slowdown: f64,
+    /// How many templates have a budget of their own on the target.
+    pub given: usize,
 }
 
 /// What the longest step is made of, in nanoseconds.
@@ -143,9 +156,9 @@ impl Interruption {
     }
 }
 
-/// Works out the timing of a plan; without a target, ticks count as infinitely fine.
+/// Works out the timing of a plan; without a target, ticks count as infinitely fine, and budgets are as declared.
 pub fn timing(graph: &Graph, target: Option<&Target>) -> Timing {
-    let model = model(graph);
+    let model = model(graph, target);
     let summaries = flow::sum_up(&model);
     let view = |plan| View::new(&model, plan, &summaries);
     let views: Vec<View<'_>> = graph.plans.iter().map(view).collect();
@@ -161,13 +174,29 @@ pub fn timing(graph: &Graph, target: Option<&Target>) -> Timing {
     };
     let plan = graph.main().name.clone();
     let step_parts = longest.known().ok().map(|_| levels.step_parts(&views, graph.main.index()));
-    Timing { plan, longest_step: longest.known(), step_parts, demand, supervisors }
+    let basis = basis(&model, target);
+    Timing { plan, longest_step: longest.known(), step_parts, demand, basis, supervisors }
 }
 
-fn model(graph: &Graph) -> Model<'_> {
+/// The plans, with toolboxes as they are on a target.
+fn model<'graph>(graph: &'graph Graph, target: Option<&Target>) -> Model<'graph> {
+    let adapted = |toolbox| target.map_or_else(|| Arc::clone(toolbox), |it| it.adapted(toolbox));
     Model {
         plans: graph.plans.iter().map(Some).collect(),
         order: (0..graph.plans.len()).collect(),
-        toolboxes: graph.toolboxes.iter().map(Arc::clone).collect(),
+        toolboxes: graph.toolboxes.iter().map(adapted).collect(),
+    }
+}
+
+fn basis(model: &Model<'_>, target: Option<&Target>) -> Basis {
+    let templates = model.toolboxes.iter().flat_map(|toolbox| {
+        toolbox.templates.iter().map(|template| (toolbox.name.as_str(), template.name.as_str()))
+    });
+    let given =
+        |target: &Target| templates.filter(|(of, name)| target.given(of, name).is_some()).count();
+    Basis {
+        target: target.map(|target| target.name.clone()),
+        slowdown: target.map_or(1.0, |target| target.slowdown),
+        given: target.map_or(0, given),
     }
 }

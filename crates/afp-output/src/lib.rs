@@ -1,4 +1,4 @@
-//! Files that appear under their name only when they are whole.
+//! Files that appear under their name only when they are whole, and those of others, read with a bound.
 //!
 //! An output is written beside its file, under the same name with `.part` appended, and takes the
 //! file's place at the end. Whoever reads sees the old file or the new one, also after a power
@@ -9,6 +9,7 @@
 //! cut off from them: it gets the bytes of the whole new file instead.
 
 mod part;
+mod read;
 mod target;
 
 use std::fs::{self, File};
@@ -16,6 +17,7 @@ use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 
 use part::Part;
+pub use read::{read_bytes, read_text};
 use target::Target;
 
 /// A file that is being written.

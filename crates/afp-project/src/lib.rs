@@ -14,6 +14,8 @@
 //! [target.arm]
 //! tick = "1 ms"
 //! capacity = 0.5
+//! slowdown = 4
+//! budgets.gripper.Grip = "30 us"
 //!
 //! [robot]
 //! toolbox = "gripper"                                         # its crate holds the robot, too

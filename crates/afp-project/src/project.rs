@@ -1,5 +1,6 @@
 //! What a project file says, as values.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
 
@@ -70,7 +71,7 @@ pub struct Crate {
 }
 
 /// A machine that runs plans, where it differs from the built-in one of its name.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Target {
     /// Its name.
     pub name: String,
@@ -78,6 +79,10 @@ pub struct Target {
     pub tick: Option<u64>,
     /// The share of the processor that a plan may ask for, more than 0 and at most 1.
     pub capacity: Option<f64>,
+    /// How many times as long as the toolboxes declare a poll takes, more than 0.
+    pub slowdown: Option<f64>,
+    /// What one poll takes at most in nanoseconds, by toolbox and template.
+    pub budgets: BTreeMap<String, BTreeMap<String, u64>>,
 }
 
 /// Something wrong in a project file.

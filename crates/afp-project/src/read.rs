@@ -1,5 +1,6 @@
 //! From the text of a project file to its meaning; whatever is wrong is said, all at once.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use toml_edit::{Document, Item, TableLike, Value};
@@ -191,18 +192,39 @@ impl Reader {
     }
 
     fn target(&mut self, target: &Pair<'_>) -> Option<Target> {
-        let mut read = Target { name: target.key.to_owned(), tick: None, capacity: None };
+        let mut read = Target { name: target.key.to_owned(), ..Target::default() };
         for pair in self.table(target, "tick = \"1 ms\" and capacity = 0.5") {
             match pair.key {
-                "tick" => read.tick = self.tick(&pair),
-                "capacity" => read.capacity = self.capacity(&pair),
-                _ => self.unknown(&pair, "a target", "it has 'tick' and 'capacity'"),
+                "tick" => read.tick = self.time(&pair),
+                "capacity" => {
+                    read.capacity = self.number(&pair, 1.0, "above 0 and at most 1, such as 0.7");
+                }
+                "slowdown" => {
+                    read.slowdown = self.number(&pair, f64::MAX, "above 0, such as 20");
+                }
+                "budgets" => read.budgets = self.budgets(&pair),
+                _ => {
+                    let help = "it has 'tick', 'capacity', 'slowdown' and 'budgets'";
+                    self.unknown(&pair, "a target", help);
+                }
             }
         }
         Some(read)
     }
 
-    fn tick(&mut self, pair: &Pair<'_>) -> Option<u64> {
+    /// `carbot.Forward = "30 us"`
+    fn budgets(&mut self, budgets: &Pair<'_>) -> BTreeMap<String, BTreeMap<String, u64>> {
+        let mut read = BTreeMap::new();
+        for toolbox in self.table(budgets, "budgets.carbot.Forward = \"30 us\"") {
+            let of: &mut BTreeMap<_, _> = read.entry(toolbox.key.to_owned()).or_default();
+            for template in self.table(&toolbox, "a template and its time: Forward = \"30 us\"") {
+                of.extend(self.time(&template).map(|time| (template.key.to_owned(), time)));
+            }
+        }
+        read
+    }
+
+    fn time(&mut self, pair: &Pair<'_>) -> Option<u64> {
         let time = pair.item.as_str().and_then(|text| duration(text).ok());
         let tick = time.map(|time| time.as_nanos()).filter(|tick| *tick > 0);
         if tick.is_none() {
@@ -211,15 +233,15 @@ impl Reader {
         tick
     }
 
-    fn capacity(&mut self, pair: &Pair<'_>) -> Option<f64> {
+    fn number(&mut self, pair: &Pair<'_>, most: f64, what: &str) -> Option<f64> {
         let value = match pair.item.as_value() {
             Some(Value::Float(value)) => Some(*value.value()),
             Some(Value::Integer(value)) => Some(*value.value() as f64),
             _ => None,
         };
-        let value = value.filter(|value| *value > 0.0 && *value <= 1.0);
+        let value = value.filter(|value| *value > 0.0 && *value <= most);
         if value.is_none() {
-            self.value(pair, "a number above 0 and at most 1, such as 0.7");
+            self.value(pair, &format!("a number {what}"));
         }
         value
     }

@@ -6,6 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use afp_output::{read_bytes, read_text};
 use afp_project::{ProjectFile, shown};
 use afp_session::{AnyRobot, AnyWorld, Pose2, WorldError};
 
@@ -142,7 +143,7 @@ fn load(path: &Path, robot: &dyn AnyRobot) -> Result<LoadedWorld, RunError> {
         let none = || wrong("there are no made-up worlds for this robot", "name a file");
         return parse(text.ok_or_else(none)?, Some(path.to_owned()), robot);
     }
-    let text = fs::read_to_string(path).map_err(RunError::file("cannot read the world", path))?;
+    let text = read_text(path).map_err(RunError::file("cannot read the world", path))?;
     if path.extension().is_some_and(|extension| extension == "yaml" || extension == "yml") {
         return parse(map(path, text, robot)?, Some(path.to_owned()), robot);
     }
@@ -159,7 +160,7 @@ fn map(path: &Path, yaml: String, robot: &dyn AnyRobot) -> Result<String, RunErr
     };
     let picture = path.with_file_name(robot.picture_of_map(&yaml).map_err(wrong)?);
     let bytes =
-        fs::read(&picture).map_err(RunError::file("cannot read the map's picture", &picture))?;
+        read_bytes(&picture).map_err(RunError::file("cannot read the map's picture", &picture))?;
     let name = path.file_stem().map(|name| name.to_string_lossy()).unwrap_or_default();
     robot.text_of_map(&name, &yaml, &bytes).map_err(wrong)
 }

@@ -1,26 +1,24 @@
 //! The targets that a plan is checked against: those of `afp.toml`, or the one that was named.
 
-use afp_dsl::timing::{BUILT_IN, Target};
+use afp_dsl::graph::Graph;
+use afp_dsl::timing::{BUILT_IN, Target, check_target};
 use afp_project::Project;
 use afp_run::RunError;
+use afp_syntax::diagnostics::{Diagnostics, words};
 
 /// The target of that name, from `afp.toml` or built in; without a name all that `afp.toml` has.
 ///
 /// # Errors
 /// There is no such target.
 pub fn choose(project: &Project, name: Option<&str>) -> Result<Vec<Target>, RunError> {
-    let own = project
-        .targets
-        .iter()
-        .map(|target| Target::new(&target.name, target.tick, target.capacity));
-    let own: Vec<_> = own.collect();
+    let own: Vec<_> = project.targets.iter().map(completed).collect();
     let Some(name) = name else { return Ok(own) };
     let named = own.iter().find(|target| target.name == name).cloned();
     match named.or_else(|| Target::built_in(name)) {
         Some(target) => Ok(vec![target]),
         None => {
             let names = own.iter().map(|target| target.name.as_str());
-            let built_in = BUILT_IN.iter().map(|(name, ..)| *name);
+            let built_in = BUILT_IN.iter().map(|target| target.name);
             let known: Vec<_> = built_in.chain(names).map(|name| format!("'{name}'")).collect();
             let message = format!("there is no target '{name}'");
             let help =
@@ -28,4 +26,50 @@ pub fn choose(project: &Project, name: Option<&str>) -> Result<Vec<Target>, RunE
             Err(RunError::usage(message, help))
         }
     }
+}
+
+/// What a project says of a target; the rest as in the built-in one of its name.
+fn completed(own: &afp_project::Target) -> Target {
+    let usual = Target::named(&own.name);
+    Target {
+        tick: own.tick.or(usual.tick),
+        capacity: own.capacity.unwrap_or(usual.capacity),
+        slowdown: own.slowdown.unwrap_or(usual.slowdown),
+        budgets: own.budgets.clone(),
+        ..usual
+    }
+}
+
+/// What is wrong with a plan on targets.
+///
+/// # Errors
+/// A target has a budget for a template that its toolbox does not have.
+pub fn check(graph: &Graph, targets: &[Target]) -> Result<Diagnostics, RunError> {
+    let mut diags = Diagnostics::default();
+    for target in targets {
+        know_templates(graph, target)?;
+        diags.extend(check_target(graph, target));
+    }
+    Ok(diags)
+}
+
+/// A slip in a name would leave the budget that is declared. Toolboxes that the plan does not use are another plan's.
+fn know_templates(graph: &Graph, target: &Target) -> Result<(), RunError> {
+    for (toolbox, name) in target.budgeted() {
+        let Some(known) = graph.toolboxes.iter().find(|known| known.name == toolbox) else {
+            continue;
+        };
+        let names = || known.templates.iter().map(|template| template.name.as_str());
+        if names().any(|known| known == name) {
+            continue;
+        }
+        let message =
+            format!("'[target.{}]' of afp.toml: '{toolbox}' has no template '{name}'", target.name);
+        let help = match words::nearest(name, names()) {
+            Some(near) => format!("write 'budgets.{toolbox}.{near}'"),
+            None => format!("'afpc templates {toolbox}' lists those that there are"),
+        };
+        return Err(RunError::usage(message, help));
+    }
+    Ok(())
 }

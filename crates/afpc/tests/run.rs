@@ -190,6 +190,22 @@ fn files_that_do_not_work_are_named() {
 }
 
 #[test]
+#[cfg(unix)]
+fn a_world_without_an_end_is_not_read_for_ever() {
+    let place = Place::with_plan();
+    let endless = "it is longer than 64 MiB";
+    let said = place.afpc("run wall_following.afp --world /dev/zero");
+    said.fails(1, &["error: cannot read the world '/dev/zero'", endless]);
+    place.write(
+        "hall.yaml",
+        "image: /dev/zero\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\n\
+         occupied_thresh: 0.65\nfree_thresh: 0.2\n",
+    );
+    let said = place.afpc("run wall_following.afp --world hall.yaml");
+    said.fails(1, &["error: cannot read the map's picture '/dev/zero'", endless]);
+}
+
+#[test]
 fn worlds_are_found_in_their_order() {
     let place = Place::new();
     place.write("project/plans/wall_following.afp", WALL_FOLLOWING);

@@ -56,15 +56,15 @@ fn parts(diagnostic: Diagnostic, response: &Response) -> Diagnostic {
     ))
 }
 
-/// Checks a plan against a target: ticks, demand, and responses that only its tick makes too long.
+/// Checks a plan against a target: ticks, demand, and responses that only the target makes too long.
 ///
 /// What the target does not say is not checked.
 pub fn check_target(graph: &Graph, target: &Target) -> Diagnostics {
     let mut diags = Diagnostics::default();
     if let Some(tick) = target.tick {
         ticks(graph, target, tick, &mut diags);
-        responses(graph, target, &mut diags);
     }
+    responses(graph, target, &mut diags);
     demand(graph, target, &mut diags);
     diags.sort();
     diags
@@ -72,7 +72,7 @@ pub fn check_target(graph: &Graph, target: &Target) -> Diagnostics {
 
 /// The plans that the main plan reaches, as views.
 fn used<R>(graph: &Graph, look: impl FnOnce(&mut dyn Iterator<Item = &View<'_>>) -> R) -> R {
-    let model = model(graph);
+    let model = model(graph, None);
     let views: Vec<_> = graph.plans.iter().map(|plan| View::new(&model, plan, &[])).collect();
     let levels = Levels::of(&views);
     let outside = Outside::of(&views, &levels, graph.main.index());
@@ -129,9 +129,10 @@ fn responses(graph: &Graph, target: &Target, diags: &mut Diagnostics) {
 }
 
 fn demand(graph: &Graph, target: &Target, diags: &mut Diagnostics) {
-    let Ok((share, path)) = timing(graph, None).demand else { return };
+    let declared = timing(graph, None).demand;
+    let Ok((share, path)) = timing(graph, Some(target)).demand else { return };
     // More than all of it is an error on every target.
-    if share > target.capacity && share <= 1.0 {
+    if share > target.capacity && !declared.is_ok_and(|(share, _)| share > 1.0) {
         let gives = format!("'{}' gives {}", target.name, percent(target.capacity));
         diags.push(too_much(graph, share, &path, &gives));
     }

@@ -1,16 +1,14 @@
 //! Timing as a table for people and as JSON for tools.
 
-use std::fmt::Write;
+use std::fmt::{self, Write};
 
 use serde_json::{Value, json};
 
-use super::{Interruption, StepParts, SupervisorTiming, Timing};
+use super::{Basis, Interruption, StepParts, SupervisorTiming, Timing};
 use crate::types::text::duration;
 
-/// What all of it rests on.
-const BASIS: &str = "\
-budgets are those that the toolboxes declare, not measured; a response has the target's tick in it, not the delay of a sensor
-";
+/// What a response is made of, and what not.
+const RESPONSE: &str = "a response has the target's tick in it, not the delay of a sensor";
 
 impl Timing {
     /// The table, one line for each supervisor, with what it is made of; ends with a line break.
@@ -24,7 +22,7 @@ impl Timing {
             text += "\n";
             text += &aligned(head, parts.into_iter());
         }
-        text + "\n" + &self.sums() + BASIS
+        format!("{text}\n{}{}; {RESPONSE}\n", self.sums(), self.basis)
     }
 
     fn sums(&self) -> String {
@@ -72,7 +70,7 @@ impl Timing {
     }
 
     /// The same as one JSON object: `plan`, `longest_step_ns`, `longest_step_parts`, `demand` (each with `null` and a reason where
-    /// unknown) and `supervisors`. Times are in nanoseconds.
+    /// unknown), `slowdown`, `budgets_given` and `supervisors`. Times are in nanoseconds.
     pub fn json(&self) -> Value {
         let supervisors: Vec<_> = self.supervisors.iter().map(supervisor).collect();
         json!({
@@ -88,8 +86,32 @@ impl Timing {
             "demand": self.demand.as_ref().ok().map(|(share, _)| share),
             "demand_while": self.demand.as_ref().ok().map(|(_, path)| path),
             "demand_unknown": self.demand.as_ref().err(),
+            "slowdown": self.basis.slowdown,
+            "budgets_given": self.basis.given,
             "supervisors": supervisors,
         })
+    }
+}
+
+impl fmt::Display for Basis {
+    /// `budgets are those that the toolboxes declare, not measured`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let target = self.target.as_deref().unwrap_or_default();
+        match self.given {
+            0 => write!(f, "budgets are those that the toolboxes declare")?,
+            1 => write!(
+                f,
+                "one budget is that of '[target.{target}]', the others those that the toolboxes declare"
+            )?,
+            n => write!(
+                f,
+                "{n} budgets are those of '[target.{target}]', the others those that the toolboxes declare"
+            )?,
+        }
+        if self.slowdown != 1.0 {
+            write!(f, ", times {} for '{target}'", self.slowdown)?;
+        }
+        write!(f, ", not measured")
     }
 }
 

@@ -4,7 +4,8 @@
 
 use crate::support;
 
-use afp_dsl::timing::{Target, Trust, timing};
+use afp_dsl::timing::{Target, Trust, check_target, timing};
+use afp_syntax::diagnostics::Code;
 
 const MARK: &str = "\n// Timing:\n";
 
@@ -34,9 +35,9 @@ fn the_plan_of_the_paper_is_proved_where_it_has_slack() {
     let text = include_str!("../../../../plans/wall_following.afp");
     let compiled = support::compile(text, &support::toolboxes());
     let graph = compiled.graph.unwrap();
-    for (name, ..) in afp_dsl::timing::BUILT_IN {
+    for &name in &["host", "pi", "pi32"] {
         let target = Target::built_in(name).unwrap();
-        let found = afp_dsl::timing::check_target(&graph, &target);
+        let found = check_target(&graph, &target);
         assert!(found.is_empty(), "{name}: {}", found.render(&compiled.sources, false));
         for row in timing(&graph, Some(&target)).supervisors {
             let bound = row.interruption.unwrap();
@@ -47,4 +48,30 @@ fn the_plan_of_the_paper_is_proved_where_it_has_slack() {
             assert_eq!(bound.trust, trust, "{name}: {}", row.path);
         }
     }
+}
+
+/// A microcontroller takes ten times as long, unless somebody says what it takes.
+#[test]
+fn a_slower_target_is_not_proved_before_its_budgets_are_known() {
+    let text = include_str!("../../../../plans/wall_following.afp");
+    let compiled = support::compile(text, &support::toolboxes());
+    let graph = compiled.graph.unwrap();
+    let mut target = Target::built_in("mcu").unwrap();
+    let found = check_target(&graph, &target);
+    assert!(!found.is_empty());
+    assert!(
+        found.iter().all(|one| one.code == Code::E0405),
+        "{}",
+        found.render(&compiled.sources, false)
+    );
+    let templates = graph.toolboxes.iter().flat_map(|toolbox| {
+        toolbox.templates.iter().map(|template| (toolbox.name.clone(), template.name.clone()))
+    });
+    for (toolbox, template) in templates {
+        target.budgets.entry(toolbox).or_default().insert(template, 20_000);
+    }
+    let found = check_target(&graph, &target);
+    assert!(found.is_empty(), "{}", found.render(&compiled.sources, false));
+    let text = timing(&graph, Some(&target)).text();
+    assert!(text.contains("budgets are those of '[target.mcu]', the others"), "{text}");
 }

@@ -20,6 +20,10 @@ c = { path = 'c.afp', crate = 'cc' }
 capacity = 0.5
 [target.toy]
 tick = '2 ms'
+slowdown = 20
+budgets.carbot.Forward = '30 us'
+[target.toy.budgets.a]
+Grip = '1 ms'
 
 [afp]
 version = '0.1'
@@ -38,6 +42,8 @@ version = '0.1'
     let [pi, toy] = &project.targets[..] else { panic!("{:?}", project.targets) };
     assert_eq!((pi.tick, pi.capacity), (None, Some(0.5)));
     assert_eq!((toy.tick, toy.capacity), (Some(2_000_000), None));
+    assert_eq!((pi.slowdown, toy.slowdown), (None, Some(20.0)));
+    assert_eq!((toy.budgets["carbot"]["Forward"], toy.budgets["a"]["Grip"]), (30_000, 1_000_000));
     assert_eq!(read("").0, Project::default());
 }
 
@@ -70,6 +76,11 @@ fn what_is_wrong_with_a_target_is_named_at_its_place() {
     assert_eq!(wrong("[target.a]\ntick = \"0 s\""), ["\"0 s\""]);
     assert_eq!(wrong("[target.a]\ntick = \"3 cm\""), ["\"3 cm\""]);
     assert_eq!(wrong("[target.a]\ncapacity = 1.5\ntick = 1"), ["1.5", "1"]);
+    assert_eq!(wrong("[target.a]\nslowdown = 0"), ["0"]);
+    assert_eq!(wrong("[target.a]\nslowdown = inf"), ["inf"]);
+    assert_eq!(wrong("[target.a]\nbudgets = 3"), ["3"]);
+    assert_eq!(wrong("[target.a.budgets]\nForward = '1 ms'"), ["'1 ms'"]);
+    assert_eq!(wrong("[target.a.budgets.b]\nForward = 1"), ["1"]);
     assert_eq!(wrong("[target]\na = 3"), ["3"]);
     assert_eq!(wrong("target = 3"), ["3"]);
 }

@@ -6,10 +6,8 @@ use afp_build::cargo::{self, Artifact, Blame, Generated, Job};
 use afp_build::{OwnToolbox, crate_folder, origin};
 use afp_codegen::{CrateFile, CrateOptions, crate_files};
 use afp_dsl::graph::Graph;
-use afp_dsl::timing::check_target;
 use afp_project::RobotLink;
 use afp_run::{EXIT_OK, RunError, say};
-use afp_syntax::diagnostics::Diagnostics;
 use clap::Args;
 use serde_json::{Value, json};
 
@@ -169,10 +167,8 @@ fn is_fast_enough(
     graph: &Graph,
     reader: Reader,
 ) -> Result<(), NoPlan> {
-    let mut diags = Diagnostics::default();
-    for target in targets::choose(&file.own.project.project, Some(machine.name()))? {
-        diags.extend(check_target(graph, &target));
-    }
+    let targets = targets::choose(&file.own.project.project, Some(machine.name()))?;
+    let diags = targets::check(graph, &targets)?;
     reader.tell(&diags, &file.compiled.sources)?;
     if diags.has_errors() { Err(NoPlan::Wrong) } else { Ok(()) }
 }

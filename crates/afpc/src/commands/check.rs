@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use afp_dsl::Compiled;
 use afp_dsl::files::normalised;
-use afp_dsl::timing::{Target, check_target, timing};
+use afp_dsl::timing::{Target, timing};
 use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_USAGE};
 use afp_syntax::diagnostics::Code;
 use afp_syntax::source::Span;
@@ -86,7 +86,7 @@ fn check(name: &str, arguments: &Arguments, told: &mut Told) -> Result<u8, NoPla
     let targets = targets::choose(&file.own.project.project, arguments.target.as_deref())?;
     let compiled = &mut file.compiled;
     if let Some(graph) = &compiled.graph {
-        targets.iter().for_each(|target| compiled.diags.extend(check_target(graph, target)));
+        compiled.diags.extend(targets::check(graph, &targets)?);
         compiled.diags.sort();
     }
     let wrong = compiled.diags.has_errors();
