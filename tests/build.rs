@@ -5,6 +5,7 @@
 mod random;
 
 use std::fmt::Write;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
@@ -14,8 +15,8 @@ use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
 use afp_syntax::source::Source;
 
-/// Random plans where nothing else is asked for.
-const RANDOM_PLANS: u64 = 40;
+/// The random plans where nothing else is asked for, by seed.
+const RANDOM_PLANS: Range<u64> = 0..40;
 
 fn main() -> io::Result<()> {
     for path in ["run", "plans", "toolbox/testing.afp", "src/random.rs", "src/random"] {
@@ -69,11 +70,20 @@ fn steps(toolboxes: &Toolboxes) -> io::Result<String> {
     Ok(format!("pub {module}"))
 }
 
-/// A module for each random plan, and a table of functions that run them, by seed.
+/// The seeds that `AFP_RANDOM_PLANS` asks for, such as `400..800`.
+fn wanted() -> io::Result<Range<u64>> {
+    let Ok(text) = env::var("AFP_RANDOM_PLANS") else { return Ok(RANDOM_PLANS) };
+    let ends =
+        text.split_once("..").and_then(|(from, to)| Some(from.parse().ok()?..to.parse().ok()?));
+    ends.ok_or_else(|| {
+        io::Error::other(format!("AFP_RANDOM_PLANS is '{text}', not seeds such as 400..800"))
+    })
+}
+
+/// A module for each random plan, and a table of seeds and functions that run them.
 fn random_plans(toolboxes: &Toolboxes) -> io::Result<String> {
-    let wanted = env::var("AFP_RANDOM_PLANS").ok().and_then(|number| number.parse().ok());
     let (mut code, mut table) = (String::new(), String::new());
-    for seed in 0..wanted.unwrap_or(RANDOM_PLANS) {
+    for seed in wanted()? {
         let name = format!("seed{seed}");
         code += &module(
             &name,
@@ -81,12 +91,16 @@ fn random_plans(toolboxes: &Toolboxes) -> io::Result<String> {
             &random::plan(seed).text,
             toolboxes,
         )?;
-        let _ = writeln!(table, "    |script| afp_tests::drive::drive({name}::new(), script),");
+        let run = format!("|script| afp_tests::drive::drive({name}::new(), script)");
+        let _ = writeln!(table, "    ({seed}, {run}),");
     }
     let _ = write!(
         code,
-        "/// Runs the plan of each seed.
-pub const PLANS: &[fn(&afp_tests::script::Script) -> Vec<String>] = &[
+        "/// Runs a plan.
+pub type Run = fn(&afp_tests::script::Script) -> Vec<String>;
+
+/// Each seed with what runs its plan.
+pub const PLANS: &[(u64, Run)] = &[
 {table}];
 "
     );
