@@ -5,6 +5,8 @@
 //! before: boxes stay where they were, and edges whose ends and surroundings are the same keep
 //! their routes to the last digit.
 
+mod lines;
+
 use std::collections::BTreeMap;
 
 use super::Options;
@@ -223,7 +225,7 @@ impl<'a> DrawnPlan<'a> {
             severity: exit.severity,
             points,
         });
-        let edges = edges.collect();
+        let edges = from_below(edges.collect());
         let cards = cards.into_iter().zip(placed.corners).collect();
         DrawnPlan { view, offset: (0.0, 0.0), bounds: placed.bounds, cards, edges }
     }
@@ -249,18 +251,19 @@ impl<'a> DrawnPlan<'a> {
     }
 
     fn scene(&self, painter: &mut Painter) -> PlanScene {
-        let edges = self.edges.iter().filter_map(|edge| {
-            let arrow = Arrow::flow(edge.points.clone(), edge.class);
-            Some(EdgeScene {
-                item: edge.item.clone(),
-                part: edge.part.clone(),
-                to: edge.to.clone()?,
-                kind: edge.class.name,
-                severity: edge.severity,
-                svg: painter.edge(&edge.item, &edge.part, &arrow),
-                points: edge.points.clone(),
-            })
-        });
+        let edges =
+            self.edges.iter().zip(lines::joined(&self.edges)).filter_map(|(edge, joined)| {
+                let arrow = Arrow { joined, ..Arrow::flow(edge.points.clone(), edge.class) };
+                Some(EdgeScene {
+                    item: edge.item.clone(),
+                    part: edge.part.clone(),
+                    to: edge.to.clone()?,
+                    kind: edge.class.name,
+                    severity: edge.severity,
+                    svg: painter.edge(&edge.item, &edge.part, &arrow),
+                    points: edge.points.clone(),
+                })
+            });
         let edges = edges.collect();
         let elements = self.cards.iter().map(|(card, at)| ElementScene {
             item: card.item.clone(),
@@ -290,6 +293,14 @@ impl<'a> DrawnPlan<'a> {
             edges,
         }
     }
+}
+
+/// The edges in the order in which they lie above one another: on top what would look dashed otherwise.
+fn from_below(edges: Vec<DrawnEdge>) -> Vec<DrawnEdge> {
+    let dashes = lines::dashes(&edges);
+    let mut edges: Vec<_> = dashes.into_iter().zip(edges).collect();
+    edges.sort_by_key(|(dashes, _)| *dashes);
+    edges.into_iter().map(|(_, edge)| edge).collect()
 }
 
 /// The cards of the start tag and the elements, with states by what they wish.

@@ -110,6 +110,8 @@ pub(super) struct Arrow {
     pub(super) points: Vec<(f64, f64)>,
     pub(super) class: Class,
     pub(super) tip: Tip,
+    /// The length at its end on which others run into it: they are not crossed there.
+    pub(super) joined: f64,
 }
 
 /// How an arrow is drawn.
@@ -126,7 +128,12 @@ pub(super) enum Tip {
 impl Arrow {
     /// Flow of action.
     pub(super) fn flow(points: Vec<(f64, f64)>, class: Class) -> Arrow {
-        Arrow { points, class, tip: Tip::Thick }
+        Arrow { points, class, tip: Tip::Thick, joined: 0.0 }
+    }
+
+    /// Flow of data.
+    pub(super) fn data(points: Vec<(f64, f64)>) -> Arrow {
+        Arrow { tip: Tip::Thin, ..Arrow::flow(points, "data".into()) }
     }
 
     /// Whether it is flow of action.

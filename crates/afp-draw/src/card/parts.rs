@@ -107,7 +107,7 @@ pub(super) fn inflow(
     };
     let rect = data(sketch, at, text, class, side);
     let points = vec![attached(rect, at), at];
-    sketch.arrows.push(Arrow { points, class: "data".into(), tip: Tip::Thin });
+    sketch.arrows.push(Arrow::data(points));
     port(sketch, at, input.port, side);
     let part = Part::Input { name: input.port.to_owned(), nth: input.nth };
     sketch.pieces.push(Piece { item: of.item.clone(), part, rect, severity: input.severity });
@@ -125,7 +125,7 @@ pub(super) fn outflow(
     let class = if output.entry.is_empty() { "hole" } else { "entry" };
     let rect = data(sketch, at, output.text(), class, side);
     let points = vec![at, attached(rect, at)];
-    sketch.arrows.push(Arrow { points, class: "data".into(), tip: Tip::Thin });
+    sketch.arrows.push(Arrow::data(points));
     port(sketch, at, output.port, side);
     let part = Part::Output { name: output.port.to_owned(), nth: output.nth };
     sketch.pieces.push(Piece { item: of.item.clone(), part, rect, severity: output.severity });

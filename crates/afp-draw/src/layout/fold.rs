@@ -12,7 +12,7 @@ use super::grid::Grid;
 const TALL: f64 = 2.0;
 
 /// As many edges may pass a cut.
-const MOST_CUT: usize = 3;
+const MOST_CUT: usize = 5;
 
 /// Distance between two columns, without room for the edges between them.
 const APART: f64 = 48.0;

@@ -227,7 +227,11 @@ fn paint_arrow(out: &mut String, arrow: &Arrow) {
     let class = arrow.class;
     if arrow.is_flow() {
         // A gap in the line below makes a crossing readable.
-        line(out, &format!("<path class=\"halo\" d=\"{path}\"/>"));
+        let crosses = match arrow.joined {
+            0.0 => path.clone(),
+            joined => bent_path(&shortened(&arrow.points, joined + BEND)),
+        };
+        line(out, &format!("<path class=\"halo\" d=\"{crosses}\"/>"));
     }
     let kind = if arrow.is_flow() { "flow" } else { "thin" };
     line(out, &format!("<path class=\"{kind} {class}\" d=\"{path}\"/>"));
@@ -237,6 +241,22 @@ fn paint_arrow(out: &mut String, arrow: &Arrow) {
     let tip = format!("M{} {}L{}L{}z", number(end.0), number(end.1), corner(1.0), corner(-1.0));
     let kind = if arrow.tip == Tip::Hollow { "flow hollow" } else { "tip" };
     line(out, &format!("<path class=\"{kind} {class}\" d=\"{tip}\"/>"));
+}
+
+/// A polyline without so much of its end.
+fn shortened(points: &[(f64, f64)], mut length: f64) -> Vec<(f64, f64)> {
+    let mut points = points.to_vec();
+    while let [.., before, end] = points[..] {
+        let last = distance(before, end);
+        points.pop();
+        if length < last {
+            let (dx, dy) = direction(end, before);
+            points.push((end.0 + dx * length, end.1 + dy * length));
+            break;
+        }
+        length -= last;
+    }
+    points
 }
 
 /// The unit vector along a vertical or horizontal line.

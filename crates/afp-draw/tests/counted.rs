@@ -1,0 +1,131 @@
+//! How calm the drawings of the shipped plans and of those of peers are: crossings, bends and sides, counted.
+//!
+//! `AFP_BLESS=1` rewrites the table; look at the drawings that changed.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use afp_draw::{Options, PlanScene, Point, Scene};
+use afp_dsl::compile;
+use afp_dsl::files::Disk;
+use afp_dsl::toolbox::Toolboxes;
+use afp_syntax::source::Source;
+
+const TABLE: &str = "tests/draw/counted.txt";
+
+/// Plans, with the toolboxes beside them.
+const FOLDERS: [(&str, &str); 3] = [
+    ("plans", ""),
+    ("examples/peers/plans", "examples/peers/toolboxes"),
+    ("examples/vacuum/plans", "examples/vacuum"),
+];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// The `.afp` files of a folder, by name.
+fn files(folder: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(root().join(folder)).unwrap();
+    let mut files: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
+    files.retain(|path| path.extension().is_some_and(|end| end == "afp"));
+    files.sort();
+    files
+}
+
+fn source(path: &Path) -> Source {
+    Source::new(path.to_string_lossy(), fs::read_to_string(path).unwrap())
+}
+
+/// The drawings of all plans, each plan once.
+fn scenes() -> Vec<PlanScene> {
+    let mut found: Vec<PlanScene> = Vec::new();
+    for (plans, beside) in FOLDERS {
+        let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+        if !beside.is_empty() {
+            files(beside).iter().for_each(|path| toolboxes.add(source(path), "beside"));
+        }
+        for path in files(plans) {
+            let compiled =
+                compile(&source(&path), &toolboxes, &Disk(path.parent().unwrap().to_owned()));
+            assert!(compiled.graph.is_some(), "{}", compiled.render(false));
+            let mut scene = Scene::new(&compiled.outline, &Options::default(), None);
+            let own = scene.plans.iter().filter(|plan| plan.file == scene.plans[0].file).count();
+            found.extend(scene.plans.drain(..).take(own));
+        }
+    }
+    found
+}
+
+/// What was counted in drawings.
+#[derive(Clone, Copy, Default)]
+struct Counted {
+    edges: usize,
+    bends: usize,
+    crossings: usize,
+}
+
+impl Counted {
+    fn of(plan: &PlanScene) -> Counted {
+        let ways: Vec<&[Point]> = plan.edges.iter().map(|edge| &edge.points[..]).collect();
+        let bends = ways.iter().map(|way| way.len().saturating_sub(2)).sum();
+        let pairs = (0..ways.len())
+            .flat_map(|first| ways[first + 1..].iter().map(move |second| (first, second)));
+        let crossings = pairs.map(|(first, second)| crossings(ways[first], second)).sum();
+        Counted { edges: ways.len(), bends, crossings }
+    }
+
+    fn add(&mut self, other: Counted) {
+        self.edges += other.edges;
+        self.bends += other.bends;
+        self.crossings += other.crossings;
+    }
+
+    fn per_edge(self, count: usize) -> f64 {
+        count as f64 / self.edges.max(1) as f64
+    }
+}
+
+fn crossings(one: &[Point], other: &[Point]) -> usize {
+    let pairs = one.windows(2).flat_map(|a| other.windows(2).map(move |b| (a, b)));
+    pairs.filter(|(a, b)| cross(a, b) || cross(b, a)).count()
+}
+
+/// Whether an upright line passes through a level one; what ends on it, joins it.
+fn cross(upright: &[Point], level: &[Point]) -> bool {
+    let between = |x: f64, a: f64, b: f64| a.min(b) + 0.5 < x && x < a.max(b) - 0.5;
+    upright[0].0 == upright[1].0
+        && level[0].1 == level[1].1
+        && between(upright[0].0, level[0].0, level[1].0)
+        && between(level[0].1, upright[0].1, upright[1].1)
+}
+
+fn line(name: &str, counted: Counted, sides: Option<(f64, f64)>) -> String {
+    let Counted { edges, bends, crossings } = counted;
+    let sides =
+        sides.map_or(String::new(), |(width, height)| format!("{width:>8.0} x {height:.0}"));
+    format!("{name:<20}{edges:>6}{bends:>6}{crossings:>10}{sides}").trim_end().to_owned() + "\n"
+}
+
+#[test]
+fn drawings_stay_calm() {
+    let mut all = Counted::default();
+    let mut table = "plan                 edges bends crossings  sides\n".to_owned();
+    for plan in scenes() {
+        let counted = Counted::of(&plan);
+        all.add(counted);
+        let ratio = plan.bounds.width / plan.bounds.height;
+        assert!((0.5..=2.0).contains(&ratio), "'{}' is {ratio:.2} as wide as high", plan.name);
+        table += &line(&plan.name, counted, Some((plan.bounds.width, plan.bounds.height)));
+    }
+    table += &line("all", all, None);
+    let (bends, crossings) = (all.per_edge(all.bends), all.per_edge(all.crossings));
+    let _ = writeln!(table, "per edge: {bends:.2} bends, {crossings:.2} crossings");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(TABLE);
+    if std::env::var_os("AFP_BLESS").is_some() {
+        fs::write(&path, &table).unwrap();
+    }
+    assert_eq!(table, fs::read_to_string(&path).unwrap());
+    assert!(bends < 2.4 && crossings < 0.4, "{table}");
+}
