@@ -141,6 +141,18 @@ impl Scene {
         }
     }
 
+    /// The area that the boxes alone take, in pixels: known before anything is laid out, and less than that of the whole
+    /// picture. Nothing where positions let boxes stand on each other.
+    pub fn least_area(outline: &Outline, options: &Options) -> f64 {
+        if options.positions.iter().any(|layout| layout.iter().next().is_some()) {
+            return 0.0;
+        }
+        let views = View::all(outline, options).into_iter();
+        let areas =
+            views.flat_map(|view| cards(&view, &|_, _| None)).map(|card| card.width * card.height);
+        areas.sum()
+    }
+
     fn plan(&self, plan: &Item, file: u16) -> Option<&PlanScene> {
         self.plans.iter().find(|known| known.plan == *plan && known.file == file)
     }

@@ -31,6 +31,35 @@ pub fn write(path: &Path, svg: &str) -> Result<(), RunError> {
     }
 }
 
+/// Refuses a drawing of which is known, before anything is laid out, that it takes too many pixels; `area` in its own.
+///
+/// # Errors
+/// It is too large.
+#[cfg(feature = "png")]
+pub fn check_area(area: f64, scale: f32) -> Result<(), RunError> {
+    let pixels = area * f64::from(scale).powi(2);
+    if pixels <= png::MOST_PIXELS {
+        return Ok(());
+    }
+    let millions = (pixels / 1e6).round();
+    let most = png::MOST_PIXELS / 1e6;
+    Err(RunError::usage(
+        format!(
+            "the picture would be more than {millions} million pixels large, at most {most} million"
+        ),
+        "choose a smaller '--scale', or draw SVG",
+    ))
+}
+
+/// There are no pixels in this program, so none are too many.
+///
+/// # Errors
+/// None.
+#[cfg(not(feature = "png"))]
+pub fn check_area(_: f64, _: f32) -> Result<(), RunError> {
+    Ok(())
+}
+
 /// A drawing as a PNG file, `scale` pixels for each of its own.
 ///
 /// # Errors

@@ -32,3 +32,16 @@ fn icons_stand_beside_the_toolbox_of_a_project() {
     place.write("tools/icons/dance.svg", &icon("<animate/onbegin=alert(1)><path d=\"M1 2h3\"/>"));
     assert!(!drawn().contains("animate") && !drawn().contains("M1 2h3"), "{}", drawn());
 }
+
+#[test]
+#[cfg(feature = "png")]
+fn a_picture_of_too_many_pixels_is_refused_before_it_is_laid_out() {
+    let place = Place::new();
+    // Known from the boxes alone; what is laid out is said with its width and height.
+    let actor = |nth: usize| format!("    actor a{nth}: Wait {{ Elapsed -> a{} }}\n", nth + 1);
+    let actors: String = (0..4000).map(actor).collect();
+    let last = "    actor a4000: Wait { Elapsed -> terminate }\n";
+    place.write("p.afp", &format!("use std\nplan P {{\n    start a0\n{actors}{last}}}\n"));
+    let said = place.afpc("graph p.afp -o p.png --scale 4");
+    said.fails(2, &["million pixels large, at most 250 million", "choose a smaller '--scale'"]);
+}

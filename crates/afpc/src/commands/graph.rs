@@ -5,7 +5,7 @@ use std::io::{ErrorKind, IsTerminal};
 use std::path::{Path, PathBuf};
 
 use afp_draw::layout_file::Layout;
-use afp_draw::{Options, Usage};
+use afp_draw::{Options, Scene, Usage};
 use afp_dsl::graph::Graph;
 use afp_dsl::outline::{Outline, PlanId};
 use afp_dsl::toolbox::Toolbox;
@@ -194,6 +194,7 @@ fn pixels(arguments: &Arguments, outline: &Outline, options: &Options) -> Result
         return Err(RunError::usage(error, "name a file: -o plan.png").into());
     }
     let scale = arguments.scale.unwrap_or(picture::DEFAULT_SCALE);
+    picture::check_area(Scene::least_area(outline, options), scale)?;
     let picture = picture::pixels(&afp_draw::svg(outline, options), scale)?;
     match &arguments.output {
         Some(path) => write(path, &picture),

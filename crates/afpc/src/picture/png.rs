@@ -14,7 +14,7 @@ const FONTS: [&[u8]; 2] = [
 const FAMILY: &str = "DejaVu Sans";
 
 /// Pixels of the largest picture: 1 GB while it is painted.
-const MOST_PIXELS: f64 = 250e6;
+pub const MOST_PIXELS: f64 = 250e6;
 
 /// Why there is no picture.
 pub enum Failure {
