@@ -70,7 +70,7 @@ pub struct PlanScene {
     pub bounds: Rect,
     /// The start tag, then the elements as written.
     pub elements: Vec<ElementScene>,
-    /// The edges that lead to elements.
+    /// The edges that lead to elements; later ones lie above earlier ones.
     pub edges: Vec<EdgeScene>,
 }
 

@@ -20,12 +20,16 @@ const WORDS: &[(&str, &[&str])] = &[
 const TYPES: &[(&str, &[&str])] = &[
     ("bool", &["boolean"]),
     ("int", &["integer", "long", "short", "uint", "int32", "int64", "uint8", "i32", "i64", "u8"]),
-    ("float", &["double", "real", "number", "float32", "float64", "f32", "f64"]),
+    (
+        "float",
+        &["double", "real", "number", "float32", "float64", "f32", "f64", "percent", "ratio"],
+    ),
     ("string", &["str", "text", "char"]),
     ("length", &["distance", "meters", "meter"]),
     ("duration", &["time", "seconds", "second"]),
     ("angle", &["degrees", "radians", "heading"]),
     ("speed", &["velocity"]),
+    ("angular_speed", &["angular_velocity", "angularVelocity"]),
 ];
 
 /// The word behind `->` that was meant by a name.

@@ -120,7 +120,11 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
                 continue;
             }
             Wrong::Missing(behind, opener) => {
-                let message = format!("missing '}}', found {}", found(tokens, behind));
+                let message = match found(tokens, behind) {
+                    // That of something around it.
+                    brace if brace == "'}'" => "missing '}'".to_owned(),
+                    other => format!("missing '}}', found {other}"),
+                };
                 let here = span(tokens[behind], file).after();
                 let error =
                     Diagnostic::new(Code::E0103, here, message).help("add '}'").fix(here, "}");

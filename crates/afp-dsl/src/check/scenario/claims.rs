@@ -261,7 +261,11 @@ impl Checker<'_> {
         let mut known: Vec<_> = known.collect();
         known.dedup();
         let known = known.iter().map(String::as_str);
-        unknown(Code::E0602, name.span, message, &name.text, known, "remove 'by'")
+        let error = unknown(Code::E0602, name.span, message, &name.text, known, "remove 'by'");
+        match self.paths.of_another(from, &name.text) {
+            Some((place, other)) => error.note(place, format!("this one is about '{other}' alone")),
+            None => error,
+        }
     }
 
     /// The outcome behind a component's name, if one is named.

@@ -264,6 +264,16 @@ impl<'a> Paths<'a> {
         .collect()
     }
 
+    /// The first supervisor of that name that another element of the same plan has, and that element's name.
+    pub fn of_another(&self, element: Found, name: &str) -> Option<(Span, &'a str)> {
+        let plan = self.plan(element.instance);
+        plan.elements.iter().find_map(|other| {
+            let own = other.supervisors.iter().map(|id| &plan.supervisors[id.index()]);
+            let found = own.into_iter().find(|supervisor| supervisor.name == name)?;
+            Some((found.span, other.name.as_str()))
+        })
+    }
+
     /// The outputs of a component that an outcome carries and that are connected, see [`outputs`].
     pub fn outputs(
         &self,
