@@ -227,10 +227,18 @@ impl Parser<'_, '_> {
         true
     }
 
-    /// `5.`
+    /// `5.`; in `(value = 5. equals = 3)` the point was meant for a comma.
     pub(super) fn number_that_ends_with_a_point(&mut self) {
         if self.at(Kind::Dot) && self.is_adjacent() && !matches!(self.nth(1), Kind::Dot | Kind::Int)
         {
+            if self.nth(1) == Kind::Name && self.names_something(1) {
+                return self.instead(
+                    1,
+                    "no ',' between two values".into(),
+                    "write ','".into(),
+                    ",",
+                );
+            }
             let here = self.next_span();
             self.error(
                 Diagnostic::new(Code::E0115, here, "a number ends with a digit")
