@@ -140,7 +140,7 @@ fn again(name: &str) -> String {
         "clippy" => "    cargo xtask lint".to_owned(),
         "random plans" => {
             let each = RANDOM_PLANS.iter();
-            let run = |part| format!("    AFP_RANDOM_PLANS={part} cargo test -p afp-tests random");
+            let run = |part| format!("    AFP_RANDOM_PLANS={part} cargo test -p afp-tests --test random");
             each.map(run).collect::<Vec<_>>().join("\n")
         }
         "random worlds" => {
@@ -194,7 +194,7 @@ fn by_night(package: &str, test: &str) -> Result<(), Failure> {
 
 /// The interpreter against generated code on many random plans.
 fn random_plans() -> Result<(), Failure> {
-    let test = ["test", "--package", "afp-tests", "random", "--", "--nocapture"];
+    let test = ["test", "--package", "afp-tests", "--test", "random", "--", "--nocapture"];
     for part in RANDOM_PLANS {
         run_command(cargo().args(test).env("AFP_RANDOM_PLANS", part))?;
     }
