@@ -140,7 +140,8 @@ fn again(name: &str) -> String {
         "clippy" => "    cargo xtask lint".to_owned(),
         "random plans" => {
             let each = RANDOM_PLANS.iter();
-            let run = |part| format!("    AFP_RANDOM_PLANS={part} cargo test -p afp-tests --test random");
+            let run =
+                |part| format!("    AFP_RANDOM_PLANS={part} cargo test -p afp-tests --test random");
             each.map(run).collect::<Vec<_>>().join("\n")
         }
         "random worlds" => {
