@@ -1,8 +1,12 @@
 //! The layers with everything that takes room in them: nodes, and the ways of edges that pass by.
 //!
 //! Channel `c` lies above layer `c`; the last one lies below all layers. An edge is a chain of
-//! *nets*, each crossing one channel, joined by *ways*, each crossing one layer.
+//! *nets*, each crossing one channel, joined by *ways*, each crossing one layer. Edges of a bundle share their ways: the chain
+//! of each ends at the first one that is there.
 
+use std::collections::BTreeMap;
+
+use super::super::router::bundles;
 use super::{Exit, Link, Node};
 
 /// Distance between parallel lines in pixels.
@@ -52,6 +56,9 @@ pub(super) struct Grid {
     pub(super) turns: Vec<Option<f64>>,
 }
 
+/// The ways that edges share, by bundle, whether they lead down, and layer.
+type Shared = BTreeMap<(usize, bool, usize), usize>;
+
 impl Grid {
     /// Items in the order of the nodes, every way beside the node it starts from.
     pub(super) fn new(nodes: &[Node], links: &[Link], layer_of: &[usize]) -> Grid {
@@ -74,8 +81,16 @@ impl Grid {
         for (item, layer) in layer_of.iter().enumerate() {
             grid.layers[*layer].push(item);
         }
+        let bundles = bundles(links.iter().map(|link| (link.from, link.to, link.kind)));
+        let mut shared = Shared::new();
         for (index, link) in links.iter().enumerate() {
-            grid.add_chain(index, link, nodes, layer_of);
+            grid.add_chain(
+                index,
+                link,
+                nodes,
+                layer_of,
+                bundles[index].map(|of| (of, &mut shared)),
+            );
         }
         grid
     }
@@ -90,7 +105,14 @@ impl Grid {
         chain.iter().skip(1).map(|net| self.nets[*net].ends[0].item).collect()
     }
 
-    fn add_chain(&mut self, index: usize, link: &Link, nodes: &[Node], layer_of: &[usize]) {
+    fn add_chain(
+        &mut self,
+        index: usize,
+        link: &Link,
+        nodes: &[Node],
+        layer_of: &[usize],
+        mut bundle: Option<(usize, &mut Shared)>,
+    ) {
         let (from, to) = (layer_of[link.from], layer_of[link.to]);
         let down = to > from;
         let leaves_up = !down && self.turns[index].is_some();
@@ -107,9 +129,18 @@ impl Grid {
         };
         let mut chain = Vec::new();
         for layer in passed {
-            let item = self.add_way(layer);
+            let place = bundle.as_ref().map(|(bundle, _)| (*bundle, down, layer));
+            let known = bundle.as_ref().and_then(|(_, shared)| shared.get(&place?).copied());
+            let item = known.unwrap_or_else(|| self.add_way(layer));
             let way = |above| Terminal { item, offset: 0.0, above, arrival: None };
             chain.push(self.add_net(channel, end, way(!down)));
+            if known.is_some() {
+                self.chains.push(chain);
+                return;
+            }
+            if let (Some(place), Some((_, shared))) = (place, &mut bundle) {
+                shared.insert(place, item);
+            }
             channel = if down { layer + 1 } else { layer };
             end = way(down);
         }
