@@ -3,7 +3,7 @@
 //! Where many lead to one box, as all errors to who handles them, each goes only as far as to the next one of them: they are a
 //! tree with one tip, in which nobody has to tell one line from another.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::lines::{Lines, axis_of, side_of};
 use super::{Axis, PITCH, Point, TIP, Wire};
@@ -102,11 +102,13 @@ impl Trees {
         self.trees.get(&self.bundle_of[edge]?).filter(|tree| !tree.is_empty())
     }
 
-    /// Takes an edge out of the tree of its bundle.
-    pub(super) fn remove(&mut self, edge: usize) {
-        let bundle = self.bundle_of[edge];
-        if let Some(tree) = bundle.and_then(|bundle| self.trees.get_mut(&bundle)) {
-            tree.retain(|_, junction| junction.edge != edge);
+    /// Takes edges out of the trees of their bundles.
+    pub(super) fn remove(&mut self, edges: &BTreeSet<usize>) {
+        let bundles: BTreeSet<_> = edges.iter().filter_map(|edge| self.bundle_of[*edge]).collect();
+        for bundle in bundles {
+            if let Some(tree) = self.trees.get_mut(&bundle) {
+                tree.retain(|_, junction| !edges.contains(&junction.edge));
+            }
         }
     }
 

@@ -1,5 +1,7 @@
 //! Routes as they are laid, one edge after the other, and led elsewhere where they come too near to one another.
 
+use std::collections::BTreeSet;
+
 use super::bundle::Trees;
 use super::lines::Lines;
 use super::merge::{Join, merged};
@@ -9,6 +11,9 @@ use super::{BUDGET, Bounds, Crowded, LEAST, PITCH, Point, Routes, Wire};
 
 /// How often edges are led elsewhere because they are too near to others.
 const DETOURS: usize = 5;
+
+/// As many edges are laid anew at once.
+const MOST_MOVED: usize = 32;
 
 /// Edges on their lines, before those that share one are moved apart.
 pub(super) struct Laid<'a> {
@@ -72,10 +77,6 @@ impl<'a> Laid<'a> {
         let mut best = self.apart();
         let mut tried = vec![false; self.wires.len()];
         for _ in 0..DETOURS {
-            // Who has been joined stays.
-            for on in self.joins.iter().filter_map(Join::junction) {
-                tried[on.edge] = true;
-            }
             let detours = detours(&best.crowded, &mut tried);
             if detours.is_empty() || self.search.effort() > BUDGET {
                 break;
@@ -98,17 +99,26 @@ impl<'a> Laid<'a> {
         Routes { corners, crowded, effort: 0 }
     }
 
-    /// Lays an edge anew, away from where it is too near to others, unless some have joined it.
+    /// Lays an edge anew, away from where it is too near to others, and whoever has joined it; not where those are many.
     fn lead_elsewhere(&mut self, narrow: &Crowded) {
-        let edge = narrow.edge;
-        let mut junctions = self.joins.iter().filter_map(Join::junction);
-        if junctions.any(|junction| junction.edge == edge) {
+        let mut moved = BTreeSet::from([narrow.edge]);
+        let mut again = vec![narrow.edge];
+        for edge in &self.order {
+            let junction = self.joins[*edge].junction();
+            if junction.is_some_and(|on| moved.contains(&on.edge)) && moved.insert(*edge) {
+                again.push(*edge);
+            }
+        }
+        if self.fixed[narrow.edge] || again.len() > MOST_MOVED {
             return;
         }
         self.search.avoid(narrow);
-        self.trees.remove(edge);
-        self.order.retain(|other| *other != edge);
-        self.lay(edge, narrow.arrives || self.joins[edge] == Join::Nearest);
+        self.trees.remove(&moved);
+        self.order.retain(|edge| !moved.contains(edge));
+        for edge in again {
+            let full = edge == narrow.edge && narrow.arrives || self.joins[edge] == Join::Nearest;
+            self.lay(edge, full);
+        }
     }
 }
 

@@ -5,6 +5,8 @@
 //! the boxes beside it, in its place of the [`sequence`](super::sequence), [`PITCH`] away from its
 //! neighbours or, where a gap is too narrow for that, as far as it can be.
 
+use std::collections::BTreeMap;
+
 use super::bundle::Junction;
 use super::merge::Join;
 use super::sequence::{Part, REACH, sequence};
@@ -139,6 +141,22 @@ impl Spread<'_> {
         first + 2 == points.len() && self.joins[edge].junction().is_none()
     }
 
+    /// From where to where parts go that others take in their direction, those of the others included.
+    fn longer(&self, corners: &[Vec<Point>]) -> BTreeMap<(usize, usize), (f64, f64)> {
+        let mut longer: BTreeMap<(usize, usize), (f64, f64)> = BTreeMap::new();
+        let junctions: Vec<_> = self.junctions().filter(|(_, on)| on.along).collect();
+        for (edge, on) in junctions.into_iter().rev() {
+            let of = |edge: usize, first: usize| {
+                span(on.axis(), corners[edge][first], corners[edge][first + 1])
+            };
+            let last = corners[edge].len() - 2;
+            let own = longer.get(&(edge, last)).copied().unwrap_or_else(|| of(edge, last));
+            let joined = longer.entry((on.edge, on.part)).or_insert_with(|| of(on.edge, on.part));
+            *joined = (joined.0.min(own.0), joined.1.max(own.1));
+        }
+        longer
+    }
+
     /// From where to where the last part of an edge that ends on another one can be moved.
     fn reach(&self, on: Junction, corners: &[Vec<Point>]) -> (f64, f64) {
         let points = &corners[on.edge];
@@ -153,6 +171,7 @@ impl Spread<'_> {
     /// The straight parts of all edges along an axis.
     fn parts(&self, axis: Axis, corners: &[Vec<Point>]) -> Vec<Part> {
         let mut parts = Vec::new();
+        let longer = self.longer(corners);
         for (edge, points) in corners.iter().enumerate() {
             for (first, pair) in points.windows(2).enumerate() {
                 let [a, b] = pair else { continue };
@@ -165,8 +184,8 @@ impl Spread<'_> {
                     continue;
                 }
                 let at = axis.across(*a);
-                let (one, two) = (axis.along(*a), axis.along(*b));
-                let span = (one.min(two), one.max(two));
+                let known = longer.get(&(edge, first)).copied();
+                let span = known.unwrap_or_else(|| span(axis, *a, *b));
                 let mut room = (at, at);
                 if first > 0 && !self.fixed[edge] {
                     room = between(axis, self.boxes, at, span);
@@ -185,6 +204,12 @@ impl Spread<'_> {
         }
         parts
     }
+}
+
+/// From where to where a straight part goes.
+fn span(axis: Axis, a: Point, b: Point) -> (f64, f64) {
+    let (one, two) = (axis.along(a), axis.along(b));
+    (one.min(two), one.max(two))
 }
 
 /// The parts that can be moved, and those that stay beside them.
