@@ -19,6 +19,8 @@ use super::tables::FileTable;
 
 /// Types of the module itself, and names that are always there.
 const OWN: &[&str] = &[
+    "E",
+    "R",
     "Active",
     "Config",
     "Rules",

@@ -10,7 +10,6 @@ use crate::names::ident;
 
 /// What lives at the root of `afp_core`.
 pub const CORE: &[&str] = &[
-    "Clock",
     "Duration",
     "Environment",
     "Events",
@@ -46,6 +45,7 @@ pub const RT: &[&str] = &[
     "Polled",
     "PortRow",
     "Range",
+    "Run",
     "Scale",
     "Slot",
     "Started",

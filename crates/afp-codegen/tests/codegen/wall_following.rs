@@ -51,14 +51,14 @@ pub static ANGLE: [Unit<'static>; 3] = [
 //! The plan `WallFollowing`: Find the next wall, then drive parallel to it until the escape button is pressed.
 
 use ::afp_core::{
-    Clock, Duration, Environment, Events, Fault, TypedEntry, Value, ValueRef, WriteError,
+    Duration, Environment, Events, Fault, TypedEntry, Value, ValueRef, WriteError,
 };
 use ::afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
 use ::afp_core::rt::{
     Actor, AtElement, BadValue, Child, Committer, ComponentRow, Cx, ElementKind,
     ElementRow, Entry, EntryRow, Fired, NameTable, NamedPlan, Plan, PlanState, PlanTable,
-    Polled, PortRow, Range, Slot, Started, Supervisor, SupervisorRow, Tables, Target,
-    Unit, finite, output, set_input, stage_outside,
+    Polled, PortRow, Range, Run, Slot, Started, Supervisor, SupervisorRow, Tables,
+    Target, Unit, finite, output, set_input, stage_outside,
 };
 use ::afp_core::trace::{EntryKind, Kind, Sink};
 use afp_carbot::templates as carbot;
@@ -379,10 +379,10 @@ where
     afp_carbot::CheckTouchSensor: Supervisor<carbot::CheckTouchSensor, E>,
     afp_carbot::CheckDrivingLane: Supervisor<carbot::CheckDrivingLane, E>,
 {
-    fn start_supervisor<S: Sink, C: Clock>(
+    fn start_supervisor<R: Run<Env = E>>(
         &mut self,
         supervisor: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         match supervisor {
             ESCAPE => {
@@ -408,11 +408,11 @@ where
     }
 
     #[inline]
-    fn poll_supervisor<S: Sink, C: Clock>(
+    fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
         supervisor: u16,
         wanted: Events,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Fired {
         match supervisor {
             ESCAPE => {
@@ -455,10 +455,10 @@ where
         }
     }
 
-    fn start_element<S: Sink, C: Clock>(
+    fn start_element<R: Run<Env = E>>(
         &mut self,
         element: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Started {
         let started: Result<Active, Fault> = match element {
             SEARCH_FIRST_WALL => {
@@ -493,11 +493,7 @@ where
     }
 
     #[inline]
-    fn poll_element<S: Sink, C: Clock>(
-        &mut self,
-        _: u16,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Polled {
+    fn poll_element<R: Run<Env = E>>(&mut self, _: u16, cx: &mut Cx<'_, R>) -> Polled {
         match &mut self.active {
             Active::None => Polled::Failed(Fault::INTERNAL),
             Active::SearchFirstWall(actor) => {
@@ -531,10 +527,10 @@ where
         }
     }
 
-    fn interrupt_element<S: Sink, C: Clock>(
+    fn interrupt_element<R: Run<Env = E>>(
         &mut self,
         _: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         match &mut self.active {
             Active::None => Err(Fault::INTERNAL),
