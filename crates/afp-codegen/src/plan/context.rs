@@ -6,7 +6,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::formula::reads;
-use crate::names::{Names, camel, ident, shout, snake};
+use crate::names::{UniqueNames, camel, ident, shout, snake};
 use crate::rust_type::TypePaths;
 use afp_dsl::graph::{Component, Formula, Graph, Output, Plan, PlanId, SupervisorId, TemplateId};
 use afp_dsl::rows::Rows;
@@ -97,7 +97,7 @@ pub fn module_name(plan: &str) -> Ident {
 
 /// The type of a plan, by a name that nothing else in its module has.
 pub fn type_name(name: &str) -> Ident {
-    let mut taken = Names::taken(OWN);
+    let mut taken = UniqueNames::taken(OWN);
     for name in [CORE, RT, QUANTITY].into_iter().flatten() {
         taken.unique((*name).to_owned());
     }
@@ -234,7 +234,7 @@ impl<'a> Context<'a> {
 
 /// Fields and getters of a plan's entries.
 pub fn entry_names(plan: &Plan) -> Vec<Ident> {
-    let mut names = Names::default();
+    let mut names = UniqueNames::default();
     plan.entries.iter().map(|entry| ident(&names.unique(snake(&entry.name)))).collect()
 }
 
@@ -269,18 +269,22 @@ pub fn alias(graph: &Graph, toolbox: &str) -> Ident {
 
 /// Names components so that nothing collides.
 struct Namer {
-    variants: Names,
-    functions: Names,
-    numbers: Names,
+    variants: UniqueNames,
+    functions: UniqueNames,
+    numbers: UniqueNames,
 }
 
 impl Namer {
     fn new() -> Self {
-        let mut functions = Names::taken(VALUES);
+        let mut functions = UniqueNames::taken(VALUES);
         for name in RT {
             functions.unique((*name).to_owned());
         }
-        Namer { variants: Names::taken(&["None"]), functions, numbers: Names::taken(STATICS) }
+        Namer {
+            variants: UniqueNames::taken(&["None"]),
+            functions,
+            numbers: UniqueNames::taken(STATICS),
+        }
     }
 
     fn name(&mut self, name: &str, text: &str) -> ComponentNames {

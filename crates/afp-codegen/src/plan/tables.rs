@@ -12,7 +12,7 @@ use super::Module;
 use super::shared::FileEnum;
 use crate::Options;
 use crate::layout::doc;
-use crate::names::{Names, camel, ident, snake};
+use crate::names::{UniqueNames, camel, ident, snake};
 use crate::plan::context::path;
 use crate::rust_type::{TypePaths, int, variant};
 use afp_dsl::graph::{Component, Graph};
@@ -36,7 +36,7 @@ fn readers(graph: &Graph) -> impl Iterator<Item = (&Template, &Arc<Table>)> {
 /// The tables that some plan reads, in the order of first use.
 pub fn tables_of(graph: &Graph) -> Vec<FileTable> {
     let mut tables: Vec<FileTable> = Vec::new();
-    let mut names = Names::default();
+    let mut names = UniqueNames::default();
     for (_, table) in readers(graph) {
         if !tables.iter().any(|(known, _)| Arc::ptr_eq(known, table)) {
             tables.push((table.clone(), ident(&names.unique(snake(&table.name)))));

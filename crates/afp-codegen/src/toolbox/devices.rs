@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use crate::layout::doc;
-use crate::names::{Names, camel, ident, shout, snake};
+use crate::names::{UniqueNames, camel, ident, shout, snake};
 use crate::rust_type::{TypePaths, float};
 use afp_dsl::toolbox::{
     Amount, Control, Device, Fault, Signal, SignalType, Toolbox, device::ROBOT,
@@ -53,12 +53,12 @@ fn joined(device: &Device, name: &str) -> String {
 }
 
 /// Names that differ from one another.
-fn unique(names: &mut Names, name: String, spell: fn(&str) -> String) -> Ident {
+fn unique(names: &mut UniqueNames, name: String, spell: fn(&str) -> String) -> Ident {
     ident(&spell(&names.unique(name)))
 }
 
 fn controls(core: &TokenStream, devices: &[Device]) -> (TokenStream, TokenStream) {
-    let mut names = Names::default();
+    let mut names = UniqueNames::default();
     let all = devices.iter().flat_map(|device| device.controls.iter().map(move |it| (device, it)));
     let all: Vec<_> = all
         .map(|(device, control)| {
@@ -87,7 +87,7 @@ fn controls(core: &TokenStream, devices: &[Device]) -> (TokenStream, TokenStream
 
 /// The enum of faults, and how it is found by a number.
 fn faults(core: &TokenStream, devices: &[Device]) -> (TokenStream, TokenStream) {
-    let mut names = Names::default();
+    let mut names = UniqueNames::default();
     let mut code = Code::default();
     for device in devices {
         // What every sensor has is one kind of fault of it.
@@ -220,7 +220,7 @@ fn numbers(count: usize) -> Vec<Literal> {
 
 /// The numbers of the signals.
 fn signals(core: &TokenStream, devices: &[Device]) -> TokenStream {
-    let mut names = Names::default();
+    let mut names = UniqueNames::default();
     let all = devices.iter().flat_map(|device| device.signals.iter().map(move |it| (device, it)));
     let all = all.zip(0_u16..).map(|((device, signal), number)| {
         let name = unique(&mut names, joined(device, &signal.name), shout);
