@@ -1,7 +1,10 @@
 //! Names the implementations of a toolbox to those who load plans: all of them, or those that a platform supports.
 
 use proc_macro2::TokenStream;
-use quote::quote;
+use quote::{ToTokens, quote};
+use syn::parse::{Parse, ParseStream};
+use syn::punctuated::Punctuated;
+use syn::{Expr, LitStr, Path, Token, Type, bracketed};
 
 use super::{bound, implemented, words};
 use crate::layout::doc;
@@ -41,10 +44,13 @@ pub fn register(core: &TokenStream, toolbox: &Toolbox) -> TokenStream {
     }
 }
 
-/// A platform, and what a toolbox is to be registered with for it.
+/// A platform, and what a toolbox is to be registered with for it. Written as `path of core, "file", path of the
+/// implementation, registry, platform, [traits]`.
 pub struct Support {
     /// The path of `afp_core`.
     pub core: TokenStream,
+    /// The file of the toolbox, as written.
+    pub file: String,
     /// The module that holds `templates` beside the types that implement them.
     pub home: TokenStream,
     /// The expression of the registry, a `&mut`.
@@ -55,10 +61,37 @@ pub struct Support {
     pub traits: Vec<TokenStream>,
 }
 
+impl Parse for Support {
+    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
+        let core = next(input, Path::parse_mod_style)?;
+        let file = input.parse::<LitStr>()?.value();
+        input.parse::<Token![,]>()?;
+        let home = next(input, Path::parse_mod_style)?;
+        let registry = next(input, Expr::parse)?;
+        let platform = next(input, Type::parse)?;
+        let list;
+        bracketed!(list in input);
+        let traits =
+            Punctuated::<_, Token![,]>::parse_terminated_with(&list, Path::parse_mod_style)?;
+        let traits = traits.into_iter().map(ToTokens::into_token_stream).collect();
+        Ok(Support { core, file, home, registry, platform, traits })
+    }
+}
+
+/// What stands before the next comma.
+fn next<T: ToTokens>(
+    input: ParseStream<'_>,
+    parse: fn(ParseStream<'_>) -> syn::Result<T>,
+) -> syn::Result<TokenStream> {
+    let tokens = parse(input)?.into_token_stream();
+    input.parse::<Token![,]>()?;
+    Ok(tokens)
+}
+
 /// Statements that register every template that a platform supports, and note the others with the traits that it
 /// does not implement.
 pub fn register_supported(toolbox: &Toolbox, support: &Support) -> TokenStream {
-    let Support { core, home, registry, platform, traits } = support;
+    let Support { core, home, registry, platform, traits, .. } = support;
     let missing = traits.iter().map(|path| missing(platform, path));
     let templates = implemented(toolbox).map(|template| {
         let (marker, implementation) = types(core, home, template);
