@@ -21,7 +21,7 @@ pub(super) fn is_held(t: &impl Tables, target: Target) -> bool {
 }
 
 impl<P: PlanState> Level<P> {
-    /// Takes an event that is held, its outputs staged. The element goes on, or there is a way to leave
+    /// Takes an event that is held, its outputs staged. The element goes on, or there is an edge to leave
     /// it by.
     pub(super) fn hold<R: Run>(
         &mut self,
@@ -38,9 +38,9 @@ impl<P: PlanState> Level<P> {
         let element = component(cx, moment.element);
         cx.trace(&Record::Event { supervisor: id, event, element });
         self.commit(Author::Component(id), cx);
-        let way = self.compute_until_resumed(t, target, cx);
+        let led = self.compute_until_resumed(t, target, cx);
         cx.step.clock = cx.clock.now(cx.now);
-        match way {
+        match led {
             Ok(None) => {
                 cx.trace(&Record::Resumed { element, supervisor: id });
                 Ok(())

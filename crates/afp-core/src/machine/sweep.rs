@@ -29,7 +29,7 @@ pub(super) struct Found {
 pub(super) enum What {
     /// An event to take, outputs staged, and where it leads.
     Event(u16, Target),
-    /// An event that could have resumed, all of it committed, and the way that it leads instead.
+    /// An event that could have resumed, all of it committed, and the edge that it leads to instead.
     Leads(u16, Result<Edge, Stop>),
     /// It failed.
     Fault(Fault),
@@ -282,9 +282,9 @@ impl<P: PlanState> Level<P> {
                 self.plan.leave(element);
                 Ok(Edge { target, ending: Ending::Interrupted })
             }
-            What::Leads(_, way) => {
+            What::Leads(_, edge) => {
                 self.plan.leave(element);
-                way
+                edge
             }
             What::Fault(fault) if found.supervisor < t.table().globals => {
                 self.plan.leave(element);
