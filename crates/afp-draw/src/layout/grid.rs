@@ -1,7 +1,7 @@
-//! The layers with everything that takes room in them: nodes, and the ways of edges that pass by.
+//! The layers with everything that takes room in them: nodes, and the dummy nodes of edges that pass by.
 //!
 //! Channel `c` lies above layer `c`; the last one lies below all layers. An edge is a chain of
-//! *nets*, each crossing one channel, joined by *ways*, each crossing one layer.
+//! *nets*, each crossing one channel, joined by *dummy nodes*, each crossing one layer.
 
 use super::{Exit, Link, Node};
 
@@ -12,7 +12,7 @@ pub(super) const LINE: f64 = 12.0;
 #[derive(Clone, Debug)]
 pub(super) struct Item {
     pub(super) layer: usize,
-    /// The node; `None` for a way.
+    /// The node; `None` for a dummy node.
     pub(super) node: Option<usize>,
     pub(super) width: f64,
     /// Left border.
@@ -37,7 +37,7 @@ pub(super) struct Net {
     pub(super) ends: [Terminal; 2],
 }
 
-/// Layers, ways and nets.
+/// Layers, dummy nodes and nets.
 #[derive(Clone, Debug)]
 pub(super) struct Grid {
     pub(super) items: Vec<Item>,
@@ -53,7 +53,7 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// Items in the order of the nodes, every way beside the node it starts from.
+    /// Items in the order of the nodes, every dummy node beside the node it starts from.
     pub(super) fn new(nodes: &[Node], links: &[Link], layer_of: &[usize]) -> Grid {
         let layers = layer_of.iter().max().map_or(0, |last| last + 1);
         let (turns, widths) = turns(nodes, links, layer_of);
@@ -85,8 +85,8 @@ impl Grid {
         self.items[terminal.item].x + terminal.offset
     }
 
-    /// The ways of an edge from start to tip, given its nets.
-    pub(super) fn ways(&self, chain: &[usize]) -> Vec<usize> {
+    /// The dummy nodes of an edge from start to tip, given its nets.
+    pub(super) fn dummies(&self, chain: &[usize]) -> Vec<usize> {
         chain.iter().skip(1).map(|net| self.nets[*net].ends[0].item).collect()
     }
 
@@ -108,10 +108,10 @@ impl Grid {
         let mut chain = Vec::new();
         for layer in passed {
             let item = self.add_way(layer);
-            let way = |above| Terminal { item, offset: 0.0, above, arrival: None };
-            chain.push(self.add_net(channel, end, way(!down)));
+            let dummy = |above| Terminal { item, offset: 0.0, above, arrival: None };
+            chain.push(self.add_net(channel, end, dummy(!down)));
             channel = if down { layer + 1 } else { layer };
-            end = way(down);
+            end = dummy(down);
         }
         let entry = nodes[link.to].entry;
         let middle = (entry.0 + entry.1) / 2.0;
