@@ -159,7 +159,7 @@ impl<'a> Context<'a> {
             return paths;
         }
         let toolbox = self.toolbox(id);
-        let (home, alias) = (path(&toolbox.rust_path), alias(self.graph, &toolbox.name));
+        let (module, alias) = (path(&toolbox.rust_path), alias(self.graph, &toolbox.name));
         let name = &self.template(id).name;
         let (camel, snake) = (ident(&camel(name)), ident(&snake(name)));
         let generic = generic.map(|ty| {
@@ -169,7 +169,7 @@ impl<'a> Context<'a> {
         Paths {
             marker: quote!(#alias::#camel #generic),
             module: quote!(#alias::#snake),
-            implementation: quote!(#home::#camel #generic),
+            implementation: quote!(#module::#camel #generic),
         }
     }
 
@@ -189,9 +189,9 @@ impl<'a> Context<'a> {
         let choice = &|choices: &Enum| self.enum_path(choices);
         let object = &|object: &Object| {
             let toolbox = self.graph.toolboxes.iter().find(|t| t.name == object.toolbox);
-            let (home, name) =
+            let (module, name) =
                 (path(toolbox.map_or("crate", |t| &t.rust_path)), ident(&camel(&object.name)));
-            quote!(#home::#name)
+            quote!(#module::#name)
         };
         run(&TypePaths { core: TokenStream::new(), quantity: TokenStream::new(), choice, object })
     }
@@ -204,14 +204,14 @@ impl<'a> Context<'a> {
             let name = named.map_or_else(camel, |(_, name)| name.clone());
             return quote!(super::enums::#name);
         };
-        let home = self.graph.toolboxes.iter().find(|known| known.name == *toolbox);
-        let (home, name) = (path(home.map_or("crate", |home| &home.rust_path)), camel());
-        quote!(#home::templates::#name)
+        let found = self.graph.toolboxes.iter().find(|known| known.name == *toolbox);
+        let (module, name) = (path(found.map_or("crate", |toolbox| &toolbox.rust_path)), camel());
+        quote!(#module::templates::#name)
     }
 
     /// The Rust type of a value.
     pub fn value_type(&self, ty: &Type) -> TokenStream {
-        self.with_type_paths(|home| home.value(ty))
+        self.with_type_paths(|type_paths| type_paths.value(ty))
     }
 
     /// What an entry of a type holds.
@@ -228,7 +228,7 @@ impl<'a> Context<'a> {
 
     /// The entries of another plan of the graph, with the names of its module and type.
     pub fn child(&self, id: PlanId) -> (Ident, Ident) {
-        super::home(self.graph, id)
+        super::module_and_type(self.graph, id)
     }
 }
 
