@@ -252,7 +252,7 @@ fn an_editor_asks_the_index() {
     let plans = |kind| kind == DefinitionKind::Plan;
     let plans = index.visible(compiled.plan_files.start as u16, inside, plans).into_iter();
     let plans: Vec<_> = plans.map(|id| compiled.sources.text(index.definition(id).name)).collect();
-    assert_eq!(plans, ["Patrol", "Turn"]);
+    assert_eq!(plans, ["Patrol"]);
     // Nothing stands between the names.
     let (file, offset) = find(&compiled, "{ left", 1);
     assert_eq!(index.at(file, offset), None);
