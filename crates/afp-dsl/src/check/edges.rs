@@ -180,14 +180,16 @@ impl WrittenEdge {
     }
 
     fn each(edge: &Edge) -> impl Iterator<Item = WrittenEdge> {
-        let (names, target, reason) = (edge.names(), edge.target(), edge.reason());
+        let (names, (mut target, mut reason)) = (edge.names(), edge.target_and_reason());
         let end = reason.as_ref().or(target.as_ref()).map(|last| last.span);
         let end = end.or_else(|| edge.arrow());
         let last = names.len().saturating_sub(1);
         names.into_iter().enumerate().map(move |(place, name)| {
-            let end = end.filter(|_| place == last).unwrap_or(name.span);
-            let (target, reason) = (target.clone(), reason.clone());
-            WrittenEdge { span: name.span.to(end), name, target, reason }
+            let (end, target, reason) = match place == last {
+                true => (end, target.take(), reason.take()),
+                false => (None, target.clone(), reason.clone()),
+            };
+            WrittenEdge { span: name.span.to(end.unwrap_or(name.span)), name, target, reason }
         })
     }
 }
