@@ -248,10 +248,10 @@ where
 /// The names behind the ids of a trace.
 pub static NAMES: NameTable = NameTable {
     components: &[
-        ComponentRow::new("Inner", Kind::Plan, "Inner", &[], "", &[]),
+        ComponentRow::new("Inner", ComponentKind::Plan, "Inner", &[], "", &[]),
         ComponentRow::new(
             "wait",
-            Kind::Actor,
+            ComponentKind::Actor,
             "Wait",
             &[("Elapsed", "terminate")],
             "",
@@ -691,10 +691,10 @@ where
 /// The names behind the ids of a trace.
 pub static NAMES: NameTable = NameTable {
     components: &[
-        ComponentRow::new("P", Kind::Plan, "P", &[], "", &[]),
+        ComponentRow::new("P", ComponentKind::Plan, "P", &[], "", &[]),
         ComponentRow::new(
                 "count",
-                Kind::Computation,
+                ComponentKind::Computation,
                 "Count",
                 &[("Again", "inner"), ("Done", "terminate")],
                 "",
@@ -713,7 +713,7 @@ pub static NAMES: NameTable = NameTable {
             ),
         ComponentRow::new(
                 "inner",
-                Kind::SubPlan,
+                ComponentKind::SubPlan,
                 "Inner",
                 &[("OK", "count"), ("Interrupted", "")],
                 "",
@@ -733,7 +733,7 @@ pub static NAMES: NameTable = NameTable {
             ),
         ComponentRow::new(
             "inner.wait",
-            Kind::Actor,
+            ComponentKind::Actor,
             "Wait",
             &[("Elapsed", "terminate")],
             "",

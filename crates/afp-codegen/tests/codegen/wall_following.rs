@@ -60,7 +60,7 @@ use ::afp_core::rt::{
     Polled, PortRow, Range, Run, Slot, Started, Supervisor, SupervisorRow, Tables,
     Target, Unit, finite, output, set_input, stage_outside,
 };
-use ::afp_core::trace::{EntryKind, Kind, Sink};
+use ::afp_core::trace::{ComponentKind, EntryKind, Sink};
 use afp_carbot::templates as carbot;
 
 // **** Actors ****
@@ -761,10 +761,17 @@ static SWEEPS: [u16; 9] = [
 /// The names behind the ids of a trace.
 pub static NAMES: NameTable = NameTable {
     components: &[
-        ComponentRow::new("WallFollowing", Kind::Plan, "WallFollowing", &[], "", &[]),
+        ComponentRow::new(
+            "WallFollowing",
+            ComponentKind::Plan,
+            "WallFollowing",
+            &[],
+            "",
+            &[],
+        ),
         ComponentRow::new(
             "searchFirstWall",
-            Kind::Actor,
+            ComponentKind::Actor,
             "Forward",
             &[("ForwardSuccessful", "searchFirstWall")],
             "",
@@ -777,7 +784,7 @@ pub static NAMES: NameTable = NameTable {
         ),
         ComponentRow::new(
             "backupCollision",
-            Kind::Actor,
+            ComponentKind::Actor,
             "Forward",
             &[("ForwardSuccessful", "findWallAngle")],
             "",
@@ -790,7 +797,7 @@ pub static NAMES: NameTable = NameTable {
         ),
         ComponentRow::new(
                 "findWallAngle",
-                Kind::Actor,
+                ComponentKind::Actor,
                 "SearchWall",
                 &[("WallFound", "parallelToWall"), ("NoWallFound", "turnAfterWallLost")],
                 "",
@@ -809,7 +816,7 @@ pub static NAMES: NameTable = NameTable {
             ),
         ComponentRow::new(
             "parallelToWall",
-            Kind::Actor,
+            ComponentKind::Actor,
             "Turn",
             &[("TurnSuccessful", "followWall")],
             "",
@@ -822,7 +829,7 @@ pub static NAMES: NameTable = NameTable {
         ),
         ComponentRow::new(
             "followWall",
-            Kind::Actor,
+            ComponentKind::Actor,
             "WallForward",
             &[
                 ("ForwardSuccessful", "followWall"),
@@ -851,7 +858,7 @@ pub static NAMES: NameTable = NameTable {
         ),
         ComponentRow::new(
             "turnAfterWallLost",
-            Kind::Actor,
+            ComponentKind::Actor,
             "Turn",
             &[("TurnSuccessful", "searchFirstWall")],
             "",
@@ -864,7 +871,7 @@ pub static NAMES: NameTable = NameTable {
         ),
         ComponentRow::new(
             "escape",
-            Kind::Supervisor,
+            ComponentKind::Supervisor,
             "CheckEscapeButton",
             &[("EscapeButtonPressed", "terminate")],
             "",
@@ -872,7 +879,7 @@ pub static NAMES: NameTable = NameTable {
         ),
         ComponentRow::new(
             "searchFirstWall.touch",
-            Kind::Supervisor,
+            ComponentKind::Supervisor,
             "CheckTouchSensor",
             &[("TouchSensorPressed", "backupCollision")],
             "",
@@ -880,7 +887,7 @@ pub static NAMES: NameTable = NameTable {
         ),
         ComponentRow::new(
             "searchFirstWall.checkLane",
-            Kind::Supervisor,
+            ComponentKind::Supervisor,
             "CheckDrivingLane",
             &[("LaneNotFree", "findWallAngle")],
             "",
@@ -901,7 +908,7 @@ pub static NAMES: NameTable = NameTable {
         ),
         ComponentRow::new(
             "followWall.wallTouch",
-            Kind::Supervisor,
+            ComponentKind::Supervisor,
             "CheckTouchSensor",
             &[("TouchSensorPressed", "backupCollision")],
             "",
