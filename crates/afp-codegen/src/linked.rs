@@ -77,8 +77,8 @@ fn about(options: &LinkOptions) -> String {
 /// A closure that registers the templates, those of the built-in toolboxes too for a robot of one's own.
 fn register(options: &LinkOptions) -> Result<TokenStream, String> {
     let own = options.toolboxes.iter().map(|(_, path)| {
-        let home = tokens(path)?;
-        Ok(quote!(#home::templates::register(registry);))
+        let module = tokens(path)?;
+        Ok(quote!(#module::templates::register(registry);))
     });
     let own = own.collect::<Result<TokenStream, String>>()?;
     Ok(match options.robot.as_deref().map(tokens).transpose()? {

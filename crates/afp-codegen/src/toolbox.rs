@@ -68,7 +68,7 @@ fn words(kind: TemplateKind) -> Words {
 }
 
 /// Types as the module of a template sees them.
-fn home(core: &TokenStream) -> TypePaths<'_> {
+fn type_paths(core: &TokenStream) -> TypePaths<'_> {
     let choice = &|choices: &Enum| {
         let name = ident(&camel(&choices.name));
         quote!(super::#name)

@@ -11,7 +11,7 @@ use crate::clock::Clock;
 use crate::component::Environment;
 use crate::fault::{Failure, Fault};
 use crate::machine::{Flow, MAX_TRANSITIONS_PER_STEP, Machine};
-use crate::rt::{Cx, Place, Plan, PlanState, StepState};
+use crate::rt::{Cx, Place, Plan, PlanState, StepState, With};
 use crate::time::Instant;
 use crate::trace::{Author, ComponentId, Ending, Names, Record, Sink, TraceEntryId};
 use crate::value::Value;
@@ -274,11 +274,12 @@ impl<P: PlanState> Scheduler<P> {
 
     /// The plan cannot be stepped any more, for instance because a component panicked: the
     /// platform stops, the run ends in `Error` unless it has ended before.
-    pub fn abort<E, S>(&mut self, env: &mut E, sink: &mut S, fault: Fault) -> Wake
-    where
-        E: Environment + ?Sized,
-        S: Sink,
-    {
+    pub fn abort<E: Environment + ?Sized, S: Sink>(
+        &mut self,
+        env: &mut E,
+        sink: &mut S,
+        fault: Fault,
+    ) -> Wake {
         match self.state {
             State::Ended(ending) => {
                 env.emergency_stop();
@@ -296,11 +297,7 @@ impl<P: PlanState> Scheduler<P> {
     }
 
     #[cold]
-    fn not_running<E, S>(&mut self, env: &mut E, sink: &mut S) -> Wake
-    where
-        E: Environment + ?Sized,
-        S: Sink,
-    {
+    fn not_running<E: Environment + ?Sized, S: Sink>(&mut self, env: &mut E, sink: &mut S) -> Wake {
         match self.state {
             State::Ended(ending) => Wake::Ended(ending),
             State::Broken => self.broken(env, sink),
@@ -309,26 +306,18 @@ impl<P: PlanState> Scheduler<P> {
     }
 
     /// Ends a run after a panic: nobody is asked, not even to be interrupted.
-    fn broken<E, S>(&mut self, env: &mut E, sink: &mut S) -> Wake
-    where
-        E: Environment + ?Sized,
-        S: Sink,
-    {
+    fn broken<E: Environment + ?Sized, S: Sink>(&mut self, env: &mut E, sink: &mut S) -> Wake {
         self.fatal(self.step.called, Fault::PANIC, env, sink)
     }
 
     /// The platform stops, the run ends in `Error`.
-    fn fatal<E, S>(
+    fn fatal<E: Environment + ?Sized, S: Sink>(
         &mut self,
         component: ComponentId,
         fault: Fault,
         env: &mut E,
         sink: &mut S,
-    ) -> Wake
-    where
-        E: Environment + ?Sized,
-        S: Sink,
-    {
+    ) -> Wake {
         env.emergency_stop();
         let (plan, ending) = (ComponentId(0), Ending::Error(fault));
         // An actor that could not be interrupted has been noted already.
@@ -364,11 +353,12 @@ impl<P: PlanState> Scheduler<P> {
     }
 
     /// Turns a level's flow into the run's state.
-    fn conclude<E, S>(&mut self, flow: Flow, env: &mut E, sink: &mut S) -> Wake
-    where
-        E: Environment + ?Sized,
-        S: Sink,
-    {
+    fn conclude<E: Environment + ?Sized, S: Sink>(
+        &mut self,
+        flow: Flow,
+        env: &mut E,
+        sink: &mut S,
+    ) -> Wake {
         match flow {
             Flow::Running(wake) => Wake::At(wake),
             Flow::Ended(ending) => {
@@ -380,12 +370,12 @@ impl<P: PlanState> Scheduler<P> {
     }
 }
 
-fn context<'a, E: ?Sized, S, C>(
+fn context<'a, E: Environment + ?Sized, S: Sink, C: Clock>(
     env: &'a mut E,
     sink: &'a mut S,
     clock: &'a C,
     now: Instant,
     step: &'a mut StepState,
-) -> Cx<'a, E, S, C> {
+) -> Cx<'a, With<E, S, C>> {
     Cx { env, now, sink, clock, step, place: Place::OUTERMOST }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR, TraceEntryId};
 use afp_dsl::graph::{EntryKind, Graph};
 use afp_dsl::types::Type;
-use afp_dsl::unfold::{Kind, Reaction, places, unfold};
+use afp_dsl::unfold::{ComponentKind, Reaction, places, unfold};
 use afp_syntax::source::{Encoding, Lines, Sources, Span};
 
 /// A plan with the places of everything in it.
@@ -35,7 +35,7 @@ pub struct Unit {
     /// Its template or plan.
     pub template: String,
     /// What it is.
-    pub kind: Kind,
+    pub kind: ComponentKind,
     /// The plan that it belongs to, by the number of its element.
     pub plan: ComponentId,
     /// The element of a local supervisor.
@@ -136,7 +136,7 @@ impl Program {
         for (number, place) in (0..).zip(&places).skip(1) {
             let id = ComponentId(number);
             let kind = program.units[number as usize].kind;
-            let special = if kind == Kind::Supervisor { DEADLINE_MISSED } else { ERROR };
+            let special = if kind == ComponentKind::Supervisor { DEADLINE_MISSED } else { ERROR };
             program.add(texts.place(place.span), first(id, kind));
             let outcomes = (0..).zip(&place.edges.outcomes);
             for (outcome, span) in outcomes.chain([(special, &place.edges.extra)]) {
@@ -245,10 +245,10 @@ fn reaction((edge, target): (Reaction, String)) -> (ComponentId, u16, String) {
 }
 
 /// What happens at the line where a component is declared.
-fn first(id: ComponentId, kind: Kind) -> Spot {
+fn first(id: ComponentId, kind: ComponentKind) -> Spot {
     match kind {
-        Kind::Supervisor | Kind::Computation => Spot::Reports(id),
-        Kind::Plan | Kind::Actor | Kind::SubPlan => Spot::Start(id),
+        ComponentKind::Supervisor | ComponentKind::Computation => Spot::Reports(id),
+        ComponentKind::Plan | ComponentKind::Actor | ComponentKind::SubPlan => Spot::Start(id),
     }
 }
 

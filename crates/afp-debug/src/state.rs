@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use afp_core::Instant;
 use afp_core::trace::{ComponentId, TraceEntryId};
-use afp_dsl::unfold::Kind;
+use afp_dsl::unfold::ComponentKind;
 use afp_session::{Datum, EndingKind, EventKind, Miss, RunEvent};
 
 use crate::program::Program;
@@ -94,7 +94,7 @@ impl State {
             EventKind::Started => return self.begin(id, event.at, program),
             _ => return,
         };
-        if program.unit(by).is_some_and(|unit| unit.kind == Kind::Computation) {
+        if program.unit(by).is_some_and(|unit| unit.kind == ComponentKind::Computation) {
             // It is done at once, without a start.
             self.begin(by, event.at, program);
         }
@@ -113,7 +113,7 @@ impl State {
 
     /// Keeps in mind why an element becomes active.
     fn begin(&mut self, id: ComponentId, at: Instant, program: &Program) {
-        let unit = program.unit(id).filter(|unit| unit.kind != Kind::Supervisor);
+        let unit = program.unit(id).filter(|unit| unit.kind != ComponentKind::Supervisor);
         let Some(unit) = unit else { return };
         let led = self.taken.remove(&unit.plan);
         self.causes.insert(id, led.filter(|led| led.at == at && led.target == unit.name));
@@ -123,11 +123,11 @@ impl State {
     fn start(&mut self, id: ComponentId, program: &Program) {
         let Some(unit) = program.unit(id) else { return };
         match unit.kind {
-            Kind::Supervisor => {
+            ComponentKind::Supervisor => {
                 self.watching.insert(id);
             }
-            Kind::Plan => {}
-            Kind::Actor | Kind::Computation | Kind::SubPlan => {
+            ComponentKind::Plan => {}
+            ComponentKind::Actor | ComponentKind::Computation | ComponentKind::SubPlan => {
                 self.active.insert(unit.plan, id);
             }
         }

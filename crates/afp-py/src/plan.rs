@@ -24,13 +24,13 @@ use crate::scenario::{self, Scenario};
 use crate::toolbox::Toolbox;
 
 use crate::pause::in_background;
-use compile::Desk;
+use compile::Workspace;
 pub use diagnostic::{Diagnostic, diagnostics};
 
 /// A plan: its text, what the compiler says of it, its drawings, and changes of it.
 #[pyclass(module = "afp", frozen, subclass)]
 pub struct Plan {
-    desk: Mutex<Desk>,
+    workspace: Mutex<Workspace>,
     toolboxes: Vec<Py<Toolbox>>,
 }
 
@@ -44,8 +44,9 @@ impl Plan {
         name: Option<String>,
         toolboxes: Vec<Py<Toolbox>>,
     ) -> PyResult<Self> {
-        let desk = Desk::new(text, path, name, &toolboxes).map_err(|why| run_error(&why))?;
-        Ok(Plan { desk: Mutex::new(desk), toolboxes })
+        let workspace =
+            Workspace::new(text, path, name, &toolboxes).map_err(|why| run_error(&why))?;
+        Ok(Plan { workspace: Mutex::new(workspace), toolboxes })
     }
 
     /// The text.
@@ -235,9 +236,9 @@ fn icon(_: &Declared, name: &str) -> Option<String> {
 }
 
 impl Plan {
-    fn lock(&self) -> MutexGuard<'_, Desk> {
+    fn lock(&self) -> MutexGuard<'_, Workspace> {
         // A text is replaced as a whole: a panic leaves nothing half done.
-        self.desk.lock().unwrap_or_else(PoisonError::into_inner)
+        self.workspace.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// What became of the text, compiled anew only after a change.
@@ -247,9 +248,15 @@ impl Plan {
 
     /// What it is made of, for pickles and copies.
     pub fn state(&self, py: Python<'_>) -> State {
-        let desk = self.lock();
-        let (text, path) = (desk.text().to_owned(), desk.path().cloned());
-        (text, path, desk.name().cloned(), self.python_toolboxes(py), desk.others().clone())
+        let workspace = self.lock();
+        let (text, path) = (workspace.text().to_owned(), workspace.path().cloned());
+        (
+            text,
+            path,
+            workspace.name().cloned(),
+            self.python_toolboxes(py),
+            workspace.others().clone(),
+        )
     }
 
     /// The toolboxes that were given with it.
@@ -262,10 +269,10 @@ impl Plan {
         if !self.toolboxes.is_empty() {
             return Some("components are in Python: run it there");
         }
-        let desk = self.lock();
-        let Some(path) = desk.path() else { return Some("the plan has no file") };
-        let same = std::fs::read_to_string(path).is_ok_and(|text| text == desk.text());
-        let others = desk.others();
+        let workspace = self.lock();
+        let Some(path) = workspace.path() else { return Some("the plan has no file") };
+        let same = std::fs::read_to_string(path).is_ok_and(|text| text == workspace.text());
+        let others = workspace.others();
         (!same || !others.is_empty()).then_some("the plan has been changed and not saved")
     }
 
@@ -287,14 +294,14 @@ impl Plan {
     }
 
     fn change(&self, change: &Change) -> PyResult<()> {
-        let mut desk = self.lock();
-        let files: Vec<Source> = desk.compiled().plan_sources().cloned().collect();
-        let edits = edit::edit(&files, desk.known(), 0, change).map_err(error)?;
+        let mut workspace = self.lock();
+        let files: Vec<Source> = workspace.compiled().plan_sources().cloned().collect();
+        let edits = edit::edit(&files, workspace.known(), 0, change).map_err(error)?;
         for (number, source) in (0..=u16::MAX).zip(&files) {
             let own: Vec<_> =
                 edits.iter().filter(|edit| edit.span.file == number).cloned().collect();
             if !own.is_empty() {
-                desk.replace(&source.name, edit::apply(&source.text, &own));
+                workspace.replace(&source.name, edit::apply(&source.text, &own));
             }
         }
         Ok(())

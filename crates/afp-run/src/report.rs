@@ -9,7 +9,7 @@ use std::cell::RefCell;
 use std::io::{self, IsTerminal, Write};
 
 use afp_core::Instant;
-use afp_core::trace::{Kind, Names, Record};
+use afp_core::trace::{ComponentKind, Names, Record};
 use afp_log::LogData;
 use afp_session::{Applied, EventKind, NamedRecord, Observer, RunEvent};
 
@@ -20,7 +20,7 @@ pub(crate) use summary::{Ran, Requests, StoppedBy, Summary};
 pub fn timeline(log: &LogData) -> impl Iterator<Item = String> {
     log.events.iter().filter_map(|event| {
         let name = log.names.component(event.component_id);
-        let watches = name.kind == Kind::Supervisor;
+        let watches = name.kind == ComponentKind::Supervisor;
         let starts = event.kind == EventKind::Started;
         if watches && starts { None } else { timeline::line(event, name.template) }
     })
@@ -31,7 +31,7 @@ pub fn line(at: Instant, record: &Record<'_>, names: &dyn Names) -> Option<Strin
     let template = match *record {
         Record::Polled { .. } | Record::Input { .. } => return None,
         Record::Started { component } => match names.component(component) {
-            name if name.kind == Kind::Supervisor => return None,
+            name if name.kind == ComponentKind::Supervisor => return None,
             name => name.template,
         },
         _ => "",

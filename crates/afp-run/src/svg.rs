@@ -7,7 +7,7 @@ mod legend;
 mod marks;
 mod sonar;
 
-use afp_core::trace::{ComponentId, Kind, Names};
+use afp_core::trace::{ComponentId, ComponentKind, Names};
 use afp_session::{Drawing, Mark, Pose2, Waypoint};
 
 use canvas::{Canvas, View};
@@ -119,7 +119,7 @@ fn actors(path: &[Waypoint]) -> Vec<ComponentId> {
 /// The actors that have colours, in the order of the plan: all of it, so that one has the same colour in every run; in a plan with
 /// more actors than colours those that ran.
 fn known_actors(path: &[Waypoint], names: &dyn Names) -> Vec<ComponentId> {
-    let is_actor = |id: &ComponentId| names.component(*id).kind == Kind::Actor;
+    let is_actor = |id: &ComponentId| names.component(*id).kind == ComponentKind::Actor;
     let all: Vec<_> = (0..names.components()).map(ComponentId).filter(is_actor).collect();
     if all.len() <= PALETTE.len() {
         return all;

@@ -2,7 +2,7 @@
 
 use afp_core::trace::{ComponentId, TraceEntryId};
 use afp_dsl::graph::EntryKind;
-use afp_dsl::unfold::Kind;
+use afp_dsl::unfold::ComponentKind;
 use serde_json::Value;
 
 use super::launch::FLOW;
@@ -114,13 +114,13 @@ impl Adapter<'_> {
         let program = self.run()?.target.program().clone();
         let unit = program.unit(id).ok_or("there is no such frame")?;
         let groups = match unit.kind {
-            Kind::Plan => vec![("Entries", Group::Entries, FLOW)],
-            Kind::Supervisor => vec![
+            ComponentKind::Plan => vec![("Entries", Group::Entries, FLOW)],
+            ComponentKind::Supervisor => vec![
                 ("Timing", Group::Timing, id),
                 ("Inputs", Group::Inputs, id),
                 ("Entries", Group::Entries, unit.plan),
             ],
-            Kind::Actor | Kind::SubPlan | Kind::Computation => vec![
+            ComponentKind::Actor | ComponentKind::SubPlan | ComponentKind::Computation => vec![
                 ("Inputs", Group::Inputs, id),
                 ("Entries", Group::Entries, unit.plan),
                 ("Supervisors", Group::Supervisors, id),
@@ -296,7 +296,7 @@ fn component(frame: u64) -> ComponentId {
 
 fn frame_name(unit: &Unit) -> String {
     match unit.kind {
-        Kind::Plan => unit.path.clone(),
+        ComponentKind::Plan => unit.path.clone(),
         _ => format!("{}: {}", unit.path, unit.template),
     }
 }

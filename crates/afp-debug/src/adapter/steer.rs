@@ -309,10 +309,13 @@ impl Run<'_> {
 
 /// Whether an element of a plan, of any without one, became active or stopped being so.
 pub(super) fn is_transition(what: &Happened, program: &Program, plan: Option<ComponentId>) -> bool {
-    use afp_dsl::unfold::Kind;
+    use afp_dsl::unfold::ComponentKind;
     let event = &what.event;
     let Some(unit) = program.unit(event.component_id) else { return false };
-    let element = matches!(unit.kind, Kind::Actor | Kind::SubPlan | Kind::Computation);
+    let element = matches!(
+        unit.kind,
+        ComponentKind::Actor | ComponentKind::SubPlan | ComponentKind::Computation
+    );
     let kind = matches!(
         event.kind,
         EventKind::Started | EventKind::Finished | EventKind::Interrupted | EventKind::Diverted

@@ -1,7 +1,7 @@
 //! What happened as records, for timelines: in pieces, as it happens, or all of it at once for a run that is over.
 
 use afp_core::Instant;
-use afp_dsl::unfold::Kind;
+use afp_dsl::unfold::ComponentKind;
 use afp_session::EventKind;
 use serde_json::{Value, json};
 
@@ -84,7 +84,7 @@ fn record(what: &Happened, step: u64, program: &Program) -> Option<Value> {
     let mut record = json!({
         "at": event.at.as_secs_f64(), "step": step, "kind": kind, "path": event.component, "text": what.text,
     });
-    if program.unit(event.component_id).is_some_and(|unit| unit.kind == Kind::Supervisor) {
+    if program.unit(event.component_id).is_some_and(|unit| unit.kind == ComponentKind::Supervisor) {
         record["supervisor"] = json!(true);
     }
     if let Some(request) = &event.request {

@@ -1,7 +1,7 @@
 //! Why an element runs, or does not: the edge that led to it, and what all edges to it wait for.
 
 use afp_core::trace::{ComponentId, ERROR};
-use afp_dsl::unfold::Kind;
+use afp_dsl::unfold::ComponentKind;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 
@@ -25,7 +25,7 @@ impl Adapter<'_> {
         let unknown = || Refusal(format!("the plan has no element '{}'", why.path));
         let found = ComponentId(found.ok_or_else(unknown)? as u32 + 1);
         let unit = program.unit(found).ok_or_else(unknown)?;
-        let id = unit.owner.filter(|_| unit.kind == Kind::Supervisor).unwrap_or(found);
+        let id = unit.owner.filter(|_| unit.kind == ComponentKind::Supervisor).unwrap_or(found);
         let unit = program.unit(id).ok_or_else(unknown)?;
         let mut answer = json!({
             "path": unit.path, "active": state.is_on(id), "values": values(program, state, id),

@@ -99,7 +99,8 @@ struct Made {
 /// All templates of all toolboxes, and the plans in view.
 fn all_made(list: &List, offset: u32) -> Vec<Made> {
     let view = list.view;
-    let visible = view.index().visible(view.file, offset);
+    let is_made = |kind| matches!(kind, DefinitionKind::Template(_) | DefinitionKind::Plan);
+    let visible = view.index().visible(view.file, offset, is_made);
     let mut all = Vec::new();
     for (toolbox, template) in templates_of(list) {
         let Some(id) = view.index().declared_at(template.span) else { continue };
@@ -261,19 +262,16 @@ pub(super) fn elements(list: &mut List, offset: u32) {
 
 /// The plans in view.
 pub(super) fn plan_names(list: &mut List) {
-    let visible = list.view.index().visible(list.view.file, 0);
-    for id in visible {
-        if list.view.index().definition(id).kind == DefinitionKind::Plan {
-            list.definition(id, 0);
-        }
-    }
+    visible(list, 0, DefinitionKind::Plan);
 }
 
 /// The tables in view.
 pub(super) fn tables(list: &mut List, offset: u32) {
-    for id in list.view.index().visible(list.view.file, offset) {
-        if list.view.index().definition(id).kind == DefinitionKind::Table {
-            list.definition(id, 0);
-        }
-    }
+    visible(list, offset, DefinitionKind::Table);
+}
+
+fn visible(list: &mut List, offset: u32, kind: DefinitionKind) {
+    let view = list.view;
+    let ids = view.index().visible(view.file, offset, |known| known == kind);
+    ids.into_iter().for_each(|id| list.definition(id, 0));
 }

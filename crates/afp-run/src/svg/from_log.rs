@@ -1,7 +1,7 @@
 //! The picture of a run from its log alone.
 
 use afp_core::Instant;
-use afp_core::trace::{ComponentId, Kind, Names};
+use afp_core::trace::{ComponentId, ComponentKind, Names};
 use afp_log::{LogData, OwnedNames, WORLD};
 use std::sync::Arc;
 
@@ -76,7 +76,7 @@ pub(super) fn follow(log: &LogData, names: &OwnedNames) -> (Vec<Waypoint>, Vec<M
         while let Some(event) = events.next_if(before) {
             if event.kind == EventKind::Event {
                 marks.push(mark(event, last));
-            } else if names.component(event.component_id).kind == Kind::Actor {
+            } else if names.component(event.component_id).kind == ComponentKind::Actor {
                 actor = active(event).unwrap_or(actor);
             }
         }

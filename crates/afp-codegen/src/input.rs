@@ -1,23 +1,25 @@
-//! What stands between the brackets.
+//! What stands between the brackets of `plan!` and `toolbox!`.
 
 use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, quote};
 use syn::parse::{Parse, ParseStream};
 use syn::{Ident, LitStr, Path, Token, braced};
 
+use crate::layout::located;
+
 /// `[path of core,] "file" [, toolboxes = { "file" => path of module, ... }]`.
-pub struct Input {
+pub struct MacroInput {
     /// The path of `afp_core`, which a crate that re-exports it passes.
     pub core: TokenStream,
     /// The file, as written.
     pub path: String,
     /// Where that stands.
-    pub span: Span,
+    span: Span,
     /// Toolboxes that are not built in: the file and the path of the module that implements it.
     pub toolboxes: Vec<(String, String)>,
 }
 
-impl Parse for Input {
+impl Parse for MacroInput {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
         let mut core = quote!(::afp_core);
         if !input.peek(LitStr) && !input.is_empty() {
@@ -39,7 +41,22 @@ impl Parse for Input {
             toolboxes.extend(list);
             input.parse::<Option<Token![,]>>()?;
         }
-        Ok(Input { core, path, span, toolboxes })
+        Ok(MacroInput { core, path, span, toolboxes })
+    }
+}
+
+impl MacroInput {
+    /// What was made of it, as if it stood where the file is named: else what is wrong with the Rust beside the macro
+    /// would be shown inside of `afp`.
+    ///
+    /// # Errors
+    /// Nothing could be made.
+    pub fn located(
+        &self,
+        made: Result<TokenStream, TokenStream>,
+    ) -> Result<TokenStream, TokenStream> {
+        let at = Span::call_site().located_at(self.span);
+        made.map(|tokens| located(tokens, at)).map_err(|wrong| located(wrong, at))
     }
 }
 
