@@ -26,7 +26,7 @@ pub use linked::{LinkOptions, extension_files, runner_files};
 pub use manifest::{Dependency, Features, MADE_BY, Origin};
 pub use places::Places;
 pub use plan::{Generated, Module, plan};
-pub use toolbox::{Support, declaration, register_supported, toolbox};
+pub use toolbox::{Asked, Support, complete, declaration, register_supported, toolbox};
 
 /// How generated code names what it uses.
 #[derive(Clone, Debug)]

@@ -12,7 +12,7 @@ mod tests;
 
 use std::collections::HashSet;
 
-use afp_codegen::Options;
+use afp_codegen::{Asked, Options, complete};
 use afp_dsl::toolbox::Toolbox;
 use afp_syntax::diagnostics::{Diagnostics, Severity};
 use afp_syntax::source::Sources;
@@ -26,6 +26,10 @@ use input::Input;
 /// `toolbox!("carbot.afp")` takes a path relative to the crate's manifest, or the name of a built-in
 /// toolbox file. It belongs into a module `templates` beside the types that implement the
 /// templates under the templates' names.
+///
+/// Behind the path stands what the templates ask of a robot, as traits: `toolbox!("signals.afp", robot: super::Lights)`;
+/// nothing where they ask for nothing, `robot = Bench` where they are implemented for one type alone. A template that is
+/// declared and not implemented for such a robot does not compile.
 #[proc_macro]
 pub fn toolbox(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand(input.into(), toolbox_code).into()
@@ -95,7 +99,11 @@ fn toolbox_code(input: &Input) -> Result<TokenStream, TokenStream> {
     toolbox.templates.retain(|template| names.insert(template.name.clone()));
     let options = Options { core: input.core.clone(), source: file.text };
     let code = afp_codegen::code(afp_codegen::toolbox(&toolbox, &options));
-    Ok(quote!(#errors #code))
+    // Of a broken toolbox, whatever is missing follows from what is wrong with it.
+    let nothing = Asked::Traits(TokenStream::new());
+    let asked = input.robot.as_ref().unwrap_or(&nothing);
+    let complete = errors.is_empty().then(|| complete(&input.core, &toolbox, asked));
+    Ok(quote!(#errors #code #complete))
 }
 
 /// What a toolbox file declares, what is wrong with it, and the file.

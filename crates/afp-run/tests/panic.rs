@@ -15,7 +15,7 @@ use clap::{Args, Command, FromArgMatches};
 
 mod templates {
     #![allow(missing_docs)]
-    afp_macros::toolbox!("tests/panicking.afp");
+    afp_macros::toolbox!("tests/panicking.afp", robot: super::Navigator);
 }
 
 #[derive(Clone)]
