@@ -20,7 +20,7 @@ mod toolbox;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-pub use krate::{CrateFile, CrateOptions, crate_files};
+pub use krate::{CrateFile, CrateOptions, Hardware, crate_files};
 pub use layout::{code, file};
 pub use linked::{LinkOptions, extension_files, runner_files};
 pub use manifest::{Dependency, Features, MADE_BY, Origin};
