@@ -197,14 +197,11 @@ fn drive(
         vec![&mut counts, &mut track, &mut requests, &mut shown];
     let logs = log.iter_mut().chain(&mut sent);
     observers.extend(logs.map(|log| log as &mut dyn Observer));
-    let went = match keeper {
-        TimeKeeper::Robot => {
-            hardware::run_to_end(session, end, &mut gate, live.as_ref(), &mut observers)
-        }
-        TimeKeeper::Nobody | TimeKeeper::Gate(_) => {
-            run_to_end(session, end, &mut gate, live.as_ref(), &mut observers)
-        }
+    let run_to_end = match keeper {
+        TimeKeeper::Robot => hardware::run_to_end,
+        TimeKeeper::Nobody | TimeKeeper::Gate(_) => run_to_end,
     };
+    let went = run_to_end(session, end, &mut gate, live.as_ref(), &mut observers);
     // The robot stands before anything is written that may take its time.
     let measured = session.end();
     stop.set_last_resort(None);

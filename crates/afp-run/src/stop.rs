@@ -144,7 +144,9 @@ mod tests {
         let (stop, done) = (StopFlag::default(), Arc::new(AtomicU8::new(0)));
         let count = || -> LastResort {
             let done = done.clone();
-            Box::new(move || drop(done.fetch_add(1, Ordering::Relaxed)))
+            Box::new(move || {
+                done.fetch_add(1, Ordering::Relaxed);
+            })
         };
         stop.set_last_resort(Some(count()));
         stop.resort();
