@@ -12,8 +12,8 @@ use std::collections::HashSet;
 use std::sync::Arc;
 
 use afp_codegen::{
-    MacroInput, Options, ScenarioSetting, ScenarioTests, Support, compile_error, compile_errors,
-    register_supported,
+    Asked, MacroInput, Options, ScenarioSetting, ScenarioTests, Support, compile_error,
+    compile_errors, complete, register_supported,
 };
 use afp_dsl::toolbox::Toolbox;
 use afp_syntax::source::Sources;
@@ -28,6 +28,10 @@ use sources::{Available, File};
 /// `toolbox!("carbot.afp")` takes a path relative to the crate's manifest, or the name of a built-in
 /// toolbox file. It belongs into a module `templates` beside the types that implement the
 /// templates under the templates' names.
+///
+/// Behind the path stands what the templates ask of a robot, as traits: `toolbox!("signals.afp", robot: super::Lights)`;
+/// nothing where they ask for nothing, `robot = Bench` where they are implemented for one type alone. A template that is
+/// declared and not implemented for such a robot does not compile.
 #[proc_macro]
 pub fn toolbox(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand(input.into(), toolbox_code).into()
@@ -76,7 +80,11 @@ fn toolbox_code(input: MacroInput) -> Result<TokenStream, TokenStream> {
         toolbox.templates.retain(|template| names.insert(template.name.clone()));
         let options = Options { core: input.core.clone(), source: file.text };
         let code = afp_codegen::code(afp_codegen::toolbox(&toolbox, &options));
-        quote!(#errors #code)
+        // Of a broken toolbox, whatever is missing follows from what is wrong with it.
+        let nothing = Asked::Traits(TokenStream::new());
+        let asked = input.robot.as_ref().unwrap_or(&nothing);
+        let complete = errors.is_empty().then(|| complete(&input.core, &toolbox, asked));
+        quote!(#errors #code #complete)
     });
     input.located(made)
 }

@@ -174,10 +174,13 @@ fn bounds(world: &Drawing, path: &[Waypoint]) -> [[f64; 2]; 2] {
 
 /// The outline of a body that stands at a pose.
 fn placed(body: &[[f64; 2]], pose: Pose2) -> impl Iterator<Item = [f64; 2]> {
-    body.iter().map(move |[x, y]| {
+    // Of a robot whose body is not known, where it is.
+    let point = body.is_empty().then_some([pose.x, pose.y]);
+    let corners = body.iter().map(move |[x, y]| {
         let corner = pose.beyond(Pose2 { x: *x, y: *y, heading: 0.0 });
         [corner.x, corner.y]
-    })
+    });
+    corners.chain(point)
 }
 
 /// The middle and the width of an outline.

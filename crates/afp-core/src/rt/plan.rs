@@ -291,7 +291,7 @@ impl<R: Run> Cx<'_, R> {
     ///
     /// A guard that the unwinding drops would say so, too, and take back after the call what it says,
     /// but each poll would pay for it. Outside of components nothing of a step panics but a sink or a
-    /// clock, whose panic counts as one of the component called last.
+    /// clock, which the scheduler tells from components by itself.
     #[inline(always)]
     pub(crate) fn call<T>(
         &mut self,
