@@ -65,12 +65,12 @@ function Cells({ map: { across, down, cells } }: { map: OutcomeMap }) {
       <table onKeyDown={key}>
         <caption>{words.mapOf(across.name, down.name)}</caption>
         <thead>
-          <tr><td />{across.labels.map((label, at) => <th scope="col" key={at}>{label}</th>)}</tr>
+          <tr><td />{across.labels.map((label, at) => (label ? <th scope="col" key={at}>{label}</th> : <td key={at} />))}</tr>
         </thead>
         <tbody>
           {cells.map((line, row) => (
             <tr key={row}>
-              <th scope="row">{down.labels[row]}</th>
+              {down.labels[row] ? <th scope="row">{down.labels[row]}</th> : <td />}
               {line.map((cell, column) => (
                 <td key={column}>
                   {cell.length > 0 && (
