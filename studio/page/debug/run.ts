@@ -11,7 +11,7 @@ import * as arranged from "./arranged";
 import { asked, breakpoints, filters } from "./breakpoints";
 import type { Frame } from "./follow";
 import type { Ended, Phase, Said, State } from "./told";
-import { extended, type Record } from "./trace";
+import { extended, packed, type Record } from "./trace";
 
 export const phase = signal<Phase>("idle");
 export const state = signal<State | null>(null);
@@ -108,7 +108,7 @@ function hear(own: Dap): void {
   own.on("initialized", () => void configure(own).catch(failed));
   own.on("afp/state", (now: State) => dap === own && take(own, now));
   own.on("afp/trace", (now: { records: Record[] }) => {
-    if (dap === own) records.value = extended(records.peek(), now.records);
+    if (dap === own) records.value = extended(records.peek(), now.records.map(packed));
   });
   own.on("afp/ended", (now: Ended) => dap === own && finish(now));
   own.on("stopped", ({ description }) => {
