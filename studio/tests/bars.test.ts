@@ -25,7 +25,7 @@ async function ready(page: Page): Promise<number> {
 
 /** Milliseconds from the release of an element to the frame with its edges routed anew. */
 async function drop(page: Page, nth: number): Promise<number> {
-  const box = await page.locator('.node [data-item="Large.element0"] text.name').boundingBox();
+  const box = await page.locator('.node [data-item="Large.element0"] text.name').first().boundingBox();
   assert.ok(box);
   const [x, y] = [box.x + 10, box.y + 6];
   await page.mouse.move(x, y);
