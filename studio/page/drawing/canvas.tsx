@@ -169,6 +169,7 @@ function focuses(pane: HTMLElement): () => void {
 function Over() {
   return (
     <>
+      {drawing.value === null && <p class="board-empty late" role="status">{words.comes}</p>}
       {drawing.value !== null && plan.value === null && <p class="board-empty">{words.noPlan}</p>}
       <FirstPlace />
       <Chooser key="chooser" />
