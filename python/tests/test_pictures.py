@@ -41,6 +41,13 @@ def test_it_is_drawn_as_the_command_line_does(kind: str, log: afp.Log, tmp_path:
     assert getattr(log, kind)().svg == (tmp_path / "a.svg").read_text(encoding="utf-8")
 
 
+def test_a_run_is_drawn_as_far_as_it_has_come(log: afp.Log, wall_following: afp.Plan) -> None:
+    simulation = afp.Simulation(wall_following)
+    before = simulation.picture()
+    simulation.run(until=6.0)
+    assert simulation.picture() == log.picture() != before
+
+
 def test_a_film_has_the_pictures_of_the_camera(log: afp.Log, tmp_path: Path) -> None:
     assert log.film().svg.count("<image") == 12
     blind = tmp_path / "blind.mcap"

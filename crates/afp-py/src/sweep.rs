@@ -30,7 +30,7 @@ use crate::component::{AnyRegistry, Components};
 use crate::errors::{error, plan_error, run_error};
 use crate::link::{fits, link};
 use crate::plan::Plan;
-use crate::simulation::{Run, Runner};
+use crate::simulation::{Run, Runner, Setting as Begun};
 use crate::toolbox::Toolbox;
 use crate::value::no_pickle;
 use crate::world::World;
@@ -206,8 +206,15 @@ impl Sweeper {
         Ok(count)
     }
 
-    /// A run about to begin again, and its world.
-    fn runner(&self, py: Python<'_>, run: u64) -> PyResult<(Runner, World)> {
+    /// A run about to begin again, and its world; its log is written to a file, perhaps with what the camera sees.
+    #[pyo3(signature = (run, log=None, camera=false))]
+    fn runner(
+        &self,
+        py: Python<'_>,
+        run: u64,
+        log: Option<PathBuf>,
+        camera: bool,
+    ) -> PyResult<(Runner, World)> {
         let row = self.row(run)?;
         let graph = graph(&self.compiled)?;
         let components = Components::new(py, &self.toolboxes)?;
@@ -221,7 +228,10 @@ impl Sweeper {
             made.map_err(|why| run_error(&why))?
         };
         let host = components.host(py)?;
-        let runner = Runner::new(Run::new(session, graph), host, &self.compiled);
+        let (world, log) = (&loaded, log.as_deref());
+        let (file, texts) = (&*self.file, self.compiled.plan_texts());
+        let setting = Begun { graph, world, seed: row.seed, file, texts, log, camera };
+        let runner = Runner::new(Run::logged(session, &setting)?, host, &self.compiled);
         Ok((runner, World { loaded }))
     }
 
