@@ -153,6 +153,23 @@ def test_ctrl_c_stops_a_sweep_whose_component_hangs() -> None:
     assert interrupted(lambda: afp.sweep(plan, seeds=8, jobs=2, progress=False)) < 5.0
 
 
+def test_ctrl_c_leaves_a_component_that_blocks_outside_of_python() -> None:
+    tools = afp.Toolbox("tools")
+    blocked = threading.Event()
+
+    @tools.actor(states=["Done"])
+    class Sleeps:
+        def poll(self) -> str:
+            blocked.set()
+            time.sleep(30.0)
+            return "Done"
+
+    plan = afp.Plan("use tools\nplan P { start go actor go: Sleeps { Done -> terminate Error -> go } }", toolboxes=[tools])
+    assert interrupted(lambda: afp.sweep(plan, seeds=8, jobs=2, progress=False)) < 5.0
+    assert blocked.is_set()
+    assert len(afp.sweep(afp.Plan(GO), seeds=2, until=1.0, progress=False)) == 2, "another sweep is not in its way"
+
+
 def test_tables(tmp_path: Path) -> None:
     pytest.importorskip("pandas")
     parquet = pytest.importorskip("pyarrow.parquet")

@@ -11,6 +11,7 @@
 mod carbot;
 mod component;
 mod errors;
+mod forks;
 mod link;
 mod log;
 mod pause;
@@ -42,6 +43,7 @@ pub fn fill(module: &Bound<'_, PyModule>, link: impl AnyLink + 'static) -> PyRes
     let is_carbot = link.own_robot().is_none();
     let own_robot = link.own_robot();
     link::set(link);
+    forks::listen(module)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("own_robot", own_robot)?;
     let py = module.py();

@@ -89,7 +89,7 @@ impl Sweeper {
             seeds: seeds.seeds()?,
             until: Duration::from_secs_f64(until),
         };
-        let header = with_setting(py, &toolboxes, |robot, _| {
+        let header = with_setting(py, &toolboxes, |robot| {
             let graph = graph(&compiled)?;
             let names = PlanNames::new(graph);
             let axes = vary.into_iter().map(|(name, values)| values.axis(&names, name));
@@ -313,11 +313,11 @@ impl Done {
 fn with_setting<T>(
     py: Python<'_>,
     toolboxes: &[Py<Toolbox>],
-    use_it: impl FnOnce(&dyn Loader, &Components<'_>) -> PyResult<T>,
+    use_it: impl FnOnce(&dyn Loader) -> PyResult<T>,
 ) -> PyResult<T> {
     let components = Components::new(py, toolboxes)?;
     let more = |registry: &mut dyn AnyRegistry| components.register(registry);
-    let used = use_it(&*link().loader(&more), &components);
+    let used = use_it(&*link().loader(&more));
     components.raised(py)?;
     used
 }
