@@ -32,6 +32,12 @@ def window(monkeypatch: pytest.MonkeyPatch) -> list[bytes]:
     shown: list[bytes] = []
 
     class Widget:
+        asked: list[Any] = []
+
+        def protocol(self, name: str, handler: Any) -> None:
+            """Whoever closes the window calls the handler."""
+            self.asked.append(handler)
+
         def __init__(self, *given: Any, data: bytes = b"", **more: Any) -> None:
             if data:
                 shown.append(data)
@@ -305,6 +311,17 @@ def test_a_window_shows_each_step(window: list[bytes]) -> None:
     env.close()
     assert len(window) == 3 and window[0].startswith(b"P6 256 256 255\n") and window[0] != window[1]
     assert len(window[0]) == len(b"P6 256 256 255\n") + 256 * 256 * 3
+
+
+def test_who_closes_the_window_sees_no_more(window: list[bytes]) -> None:
+    env = afp.gym.CarbotEnv("random:1", render_mode="human")
+    env.reset(seed=0)
+    sys.modules["tkinter"].Tk.asked[-1]()
+    env.step(np.array([1.0, 0.0]))
+    assert len(window) == 1
+    env.close()
+    env.reset(seed=0)
+    assert len(window) == 2, "the next window is a new one"
 
 
 def test_without_a_display_a_window_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -58,7 +58,7 @@ class _Cell:
 
 
 class _Window:
-    """A window of the system's."""
+    """A window of the system's; whoever closes it sees no more, and the episode goes on."""
 
     def __init__(self) -> None:
         try:
@@ -70,11 +70,14 @@ class _Window:
             raise gymnasium.error.DependencyNotInstalled(text) from why
         self._tkinter: Any = tkinter
         self._window.title("Carbot")
+        self._window.protocol("WM_DELETE_WINDOW", self.close)
         self._label: Any = tkinter.Label(self._window)
         self._label.pack()
         self._image: Any = None
 
     def show(self, picture: NDArray[np.uint8]) -> None:
+        if self._window is None:
+            return
         rows, columns, _ = picture.shape
         image = self._tkinter.PhotoImage(data=b"P6 %d %d 255\n" % (columns, rows) + picture.tobytes(), format="PPM")
         self._image = image.zoom(ENLARGED)
@@ -82,7 +85,9 @@ class _Window:
         self._window.update()
 
     def close(self) -> None:
-        self._window.destroy()
+        if self._window is not None:
+            self._window.destroy()
+        self._window = None
 
 
 def png(picture: NDArray[np.uint8]) -> bytes:
