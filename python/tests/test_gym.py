@@ -338,7 +338,11 @@ def test_a_cell_of_a_notebook_is_drawn_again_and_again(monkeypatch: pytest.Monke
         def update(self, data: dict[str, bytes], raw: bool) -> None:
             shown.append(data["image/png"])
 
-    display = types.SimpleNamespace(display=lambda data, raw, display_id: Handle())
+    def first(data: dict[str, bytes], raw: bool, display_id: bool) -> Handle:
+        shown.append(data["image/png"])
+        return Handle()
+
+    display = types.SimpleNamespace(display=first)
     kernel = types.SimpleNamespace(kernel=None)
     monkeypatch.setitem(sys.modules, "IPython", types.SimpleNamespace(display=display, get_ipython=lambda: kernel))
     env = afp.gym.CarbotEnv("random:1", render_mode="human")
