@@ -62,6 +62,7 @@ pub fn fill(module: &Bound<'_, PyModule>, link: impl AnyLink + 'static) -> PyRes
     module.add_class::<world::World>()?;
     module.add_function(wrap_pyfunction!(log::draw_log, module)?)?;
     module.add_function(wrap_pyfunction!(log::read_log, module)?)?;
+    module.add_function(wrap_pyfunction!(log::read_recipe, module)?)?;
     module.add_function(wrap_pyfunction!(simulation::faults, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::alike, module)?)?;
     // Its robot takes the place of the common one.

@@ -25,7 +25,7 @@ use pyo3::types::PyDict;
 use pyo3::{PyTraverseError, PyVisit};
 
 use crate::component::{AnyRegistry, Components, Host, may_run};
-use crate::errors::{error, plan_error};
+use crate::errors::{error, log_error, plan_error};
 use crate::link::{devices, fits, link};
 use crate::pause::in_background;
 use crate::plan::Plan;
@@ -125,6 +125,12 @@ impl Runner {
     /// Asks the plan to stop at its next step; from any thread.
     fn request_stop(&self) {
         self.stop.store(true, Ordering::Relaxed);
+    }
+
+    /// Asks for all that came from outside in the run of a log.
+    fn repeat(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let log = py.detach(|| afp_log::read(&path)).map_err(|why| log_error(&why))?;
+        log.recipe().ask(&mut *self.lock()?.session).map_err(error)
     }
 
     /// The same run at this moment, which goes on by itself; it writes no log.
