@@ -131,6 +131,11 @@ def test_components_in_python_take_turns() -> None:
     assert threading.get_ident() not in threads
 
 
+def test_what_never_happened_took_no_time() -> None:
+    runs = afp.sweep(afp.Plan(GO), seeds=2, until=0.5, progress=False)
+    assert [str(took) for took in runs.columns["contacts_s"]] == ["0.0", "0.0"]
+
+
 def test_ctrl_c_stops_a_sweep() -> None:
     begun = time.monotonic()
     timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))

@@ -68,9 +68,11 @@ pub fn draw_run(run: &SoFar<'_>, names: &dyn Names) -> String {
         let (from, to) = (pair[0].pose, pair[1].pose);
         libm::hypot(to.x - from.x, to.y - from.y)
     });
+    // A sum of nothing is a negative zero.
+    let distance = way.fold(0.0, |all, piece| all + piece);
     let figures = vec![
         ("time".to_owned(), format!("{:.1} s", time.as_secs_f64())),
-        ("distance".to_owned(), format!("{:.2} m", way.sum::<f64>())),
+        ("distance".to_owned(), format!("{distance:.2} m")),
     ];
     let subtitle = subtitle(world, seed);
     let world = &world.drawing();
