@@ -116,8 +116,9 @@ impl Emulated {
             apt
         };
         run(apt().arg("update"))?;
-        let python = ["-y", "--no-install-recommends", "--download-only", "install", "python3"];
-        run(apt().args(python))?;
+        let download = ["-y", "--no-install-recommends", "--download-only", "install"];
+        // numpy is linked with the second.
+        run(apt().args(download).args(["python3", "libstdc++6"]))?;
         for package in fs::read_dir(folder.join("cache/archives"))? {
             let package = package?.path();
             if package.extension().is_some_and(|ending| ending == "deb") {
