@@ -6,7 +6,7 @@ use crate::install::Profile;
 use crate::shell::{Failure, cargo, run as run_command};
 use crate::{
     arm, bench, dap, editors, engine, fuzz, gate, install, live, opencv, pi, python, scxml, studio,
-    vacuum, wasm,
+    vacuum, wasm, wheels,
 };
 
 /// A suite by its name.
@@ -44,6 +44,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("engine", engine::run),
     ("python", python::run),
     ("python long", python::long),
+    ("wheels", || wheels::run(&[])),
     ("scxml", || scxml::run(2000)),
     ("dap", dap::run),
     ("vscode", editors::extension),
@@ -153,6 +154,7 @@ fn again(name: &str) -> String {
         "goals" => format!("    AFP_GOALS={GOALS} cargo test --release -p afp-worlds --test goals"),
         "objects" => format!("    AFP_VIEWS={VIEWS} cargo test --release -p afp-sim objects"),
         "python long" => "    cargo xtask nightly 'python long'".to_owned(),
+        "wheels" => "    cargo xtask wheels".to_owned(),
         "arm" | "pi" | "engine" | "opencv" => format!("    cargo xtask nightly {name}"),
         "long run" => {
             format!("    AFP_STEPS={STEPS} cargo test --release -p afp-tests --test no_allocation")

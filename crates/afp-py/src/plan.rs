@@ -13,7 +13,8 @@ use afp_dsl::Compiled;
 use afp_dsl::outline::PlanId;
 use afp_dsl::toolbox::Toolbox as Declared;
 use afp_ide::edit::{self, Change};
-use afp_syntax::source::Source;
+use afp_syntax::diagnostics::Severity;
+use afp_syntax::source::{Source, Span};
 use afp_test::Coverage;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -201,10 +202,17 @@ impl Plan {
         change::plans(self.lock().text())
     }
 
-    /// Makes a change of meaning: its kind and its parts by name, see the methods of `afp.Plan`.
-    fn _change(&self, kind: &str, parts: &Bound<'_, pyo3::types::PyDict>) -> PyResult<()> {
+    /// Makes a change of meaning: its kind and its parts by name, see the methods of `afp.Plan`; with `fits` one that is
+    /// refused where the compiler finds an error in what it writes.
+    #[pyo3(signature = (kind, parts, fits=false))]
+    fn _change(
+        &self,
+        kind: &str,
+        parts: &Bound<'_, pyo3::types::PyDict>,
+        fits: bool,
+    ) -> PyResult<()> {
         let change = change::read(kind, parts, self.lock().text())?;
-        self.change(&change)
+        self.change(&change, fits)
     }
 
     fn _repr_svg_(&self, py: Python<'_>) -> Option<String> {
@@ -293,17 +301,37 @@ impl Plan {
         }
     }
 
-    fn change(&self, change: &Change) -> PyResult<()> {
+    fn change(&self, change: &Change, fits: bool) -> PyResult<()> {
         let mut workspace = self.lock();
+        let before = (workspace.text().to_owned(), workspace.others().clone());
         let files: Vec<Source> = workspace.compiled().plan_sources().cloned().collect();
         let edits = edit::edit(&files, workspace.known(), 0, change).map_err(error)?;
+        let mut written = Vec::new();
         for (number, source) in (0..=u16::MAX).zip(&files) {
             let own: Vec<_> =
                 edits.iter().filter(|edit| edit.span.file == number).cloned().collect();
             if !own.is_empty() {
                 workspace.replace(&source.name, edit::apply(&source.text, &own));
+                written.push((&source.name, change::written(&own)));
             }
         }
-        Ok(())
+        if !fits {
+            return Ok(());
+        }
+        let compiled = workspace.compiled();
+        let mut errors = compiled.diags.iter().filter(|it| it.severity == Severity::Error);
+        let is_new = |span: Span| {
+            let name = compiled.sources.get(span.file).map(|source| &source.name);
+            let mut own = written.iter().filter(|(file, _)| Some(*file) == name);
+            own.any(|(_, news)| news.iter().any(|new| change::meet(*new, span)))
+        };
+        match errors.find(|error| is_new(error.span)) {
+            None => Ok(()),
+            Some(wrong) => {
+                workspace.set_text(before.0);
+                workspace.set_others(before.1);
+                Err(change::misfit(wrong))
+            }
+        }
     }
 }

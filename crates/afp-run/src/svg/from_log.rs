@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use afp_session::{AnyRobot, AnyWorld, EventKind, Mark, Pose2, RunEvent, Waypoint};
 
-use super::{Picture, draw};
+use super::{SoFar, draw_run};
 use crate::error::RunError;
 
 /// Draws the path of a logged run over its world.
@@ -18,24 +18,16 @@ pub fn draw_log(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError>
     let world = world_of(log, robot)?;
     let names = &log.names;
     let (path, marks) = follow(log, names);
-    let way = path.windows(2).map(|pair| {
-        let (from, to) = (pair[0].pose, pair[1].pose);
-        libm::hypot(to.x - from.x, to.y - from.y)
-    });
-    let time = log.span.map_or(0.0, |(_, last)| last.as_secs_f64());
-    let fact = |key: &str| log.facts.get(key).cloned().unwrap_or_default();
-    let picture = Picture {
-        world: &world.drawing(),
-        title: fact("plan"),
-        subtitle: subtitle(&*world, log),
-        figures: vec![
-            ("time".to_owned(), format!("{time:.1} s")),
-            ("distance".to_owned(), format!("{:.2} m", way.sum::<f64>())),
-        ],
+    let fact = |key: &str| log.facts.get(key).map_or("", String::as_str);
+    let run = SoFar {
+        plan: fact("plan"),
+        world: &*world,
+        seed: fact("seed"),
+        time: log.span.map_or(Instant::ZERO, |(_, last)| last),
         path: &path,
         marks: &marks,
     };
-    Ok(draw(&picture, names))
+    Ok(draw_run(&run, names))
 }
 
 /// The world of a logged run.
@@ -57,11 +49,6 @@ pub(super) fn world_of(log: &LogData, robot: &dyn AnyRobot) -> Result<Arc<dyn An
         None => Ok(world),
         Some(start) => world.started_at(start).map_err(|why| content(why, None, text)),
     }
-}
-
-/// The line below the title.
-pub(super) fn subtitle(world: &dyn AnyWorld, log: &LogData) -> String {
-    format!("{}, seed {}", world.name(), log.facts.get("seed").map_or("", String::as_str))
 }
 
 /// The path with the actor at each point, and the events on it.
