@@ -99,6 +99,7 @@ fn wall_following() -> (String, Graph, CrateOptions) {
         origin: Origin::Path("/home/a \"b\"".to_owned()),
         robot: None,
         dependencies: Vec::new(),
+        features: Vec::new(),
         lib: false,
     };
     (text, compiled.graph.unwrap(), options)

@@ -47,6 +47,18 @@ pub trait Target {
     /// It cannot be done: why.
     fn seek(&mut self, to: Position) -> Result<(), String>;
 
+    /// What was the case after all that was done up to an instant that is over; the run stays where it is.
+    ///
+    /// # Errors
+    /// It cannot be told: why.
+    fn past(&mut self, at: Instant) -> Result<State, String>;
+
+    /// What the robot touches, empty where only that it touches something is known; none where it touches nothing, or
+    /// does not signal that.
+    fn contact(&self) -> Option<String> {
+        None
+    }
+
     /// Where the robot is, for pictures; none where it does not signal that.
     fn pose(&self) -> Option<Pose2> {
         None

@@ -8,23 +8,29 @@ mod common;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use common::{Client, Texted};
+use common::{Clients, Texted};
 
 /// A case with the answers that are given now.
 fn answered(case: &str) -> String {
     let (plan, talk) = case.split_once("\n---\n").expect("a plan, '---', a talk");
-    let mut client = Client::new(Box::new(Texted(plan.to_owned())));
-    for line in talk.lines().filter(|line| !line.starts_with("<--")) {
-        client.told += line;
-        client.told += "\n";
+    let mut clients = Clients::new(Box::new(Texted(plan.to_owned())));
+    for line in talk.lines().filter(|line| !line.starts_with('<')) {
+        clients.told += line;
+        clients.told += "\n";
         match line.split_once(' ').unwrap_or((line, "")) {
-            ("-->", said) => client.say(said),
-            ("tick", "") => client.tick(None),
-            ("tick", wall) => client.tick(Some(wall.parse().expect("milliseconds"))),
-            _ => {}
+            ("-->", said) => clients.say(said),
+            ("tick", "") => clients.tick(None),
+            ("tick", wall) => clients.tick(Some(wall.parse().expect("milliseconds"))),
+            ("lose", number) => clients.lose(number.parse().expect("a client")),
+            (arrow, said) => {
+                let number = arrow.strip_prefix('-').and_then(|rest| rest.strip_suffix('>'));
+                if let Some(number) = number.and_then(|number| number.parse().ok()) {
+                    clients.say_as(number, said);
+                }
+            }
         }
     }
-    format!("{plan}\n---\n{}", client.told)
+    format!("{plan}\n---\n{}", clients.told)
 }
 
 fn cases() -> Vec<PathBuf> {

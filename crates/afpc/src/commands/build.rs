@@ -36,6 +36,10 @@ pub struct Arguments {
     #[arg(long)]
     lib: bool,
 
+    /// Gives the program '--live': others may watch while it runs
+    #[arg(long, conflicts_with = "lib")]
+    live: bool,
+
     /// Prints one JSON object for each error, warning and note on standard output, what was built last
     #[arg(long)]
     json: bool,
@@ -47,6 +51,7 @@ Examples:
   $(afpc build plans/wall_following.afp) --seed 7
   afpc build plans/wall_following.afp --target pi
   afpc build plans/wall_following.afp -o wall --lib
+  $(afpc build plans/wall_following.afp --live) --live
   afpc build plans/wall_following.afp --json
 
 The last line on standard output is the absolute path of the binary (with --lib, of the crate);
@@ -105,7 +110,7 @@ fn build(arguments: &Arguments, reader: Reader, made: &mut Made) -> Result<(), N
     let toolboxes = file.own.used_by(&graph)?;
     let stem = file.path.file_stem().unwrap_or("plan".as_ref());
     let folder = arguments.output.clone().unwrap_or_else(|| Path::new(BUILDS).join(stem));
-    let files = generate(&file, &graph, &toolboxes, arguments.lib, &folder)?;
+    let files = generate(&file, &graph, &toolboxes, arguments, &folder)?;
     made.folder = Some(whole(folder.clone()));
     let no_cargo = RunError::Missing {
         message: "there is no cargo to build the crate with".to_owned(),
@@ -138,7 +143,7 @@ fn generate(
     file: &PlanFile,
     graph: &Graph,
     toolboxes: &[OwnToolbox],
-    lib: bool,
+    arguments: &Arguments,
     folder: &Path,
 ) -> Result<Vec<CrateFile>, NoPlan> {
     let origin = origin::of_afp(&file.own.project)?;
@@ -151,7 +156,8 @@ fn generate(
         origin: origin.clone(),
         dependencies: crates.map(origin::dependency).collect(),
         robot: robot.as_ref().map(RobotLink::rust_type),
-        lib,
+        features: arguments.live.then(|| "live".to_owned()).into_iter().collect(),
+        lib: arguments.lib,
     };
     let files = crate_files(graph, &options);
     let texts: Vec<_> = files.iter().map(|file| (&*file.path, &*file.text)).collect();
