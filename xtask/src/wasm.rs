@@ -38,7 +38,7 @@ pub fn run() -> Result<(), Failure> {
 /// Talks with the language server.
 fn talk() -> Result<(), Failure> {
     let folder = target().join("wasm");
-    let build = ["build", "--target", WITH_INPUT, "--package", PACKAGE, "--bin", LANGUAGE_SERVER];
+    let build = ["build", "--target", WITH_INPUT, "--package", LANGUAGE_SERVER];
     run_command(cargo().args(build).env("CARGO_TARGET_DIR", &folder))?;
     let module = folder.join(WITH_INPUT).join("debug").join(LANGUAGE_SERVER).with_extension("wasm");
     println!(

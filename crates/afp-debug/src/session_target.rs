@@ -6,8 +6,8 @@ use afp_core::devices::{DeviceRow, SignalType, find_signal, signals};
 use afp_core::trace::{ComponentId, EntryName, TraceEntryId};
 use afp_core::{Duration, Instant, StartError};
 use afp_session::{
-    AnySession, Applied, Datum, NamedRecord, Observer, Open, Pose2, Request, RunEvent, SampleRef,
-    SetError, Stimulus, View, refusal,
+    AnySession, Applied, Datum, Figures, NamedRecord, Observer, Open, Pose2, Request, RunEvent,
+    SampleRef, SetError, Stimulus, View, refusal,
 };
 
 use crate::program::Program;
@@ -237,6 +237,14 @@ impl Target for SessionTarget<'_> {
             }
         });
         picture
+    }
+
+    fn figures(&self) -> Figures {
+        self.run.session.figures()
+    }
+
+    fn misses(&self) -> u64 {
+        self.run.session.misses()
     }
 
     fn set(&mut self, entry: &str, text: &str) -> Result<String, String> {

@@ -254,7 +254,8 @@ impl Adapter<'_> {
                 continue;
             }
             all.stop.extend(hits.stop);
-            if let Some(name) = hits.exception {
+            // What follows from it goes wrong, too.
+            if let Some(name) = hits.exception.filter(|_| all.exception.is_none()) {
                 all.exception = Some(name);
                 run.exception = Some((name, what.text.clone()));
             }
@@ -295,7 +296,9 @@ impl Adapter<'_> {
         let ids = hits.stop.iter().map(|(id, _)| *id).collect();
         let why =
             happened.iter().rev().find(|what| is_transition(what, run.target.program(), None));
-        let why = why.or(happened.last()).map_or("one step", |what| &*what.text).to_owned();
+        let why = why.or(happened.last()).map_or("one step", |what| &*what.text);
+        let wrong = run.exception.as_ref().filter(|_| hits.exception.is_some());
+        let why = wrong.map_or(why, |(_, text)| text).to_owned();
         let reason = match (hits.exception, hits.stop.first()) {
             (Some(_), _) => Reason::Exception,
             (None, Some((_, kind))) => kind.reason(),

@@ -1,7 +1,7 @@
 //! What a client is told while a run goes on, and when it stands still.
 
 use afp_core::Instant;
-use afp_session::{Done, EndingKind, EventKind, Requested};
+use afp_session::{Done, EndingKind, EventKind, Figure, FigureValue, Requested};
 use dapts::{StoppedEventReason as Reason, event};
 use serde_json::json;
 
@@ -10,6 +10,9 @@ use super::{Adapter, Answer, Run};
 use crate::breakpoints::Kind;
 use crate::program::Program;
 use crate::target::Happened;
+
+/// So many stretches of time are told one by one.
+const SPANS: usize = 4;
 
 impl Kind {
     /// Why a run stands still at such a breakpoint.
@@ -130,8 +133,16 @@ impl Adapter<'_> {
             }
         };
         let ending = ended.map_or(EndingKind::Interrupted, |(ending, _)| ending);
-        self.output("important", &format!("{sentence}\n"));
-        let ended = json!({"ending": ending.word(), "at": at, "sentences": [sentence]});
+        let misses = run.target.misses();
+        let sentences: Vec<_> = std::iter::once(sentence)
+            .chain((misses > 0).then(|| format!("{misses} deadlines were missed")))
+            .chain(run.target.figures().0.iter().filter_map(in_words))
+            .collect();
+        for sentence in &sentences {
+            self.output("important", &format!("{sentence}\n"));
+        }
+        let ended =
+            json!({"ending": ending.word(), "at": at, "sentences": sentences, "misses": misses});
         self.tell("afp/ended", &ended);
         let exit_code = if ending == EndingKind::Error { 3 } else { 0 };
         self.event::<event::Exited>(&dapts::ExitedEvent { exit_code });
@@ -176,6 +187,21 @@ impl Adapter<'_> {
         }
         self.tell_those(|client| client.attached && client.state, "afp/state", &body);
     }
+}
+
+/// What a run came to, where there is something to say.
+fn in_words(figure: &Figure) -> Option<String> {
+    let name = figure.name.replace('_', " ");
+    if !figure.text.is_empty() {
+        return Some(format!("{name}: {}", figure.text));
+    }
+    let FigureValue::Spans { spans, .. } = &figure.value else { return None };
+    let shown = spans.iter().take(SPANS);
+    let shown = shown.map(|span| format!("{} at {:.2} s", span.name, span.begin.as_secs_f64()));
+    let more = spans.len().saturating_sub(SPANS);
+    let more = (more > 0).then(|| format!("{more} more"));
+    let all: Vec<_> = shown.chain(more).collect();
+    (!all.is_empty()).then(|| format!("{name}: {}", all.join(", ")))
 }
 
 /// That a run stands still.
