@@ -191,6 +191,7 @@ impl<'h> Adapter<'h> {
         {
             client.ours = true;
         }
+        self.check_part(command)?;
         self.may(command, now)?;
         match command {
             request::Initialize::COMMAND => {
@@ -249,6 +250,20 @@ impl<'h> Adapter<'h> {
                 self.on::<request::Evaluate>(arguments, |me, asked| me.evaluate(asked, now))
             }
             _ => self.steer(command, arguments, now),
+        }
+    }
+
+    /// Whether the client that asks takes part in the run, or asks for something else.
+    fn check_part(&self, command: &str) -> Answer<()> {
+        let takes_part = self.clients.get(&self.asker).is_some_and(|client| client.attached);
+        let is_first = ["initialize", "launch", "attach", "disconnect"].contains(&command);
+        match &self.token {
+            _ if takes_part || is_first => Ok(()),
+            Some(_) => Err("'launch' or 'attach' comes first, with the token".into()),
+            None if self.run.is_some() && command != "afp/world" => {
+                Err("'attach' comes first: it joins those who watch the run".into())
+            }
+            None => Ok(()),
         }
     }
 

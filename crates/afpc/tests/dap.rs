@@ -216,6 +216,10 @@ fn several_clients_watch_one_run_and_anybody_may_end_it() {
     one.hear(r#""event":"stopped""#);
     let refused = stranger.ask("attach", r#"{"token":"guessed"}"#);
     assert!(refused.contains("'token' is the one that 'afpc dap' printed"), "{refused}");
+    for command in ["threads", "continue", "terminate", "setBreakpoints", "afp/world", "afp/role"] {
+        let refused = stranger.ask(command, r#"{"threadId":1}"#);
+        assert!(refused.contains("'launch' or 'attach' comes first"), "{refused}");
+    }
     let attached = other.ask("attach", &format!(r#"{{"token":"{token}"}}"#));
     assert!(attached.contains(r#""plan":"WallFollowing""#), "{attached}");
     other.ask("configurationDone", "{}");

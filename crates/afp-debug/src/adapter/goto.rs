@@ -101,7 +101,7 @@ impl Run<'_> {
         let plan = self.target.program().unit(to).map(|unit| unit.plan);
         let moved = happened.iter().any(|what| {
             let unit = self.target.program().unit(what.event.component_id);
-            let started = matches!(what.event.kind, EventKind::Started | EventKind::Ended);
+            let started = what.event.kind == EventKind::Started;
             started
                 && unit.is_some_and(|unit| Some(unit.plan) == plan && unit.kind != Kind::Supervisor)
         });

@@ -49,7 +49,7 @@ impl Adapter<'_> {
 impl Run<'_> {
     /// What was the case at a time that is over.
     fn past(&mut self, at: f64) -> Answer<State> {
-        if !(at >= 0.0 && at < 1e9) {
+        if !(0.0..1e9).contains(&at) {
             return Err("'at' is a time in seconds from the start".into());
         }
         let (at, now) = (Instant::from_nanos((at * 1e9) as u64), self.target.now());
