@@ -78,18 +78,18 @@ fn requests(report: &mut Report) {
         ("afp/why", json!({ "path": "followWall" })),
         ("afp/subscribe", json!({ "state": true })),
     ] {
-        let took = median(|| client.ask(command, arguments.clone()));
-        let row = Row::new(format!("debugger/{command}"), took, "ms");
-        report.add(row.limit("<= 1 ms", took <= 1.0));
+        let took = 1e3 * median(|| client.ask(command, arguments.clone()));
+        let row = Row::new(format!("debugger/{command}"), took, "us");
+        report.add(row.limit("<= 1000 us", took <= 1000.0));
     }
 }
 
-/// From the end of a minute to its beginning.
+/// From the end of a minute to its beginning, which lies far behind what was kept of the run.
 fn going_back(report: &mut Report) {
-    let mut client = Client::held(70.0);
+    let mut client = Client::held(79.9);
     let took = median(|| {
-        let took = client.ask("afp/seek", json!({ "at": 10.0 }));
-        client.ask("afp/seek", json!({ "at": 70.0 }));
+        let took = client.ask("afp/seek", json!({ "at": 19.9 }));
+        client.ask("afp/seek", json!({ "at": 79.9 }));
         client.drive();
         took
     });
