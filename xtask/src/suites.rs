@@ -37,6 +37,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("single faults", single_faults),
     ("every event", every_event),
     ("slips", slips),
+    ("messages", messages),
     ("goals", goals),
     ("objects", objects),
     ("arm", arm::run),
@@ -148,6 +149,7 @@ fn again(name: &str) -> String {
         "random worlds" => {
             format!("    AFP_WORLDS={RANDOM_WORLDS} cargo test --release -p afp-worlds")
         }
+        "messages" => "    cargo xtask nightly messages".to_owned(),
         "single faults" => format!(
             "    AFP_ROOMS={FAULTY_ROOMS} cargo test --release -p afp-worlds --test single_faults"
         ),
@@ -169,7 +171,7 @@ fn again(name: &str) -> String {
 fn workspace() -> Result<(), Failure> {
     let all = ["test", "--workspace", "--features", "afpc/full", "--no-fail-fast"];
     // They have suites of their own.
-    let but = ["afp-bench", "afp-py", "afp-py-wheel", "afp-wasm", "xtask"]
+    let but = ["afp-bench", "afp-py", "afp-py-wheel", "afp-language-server", "afp-wasm", "xtask"]
         .map(|name| ["--exclude", name]);
     // Property tests search anew at each run by hand; here the same commit gives the same answer.
     run_command(cargo().args(all).args(but.as_flattened()).env("PROPTEST_RNG_SEED", "20"))
@@ -187,6 +189,12 @@ fn slips() -> Result<(), Failure> {
     by_night("afp-ide", "features")?;
     let drawn = ["test", "--release", "--package", "afp-draw", "--lib", "scene"];
     run_command(cargo().args(drawn).env("AFP_BY_NIGHT", "1"))
+}
+
+/// Random messages to the language server and to the debug adapter.
+fn messages() -> Result<(), Failure> {
+    by_night("afp-lsp", "lsp")?;
+    by_night("afp-debug", "messages")
 }
 
 /// A test that takes more cases when nobody waits for it.

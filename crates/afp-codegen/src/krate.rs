@@ -29,6 +29,8 @@ pub struct CrateOptions {
     pub robot: Option<String>,
     /// The robot itself, which the program has beside the simulated one; its crate is among the dependencies, too.
     pub hardware: Option<Hardware>,
+    /// Features of what runs the plan: `live` lets others watch.
+    pub features: Vec<String>,
     /// Whether only a library is wanted, without the program that runs it in simulation.
     pub lib: bool,
 }
@@ -101,7 +103,7 @@ fn dependencies(graph: &Graph, options: &CrateOptions) -> Vec<Dependency> {
     let origin = &options.origin;
     let mut all = vec![Dependency::ours("afp", origin).with_only(&[])];
     if !options.lib {
-        all.push(Dependency::ours("afp-run", origin).with_only(&[]));
+        all.push(Dependency::ours("afp-run", origin).with_only(&options.features));
         match &options.robot {
             None => all.push(Dependency::ours("afp-sim", origin).with_only(&[])),
             Some(path) => all.extend(given(options, path).cloned()),

@@ -100,6 +100,7 @@ fn wall_following() -> (String, Graph, CrateOptions) {
         robot: None,
         hardware: None,
         dependencies: Vec::new(),
+        features: Vec::new(),
         lib: false,
     };
     (text, compiled.graph.unwrap(), options)

@@ -30,6 +30,8 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 const FEATURES: &[&str] = &[
     #[cfg(feature = "dap")]
     "dap",
+    #[cfg(feature = "live")]
+    "live",
     #[cfg(feature = "lsp")]
     "lsp",
     #[cfg(feature = "parquet")]

@@ -155,12 +155,13 @@ fn add_made(list: &mut List, made: &Made, insert: Vec<Piece>, rank: u8) {
     let far = u8::from(made.missing.is_some()) * 4;
     list.definition_as(made.id, &label, insert, rank + far);
     if let (Some(toolbox), Some(last)) = (&made.missing, list.all.last_mut()) {
-        last.with = line_of_use(list.view, toolbox);
+        let line = list.uses.entry(toolbox.clone());
+        last.with.clone_from(line.or_insert_with(|| line_of_use(list.view, toolbox)));
     }
 }
 
 /// The edit that brings a toolbox into view.
-pub(super) fn line_of_use(view: &crate::View, toolbox: &str) -> Vec<TextEdit> {
+fn line_of_use(view: &crate::View, toolbox: &str) -> Vec<TextEdit> {
     let change = Change::AddUse { toolbox: toolbox.to_owned(), alias: None };
     let files = [Source::new("", view.text())];
     let mut edits = edit(&files, view.toolboxes, 0, &change).unwrap_or_default();

@@ -40,6 +40,9 @@ pub struct Arguments {
     /// has '[robot.hardware]'
     #[arg(long, conflicts_with = "lib")]
     hardware: bool,
+    /// Gives the program '--live': others may watch while it runs
+    #[arg(long, conflicts_with = "lib")]
+    live: bool,
 
     /// Prints one JSON object for each error, warning and note on standard output, what was built last
     #[arg(long)]
@@ -52,6 +55,7 @@ Examples:
   $(afpc build plans/wall_following.afp) --seed 7
   afpc build plans/wall_following.afp --target pi
   afpc build plans/wall_following.afp -o wall --lib
+  $(afpc build plans/wall_following.afp --live) --live
   afpc build plans/wall_following.afp --json
 
 The last line on standard output is the absolute path of the binary (with --lib, of the crate);
@@ -110,8 +114,7 @@ fn build(arguments: &Arguments, reader: Reader, made: &mut Made) -> Result<(), N
     let toolboxes = file.own.used_by(&graph)?;
     let stem = file.path.file_stem().unwrap_or("plan".as_ref());
     let folder = arguments.output.clone().unwrap_or_else(|| Path::new(BUILDS).join(stem));
-    let itself = hardware(arguments, &file)?;
-    let files = generate(&file, &graph, &toolboxes, itself, (arguments.lib, &folder))?;
+    let files = generate(&file, &graph, &toolboxes, arguments, &folder)?;
     made.folder = Some(whole(folder.clone()));
     let no_cargo = RunError::Missing {
         message: "there is no cargo to build the crate with".to_owned(),
@@ -144,10 +147,11 @@ fn generate(
     file: &PlanFile,
     graph: &Graph,
     toolboxes: &[OwnToolbox],
-    hardware: Option<HardwareLink>,
-    (lib, folder): (bool, &Path),
+    arguments: &Arguments,
+    folder: &Path,
 ) -> Result<Vec<CrateFile>, NoPlan> {
     let origin = origin::of_afp(&file.own.project)?;
+    let hardware = hardware(arguments, file)?;
     let robot = file.own.project.robot()?;
     let crates = toolboxes.iter().map(|own| &own.krate);
     let crates = crates.chain(robot.iter().map(|robot| &robot.krate));
@@ -161,7 +165,8 @@ fn generate(
         hardware: hardware
             .as_ref()
             .map(|it| Hardware { ty: it.rust_type(), settings: it.settings.clone() }),
-        lib,
+        features: arguments.live.then(|| "live".to_owned()).into_iter().collect(),
+        lib: arguments.lib,
     };
     let files = crate_files(graph, &options);
     let texts: Vec<_> = files.iter().map(|file| (&*file.path, &*file.text)).collect();
