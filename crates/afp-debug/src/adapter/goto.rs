@@ -103,7 +103,9 @@ impl Run<'_> {
             let unit = self.target.program().unit(what.event.component_id);
             let started = what.event.kind == EventKind::Started;
             started
-                && unit.is_some_and(|unit| Some(unit.plan) == plan && unit.kind != ComponentKind::Supervisor)
+                && unit.is_some_and(|unit| {
+                    Some(unit.plan) == plan && unit.kind != ComponentKind::Supervisor
+                })
         });
         if moved { self.lead(to) } else { Ok(()) }
     }
@@ -153,7 +155,9 @@ fn edges(program: &Program, plan: ComponentId, here: ComponentId) -> Vec<(Report
         all.extend(unit.outcomes.iter().map(|(name, target)| (report(here, name), &**target)));
     }
     let watchers = (0..).map(ComponentId).zip(&program.units).skip(1).filter(|(_, it)| {
-        it.kind == ComponentKind::Supervisor && it.plan == plan && it.owner.is_none_or(|owner| owner == here)
+        it.kind == ComponentKind::Supervisor
+            && it.plan == plan
+            && it.owner.is_none_or(|owner| owner == here)
     });
     for (id, watcher) in watchers {
         for (number, (name, target)) in (0..).zip(&watcher.outcomes) {
