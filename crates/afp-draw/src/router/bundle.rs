@@ -56,11 +56,12 @@ impl Junction {
         if axis_of(side) == self.axis() {
             return Junction { along: can_bend && side == self.side, ..self };
         }
-        if let ([.., third, _, _], true) = (&points[..], distance(before, end) < PITCH) {
-            if points.len() > 3 && side_of(*third, before) == self.side {
-                points.pop();
-                return Junction { along: true, ..self };
-            }
+        if let [.., _, third, _, _] = points[..]
+            && distance(before, end) < PITCH
+            && side_of(third, before) == self.side
+        {
+            points.pop();
+            return Junction { along: true, ..self };
         }
         let corner = joined.get(self.part + 1).zip(joined.get(self.part + 2));
         let follows = |(at, next): (&Point, &Point)| side_of(*at, *next) == side;
